@@ -1,0 +1,31 @@
+/// Baselines by name: what users would otherwise use, to compare with.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/core/catalog.hpp"
+#include "engine/core/settings.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+struct BaselineOptions {
+    Clock clock;            ///< fixed-step schemes
+    double end = 0;         ///< adaptive schemes land on it
+    double tolerance = 0;   ///< adaptive schemes
+    Settings settings;      ///< the baseline's own keys
+};
+
+struct BaselineEntry {
+    CatalogItem item;
+    bool isAdaptive = false;  ///< takes "tolerance" instead of "step"
+    std::function<std::unique_ptr<Integrator>(const System&, const BaselineOptions&)> make;
+};
+
+const std::vector<BaselineEntry>& baselineCatalog();
+const BaselineEntry* findBaseline(std::string_view id);
+
+}  // namespace extremal

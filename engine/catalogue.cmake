@@ -1,0 +1,57 @@
+# extremal_catalogue(namespace folder type header function)
+#   For every FOLDER/<stem>.cpp, which defines `TYPE extremal::NAMESPACE::<stem>()`, one entry in alphabetical order
+#   of `const std::vector<TYPE>& extremal::FUNCTION()`. Self-registering statics would vanish from a static library.
+function(extremal_catalogue namespace folder type header function)
+    file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+    set(declarations "")
+    set(entries "")
+    foreach(file ${files})
+        get_filename_component(stem ${file} NAME_WE)
+        string(APPEND declarations "${type} ${stem}();\n")
+        string(APPEND entries "        ${namespace}::${stem}(),\n")
+    endforeach()
+    set(out ${CMAKE_CURRENT_BINARY_DIR}/${namespace}_catalogue.cpp)
+    file(CONFIGURE OUTPUT ${out} CONTENT
+"#include \"${header}\"
+
+namespace extremal {
+namespace ${namespace} {
+${declarations}}  // namespace ${namespace}
+
+const std::vector<${type}>& ${function}() {
+    static const std::vector<${type}> all = {
+${entries}    };
+    return all;
+}
+}  // namespace extremal
+" @ONLY)
+    set(catalogue_sources ${catalogue_sources} ${out} PARENT_SCOPE)
+endfunction()
+
+# extremal_presets(folder): compiles FOLDER/*.json (but not the schema) into `extremal::presets()`.
+function(extremal_presets folder)
+    file(GLOB files CONFIGURE_DEPENDS ${folder}/*.json)
+    set(entries "")
+    foreach(file ${files})
+        get_filename_component(stem ${file} NAME_WLE)
+        if(NOT stem MATCHES "\\.schema$")
+            file(READ ${file} text)
+            set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+            string(APPEND entries "        {\"${stem}\", R\"~~~(${text})~~~\"},\n")
+        endif()
+    endforeach()
+    set(out ${CMAKE_CURRENT_BINARY_DIR}/presets.cpp)
+    file(WRITE ${out}.new
+"#include \"engine/scene/preset.hpp\"
+
+namespace extremal {
+const std::vector<Preset>& presets() {
+    static const std::vector<Preset> all = {
+${entries}    };
+    return all;
+}
+}  // namespace extremal
+")
+    file(COPY_FILE ${out}.new ${out} ONLY_IF_DIFFERENT)
+    set(catalogue_sources ${catalogue_sources} ${out} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,56 @@
+/// A plot as data: what the window, the snapshots, the exports and the tests share. No Qt here.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/run/comparison.hpp"
+
+namespace extremal {
+
+struct Axis {
+    std::string title;   ///< with symbol and unit, ready to draw: "t  [s]", "|H - H(0)|  [J]"
+    bool isLog = false;
+    bool isTime = false;  ///< linked with the other time axes
+    std::optional<std::pair<double, double>> range;  ///< fixed range; else fitted to the data
+};
+
+struct Series {
+    std::string label;   ///< the scheme's label
+    int style = 0;       ///< colour and dash of the scheme
+    bool isCurve = false;      ///< x is not monotone (phase portrait): drawn as a parametric curve
+    bool hasMarkers = false;   ///< a point at every value
+    bool hasLine = true;
+    std::vector<double> x, y;  ///< NaN is a gap
+    int hidden = 0;      ///< values a log axis cannot show (<= 0) or that are not finite
+};
+
+/// A scheme that ended early: where, and why.
+struct FailureMark {
+    std::string label;
+    int style = 0;
+    double x = 0;        ///< time of the failure
+    std::string text;    ///< "diverged at t = 0.31"
+};
+
+struct Figure {
+    std::string view;      ///< "energy", "phase", ...
+    std::string title;     ///< "Energy error"
+    std::string subtitle;  ///< muted: "bounded: 3 of 4"
+    Axis x, y;
+    std::vector<Series> series;
+    std::vector<FailureMark> failures;
+    std::optional<double> floor;  ///< round-off floor: a faint horizontal line
+    bool hasEqualScales = false;  ///< trajectories in a plane: one unit is as long on both axes
+    std::string summary;          ///< one sentence for screen readers
+};
+
+/// The figure of one view of a comparison. The view must be one of viewCatalog() that is a plot (not "stage").
+Figure makeFigure(const Comparison& comparison, const View& view);
+
+/// Views that this scene asks for and that are plots, in order; with defaults when the scene names none.
+std::vector<View> plotViews(const Scene& scene);
+
+}  // namespace extremal

@@ -1,0 +1,43 @@
+/// The one virtual boundary of the engine, crossed once per step.
+///
+/// An Integrator is made for one system, one discretization and one step; it owns all the buffers its step needs,
+/// so that advance() allocates nothing. Trouble is an Outcome in the report; the state is then left as it was.
+#pragma once
+
+#include <span>
+#include <stop_token>
+
+#include "engine/core/outcome.hpp"
+#include "engine/core/state.hpp"
+
+namespace extremal {
+
+class Integrator {
+public:
+    virtual ~Integrator() = default;
+
+    /// Takes one step: state.x, state.t and state.node move to the next node.
+    virtual StepReport advance(State& state) = 0;
+
+    /// The scheme's own curve inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in State.
+    /// Only valid after a converged advance().
+    virtual void curve(double tau, std::span<double> x) const = 0;
+
+    /// Asks the iteration inside advance() to give up with Outcome::stopped. Polled in every iteration.
+    void setStop(std::stop_token stop) { stop_ = std::move(stop); }
+
+protected:
+    bool isStopRequested() const { return stop_.stop_requested(); }
+
+private:
+    std::stop_token stop_;
+};
+
+/// Node times of a fixed-step scheme: products, not sums, so that no round-off accumulates.
+struct Clock {
+    double start = 0;
+    double step = 0;
+    double at(long long node) const { return start + static_cast<double>(node) * step; }
+};
+
+}  // namespace extremal

@@ -1,0 +1,44 @@
+/// What the stage shows of a state, as plain shapes in the model's own coordinates; no graphics library here.
+/// Planar systems draw in the plane z = 0, y up.
+#pragma once
+
+#include <array>
+#include <variant>
+#include <vector>
+
+namespace extremal {
+
+using Point = std::array<double, 3>;
+
+/// Who a shape belongs to: the scenery is drawn once, the rest once per scheme in the scheme's colour.
+enum class ShapeRole { scenery, body };
+
+struct Segment {  ///< a rod or an axis
+    Point a, b;
+    double width = 2;  ///< pixels
+    ShapeRole role = ShapeRole::body;
+};
+struct Disc {  ///< a mass; always drawn round, of a size in pixels
+    Point centre;
+    double radius = 8;  ///< pixels
+    ShapeRole role = ShapeRole::body;
+};
+struct Spring {  ///< a zigzag between two points, with short straight ends
+    Point a, b;
+    int coils = 12;
+    ShapeRole role = ShapeRole::body;
+};
+struct Support {  ///< a hatched ceiling: a line with strokes on its upper side
+    Point centre;
+    double width = 1;  ///< model units
+};
+using Shape = std::variant<Segment, Disc, Spring, Support>;
+
+/// One state of one scheme as shapes, and the point whose path makes the trail.
+struct Drawing {
+    std::vector<Shape> shapes;
+    Point tracer{};
+    void clear() { shapes.clear(); tracer = {}; }
+};
+
+}  // namespace extremal

@@ -1,0 +1,37 @@
+/// A mechanical system as the integrators see it: a Lagrangian L(t, q, v) behind one plain call per node.
+///
+/// T is the scalar (double; quadruple precision in tests). Arrays of length d: q[i], v[i], p[i]. Gradients of length
+/// 2d: (dL/dq_0.., dL/dv_0..). Hessians 2d x 2d, symmetric, entry (i, j) at i * 2d + j, same order (q, v).
+/// One indirect call that fills everything is as fast as inlining, and lets each integrator be compiled once per
+/// dimension instead of once per system.
+#pragma once
+
+#include <memory>
+
+namespace extremal {
+
+template <class T>
+struct Mechanics {
+    int dimension = 0;
+    std::shared_ptr<const void> model;  ///< owns the parameters; first argument of every call below
+
+    /// L, its gradient and Hessian in (q, v).
+    void (*jet)(const void*, const T& t, const T* q, const T* v, T* value, T* gradient, T* hessian) = nullptr;
+    /// The gradient of L alone.
+    void (*gradient)(const void*, const T& t, const T* q, const T* v, T* gradient) = nullptr;
+    /// Legendre transform: v with dL/dv(t, q, v) = p. False if it is singular there.
+    bool (*velocity)(const void*, const T& t, const T* q, const T* p, T* v) = nullptr;
+    /// H(t, q, p) = p.v - L.
+    T (*energy)(const void*, const T& t, const T* q, const T* p) = nullptr;
+    /// Hamilton's vector field: qdot = dH/dp, pdot = -dH/dq. False if the Legendre transform is singular.
+    bool (*flow)(const void*, const T& t, const T* q, const T* p, T* qdot, T* pdot) = nullptr;
+
+    /// L = 1/2 sum_i mass_i v_i^2 - V(t, q) with constant masses: explicit splittings and the fixed-point
+    /// iteration apply, and force and masses are set.
+    bool isSeparable = false;
+    void (*force)(const void*, const T& t, const T* q, T* f) = nullptr;  ///< f = -dV/dq
+    const T* masses = nullptr;                                           ///< length d
+    bool isTimeDependent = false;
+};
+
+}  // namespace extremal

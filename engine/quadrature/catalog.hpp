@@ -1,0 +1,10 @@
+/// Quadrature rules by name, with the descriptors of their keys.
+#pragma once
+
+#include <vector>
+
+#include "engine/core/catalog.hpp"
+
+namespace extremal {
+const std::vector<CatalogItem>& quadratureCatalog();
+}

@@ -1,0 +1,68 @@
+/// The outcome of running a scene: one result per scheme, ready for plots, tables and files.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/outcome.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/trajectory/trajectory.hpp"
+
+namespace extremal {
+
+enum class RunStatus { waiting, running, done, partial, failed };
+constexpr const char* name(RunStatus s) {
+    switch (s) {
+        case RunStatus::waiting: return "waiting";
+        case RunStatus::running: return "running";
+        case RunStatus::done: return "done";
+        case RunStatus::partial: return "partial";
+        case RunStatus::failed: return "failed";
+    }
+    return "";
+}
+
+/// A row of summary.csv. NaN or empty: not asked for.
+struct Summary {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    std::string label;
+    RunStatus status = RunStatus::waiting;
+    Outcome cause = Outcome::converged;
+    double failedAt = unknown;  ///< t of the node from which the step failed
+    double tEnd = unknown;
+    long long steps = 0, rejected = 0, newtonIterations = 0, evaluations = 0, linearSolves = 0;
+    double cpuSeconds = 0;      ///< thread CPU time of the scheme's steps alone
+    double maxEnergyError = unknown;
+    double energyDrift = unknown;  ///< per unit time
+    double maxMomentumError = unknown, maxNormError = unknown, maxError = unknown, finalError = unknown;
+    int orderClaimed = 0;          ///< 0: no claim
+    double orderMeasured = unknown;
+    std::string advice;            ///< after a failure: what to try; for the window, not exported
+};
+
+struct SchemeResult {
+    SchemeSpec spec;
+    int style = 0;            ///< index of colour and dash: the scheme's place in the scene, disabled ones counted
+    double fraction = 0;      ///< of the time interval covered, 0..1
+    Trajectory trajectory;
+    Summary summary;
+};
+
+struct ReferenceInfo {
+    std::string type = "none";         ///< "exact", "computed", "scheme", "file", "none"
+    double estimatedError = Summary::unknown;
+    std::string description;           ///< "Gauss(12), h = 0.01": for the window
+};
+
+/// Immutable once published; shared between threads by pointer. Holds only enabled schemes.
+struct Comparison {
+    Scene scene;
+    std::vector<std::shared_ptr<const SchemeResult>> schemes;
+    ReferenceInfo reference;
+    bool isFinished = false;
+};
+
+}  // namespace extremal

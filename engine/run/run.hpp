@@ -1,0 +1,43 @@
+/// A run of a scene: every enabled scheme is a task on a pool of threads; results stream out while it goes on.
+///
+///     Comparison result = run(scene);                 // wait for everything
+///     Run r(scene); r.start(); ... r.latest(); r.stop();   // or watch it
+///
+/// Construction throws InvalidScene if the scene cannot be run. Memory does not grow with the number of steps.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "engine/run/comparison.hpp"
+
+namespace extremal {
+
+struct RunOptions {
+    unsigned threads = 0;  ///< 0: as many as the machine has cores
+};
+
+class Run {
+public:
+    explicit Run(const Scene& scene, const RunOptions& options = {});
+    ~Run();  ///< stops and joins
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
+
+    void start();
+    void stop();                 ///< returns at once; workers end within 50 ms and keep their partial result
+    void wait();
+    bool isFinished() const;
+    /// What there is so far, at most some 30 ms old while running; cheap, callable from any thread.
+    Comparison latest() const;
+    double fraction() const;     ///< of the whole work, 0..1
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Runs everything and returns it.
+Comparison run(const Scene& scene, const RunOptions& options = {});
+
+}  // namespace extremal

@@ -1,0 +1,44 @@
+/// Scene files: reading with every error named, and writing. The format is documented in the handbook ("Scenes").
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace extremal {
+
+/// One --set: a JSON pointer ("/schemes/*/step"; "/schemes/-" appends) and a value (JSON, else a string).
+struct Override {
+    std::string pointer;
+    Value value;
+};
+/// Splits "POINTER=VALUE" at the first '='. Throws InvalidScene.
+Override parseOverride(std::string_view text);
+
+struct ReadScene {
+    Scene scene;
+    std::vector<Problem> errors;    ///< empty: the scene is valid
+    std::vector<Problem> warnings;  ///< never stop a run
+};
+
+/// Reads, applies the overrides from left to right, checks everything and fills in defaults. Never throws for
+/// bad content: all errors are in the result. `directory` is where relative paths of the scene start.
+ReadScene readScene(std::string_view json, const std::vector<Override>& overrides = {},
+                    const std::string& directory = ".");
+
+/// The same for a tree: what forms and undo use.
+ReadScene readScene(const Value& document, const std::vector<Override>& overrides = {},
+                    const std::string& directory = ".");
+
+/// The scene with every default filled in, as JSON text ending in a newline: reading and writing it again gives
+/// the same bytes.
+std::string writeScene(const Scene& scene);
+Value toValue(const Scene& scene);
+
+/// The text of SCENE: a path, "preset:NAME" or "-" (standard input). Throws InvalidScene with a hint.
+std::string loadSceneText(const std::string& name);
+
+}  // namespace extremal

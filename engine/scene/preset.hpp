@@ -1,0 +1,18 @@
+/// The presets, compiled into the program: one scene per figure and claim of the theory.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace extremal {
+
+struct Preset {
+    std::string_view id;    ///< file stem: "spring-pendulum"
+    std::string_view json;  ///< the scene file
+};
+
+const std::vector<Preset>& presets();
+const Preset* findPreset(std::string_view id);
+
+}  // namespace extremal

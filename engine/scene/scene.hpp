@@ -1,0 +1,79 @@
+/// A scene: everything that defines a comparison, as a value. Equal scenes give equal bytes.
+///
+/// A scene is read by scene/codec.hpp, which checks it against the catalogues; a Scene in hand is valid.
+/// Editing makes a new scene; undo is the previous one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/settings.hpp"
+#include "engine/core/value.hpp"
+
+namespace extremal {
+
+/// A number as the user wrote it: a literal, or an expression in the model's parameters with its value.
+struct Number {
+    double value = 0;
+    std::string expression;  ///< empty for a literal
+    bool operator==(const Number&) const = default;
+};
+
+/// A row of the comparison: a pair space x quadrature, a baseline, or a named scheme.
+struct SchemeSpec {
+    enum class Kind { pair, baseline, named };
+    Kind kind = Kind::pair;
+    std::string label;
+    bool isEnabled = true;
+    Number step;                      ///< 0 for adaptive baselines
+    std::optional<double> tolerance;  ///< adaptive baselines
+    Settings space, quadrature;       ///< pair
+    Settings baseline;                ///< baseline: type = its name, keys = its options
+    std::string named;                ///< named: id from the scheme catalogue
+    Settings solver;                  ///< type = method ("auto", "newton", "fixed-point"); keys tolerance, max_iterations
+    bool allowsUnstable = false;
+    bool operator==(const SchemeSpec&) const = default;
+};
+
+/// Initial data of models with coordinates; other models keep theirs in `keys`.
+struct Initial {
+    enum class Second { none, momentum, velocity };
+    std::vector<Number> q;
+    Second second = Second::none;
+    std::vector<Number> pOrV;
+    Value::Object keys;
+    bool operator==(const Initial&) const = default;
+};
+
+struct ReferenceSpec {
+    enum class Kind { automatic, exact, none, scheme, file };
+    Kind kind = Kind::automatic;
+    std::vector<SchemeSpec> scheme;  ///< one entry for Kind::scheme
+    std::string path;                ///< Kind::file
+    bool operator==(const ReferenceSpec&) const = default;
+};
+
+struct View {
+    std::string id;          ///< "energy", "phase", ...
+    std::string x, y;        ///< columns of a phase portrait; empty: default
+    bool operator==(const View&) const = default;
+};
+
+struct Scene {
+    std::string title, source, lesson, notes;
+    Settings model;
+    Initial initial;
+    Number start, end;
+    std::vector<SchemeSpec> schemes;
+    ReferenceSpec reference;
+    std::vector<std::string> observe;
+    std::optional<Number> every;  ///< output.every
+    bool isDense = false;         ///< output.dense
+    std::vector<View> views;
+    double maxSteps = 1e11;       ///< limits.steps
+    bool operator==(const Scene&) const = default;
+};
+
+}  // namespace extremal
