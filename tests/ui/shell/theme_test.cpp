@@ -1,0 +1,67 @@
+#include "ui/shell/theme.hpp"
+
+#include <QApplication>
+#include <QFontInfo>
+#include <QTest>
+#include <set>
+
+using namespace extremal;
+
+class ThemeTest : public QObject {
+    Q_OBJECT
+private slots:
+    void textIsLegibleOnEveryGround_data() {
+        QTest::addColumn<bool>("dark");
+        QTest::newRow("light") << false;
+        QTest::newRow("dark") << true;
+    }
+    void textIsLegibleOnEveryGround() {
+        QFETCH(bool, dark);
+        const Theme t = dark ? Theme::dark() : Theme::light();
+        for (const QColor& ground : {t.window, t.panel, t.field}) {
+            QVERIFY2(contrast(t.text, ground) >= 4.5, qPrintable(ground.name()));
+            QVERIFY2(contrast(t.muted, ground) >= 4.5, qPrintable(ground.name()));
+        }
+        QVERIFY(contrast(t.onAccent, t.accent) >= 4.5);
+        QVERIFY(contrast(t.text, t.selection) >= 4.5);
+        QVERIFY(contrast(t.warning, t.warningGround) >= 4.5);
+        QVERIFY(contrast(t.error, t.errorGround) >= 4.5);
+        QVERIFY(contrast(t.error, t.panel) >= 4.5);
+        QVERIFY(contrast(t.good, t.panel) >= 4.5);
+        for (const QColor& series : t.seriesColors) QVERIFY2(contrast(series, t.panel) >= 3, qPrintable(series.name()));
+    }
+    void contrastHasTheKnownExtremes() {
+        QCOMPARE(contrast(Qt::black, Qt::white), 21.0);
+        QCOMPARE(contrast(Qt::white, Qt::white), 1.0);
+    }
+    void sixteenSchemesLookDifferent() {
+        std::set<std::pair<QString, QString>> seen;
+        for (int i = 0; i < 16; ++i) {
+            const SeriesStyle s = Theme::light().series(i);
+            QString dash;
+            for (qreal d : s.dash) dash += QString::number(d) + ' ';
+            QVERIFY(s.dash.size() % 2 == 0);
+            seen.insert({s.color.name(), dash});
+        }
+        QCOMPARE(seen.size(), std::size_t{16});
+    }
+    void bundledFontHasThreeWeights() {
+        const Theme t = Theme::light();
+        QCOMPARE(QFontInfo(t.body()).family(), QStringLiteral("Inter"));
+        QVERIFY(QFontInfo(t.strong()).weight() >= QFont::DemiBold);
+        QVERIFY(QFontMetricsF(t.strong()).horizontalAdvance("energy") >
+                QFontMetricsF(t.body()).horizontalAdvance("energy"));
+    }
+    void styleSheetIsCompleteAndAccepted() {
+        for (Theme t : {Theme::light(), Theme::dark()}) {
+            t.fontScale = 1.5;
+            const QString sheet = t.styleSheet();
+            QVERIFY(!sheet.contains('@'));
+            QVERIFY(sheet.contains("font-size: 17px"));  // 11 px * 1.5, rounded
+            applyTheme(*qApp, t);
+        }
+    }
+};
+
+QTEST_MAIN(ThemeTest)
+#include "theme_test.moc"
