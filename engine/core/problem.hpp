@@ -13,6 +13,7 @@ struct Problem {
     std::string pointer;
     std::string message;  ///< names the value and the limit: "must be a positive finite number, got -0.1"
     std::string hint;     ///< the remedy, without brackets; may be empty
+    std::string origin = {};  ///< the pointer of the override (--set) it comes from; empty: the document itself
     bool operator==(const Problem&) const = default;
 };
 

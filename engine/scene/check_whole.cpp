@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/scene/pointer.hpp"
+#include "engine/scene/read_parts.hpp"
+
+namespace extremal {
+namespace {
+
+/// Rows of one scheme that fit in memory with ease; a larger file is hardly what was meant.
+constexpr double maxRows = 2e7;
+
+void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme, const std::string& pointer) {
+    const double h = scheme.step.value, start = scene.start.value, end = scene.end.value;
+    if (scheme.tolerance) return;
+    const double steps = (end - start) / h;
+    const double largest = std::max(std::fabs(start), std::fabs(end));
+    if (steps > scene.maxSteps)
+        reader.error(pointer + "/step",
+                     "needs " + formatNumber(steps, 3) + " steps from " + formatNumber(start) + " to " +
+                         formatNumber(end) + ", the limit is " + formatNumber(scene.maxSteps),
+                     "take a larger step, or raise /limits/steps");
+    else if (largest + h == largest)
+        reader.error(pointer + "/step", "is too small to change t near " + formatNumber(largest) + ", got " +
+                                            formatNumber(h));
+    else if (h > (end - start) * (1 + 1e-9) + 1e-9 * h)
+        reader.warning(pointer + "/step", "is longer than the run: no step is taken, got " + formatNumber(h));
+}
+
+void checkRows(Reader& reader, const Scene& scene) {
+    if (!scene.every) return;
+    const double rows = (scene.end.value - scene.start.value) / scene.every->value;
+    if (rows > maxRows)
+        reader.error("/output/every", "asks for " + formatNumber(rows, 3) + " rows, the limit is " + formatNumber(maxRows),
+                     "a larger interval");
+}
+
+std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
+    if (scheme.kind == SchemeSpec::Kind::pair) return Discretization{scheme.space, scheme.quadrature, scheme.solver};
+    if (scheme.kind != SchemeSpec::Kind::named) return {};
+    auto pair = namedScheme(scheme.named);
+    if (pair && !scheme.solver.type.empty()) pair->solver = scheme.solver;
+    return pair;
+}
+
+/// Refused and unstable pairs. False: the scheme cannot be made.
+bool checkPair(Reader& reader, const SchemeSpec& scheme, const Discretization& pair, const std::string& pointer) {
+    const PairProperties properties = describe(pair.space, pair.quadrature);
+    if (!properties.refusal.empty()) {
+        reader.error(pointer, "makes no sense: " + properties.refusal, "another quadrature, or auto");
+        return false;
+    }
+    if (properties.stabilityLimit <= 0 && !scheme.allowsUnstable) {
+        reader.error(pointer, "is unstable for every step, already on the harmonic oscillator",
+                     "another quadrature, or \"allow_unstable\": true");
+        return false;
+    }
+    return true;
+}
+
+/// The makers know best what they cannot do.
+void tryToMake(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+               const std::string& pointer) {
+    const Clock clock{scene.start.value, scheme.step.value};
+    try {
+        if (const auto pair = pairOf(scheme)) {
+            if (checkPair(reader, scheme, *pair, pointer)) makeIntegrator(system, *pair, clock);
+        } else if (const BaselineEntry* baseline = findBaseline(scheme.baseline.type)) {
+            baseline->make(system, {clock, scene.end.value, scheme.tolerance.value_or(0), scheme.baseline});
+        }
+    } catch (const InvalidScene& e) {
+        for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
+    }
+}
+
+void checkScheme(Reader& reader, const System* system, const Scene& scene, const SchemeSpec& scheme,
+                 const std::string& pointer) {
+    const std::size_t errorsBefore = reader.errors.size();
+    checkStepCount(reader, scene, scheme, pointer);
+    if (system && reader.errors.size() == errorsBefore) tryToMake(reader, *system, scene, scheme, pointer);
+}
+
+}  // namespace
+
+void checkWhole(Reader& reader, const System* system, const Scene& scene) {
+    if (!(scene.end.value > scene.start.value)) return;
+    checkRows(reader, scene);
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+        checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", i));
+    for (const SchemeSpec& scheme : scene.reference.scheme)
+        checkScheme(reader, system, scene, scheme, "/reference/scheme");
+    if (system && reader.errors.empty() && scene.reference.kind == ReferenceSpec::Kind::exact && !system->exact)
+        reader.error("/reference/type", "the model " + scene.model.type + " has no exact solution", "take auto");
+}
+
+}  // namespace extremal

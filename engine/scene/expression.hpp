@@ -1,0 +1,66 @@
+/// Expressions: numbers, and later Lagrangians, potentials and profiles, as users type them.
+///
+///     sum     = product { ("+" | "-") product }
+///     product = signed { ("*" | "/") signed }
+///     signed  = ("+" | "-") signed | power
+///     power   = atom [ "^" ("+" | "-")* power ]           right-associative, tighter than a sign before it
+///     atom    = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
+///
+/// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign. `pi` is a constant; names are
+/// [A-Za-z][A-Za-z0-9_]*. Parsing and meaning are apart: the tree knows nothing of which names exist.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace extremal {
+
+/// At most this many characters, and this many operators, functions and brackets inside each other.
+inline constexpr std::size_t maxExpressionLength = 10000;
+inline constexpr int maxExpressionDepth = 200;
+
+enum class Operator { number, name, negate, add, subtract, multiply, divide, power, call };
+
+/// A parsed text: nodes in an order in which operands come before what uses them; the last node is the whole.
+struct Expression {
+    struct Node {
+        Operator kind = Operator::number;
+        double number = 0;      ///< number
+        std::string name;       ///< name, or the function called
+        int left = -1, right = -1;  ///< operands, as places in `nodes`; -1: none
+        std::size_t position = 0;   ///< byte in the text
+    };
+    std::string text;
+    std::vector<Node> nodes;
+
+    /// Names in order of appearance, each once, without pi.
+    std::vector<std::string> names() const;
+};
+
+/// What is wrong with an expression, and at which byte.
+class ExpressionError : public std::runtime_error {
+public:
+    ExpressionError(const std::string& message, std::size_t place, std::string remedy = {})
+        : std::runtime_error(message), position(place), hint(std::move(remedy)) {}
+    std::size_t position;
+    std::string hint;  ///< may be empty
+};
+
+/// Throws ExpressionError.
+Expression parseExpression(std::string_view text);
+
+/// The value with these values of its names; a name without a value is an ExpressionError, a value that is not
+/// finite is not.
+double evaluate(const Expression& expression, const std::function<std::optional<double>(std::string_view)>& valueOf);
+
+/// Two indented lines: the text (around the place if it is long), and a caret below the place.
+std::string caretLines(std::string_view text, std::size_t position);
+
+/// All functions that expressions know.
+const std::vector<std::string>& expressionFunctions();
+
+}  // namespace extremal

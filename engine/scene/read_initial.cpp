@@ -1,0 +1,86 @@
+#include <algorithm>
+
+#include "engine/core/text.hpp"
+#include "engine/scene/format.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/scene/pointer.hpp"
+#include "engine/scene/read_parts.hpp"
+
+namespace extremal {
+namespace {
+
+std::vector<std::string> coordinateNames(const System& system) {
+    std::vector<std::string> names;
+    for (const Coordinate& c : system.coordinates) names.push_back(c.name);
+    return names;
+}
+
+std::string countOf(std::size_t n, const std::vector<std::string>& names) {
+    return std::to_string(n) + (n == 1 ? " number (" : " numbers (") + joinNames(names) + ")";
+}
+
+/// One number per coordinate: an array in their order, or an object by name.
+std::vector<Number> readVector(Reader& reader, const Value& value, const std::string& pointer, const System& system) {
+    const auto names = coordinateNames(system);
+    std::vector<Number> numbers(names.size());
+    if (value.isArray()) {
+        if (value.asArray().size() != names.size()) {
+            reader.error(pointer, "must have " + countOf(names.size(), names) + ", got " +
+                                      std::to_string(value.asArray().size()));
+            return numbers;
+        }
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (const auto n = reader.number(value.asArray()[i], childPointer(pointer, i), {})) numbers[i] = *n;
+    } else if (value.isObject()) {
+        reader.checkKeys(value, pointer, names);
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const std::string place = childPointer(pointer, names[i]);
+            if (const Value* member = value.find(names[i])) {
+                if (const auto n = reader.number(*member, place, {})) numbers[i] = *n;
+            } else {
+                reader.error(place, "is required", "every coordinate needs a value: " + joinNames(names));
+            }
+        }
+    } else {
+        reader.error(pointer, "must be an array of " + countOf(names.size(), names) +
+                                  " or an object by name, got " + describeValue(value));
+    }
+    return numbers;
+}
+
+std::vector<Number> literals(const std::vector<double>& values) {
+    std::vector<Number> numbers;
+    for (const double v : values) numbers.push_back({v, {}});
+    return numbers;
+}
+
+}  // namespace
+
+void readInitial(Reader& reader, const Value& document, const System& system, Scene& scene) {
+    const ModelEntry* entry = findModel(scene.model.type);
+    const Value* initial = document.find("initial");
+    Initial& result = scene.initial;
+    result.q = literals(entry->exampleQ);
+    result.second = Initial::Second::momentum;
+    result.pOrV = literals(entry->exampleP);
+    if (!initial) {
+        reader.warning("/initial", "is missing: the run starts from the model's example");
+        return;
+    }
+    if (!reader.isObject(*initial, "/initial")) return;
+    reader.checkKeys(*initial, "/initial", format::initial);
+    const Value* q = initial->find("q");
+    const Value* p = initial->find("p");
+    const Value* v = initial->find("v");
+    if (q) result.q = readVector(reader, *q, "/initial/q", system);
+    else reader.warning("/initial/q", "is missing: the model's example is taken");
+    if (p && v) reader.error("/initial", "has both p and v", "give the momentum or the velocity");
+    if (q || p || v) result.pOrV.assign(system.coordinates.size(), Number{});
+    if (p) result.pOrV = readVector(reader, *p, "/initial/p", system);
+    if (v && !p) {
+        result.second = Initial::Second::velocity;
+        result.pOrV = readVector(reader, *v, "/initial/v", system);
+    }
+}
+
+}  // namespace extremal

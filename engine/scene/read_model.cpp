@@ -1,0 +1,109 @@
+#include <algorithm>
+
+#include "engine/core/text.hpp"
+#include "engine/scene/pointer.hpp"
+#include "engine/scene/read_parts.hpp"
+
+namespace extremal {
+namespace {
+
+bool isNumeric(const FieldInfo& field) {
+    return field.type == FieldType::number || field.type == FieldType::integer;
+}
+
+/// Gives every numeric parameter its value; those written as expressions may use each other in any order.
+class ParameterResolver {
+public:
+    ParameterResolver(Reader& reader, const Value& model, const std::vector<FieldInfo>& fields)
+        : reader_(reader), model_(model), fields_(fields) {}
+
+    void resolveAll() {
+        for (const FieldInfo& field : fields_)
+            if (isNumeric(field)) valueOf(field.key);
+    }
+
+private:
+    std::optional<double> valueOf(std::string_view name) {
+        const auto field = std::find_if(fields_.begin(), fields_.end(),
+                                        [&](const FieldInfo& f) { return f.key == name && isNumeric(f); });
+        if (field == fields_.end()) return {};
+        if (const auto known = reader_.parameters.find(name); known != reader_.parameters.end()) return known->second;
+        if (const auto open = std::find(open_.begin(), open_.end(), name); open != open_.end()) {
+            reportCycle({open, open_.end()});
+            return {};
+        }
+        open_.emplace_back(name);
+        const std::optional<double> value = compute(*field);
+        open_.pop_back();
+        reader_.parameters[field->key] = value;
+        return value;
+    }
+    std::optional<double> compute(const FieldInfo& field) {
+        const Value* value = model_.find(field.key);
+        if (!value) value = &field.fallback;
+        if (value->isNumber()) return value->asNumber();
+        if (!value->isString()) return {};
+        // What is wrong inside the text is reported when the parameter itself is read.
+        try {
+            const Expression expression = parseExpression(value->asString());
+            bool isKnown = true;
+            const double result = evaluate(expression, [&](std::string_view name) -> std::optional<double> {
+                const auto operand = valueOf(name);
+                isKnown = isKnown && operand;
+                return operand.value_or(0);
+            });
+            return isKnown ? std::optional(result) : std::nullopt;
+        } catch (const ExpressionError&) {
+            return {};
+        }
+    }
+    void reportCycle(std::vector<std::string> names) {
+        names.push_back(names.front());
+        std::string chain;
+        for (const std::string& name : names) chain += (chain.empty() ? "" : " -> ") + name;
+        reader_.error(childPointer("/model", names.front()), "depends on itself: " + chain, "give one of them a number");
+    }
+
+    Reader& reader_;
+    const Value& model_;
+    const std::vector<FieldInfo>& fields_;
+    std::vector<std::string> open_;
+};
+
+std::vector<const CatalogItem*> modelItems() {
+    std::vector<const CatalogItem*> items;
+    for (const ModelEntry& entry : modelCatalog()) items.push_back(&entry.item);
+    return items;
+}
+
+const ModelEntry* entryOf(const Value& model) {
+    const Value* type = model.isString() ? &model : model.find("type");
+    return type && type->isString() ? findModel(type->asString()) : nullptr;
+}
+
+}  // namespace
+
+std::optional<System> readModel(Reader& reader, const Value& document, Scene& scene) {
+    reader.hasUnknownModel = true;
+    const Value* model = document.find("model");
+    if (!model) {
+        reader.error("/model", "is required", "for example \"model\": { \"type\": \"pendulum\" }");
+        return {};
+    }
+    const ModelEntry* entry = entryOf(*model);
+    if (entry) {
+        reader.hasUnknownModel = false;
+        ParameterResolver(reader, *model, entry->item.parameters).resolveAll();
+    }
+    const auto settings = readSettings(reader, *model, "/model", "model", modelItems());
+    if (!settings) return {};
+    scene.model = *settings;
+    try {
+        return entry->make(*settings);
+    } catch (const InvalidScene& e) {
+        for (const Problem& p : e.problems()) reader.error("/model" + p.pointer, p.message, p.hint);
+        return {};
+    }
+}
+
+}  // namespace extremal

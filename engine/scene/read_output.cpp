@@ -1,0 +1,203 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/core/text.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/scene/format.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/scene/pointer.hpp"
+#include "engine/scene/read_parts.hpp"
+
+namespace extremal {
+namespace {
+
+std::vector<std::string> idsOf(const std::vector<CatalogItem>& items) {
+    std::vector<std::string> ids;
+    for (const CatalogItem& item : items) ids.push_back(item.id);
+    return ids;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool isLacking(const System& system, const std::string& observable) {
+    return observable == "momentum" && system.momenta.empty();
+}
+
+std::vector<std::string> availableObservables(const System& system) {
+    std::vector<std::string> names;
+    for (const std::string& id : idsOf(observableCatalog()))
+        if (!isLacking(system, id)) names.push_back(id);
+    return names;
+}
+
+/// The columns of a CSV of this scene: what a phase portrait can show.
+std::vector<std::string> columnNames(const System& system, const std::vector<std::string>& observe) {
+    std::vector<std::string> names{"t"};
+    for (const char* letter : {"q.", "p."})
+        for (const Coordinate& c : system.coordinates) names.push_back(letter + c.name);
+    if (contains(observe, "energy")) names.insert(names.end(), {"energy", "energy_error"});
+    if (contains(observe, "momentum")) {
+        for (const MomentumMap& m : system.momenta) names.push_back("momentum." + m.name);
+        names.emplace_back("momentum_error");
+    }
+    if (contains(observe, "error")) {
+        names.insert(names.end(), {"error", "error.p"});
+        for (const Coordinate& c : system.coordinates) names.push_back("error." + c.name);
+    }
+    if (contains(observe, "effort")) names.insert(names.end(), {"newton_iterations", "evaluations"});
+    if (contains(observe, "step")) names.emplace_back("step");
+    return names;
+}
+
+void readReferenceFile(Reader& reader, const Value& object, const std::string& directory, ReferenceSpec& reference) {
+    const Value* path = object.find("path");
+    if (!path) return reader.error("/reference/path", "is required", "a CSV file with t and the state columns");
+    const auto text = reader.text(*path, "/reference/path");
+    if (!text) return;
+    // Kept absolute, so that the scene means the same wherever it is saved.
+    std::error_code ignored;
+    const auto full = std::filesystem::absolute(std::filesystem::path(directory) / *text, ignored).lexically_normal();
+    reference.path = full.string();
+    if (!std::filesystem::is_regular_file(full, ignored) || !std::ifstream(full))
+        reader.error("/reference/path", "cannot be read: " + reference.path, "paths are relative to the scene");
+}
+
+}  // namespace
+
+void readTime(Reader& reader, const Value& document, Scene& scene) {
+    const Value* time = document.find("time");
+    if (!time) return reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
+    if (!reader.isObject(*time, "/time")) return;
+    reader.checkKeys(*time, "/time", format::time);
+    const std::size_t errorsBefore = reader.errors.size();
+    if (const Value* start = time->find("start"))
+        if (const auto n = reader.number(*start, "/time/start", {})) scene.start = *n;
+    if (const Value* end = time->find("end")) {
+        if (const auto n = reader.number(*end, "/time/end", {})) scene.end = *n;
+    } else {
+        reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
+    }
+    if (reader.errors.size() == errorsBefore && !(scene.end.value > scene.start.value))
+        reader.error("/time/end", "must be after the start " + formatNumber(scene.start.value) + ", got " +
+                                      formatNumber(scene.end.value));
+}
+
+void readOutput(Reader& reader, const Value& document, Scene& scene) {
+    if (const Value* limits = document.find("limits"); limits && reader.isObject(*limits, "/limits")) {
+        reader.checkKeys(*limits, "/limits", format::limits);
+        if (const Value* steps = limits->find("steps"))
+            if (const auto n = reader.number(*steps, "/limits/steps", {1, 1e15, false, false})) scene.maxSteps = n->value;
+    }
+    const Value* output = document.find("output");
+    if (!output || !reader.isObject(*output, "/output")) return;
+    reader.checkKeys(*output, "/output", format::output);
+    if (const Value* every = output->find("every"))
+        if (const auto n = reader.number(*every, "/output/every", Limits::positive())) scene.every = *n;
+    if (const Value* dense = output->find("dense")) {
+        scene.isDense = reader.flag(*dense, "/output/dense").value_or(false);
+        if (scene.isDense && !output->find("every"))
+            reader.error("/output/dense", "needs an interval", "add \"every\": the time between rows");
+    }
+}
+
+void readReference(Reader& reader, const Value& document, const std::string& directory, Scene& scene) {
+    static const std::vector<std::string> kinds = {"auto", "exact", "none", "scheme", "file"};
+    const Value* value = document.find("reference");
+    if (!value) return;
+    const Value object = value->isString() ? Value(Value::Object{{"type", *value}}) : *value;
+    if (!reader.isObject(object, "/reference")) return;
+    const std::string place = value->isString() ? "/reference" : "/reference/type";
+    const Value* type = object.find("type");
+    if (!type) return reader.error(place, "is required", "known: " + joinNames(kinds));
+    const auto kind = reader.text(*type, place);
+    if (!kind) return;
+    const auto found = std::find(kinds.begin(), kinds.end(), *kind);
+    if (found == kinds.end()) return reader.unknownName(place, "reference", *kind, kinds);
+    ReferenceSpec& reference = scene.reference;
+    reference.kind = static_cast<ReferenceSpec::Kind>(found - kinds.begin());
+    std::vector<std::string> keys{"type"};
+    if (*kind == "scheme") keys.emplace_back("scheme");
+    if (*kind == "file") keys.emplace_back("path");
+    reader.checkKeys(object, "/reference", keys);
+    if (reference.kind == ReferenceSpec::Kind::file) readReferenceFile(reader, object, directory, reference);
+    if (reference.kind == ReferenceSpec::Kind::scheme) {
+        const Value* scheme = object.find("scheme");
+        if (!scheme) return reader.error("/reference/scheme", "is required", "the scheme to compare with");
+        if (const auto spec = readScheme(reader, *scheme, "/reference/scheme")) reference.scheme = {*spec};
+        fillLabels(reference.scheme);
+    }
+}
+
+void readObserve(Reader& reader, const Value& document, const System* system, Scene& scene) {
+    const Value* observe = document.find("observe");
+    if (!observe) {
+        scene.observe = {"energy", "error"};
+        return;
+    }
+    if (!reader.isArray(*observe, "/observe", "names")) return;
+    for (std::size_t i = 0; i < observe->asArray().size(); ++i) {
+        const std::string pointer = childPointer("/observe", i);
+        const auto name = reader.text(observe->asArray()[i], pointer);
+        if (!name) continue;
+        const auto known = system ? availableObservables(*system) : idsOf(observableCatalog());
+        if (system && isLacking(*system, *name))
+            reader.error(pointer, "the model " + scene.model.type + " has no " + *name, "it has " + joinNames(known));
+        else if (!contains(known, *name))
+            reader.unknownName(pointer, "observable", *name, known);
+        else if (contains(scene.observe, *name))
+            reader.error(pointer, "\"" + *name + "\" is there twice", "keep one of them");
+        else
+            scene.observe.push_back(*name);
+    }
+    if (contains(scene.observe, "error") && scene.reference.kind == ReferenceSpec::Kind::none)
+        reader.warning("/observe", "asks for the error, but the reference is none: the error stays unknown",
+                       "set /reference to auto");
+}
+
+void readViews(Reader& reader, const Value& document, const System* system, Scene& scene) {
+    const Value* views = document.find("views");
+    if (!views) {
+        std::vector<std::string> ids{"stage"};
+        for (const char* id : {"energy", "momentum", "error"})
+            if (contains(scene.observe, id)) ids.emplace_back(id);
+        ids.insert(ids.end(), {"trajectory", "phase"});
+        for (const std::string& id : ids) scene.views.push_back({id, {}, {}});
+        return;
+    }
+    if (!reader.isArray(*views, "/views", "names")) return;
+    const auto known = idsOf(viewCatalog());
+    for (std::size_t i = 0; i < views->asArray().size(); ++i) {
+        const std::string pointer = childPointer("/views", i);
+        const Value& value = views->asArray()[i];
+        const Value object = value.isString() ? Value(Value::Object{{"view", value}}) : value;
+        if (!reader.isObject(object, pointer)) continue;
+        reader.checkKeys(object, pointer, format::view);
+        const std::string place = value.isString() ? pointer : pointer + "/view";
+        const Value* name = object.find("view");
+        if (!name) {
+            reader.error(place, "is required", "known: " + joinNames(known));
+            continue;
+        }
+        View view;
+        view.id = reader.text(*name, place).value_or("");
+        if (name->isString() && !contains(known, view.id)) reader.unknownName(place, "view", view.id, known);
+        for (const auto& [key, target] : {std::pair{"x", &view.x}, std::pair{"y", &view.y}}) {
+            const Value* column = object.find(key);
+            if (!column) continue;
+            const std::string at = childPointer(pointer, key);
+            *target = reader.text(*column, at).value_or("");
+            if (view.id != "phase") reader.error(at, "is only for phase portraits");
+            else if (system && column->isString() && !contains(columnNames(*system, scene.observe), *target))
+                reader.unknownName(at, "column", *target, columnNames(*system, scene.observe));
+        }
+        for (const char* id : {"energy", "momentum", "error"})
+            if (view.id == id && !contains(scene.observe, id))
+                reader.warning(pointer, "shows nothing: " + view.id + " is not observed", "add it to /observe");
+        scene.views.push_back(view);
+    }
+}
+
+}  // namespace extremal

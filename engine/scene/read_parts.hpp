@@ -1,0 +1,38 @@
+/// The parts of a scene, each read into its place; findings go to the reader. Internal to engine/scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/system.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/reader.hpp"
+
+namespace extremal {
+
+/// Reads the model, makes the values of its parameters known to expressions, and builds the system.
+/// Empty if the model is wrong.
+std::optional<System> readModel(Reader& reader, const Value& document, Scene& scene);
+
+/// Initial data; the model's example where the scene has none.
+void readInitial(Reader& reader, const Value& document, const System& system, Scene& scene);
+
+/// Schemes, their default labels, and what the program knows of each pair.
+void readSchemes(Reader& reader, const Value& document, Scene& scene);
+std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const std::string& pointer);
+/// Gives the schemes without a label one made from their parts, unique among all.
+void fillLabels(std::vector<SchemeSpec>& schemes);
+
+/// Reference, output, observables and views.
+void readReference(Reader& reader, const Value& document, const std::string& directory, Scene& scene);
+void readTime(Reader& reader, const Value& document, Scene& scene);
+void readOutput(Reader& reader, const Value& document, Scene& scene);
+void readObserve(Reader& reader, const Value& document, const System* system, Scene& scene);
+void readViews(Reader& reader, const Value& document, const System* system, Scene& scene);
+
+/// What needs several parts at once: numbers of steps and rows, refused and unstable pairs, stability limits, cost.
+void checkWhole(Reader& reader, const System* system, const Scene& scene);
+
+Value schemeValue(const SchemeSpec& scheme);
+
+}  // namespace extremal

@@ -1,0 +1,246 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/scene/format.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/scene/pointer.hpp"
+#include "engine/scene/read_parts.hpp"
+#include "engine/space/catalog.hpp"
+
+namespace extremal {
+namespace {
+
+template <class Entries>
+std::vector<const CatalogItem*> itemsOf(const Entries& entries) {
+    std::vector<const CatalogItem*> items;
+    for (const auto& entry : entries) {
+        if constexpr (requires { entry.item; }) items.push_back(&entry.item);
+        else items.push_back(&entry);
+    }
+    return items;
+}
+
+/// Nodes that suit the space: enough for the full order of its degree.
+std::optional<Value> defaultNodes(std::string_view rule, std::string_view key, const Settings& space) {
+    if (key != "nodes" || !space.find("degree")) return {};
+    const bool hasBothEnds = rule == "lobatto" || rule == "clenshaw-curtis";
+    return Value(space.number("degree") + (hasBothEnds ? 1 : 0));
+}
+
+/// "auto" and no quadrature at all: Gauss with as many nodes as the degree.
+Value resolveQuadrature(const Value* quadrature) {
+    const Value gauss(Value::Object{{"type", "gauss"}});
+    if (!quadrature) return gauss;
+    const Value* type = quadrature->isString() ? quadrature : quadrature->find("type");
+    return type && *type == Value("auto") ? gauss : *quadrature;
+}
+
+void readSpaceAndQuadrature(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
+    const auto space =
+        readSettings(reader, *scheme.find("space"), childPointer(pointer, "space"), "space", itemsOf(spaceCatalog()));
+    if (space) spec.space = *space;
+    const auto rule = readSettings(reader, resolveQuadrature(scheme.find("quadrature")), childPointer(pointer, "quadrature"),
+                                   "quadrature", itemsOf(quadratureCatalog()), defaultNodes, spec.space);
+    if (rule) spec.quadrature = *rule;
+}
+
+std::vector<std::string> schemeNames() {
+    std::vector<std::string> names;
+    for (const SchemeEntry& entry : schemeCatalog()) {
+        if (entry.minDegree == 0 && entry.maxDegree == 0) names.push_back(entry.item.id);
+        const std::string stem = entry.item.id.substr(0, entry.item.id.rfind('-'));
+        for (int s = entry.minDegree; s <= entry.maxDegree && entry.maxDegree > 0; ++s)
+            names.push_back(stem + "-" + std::to_string(s));
+    }
+    return names;
+}
+
+void readNamed(Reader& reader, const Value& value, const std::string& pointer, SchemeSpec& spec) {
+    const auto name = reader.text(value, pointer);
+    if (!name) return;
+    if (namedScheme(*name)) {
+        spec.named = *name;
+        return;
+    }
+    const auto names = schemeNames();
+    const std::string near = nearestName(*name, names);
+    reader.error(pointer, "unknown scheme " + describeValue(*name),
+                 near.empty() ? "extremal list schemes names them" : "did you mean \"" + near + "\"?");
+}
+
+void readSolver(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
+    static const std::vector<std::string> methods = {"auto", "newton", "fixed-point", "banded", "dense", "krylov"};
+    spec.solver.type = "auto";
+    const Value* solver = scheme.find("solver");
+    if (!solver || !reader.isObject(*solver, pointer)) return;
+    reader.checkKeys(*solver, pointer, format::solver);
+    if (const Value* method = solver->find("method")) {
+        const std::string place = childPointer(pointer, "method");
+        const auto name = reader.text(*method, place);
+        if (name && std::find(methods.begin(), methods.end(), *name) == methods.end())
+            reader.unknownName(place, "method", *name, methods);
+        else if (name)
+            spec.solver.type = *name;
+    }
+    const auto readLimit = [&](const char* key, const Limits& limits) {
+        const Value* value = solver->find(key);
+        if (!value) return;
+        if (const auto n = reader.number(*value, childPointer(pointer, key), limits))
+            spec.solver.keys.emplace_back(key, n->value);
+    };
+    readLimit("tolerance", {0, 1, true, false});
+    readLimit("max_iterations", {1, 1e6, false, true});
+}
+
+/// Exactly one of space, baseline and scheme says what the scheme is.
+bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
+    std::vector<std::string> given;
+    for (const char* key : {"space", "baseline", "scheme"})
+        if (scheme.find(key)) given.emplace_back(key);
+    if (given.size() > 1) {
+        reader.error(pointer, "has " + joinNames(given) + " at once", "keep one of them");
+        return false;
+    }
+    if (scheme.find("quadrature") && !scheme.find("space")) {
+        reader.error(childPointer(pointer, "quadrature"), "stands without a space",
+                     "add \"space\": { \"type\": \"polynomial\", \"degree\": 2 }");
+        return false;
+    }
+    if (given.empty()) {
+        reader.error(pointer, "names neither a space, a baseline nor a scheme",
+                     "for example \"baseline\": \"stormer-verlet\"");
+        return false;
+    }
+    const std::size_t errorsBefore = reader.errors.size();
+    const std::string place = childPointer(pointer, given[0]);
+    if (given[0] == "space") {
+        spec.kind = SchemeSpec::Kind::pair;
+        readSpaceAndQuadrature(reader, scheme, pointer, spec);
+    } else if (given[0] == "baseline") {
+        spec.kind = SchemeSpec::Kind::baseline;
+        const auto baseline =
+            readSettings(reader, *scheme.find("baseline"), place, "baseline", itemsOf(baselineCatalog()));
+        if (baseline) spec.baseline = *baseline;
+    } else {
+        spec.kind = SchemeSpec::Kind::named;
+        readNamed(reader, *scheme.find("scheme"), place, spec);
+    }
+    return reader.errors.size() == errorsBefore;
+}
+
+void readStep(Reader& reader, const Value& scheme, const std::string& pointer, bool isAdaptive, SchemeSpec& spec) {
+    const char* wanted = isAdaptive ? "tolerance" : "step";
+    const char* other = isAdaptive ? "step" : "tolerance";
+    const std::string place = childPointer(pointer, wanted);
+    if (scheme.find(other))
+        reader.error(childPointer(pointer, other),
+                     isAdaptive ? "is not used: " + spec.baseline.type + " chooses its steps"
+                                : std::string("is only for baselines that choose their steps"),
+                     std::string("give a ") + wanted);
+    const Value* value = scheme.find(wanted);
+    if (!value) {
+        if (!scheme.find(other))
+            reader.error(place, "is required: a positive finite number", isAdaptive ? "for example 1e-9" : "");
+        return;
+    }
+    const auto number = reader.number(*value, place, isAdaptive ? Limits{0, 1, true, false} : Limits::positive());
+    if (!number) return;
+    if (isAdaptive) spec.tolerance = number->value;
+    else spec.step = *number;
+}
+
+std::string partsLabel(const SchemeSpec& scheme) {
+    if (scheme.kind == SchemeSpec::Kind::named) return scheme.named;
+    const auto text = [](const Settings& s, const char* key) {
+        std::string label = s.type;
+        if (s.find(key)) label += " " + formatNumber(s.number(key));
+        return label;
+    };
+    if (scheme.kind == SchemeSpec::Kind::baseline) return scheme.baseline.type;
+    std::string basis = scheme.space.text("basis");
+    basis = basis.empty() || basis == "lobatto" ? "" : " " + basis;
+    return text(scheme.space, "degree") + basis + ", " + text(scheme.quadrature, "nodes");
+}
+
+}  // namespace
+
+std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const std::string& pointer) {
+    if (!reader.isObject(value, pointer)) return {};
+    const std::size_t errorsBefore = reader.errors.size();
+    reader.checkKeys(value, pointer, format::scheme);
+    SchemeSpec spec;
+    if (const Value* label = value.find("label")) {
+        const std::string place = childPointer(pointer, "label");
+        if (const auto text = reader.line(*label, place)) {
+            spec.label = *text;
+            if (text->find_first_not_of(' ') == std::string::npos) reader.error(place, "is empty", "leave it out for a default");
+        }
+    }
+    const auto readFlag = [&](const char* key, bool& target) {
+        if (const Value* flag = value.find(key))
+            target = reader.flag(*flag, childPointer(pointer, key)).value_or(target);
+    };
+    readFlag("enabled", spec.isEnabled);
+    readFlag("allow_unstable", spec.allowsUnstable);
+    const bool isKindKnown = readKind(reader, value, pointer, spec);
+    const BaselineEntry* baseline = findBaseline(spec.baseline.type);
+    if (isKindKnown || value.find("step")) readStep(reader, value, pointer, baseline && baseline->isAdaptive, spec);
+    readSolver(reader, value, childPointer(pointer, "solver"), spec);
+    if (reader.errors.size() > errorsBefore) return {};
+    return spec;
+}
+
+void fillLabels(std::vector<SchemeSpec>& schemes) {
+    std::map<std::string, int> uses;
+    std::set<std::string> taken;
+    for (const SchemeSpec& scheme : schemes) {
+        if (scheme.label.empty()) ++uses[partsLabel(scheme)];
+        else taken.insert(scheme.label);
+    }
+    for (SchemeSpec& scheme : schemes) {
+        if (!scheme.label.empty()) continue;
+        std::string label = partsLabel(scheme);
+        if (uses[label] > 1)
+            label += scheme.tolerance ? ", tolerance " + formatNumber(*scheme.tolerance)
+                                      : ", h " + formatNumber(scheme.step.value);
+        scheme.label = label;
+        for (int n = 2; !taken.insert(scheme.label).second; ++n) scheme.label = label + " (" + std::to_string(n) + ")";
+    }
+}
+
+void readSchemes(Reader& reader, const Value& document, Scene& scene) {
+    const Value* schemes = document.find("schemes");
+    if (!schemes) {
+        reader.error("/schemes", "is required", "for example \"schemes\": [{ \"scheme\": \"midpoint\", \"step\": 0.1 }]");
+        return;
+    }
+    if (!reader.isArray(*schemes, "/schemes", "schemes")) return;
+    if (schemes->asArray().empty())
+        reader.error("/schemes", "must have at least one scheme", "for example { \"scheme\": \"midpoint\", \"step\": 0.1 }");
+    std::map<std::string, std::size_t> firstUse;
+    const std::size_t errorsBefore = reader.errors.size();
+    for (std::size_t i = 0; i < schemes->asArray().size(); ++i) {
+        const std::string pointer = childPointer("/schemes", i);
+        const Value& value = schemes->asArray()[i];
+        if (const Value* label = value.find("label"); label && label->isString() && !label->asString().empty()) {
+            const auto [first, isNew] = firstUse.emplace(label->asString(), i);
+            if (!isNew)
+                reader.error(pointer + "/label", "is the label of /schemes/" + std::to_string(first->second) +
+                                                     " already: " + describeValue(*label),
+                             "labels are unique");
+        }
+        if (const auto spec = readScheme(reader, value, pointer)) scene.schemes.push_back(*spec);
+    }
+    // Places in the list are places in the document only if all could be read.
+    if (reader.errors.size() > errorsBefore) scene.schemes.clear();
+    fillLabels(scene.schemes);
+    const bool runsNothing = std::none_of(scene.schemes.begin(), scene.schemes.end(), [](const auto& s) { return s.isEnabled; });
+    if (!scene.schemes.empty() && runsNothing) reader.warning("/schemes", "has no enabled scheme: nothing will run");
+}
+
+}  // namespace extremal

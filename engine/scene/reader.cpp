@@ -1,0 +1,136 @@
+#include "engine/scene/reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/scene/pointer.hpp"
+
+namespace extremal {
+
+Limits Limits::of(const FieldInfo& field) {
+    return {field.min, field.max, field.isMinExcluded, field.type == FieldType::integer};
+}
+
+bool Limits::admit(double value) const {
+    if (!std::isfinite(value) || value > max) return false;
+    if (isMinExcluded ? value <= min : value < min) return false;
+    return !isInteger || (value == std::trunc(value) && std::fabs(value) < 9e15);
+}
+
+std::string Limits::describe() const {
+    const bool hasMin = std::isfinite(min), hasMax = std::isfinite(max);
+    const std::string number = isInteger ? "integer" : "finite number";
+    const std::string article = isInteger ? "an " : "a ";
+    if (hasMin && hasMax && !isMinExcluded) return article + number + " from " + formatNumber(min) + " to " + formatNumber(max);
+    if (hasMin && hasMax)
+        return article + number + " above " + formatNumber(min) + " and at most " + formatNumber(max);
+    if (hasMin && min == 0) return (isMinExcluded ? "a positive " : "a non-negative ") + number;
+    if (hasMin) return article + number + (isMinExcluded ? " above " : " of at least ") + formatNumber(min);
+    if (hasMax) return article + number + " of at most " + formatNumber(max);
+    return article + number;
+}
+
+void Reader::error(std::string pointer, std::string message, std::string hint) {
+    errors.push_back({std::move(pointer), std::move(message), std::move(hint)});
+}
+
+void Reader::warning(std::string pointer, std::string message, std::string hint) {
+    warnings.push_back({std::move(pointer), std::move(message), std::move(hint)});
+}
+
+std::optional<double> Reader::evaluateText(const std::string& text, const std::string& pointer) {
+    std::vector<std::string> known{"pi"};
+    for (const auto& [name, value] : parameters) known.push_back(name);
+    bool dependsOnWrong = false;
+    try {
+        const Expression expression = parseExpression(text);
+        const double value = evaluate(expression, [&](std::string_view name) -> std::optional<double> {
+            const auto there = parameters.find(name);
+            if (there == parameters.end() && !hasUnknownModel) return {};
+            dependsOnWrong = dependsOnWrong || there == parameters.end() || !there->second;
+            return there == parameters.end() ? 0 : there->second.value_or(0);
+        });
+        if (dependsOnWrong) return {};
+        if (std::isfinite(value)) return value;
+        error(pointer, "the expression " + describeValue(text) + " is not finite: " + formatNumber(value));
+    } catch (const ExpressionError& e) {
+        std::string hint = e.hint;
+        const std::string message = e.what();
+        if (const auto quote = message.find("unknown name \""); quote != std::string::npos)
+            hint = suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
+        error(pointer, "the expression " + message + "\n" + caretLines(text, e.position), hint);
+    }
+    return {};
+}
+
+std::optional<Number> Reader::number(const Value& value, const std::string& pointer, const Limits& limits) {
+    Number result;
+    if (value.isString()) {
+        const auto evaluated = evaluateText(value.asString(), pointer);
+        if (!evaluated) return {};
+        result = {*evaluated, value.asString()};
+    } else if (value.isNumber()) {
+        result.value = value.asNumber();
+    } else {
+        error(pointer, "must be " + limits.describe() + ", got " + describeValue(value));
+        return {};
+    }
+    if (limits.admit(result.value)) return result;
+    error(pointer, "must be " + limits.describe() + ", got " + formatNumber(result.value) +
+                       (value.isString() ? " = " + describeValue(value) : ""));
+    return {};
+}
+
+std::optional<bool> Reader::flag(const Value& value, const std::string& pointer) {
+    if (value.isBool()) return value.asBool();
+    error(pointer, "must be true or false, got " + describeValue(value));
+    return {};
+}
+
+std::optional<std::string> Reader::text(const Value& value, const std::string& pointer) {
+    if (value.isString()) return value.asString();
+    error(pointer, "must be a text in quotes, got " + describeValue(value));
+    return {};
+}
+
+std::optional<std::string> Reader::line(const Value& value, const std::string& pointer) {
+    const auto result = text(value, pointer);
+    if (!result) return {};
+    const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+    if (std::any_of(result->begin(), result->end(), isControl)) {
+        error(pointer, "must be one line without control characters, got " + describeValue(value));
+        return {};
+    }
+    if (codePoints(*result) > 200) {
+        error(pointer, "must have at most 200 characters, got " + std::to_string(codePoints(*result)));
+        return {};
+    }
+    return result;
+}
+
+bool Reader::isObject(const Value& value, const std::string& pointer) {
+    if (value.isObject()) return true;
+    error(pointer, "must be an object {...}, got " + describeValue(value));
+    return false;
+}
+
+bool Reader::isArray(const Value& value, const std::string& pointer, const std::string& what) {
+    if (value.isArray()) return true;
+    error(pointer, "must be an array of " + what + ", got " + describeValue(value));
+    return false;
+}
+
+void Reader::checkKeys(const Value& object, const std::string& pointer, const std::vector<std::string>& known) {
+    for (const auto& [key, value] : object.asObject())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            error(childPointer(pointer, key), "unknown key " + describeValue(key), suggestName(key, known));
+}
+
+void Reader::unknownName(const std::string& pointer, std::string_view kind, std::string_view name,
+                         const std::vector<std::string>& known) {
+    error(pointer, "unknown " + std::string(kind) + " " + describeValue(std::string(name)), suggestName(name, known));
+}
+
+}  // namespace extremal

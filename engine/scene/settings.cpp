@@ -1,0 +1,118 @@
+#include <algorithm>
+
+#include "engine/core/text.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/scene/pointer.hpp"
+#include "engine/scene/reader.hpp"
+
+namespace extremal {
+namespace {
+
+/// Stores one member after checking it against its descriptor.
+bool readField(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
+               Settings& settings) {
+    switch (field.type) {
+        case FieldType::number:
+        case FieldType::integer: {
+            const auto number = reader.number(value, pointer, Limits::of(field));
+            if (!number) return false;
+            settings.keys.emplace_back(field.key, number->value);
+            if (!number->expression.empty()) settings.expressions.emplace_back(field.key, number->expression);
+            return true;
+        }
+        case FieldType::boolean: {
+            const auto flag = reader.flag(value, pointer);
+            if (flag) settings.keys.emplace_back(field.key, *flag);
+            return flag.has_value();
+        }
+        case FieldType::text: {
+            const auto text = reader.text(value, pointer);
+            if (text) settings.keys.emplace_back(field.key, *text);
+            return text.has_value();
+        }
+        case FieldType::choice: {
+            const auto text = reader.text(value, pointer);
+            if (!text) return false;
+            if (std::find(field.choices.begin(), field.choices.end(), *text) == field.choices.end()) {
+                reader.error(pointer, "must be one of " + joinNames(field.choices) + ", got " + describeValue(value),
+                             suggestName(*text, field.choices));
+                return false;
+            }
+            settings.keys.emplace_back(field.key, *text);
+            return true;
+        }
+        case FieldType::json:
+            settings.keys.emplace_back(field.key, value);
+            return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+bool readFields(Reader& reader, const Value& object, const std::string& pointer, const std::vector<FieldInfo>& fields,
+                const std::vector<std::string>& ignored, Settings& settings, DerivedDefault derived,
+                const Settings& context) {
+    const std::size_t errorsBefore = reader.errors.size();
+    bool isComplete = true;
+    std::vector<std::string> known = ignored;
+    for (const FieldInfo& field : fields) known.push_back(field.key);
+    reader.checkKeys(object, pointer, known);
+    for (const FieldInfo& field : fields) {
+        if (const Value* value = object.find(field.key)) {
+            isComplete = readField(reader, *value, childPointer(pointer, field.key), field, settings) && isComplete;
+        } else if (!field.fallback.isNull()) {
+            settings.keys.emplace_back(field.key, field.fallback);
+        } else if (const auto fitting = derived ? derived(settings.type, field.key, context) : std::nullopt) {
+            settings.keys.emplace_back(field.key, *fitting);
+        } else if (field.type == FieldType::number || field.type == FieldType::integer) {
+            reader.error(childPointer(pointer, field.key), "is required: " + Limits::of(field).describe(), field.title);
+        } else {
+            reader.error(childPointer(pointer, field.key), "is required", field.description);
+        }
+    }
+    return isComplete && reader.errors.size() == errorsBefore;
+}
+
+std::optional<Settings> readSettings(Reader& reader, const Value& value, const std::string& pointer,
+                                     std::string_view kind, const std::vector<const CatalogItem*>& items,
+                                     DerivedDefault derived, const Settings& context) {
+    std::vector<std::string> ids;
+    for (const CatalogItem* item : items) ids.push_back(item->id);
+    const Value object = value.isString() ? Value(Value::Object{{"type", value}}) : value;
+    if (!reader.isObject(object, pointer)) return {};
+    const std::string typePointer = value.isString() ? pointer : childPointer(pointer, "type");
+    const Value* type = object.find("type");
+    if (!type) {
+        reader.error(typePointer, "is required: a " + std::string(kind), "known: " + joinNames(ids));
+        return {};
+    }
+    const auto id = reader.text(*type, typePointer);
+    if (!id) return {};
+    const auto item = std::find_if(items.begin(), items.end(), [&](const CatalogItem* i) { return i->id == *id; });
+    if (item == items.end()) {
+        reader.unknownName(typePointer, kind, *id, ids);
+        return {};
+    }
+    Settings settings;
+    settings.type = *id;
+    if (!readFields(reader, object, pointer, (*item)->parameters, {"type"}, settings, derived, context)) return {};
+    return settings;
+}
+
+Value numberValue(const Number& number) {
+    return number.expression.empty() ? Value(number.value) : Value(number.expression);
+}
+
+Value settingsValue(const Settings& settings, std::string_view typeKey) {
+    Value object{Value::Object{}};
+    object.set(typeKey, settings.type);
+    for (const auto& [key, value] : settings.keys) {
+        const auto text = std::find_if(settings.expressions.begin(), settings.expressions.end(),
+                                       [&](const Value::Member& m) { return m.first == key; });
+        object.set(key, text == settings.expressions.end() ? value : text->second);
+    }
+    return object;
+}
+
+}  // namespace extremal

@@ -1,0 +1,91 @@
+#include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/scene/reader.hpp"
+#include "engine/scene/read_parts.hpp"
+
+namespace extremal {
+namespace {
+
+Value numbersValue(const std::vector<Number>& numbers) {
+    Value::Array values;
+    for (const Number& n : numbers) values.push_back(numberValue(n));
+    return values;
+}
+
+Value initialValue(const Initial& initial) {
+    Value value{Value::Object{}};
+    if (!initial.q.empty()) value.set("q", numbersValue(initial.q));
+    if (initial.second == Initial::Second::momentum) value.set("p", numbersValue(initial.pOrV));
+    if (initial.second == Initial::Second::velocity) value.set("v", numbersValue(initial.pOrV));
+    for (const auto& [key, member] : initial.keys) value.set(key, member);
+    return value;
+}
+
+Value referenceValue(const ReferenceSpec& reference) {
+    constexpr const char* kinds[] = {"auto", "exact", "none", "scheme", "file"};
+    Value value(Value::Object{{"type", kinds[static_cast<int>(reference.kind)]}});
+    for (const SchemeSpec& scheme : reference.scheme) value.set("scheme", schemeValue(scheme));
+    if (reference.kind == ReferenceSpec::Kind::file) value.set("path", reference.path);
+    return value;
+}
+
+Value viewValue(const View& view) {
+    if (view.x.empty() && view.y.empty()) return view.id;
+    Value value(Value::Object{{"view", view.id}});
+    if (!view.x.empty()) value.set("x", view.x);
+    if (!view.y.empty()) value.set("y", view.y);
+    return value;
+}
+
+template <class Items, class ToValue>
+Value arrayOf(const Items& items, ToValue toValueOf) {
+    Value::Array values;
+    for (const auto& item : items) values.push_back(toValueOf(item));
+    return values;
+}
+
+}  // namespace
+
+Value schemeValue(const SchemeSpec& scheme) {
+    Value value{Value::Object{}};
+    value.set("label", scheme.label);
+    value.set("enabled", scheme.isEnabled);
+    if (scheme.tolerance) value.set("tolerance", *scheme.tolerance);
+    else value.set("step", numberValue(scheme.step));
+    switch (scheme.kind) {
+        case SchemeSpec::Kind::pair:
+            value.set("space", settingsValue(scheme.space));
+            value.set("quadrature", settingsValue(scheme.quadrature));
+            break;
+        case SchemeSpec::Kind::baseline:
+            value.set("baseline", scheme.baseline.keys.empty() ? Value(scheme.baseline.type) : settingsValue(scheme.baseline));
+            break;
+        case SchemeSpec::Kind::named: value.set("scheme", scheme.named); break;
+    }
+    value.set("solver", settingsValue(scheme.solver, "method"));
+    value.set("allow_unstable", scheme.allowsUnstable);
+    return value;
+}
+
+Value toValue(const Scene& scene) {
+    Value value{Value::Object{}};
+    value.set("extremal", 1);
+    for (const auto& [key, text] : {std::pair{"title", &scene.title}, {"source", &scene.source},
+                                    {"lesson", &scene.lesson}, {"notes", &scene.notes}})
+        if (!text->empty()) value.set(key, *text);
+    value.set("model", settingsValue(scene.model));
+    value.set("initial", initialValue(scene.initial));
+    value.set("time", Value(Value::Object{{"start", numberValue(scene.start)}, {"end", numberValue(scene.end)}}));
+    value.set("schemes", arrayOf(scene.schemes, schemeValue));
+    value.set("reference", referenceValue(scene.reference));
+    value.set("observe", arrayOf(scene.observe, [](const std::string& name) { return Value(name); }));
+    if (scene.every)
+        value.set("output", Value(Value::Object{{"every", numberValue(*scene.every)}, {"dense", scene.isDense}}));
+    value.set("views", arrayOf(scene.views, viewValue));
+    value.set("limits", Value(Value::Object{{"steps", scene.maxSteps}}));
+    return value;
+}
+
+std::string writeScene(const Scene& scene) { return writeJson(toValue(scene)); }
+
+}  // namespace extremal
