@@ -1,0 +1,119 @@
+# The rules of the source tree, as a function of its root:
+#
+#     extremal_tree_violations(ROOT OUT)    OUT: a list of "FILE:LINE: WHAT", empty if the tree is sound
+#
+# Includes point down the order of the folders; the engine knows no Qt and no OpenGL; a file is one idea.
+
+# A folder may include itself, folders of its own level, and every level before it.
+set(levels
+    "core"
+    "group quadrature space model"
+    "action"
+    "solve"
+    "integrator baseline"
+    "trajectory"
+    "observe"
+    "scene"
+    "run"
+    "figure"
+    "study"
+    "ui"
+    "app")
+set(max_lines 500)
+
+set(level 0)
+foreach(folders ${levels})
+    separate_arguments(folders)
+    foreach(folder ${folders})
+        set(level_of_${folder} ${level})
+    endforeach()
+    math(EXPR level "${level} + 1")
+endforeach()
+
+# The folder of the order that a path from the root belongs to; empty for tests, resources and the like.
+function(extremal_folder_of path out)
+    set(folder "")
+    if(path MATCHES "^engine/([^/]+)/")
+        set(folder ${CMAKE_MATCH_1})
+    elseif(path MATCHES "^(ui|app)/")
+        set(folder ${CMAKE_MATCH_1})
+    endif()
+    set(${out} "${folder}" PARENT_SCOPE)
+endfunction()
+
+# Includes of one file, as `LINE:NAME` with the brackets of system includes kept: `12:<vector>`.
+function(extremal_includes_of file out)
+    file(READ ${file} text)
+    # Neither semicolons nor brackets may reach CMake's lists.
+    string(REGEX REPLACE "[][;\\\\]" " " text "${text}")
+    string(REPLACE "\n" ";" lines "${text}")
+    set(found "")
+    set(number 0)
+    foreach(line IN LISTS lines)
+        math(EXPR number "${number} + 1")
+        if(line MATCHES "^[ \t]*#[ \t]*include[ \t]*(\"[^\"]+\"|<[^>]+>)")
+            list(APPEND found "${number}:${CMAKE_MATCH_1}")
+        endif()
+    endforeach()
+    set(${out} "${found}" PARENT_SCOPE)
+endfunction()
+
+function(extremal_tree_violations root out)
+    set(violations "")
+    file(GLOB_RECURSE files RELATIVE ${root}
+        ${root}/engine/*.hpp ${root}/engine/*.cpp ${root}/ui/*.hpp ${root}/ui/*.cpp
+        ${root}/app/*.hpp ${root}/app/*.cpp ${root}/tests/*.hpp ${root}/tests/*.cpp)
+    foreach(path ${files})
+        extremal_folder_of(${path} folder)
+        if(path MATCHES "^engine/" AND (folder STREQUAL "" OR NOT DEFINED level_of_${folder}))
+            list(APPEND violations "${path}:1: not in a folder of the engine's order (tests/tree/rules.cmake)")
+            continue()
+        endif()
+
+        file(READ ${root}/${path} text)
+        string(REGEX REPLACE "[^\n]" "" breaks "${text}")
+        string(LENGTH "${breaks}" count)
+        if(count GREATER max_lines)
+            list(APPEND violations "${path}:${count}: more than ${max_lines} lines: split it where the idea splits")
+        endif()
+        if(path MATCHES "\\.hpp$" AND NOT text MATCHES "\n#pragma once\n")
+            list(APPEND violations "${path}:1: a header without #pragma once")
+        endif()
+        if(path MATCHES "\\.hpp$" AND NOT text MATCHES "^///")
+            list(APPEND violations "${path}:1: a header that does not open with what it is (///)")
+        endif()
+        if(text MATCHES "(TODO|FIXME|XXX)[^A-Za-z]")
+            list(APPEND violations "${path}:1: ${CMAKE_MATCH_1}: do it or drop it")
+        endif()
+        if(NOT path MATCHES "^tests/" AND text MATCHES "[^A-Za-z_](std::sto[dfi]|strtod|atof|sscanf|setlocale) *\\(")
+            list(APPEND violations "${path}:1: ${CMAKE_MATCH_1} follows the locale: use std::from_chars")
+        endif()
+
+        extremal_includes_of(${root}/${path} includes)
+        foreach(entry ${includes})
+            string(REGEX MATCH "^([0-9]+):(.*)$" _ "${entry}")
+            set(where "${path}:${CMAKE_MATCH_1}")
+            set(name "${CMAKE_MATCH_2}")
+            if(path MATCHES "^engine/" AND
+                    name MATCHES "^[<\"](Q[A-Za-z]+|Qt[A-Za-z0-9]*/.*|GL/.*|EGL/.*|qcustomplot.*)[>\"]$")
+                list(APPEND violations "${where}: ${name} in the engine, which knows no Qt and no OpenGL")
+            endif()
+            if(folder STREQUAL "" OR NOT name MATCHES "^\"(.*)\"$")
+                continue()
+            endif()
+            set(target ${CMAKE_MATCH_1})
+            extremal_folder_of("${target}" other)
+            if(other STREQUAL "")
+                # ui and app may include files of their own folder; the engine names every file from the root.
+                if(path MATCHES "^engine/")
+                    list(APPEND violations "${where}: ${name} is not a path from the root")
+                endif()
+            elseif(NOT DEFINED level_of_${other})
+                list(APPEND violations "${where}: ${name} is in no folder of the order")
+            elseif(level_of_${other} GREATER level_of_${folder})
+                list(APPEND violations "${where}: ${folder} includes ${name}, which is above it")
+            endif()
+        endforeach()
+    endforeach()
+    set(${out} "${violations}" PARENT_SCOPE)
+endfunction()
