@@ -27,7 +27,7 @@ public:
     void setStop(std::stop_token stop) { stop_ = std::move(stop); }
 
 protected:
-    bool isStopRequested() const { return stop_.stop_requested(); }
+    const std::stop_token& stop() const { return stop_; }
 
 private:
     std::stop_token stop_;

@@ -24,19 +24,25 @@ struct Discretization {
 
 /// What the program knows of a pair before it runs.
 struct PairProperties {
-    Claims claims;
-    std::string knownAs;    ///< "implicit midpoint", "Störmer-Verlet", "Lobatto IIIA-IIIB", ...; may be empty
+    Claims claims;            ///< order min(2 degree, order of the rule); see the law tests
+    std::string knownAs;      ///< "implicit midpoint", "Störmer-Verlet", "Lobatto IIIA-IIIB", ...; may be empty
+    std::string shortName;    ///< for a cell of a grid: "mid", "SV", "G4", "L6"
     bool isExplicit = false;  ///< for separable systems
-    std::string refusal;    ///< why the pair makes no sense (too few nodes, ...); empty if it does
+    std::string refusal;      ///< why the pair makes no sense (too few nodes, ...); empty if it does
+    std::string hint;         ///< the remedy for a refusal
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity if none
 };
+/// Keys must be checked and complete. Results are remembered, so asking again is cheap.
 PairProperties describe(const Settings& space, const Settings& quadrature);
 
-/// A named scheme: a pair under its usual name. "galerkin-gauss-<s>" is one entry with a range of s.
+/// Fills in what depends on the other choice of a pair: the default number of nodes, and "auto" (or no) quadrature.
+Settings completeQuadrature(const Settings& space, const Settings& quadrature);
+
+/// A named scheme: a pair under its usual name. "galerkin-gauss-<s>" is one entry with a range of degrees s.
 struct SchemeEntry {
-    CatalogItem item;
+    CatalogItem item;                   ///< id "midpoint", or a family "galerkin-gauss-<s>"; claims for the lowest degree
     std::string source;
-    int minDegree = 0, maxDegree = 0;  ///< both 0: a single name; else the id ends in "-<s>"
+    int minDegree = 0, maxDegree = 0;   ///< both 0: a single name; else ids end in the degree
     std::function<Discretization(int degree)> make;
 };
 const std::vector<SchemeEntry>& schemeCatalog();
@@ -45,5 +51,8 @@ std::optional<Discretization> namedScheme(std::string_view id);
 
 /// Makes the integrator of a pair for a system. Throws InvalidScene (pointer relative to the scheme).
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock);
+
+/// Highest frequency of the system linearised at a state: the largest root w of det(-L_qq - w^2 L_vv) = 0, or 0.
+double highestFrequency(const System& system, const State& state);
 
 }  // namespace extremal

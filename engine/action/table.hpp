@@ -1,0 +1,52 @@
+/// Space x quadrature = one table: all a step needs to know of the two choices that make an integrator.
+///
+/// With nodes i = 0..n-1 and unknowns a = 0..m-1 (Y_a in R^d), on a step of length h from q_0:
+///     q(c_i)    = lift q_0 + sum_a value(i, a) Y_a,
+///     q'(c_i) h = sum_a derivative(i, a) Y_a,
+///     q_1       = lift q_0 + Y_{m-1}.
+/// The basis of the space is changed once, before the run, so that the two trace conditions of the KKT system
+///     dS/dz + (Ds-)^T p_0 - (Ds+)^T p_1 = 0,   s-(z) = q_0,   q_1 = s+(z)
+/// become trivial (the null-space method): Y_0..Y_{m-2} multiply functions that vanish at both ends, Y_{m-1} one that is
+/// 0 at the start and 1 at the end, and constants carry q_0 (lift = 1), so that the unknowns are small increments and
+/// the momentum equation sums to p_1 = p_0 + h sum_i b_i L_q. Nodal and modal bases of one space therefore give the same
+/// table up to a change of the interior unknowns, and the same step to round-off.
+/// Test functions: value(., a) for a < m-1, and for the last row `test` = lift - value(., m-1), whose start trace is 1 and
+/// end trace 0: it pairs with p_0 alone, so that the system has only the unknowns Y.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+#include "engine/quadrature/rule.hpp"
+#include "engine/space/space.hpp"
+
+namespace extremal {
+
+template <class T>
+struct Table {
+    using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+    Vector node;        ///< c_i
+    Vector weight;      ///< b_i
+    Matrix value;       ///< (i, a): phi_a(c_i)
+    Matrix derivative;  ///< (i, a): phi_a'(c_i)
+    Matrix testValue;       ///< (i, a): test functions at the nodes; the last column is the start function
+    Matrix testDerivative;  ///< (i, a)
+    Matrix continuation;    ///< (a, b): coefficients of the curve continued into the next step, relative to its start
+    Matrix change;          ///< (function of the space, a): z = liftCoefficients q_0 + change Y
+    Vector lift;            ///< coefficients of the function 1 in the space
+    Space<T> space;
+    Rule<T> rule;
+
+    int nodes() const { return static_cast<int>(node.size()); }
+    int unknowns() const { return static_cast<int>(value.cols()); }
+};
+
+/// Builds the table. Throws InvalidScene where the pair makes no sense: constants are not in the space, its traces do
+/// not determine the end points, or the rule has too few nodes to see all of its functions (singular for every step).
+template <class T>
+Table<T> makeTable(const Space<T>& space, const Rule<T>& rule);
+
+}  // namespace extremal

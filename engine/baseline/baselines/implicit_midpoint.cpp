@@ -1,0 +1,117 @@
+/// Implicit midpoint rule on Hamilton's equations, z_1 = z_0 + h X_H((z_0 + z_1)/2), solved for the midpoint by Newton.
+///
+/// Written on the Hamiltonian side, independently of the Galerkin step, whose pair (degree 1, midpoint) it must equal to
+/// round-off. The Jacobian of X_H follows from the Hessian of L at v = v(q, p): with M = L_vv,
+///     v_q = -M^{-1} L_vq,  v_p = M^{-1},   pdot_q = L_qq + L_qv v_q,  pdot_p = L_qv v_p.
+#include <Eigen/LU>
+
+#include <limits>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/baseline/flow_method.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+template <int D>
+class ImplicitMidpoint final : public FlowMethod<D> {
+    using Base = FlowMethod<D>;
+    using Vector = typename Base::Vector;
+    using Square = Eigen::MatrixXd;
+    using BigVector = Eigen::VectorXd;
+
+public:
+    ImplicitMidpoint(const Mechanics<double>& mechanics, const Clock& clock) : Base(mechanics, clock) {
+        const int d = this->d();
+        for (Vector* v : {&q_, &p_, &dq_, &dp_}) *v = Vector::Zero(d);
+        gradient_ = BigVector::Zero(2 * d);
+        r_ = BigVector::Zero(2 * d);
+        hessian_ = Square::Zero(2 * d, 2 * d);
+        system_ = Square::Zero(2 * d, 2 * d);
+        inverseMass_ = vq_ = Square::Zero(d, d);
+        lu_ = Eigen::PartialPivLU<Square>(2 * d);
+        massLu_ = Eigen::PartialPivLU<Square>(d);
+        identity_ = Square::Identity(d, d);
+    }
+
+private:
+    void step(double t) override {
+        const double half = this->h() / 2;
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        const int d = this->d();
+        q_ = this->q0_;
+        p_ = this->p0_;
+        double last = std::numeric_limits<double>::infinity();
+        for (int iteration = 0; iteration < 50; ++iteration) {
+            if (this->stop().stop_requested()) {
+                this->report_.outcome = Outcome::stopped;
+                return;
+            }
+            this->flow(t + half, q_, p_, dq_, dp_);
+            if (this->report_.outcome != Outcome::converged) return;
+            if (iteration == 0) assemble(t + half, half);
+            r_.head(d) = this->q0_ + half * dq_ - q_;
+            r_.tail(d) = this->p0_ + half * dp_ - p_;
+            r_ = lu_.solve(r_);
+            ++this->report_.linearSolves;
+            q_ += r_.head(d);
+            p_ += r_.tail(d);
+            ++this->report_.iterations;
+            const double size = r_.cwiseAbs().maxCoeff();
+            const double scale = std::max(q_.cwiseAbs().maxCoeff(), p_.cwiseAbs().maxCoeff());
+            this->report_.residual = scale > 0 ? size / scale : size;
+            if (!(size < std::numeric_limits<double>::infinity())) {
+                this->report_.outcome = Outcome::notFinite;
+                return;
+            }
+            if (size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) {
+                this->flow(t + half, q_, p_, dq_, dp_);
+                this->q1_ = this->q0_ + 2 * half * dq_;
+                this->p1_ = this->p0_ + 2 * half * dp_;
+                return;
+            }
+            if (size > last / 4) assemble(t + half, half);
+            last = size;
+        }
+        this->report_.outcome = Outcome::diverged;
+    }
+    /// I - h/2 DX_H at (q_, p_), factored; dq_ holds v(q_, p_).
+    void assemble(double t, double half) {
+        const auto& m = this->mechanics_;
+        const int d = this->d();
+        double value = 0;
+        m.jet(m.model.get(), t, q_.data(), dq_.data(), &value, gradient_.data(), hessian_.data());
+        ++this->report_.evaluations;
+        massLu_.compute(hessian_.bottomRightCorner(d, d));
+        inverseMass_ = massLu_.solve(identity_);
+        vq_.noalias() = -inverseMass_.lazyProduct(hessian_.bottomLeftCorner(d, d));
+        system_.setIdentity();
+        system_.topLeftCorner(d, d) -= half * vq_;
+        system_.topRightCorner(d, d) = -half * inverseMass_;
+        system_.bottomLeftCorner(d, d) =
+            -half * (hessian_.topLeftCorner(d, d) + hessian_.topRightCorner(d, d).lazyProduct(vq_));
+        system_.bottomRightCorner(d, d) -= half * hessian_.topRightCorner(d, d).lazyProduct(inverseMass_);
+        lu_.compute(system_);
+    }
+
+    Vector q_, p_, dq_, dp_;
+    BigVector gradient_, r_;
+    Square hessian_, system_, inverseMass_, vq_, identity_;
+    Eigen::PartialPivLU<Square> lu_, massLu_;
+};
+
+}  // namespace
+
+BaselineEntry implicit_midpoint() {
+    BaselineEntry e;
+    e.item = {"implicit-midpoint", "implicit midpoint",
+              "The midpoint rule on Hamilton's equations by Newton: order 2, stable for every step.", {},
+              Claims{2, true, true, {"momentum", "quadratic invariants"}}, ""};
+    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.make = [](const System& system, const BaselineOptions& options) {
+        return makeFlowMethod<ImplicitMidpoint>(system.mechanics, options.clock);
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

@@ -1,0 +1,54 @@
+/// The classical Runge-Kutta method of order 4 on (q, p): accurate over short times, not symplectic.
+#include "engine/baseline/catalog.hpp"
+#include "engine/baseline/flow_method.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+template <int D>
+class Rk4 final : public FlowMethod<D> {
+    using Base = FlowMethod<D>;
+    using Vector = typename Base::Vector;
+
+public:
+    Rk4(const Mechanics<double>& mechanics, const Clock& clock) : Base(mechanics, clock) {
+        for (Vector* v : {&q_, &p_, &dq_, &dp_, &sumQ_, &sumP_}) *v = Vector::Zero(this->d());
+    }
+
+private:
+    void step(double t) override {
+        const double h = this->h();
+        constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+        q_ = this->q0_;
+        p_ = this->p0_;
+        sumQ_.setZero();
+        sumP_.setZero();
+        for (int i = 0; i < 4; ++i) {
+            if (i > 0) {
+                q_ = this->q0_ + node[i] * h * dq_;
+                p_ = this->p0_ + node[i] * h * dp_;
+            }
+            this->flow(t + node[i] * h, q_, p_, dq_, dp_);
+            sumQ_ += weight[i] * dq_;
+            sumP_ += weight[i] * dp_;
+        }
+        this->q1_ = this->q0_ + h * sumQ_;
+        this->p1_ = this->p0_ + h * sumP_;
+    }
+    Vector q_, p_, dq_, dp_, sumQ_, sumP_;
+};
+
+}  // namespace
+
+BaselineEntry rk4() {
+    BaselineEntry e;
+    e.item = {"rk4", "RK4", "Classical Runge-Kutta of order 4: explicit, not symplectic, energy drifts.", {},
+              Claims{4, false, false, {}}, ""};
+    e.stabilityLimit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
+    e.make = [](const System& system, const BaselineOptions& options) {
+        return makeFlowMethod<Rk4>(system.mechanics, options.clock);
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

@@ -1,0 +1,90 @@
+/// What the baselines of mechanical systems share: Hamilton's vector field, counted, the clock, and a curve.
+///
+/// Baselines see a system through (qdot, pdot) = (dH/dp, -dH/dq) at (t, q, p), or, where it is separable, through its
+/// force and masses. D: dimension at compile time or Eigen::Dynamic. The curve inside a step is the cubic Hermite
+/// interpolant of x and xdot at both ends: order 4 at best, as usual for these methods.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <utility>
+
+#include "engine/core/dimension.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/mechanics.hpp"
+
+namespace extremal {
+
+template <int D>
+class FlowMethod : public Integrator {
+public:
+    using Vector = Eigen::Matrix<double, D, 1>;
+    using View = Eigen::Map<Vector>;
+
+    FlowMethod(Mechanics<double> mechanics, const Clock& clock) : mechanics_(std::move(mechanics)), clock_(clock) {
+        for (Vector* v : {&q0_, &p0_, &q1_, &p1_}) *v = Vector::Zero(d());
+    }
+
+    void curve(double tau, std::span<double> x) const override {
+        const double h = endTime_ - startTime_;
+        Vector dq0 = q0_, dp0 = p0_, dq1 = q1_, dp1 = p1_;
+        call(startTime_, q0_, p0_, dq0, dp0);
+        call(endTime_, q1_, p1_, dq1, dp1);
+        const double a = (1 + 2 * tau) * (1 - tau) * (1 - tau), b = tau * (1 - tau) * (1 - tau) * h;
+        const double c = tau * tau * (3 - 2 * tau), e = tau * tau * (tau - 1) * h;
+        View(x.data(), d()) = a * q0_ + b * dq0 + c * q1_ + e * dq1;
+        View(x.data() + d(), d()) = a * p0_ + b * dp0 + c * p1_ + e * dp1;
+    }
+
+    StepReport advance(State& state) final {
+        startTime_ = state.t;
+        q0_ = q1_ = View(state.x.data(), d());
+        p0_ = p1_ = View(state.x.data() + d(), d());
+        report_ = StepReport{};
+        report_.step = clock_.step;
+        endTime_ = clock_.at(state.node + 1);
+        step(state.t);
+        if (report_.outcome == Outcome::converged && !(q1_.allFinite() && p1_.allFinite()))
+            report_.outcome = Outcome::notFinite;
+        if (report_.outcome != Outcome::converged) return report_;
+        View(state.x.data(), d()) = q1_;
+        View(state.x.data() + d(), d()) = p1_;
+        ++state.node;
+        state.t = endTime_;
+        return report_;
+    }
+
+protected:
+    int d() const { return mechanics_.dimension; }
+    double h() const { return clock_.step; }
+
+    /// Moves q1_, p1_ (which start at the present state) by one step, and fills report_.
+    virtual void step(double t) = 0;
+
+    /// Hamilton's vector field; sets the outcome where the Legendre transform fails.
+    void flow(double t, const Vector& q, const Vector& p, Vector& dq, Vector& dp) {
+        ++report_.evaluations;
+        if (!call(t, q, p, dq, dp)) report_.outcome = Outcome::singular;
+    }
+
+    Mechanics<double> mechanics_;
+    Clock clock_;
+    Vector q0_, p0_, q1_, p1_;
+    double startTime_ = 0, endTime_ = 0;
+    StepReport report_;
+
+private:
+    bool call(double t, const Vector& q, const Vector& p, Vector& dq, Vector& dp) const {
+        return mechanics_.flow(mechanics_.model.get(), t, q.data(), p.data(), dq.data(), dp.data());
+    }
+};
+
+/// Makes Method<D> for the system's dimension.
+template <template <int> class Method, class... Arguments>
+std::unique_ptr<Integrator> makeFlowMethod(const Mechanics<double>& mechanics, const Arguments&... arguments) {
+    return withDimension(mechanics.dimension, [&](auto d) -> std::unique_ptr<Integrator> {
+        return std::make_unique<Method<decltype(d)::value>>(mechanics, arguments...);
+    });
+}
+
+}  // namespace extremal

@@ -1,0 +1,100 @@
+#include "engine/baseline/partitioned.hpp"
+
+#include <limits>
+
+#include "engine/baseline/flow_method.hpp"
+
+namespace extremal {
+namespace {
+
+template <int D>
+class Partitioned final : public FlowMethod<D> {
+    using Base = FlowMethod<D>;
+    using Vector = typename Base::Vector;
+
+public:
+    Partitioned(const Mechanics<double>& mechanics, const Clock& clock, const std::vector<PartitionedStage>& stages)
+        : Base(mechanics, clock), stages_(stages) {
+        for (Vector* v : {&dq_, &dp_, &start_, &change_, &force_, &forceAt_, &inverseMass_})
+            *v = Vector::Zero(this->d());
+        forceAt_.setConstant(std::numeric_limits<double>::quiet_NaN());
+        if (mechanics.isSeparable)
+            inverseMass_ = Eigen::Map<const Vector>(mechanics.masses, this->d()).cwiseInverse();
+    }
+
+private:
+    void step(double t) override {
+        double tq = t, tp = t;  // kicks and drifts each move their own clock: q and p are known at different times
+        for (const PartitionedStage& stage : stages_) {
+            const double s = stage.fraction * this->h();
+            const bool isKick = stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit;
+            if (this->mechanics_.isSeparable)
+                separable(isKick, tq, s);
+            else if (stage.map == HalfMap::kickExplicit || stage.map == HalfMap::driftExplicit)
+                explicitMap(isKick, isKick ? tq : tp, s);
+            else
+                implicitMap(isKick, isKick ? tq : tp, s);
+            (isKick ? tp : tq) += s;
+            if (this->report_.outcome != Outcome::converged) return;
+        }
+    }
+    void separable(bool isKick, double t, double s) {
+        if (isKick) {
+            const auto& m = this->mechanics_;
+            // The last kick of a step and the first of the next one use the same force.
+            if (m.isTimeDependent || forceAt_ != this->q1_) {
+                m.force(m.model.get(), t, this->q1_.data(), force_.data());
+                forceAt_ = this->q1_;
+                ++this->report_.evaluations;
+            }
+            this->p1_ += s * force_;
+        } else {
+            this->q1_ += s * inverseMass_.cwiseProduct(this->p1_);
+        }
+    }
+    void explicitMap(bool isKick, double t, double s) {
+        this->flow(t, this->q1_, this->p1_, dq_, dp_);
+        if (isKick)
+            this->p1_ += s * dp_;
+        else
+            this->q1_ += s * dq_;
+    }
+    void implicitMap(bool isKick, double t, double s) {
+        Vector& x = isKick ? this->p1_ : this->q1_;
+        start_ = x;
+        double last = std::numeric_limits<double>::infinity();
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        for (int iteration = 0; iteration < 200; ++iteration) {
+            if (this->stop().stop_requested()) {
+                this->report_.outcome = Outcome::stopped;
+                return;
+            }
+            this->flow(t, this->q1_, this->p1_, dq_, dp_);
+            if (this->report_.outcome != Outcome::converged) return;
+            ++this->report_.iterations;
+            change_ = start_ + s * (isKick ? dp_ : dq_) - x;
+            x += change_;
+            const double size = change_.cwiseAbs().maxCoeff(), scale = x.cwiseAbs().maxCoeff();
+            this->report_.residual = scale > 0 ? size / scale : size;
+            if (!(size < std::numeric_limits<double>::infinity())) {
+                this->report_.outcome = Outcome::notFinite;
+                return;
+            }
+            if (size <= epsilon * scale || (size < 100 * epsilon * scale && size >= last)) return;
+            last = size;
+        }
+        this->report_.outcome = Outcome::diverged;
+    }
+
+    std::vector<PartitionedStage> stages_;
+    Vector dq_, dp_, start_, change_, force_, forceAt_, inverseMass_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, const Clock& clock,
+                                            const std::vector<PartitionedStage>& stages) {
+    return makeFlowMethod<Partitioned>(mechanics, clock, stages);
+}
+
+}  // namespace extremal

@@ -1,0 +1,61 @@
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "engine/action/table.hpp"
+#include "engine/core/dimension.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/scheme.hpp"
+
+namespace extremal {
+namespace {
+
+/// The step of a pair as an Integrator.
+template <int D>
+class Galerkin final : public Integrator {
+public:
+    Galerkin(const Mechanics<double>& mechanics, Table<double> table, const Clock& clock, SolverPolicy policy)
+        : clock_(clock), d_(mechanics.dimension), step_(mechanics, std::move(table), clock.step, policy) {}
+
+    StepReport advance(State& state) override {
+        const StepReport report = step_.advance(state.t, state.x.data(), state.x.data() + d_, stop());
+        if (report.outcome == Outcome::converged) state.t = clock_.at(++state.node);
+        return report;
+    }
+    void curve(double tau, std::span<double> x) const override {
+        step_.curve(tau, x.data(), x.data() + d_);
+    }
+
+private:
+    Clock clock_;
+    int d_;
+    GalerkinStep<double, D> step_;
+};
+
+SolverPolicy solverPolicy(const Settings& solver, const System& system) {
+    SolverPolicy policy;
+    if (solver.type == "newton") policy.method = SolverMethod::newton;
+    if (solver.type == "fixed-point") {
+        policy.method = SolverMethod::fixedPoint;
+        if (!system.mechanics.isSeparable)
+            throw InvalidScene("/solver/method",
+                               "fixed-point iteration needs a separable Lagrangian, and that of " + system.id + " is not",
+                               "use newton or auto");
+    }
+    policy.tolerance = solver.number("tolerance");
+    if (const int n = solver.integer("max_iterations"); n > 0) policy.maxIterations = n;
+    return policy;
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+    Table<double> table = makeTable(makeSpace<double>(pair.space), makeRule<double>(pair.quadrature));
+    const SolverPolicy policy = solverPolicy(pair.solver, system);
+    return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
+        return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(table), clock, policy);
+    });
+}
+
+}  // namespace extremal

@@ -1,0 +1,198 @@
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <numbers>
+#include <utility>
+
+#include "engine/action/table.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/integrator/scheme.hpp"
+
+namespace extremal {
+namespace {
+
+/// Half the trace of the step's map on L = (v^2 - z^2 q^2)/2 with h = 1: stable where its size is at most 1.
+double halfTrace(const Table<double>& t, double z) {
+    const int m = t.unknowns();
+    const Eigen::MatrixXd weighted = t.weight.asDiagonal() * t.testValue;
+    const Eigen::MatrixXd stiffness = t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative;
+    const Eigen::MatrixXd A = stiffness - z * z * weighted.transpose() * t.value;
+    // Right-hand sides for (q_0, p_0) = (1, 0) and (0, 1).
+    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(m, 2);
+    rhs.col(0) = z * z * weighted.colwise().sum().transpose();
+    rhs(m - 1, 1) = -1;
+    const Eigen::MatrixXd Y = A.partialPivLu().solve(rhs);
+    const double q = 1 + Y(m - 1, 0);
+    const double p = 1 - z * z * t.weight.dot(t.value * Y.col(1));
+    return (q + p) / 2;
+}
+
+/// First z at which the step's map on the oscillator has an eigenvalue outside the unit circle.
+double firstInstability(const Table<double>& table) {
+    constexpr double slack = 1e-9, end = 60;
+    auto isUnstable = [&](double z) { return !(std::abs(halfTrace(table, z)) <= 1 + slack * (1 + z * z)); };
+    double low = 0;
+    for (double z = 0.01; z < end; z += z < 12 ? 0.004 : 0.02) {
+        if (!isUnstable(z)) {
+            low = z;
+            continue;
+        }
+        double high = z;
+        if (low == 0) return 0;
+        for (int i = 0; i < 50; ++i) {
+            const double middle = (low + high) / 2;
+            (isUnstable(middle) ? high : low) = middle;
+        }
+        return low;
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+std::string ordinal(const char* prefix, int order) { return prefix + std::to_string(order); }
+
+/// Name by which the field knows the pair; degree s, rule with n nodes.
+void nameOf(const Settings& space, const Settings& rule, int n, PairProperties& p) {
+    const int s = space.integer("degree");
+    const bool isTrapezoid = (rule.type == "trapezoid" && n == 2) || (rule.type == "lobatto" && n == 2) ||
+                             (rule.type == "clenshaw-curtis" && n == 2);
+    const bool isMidpoint = n == 1 && rule.type != "radau";
+    p.isExplicit = s == 1 && (isTrapezoid || (rule.type == "radau" && n == 1));
+    if (s == 1 && isMidpoint) {
+        p.knownAs = "implicit midpoint";
+        p.shortName = "mid";
+    } else if (s == 1 && isTrapezoid) {
+        p.knownAs = "Störmer-Verlet";
+        p.shortName = "SV";
+    } else if (s == 1 && rule.type == "radau" && n == 1) {
+        p.knownAs = "symplectic Euler";
+        p.shortName = "SE";
+    } else if (rule.type == "gauss" && n == s) {
+        p.knownAs = "Gauss collocation";
+        p.shortName = ordinal("G", p.claims.order);
+    } else if (rule.type == "lobatto" && n == s + 1) {
+        p.knownAs = "Lobatto IIIA-IIIB";
+        p.shortName = ordinal("L", p.claims.order);
+    } else if (rule.type == "clenshaw-curtis") {
+        p.knownAs = "spectral variational";
+        p.shortName = ordinal("CC", p.claims.order);
+    } else {
+        p.shortName = ordinal(rule.type == "radau" ? "R" : "VI", p.claims.order);
+    }
+}
+
+PairProperties makeDescription(const Settings& space, const Settings& quadrature) {
+    PairProperties p;
+    const Rule<double> rule = makeRule<double>(quadrature);
+    p.claims.order = std::min(2 * space.integer("degree"), rule.degree + 1);
+    p.claims.isSymmetric = rule.isSymmetric;
+    p.claims.isSymplectic = true;
+    p.claims.conserves = {"momentum"};
+    nameOf(space, quadrature, rule.size(), p);
+    if (p.knownAs == "Gauss collocation" || p.knownAs == "implicit midpoint")
+        p.claims.conserves.push_back("quadratic invariants");
+    try {
+        p.stabilityLimit = firstInstability(makeTable(makeSpace<double>(space), rule));
+    } catch (const InvalidScene& e) {
+        p.refusal = e.problems().front().message;
+        p.hint = e.problems().front().hint;
+    }
+    return p;
+}
+
+/// A key for the memory: everything the description depends on.
+std::string keyOf(const Settings& s) {
+    std::string key = s.type;
+    for (const auto& [name, value] : s.keys) {
+        key += '|' + name + '=';
+        if (value.isNumber()) key += std::to_string(value.asNumber());
+        if (value.isString()) key += value.asString();
+    }
+    return key;
+}
+
+}  // namespace
+
+PairProperties describe(const Settings& space, const Settings& quadrature) {
+    static std::mutex mutex;
+    static std::map<std::string, PairProperties> known;
+    const std::string key = keyOf(space) + "||" + keyOf(quadrature);
+    {
+        const std::lock_guard lock(mutex);
+        if (const auto found = known.find(key); found != known.end()) return found->second;
+    }
+    PairProperties p = makeDescription(space, quadrature);
+    const std::lock_guard lock(mutex);
+    return known.emplace(key, std::move(p)).first->second;
+}
+
+Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
+    Settings q = quadrature;
+    const double degree = space.number("degree");
+    auto set = [&](const char* key, Value value) {
+        for (auto& m : q.keys)
+            if (m.first == key) {
+                if (m.second.isNull()) m.second = std::move(value);
+                return;
+            }
+        q.keys.emplace_back(key, std::move(value));
+    };
+    if (q.type.empty() || q.type == "auto") {
+        q = Settings{};
+        q.type = "gauss";
+    }
+    if (q.type == "gauss" || q.type == "radau") set("nodes", degree);
+    if (q.type == "lobatto" || q.type == "clenshaw-curtis") set("nodes", degree + 1);
+    if (q.type == "radau") set("end", "right");
+    if (q.type == "midpoint" || q.type == "trapezoid") set("panels", 1.0);
+    return q;
+}
+
+std::optional<Discretization> namedScheme(std::string_view id) {
+    for (const SchemeEntry& e : schemeCatalog()) {
+        if (e.maxDegree == 0) {
+            if (e.item.id == id) return e.make(0);
+            continue;
+        }
+        const std::string_view family = std::string_view(e.item.id).substr(0, e.item.id.find('<'));
+        if (!id.starts_with(family) || id.size() == family.size() || id.size() > family.size() + 2) continue;
+        int degree = 0;
+        for (const char c : id.substr(family.size())) {
+            if (c < '0' || c > '9' || (degree == 0 && c == '0')) {
+                degree = -1;
+                break;
+            }
+            degree = 10 * degree + (c - '0');
+        }
+        if (degree >= e.minDegree && degree <= e.maxDegree) return e.make(degree);
+    }
+    return std::nullopt;
+}
+
+double highestFrequency(const System& system, const State& state) {
+    const int d = system.dimension();
+    const auto& m = system.mechanics;
+    Eigen::VectorXd v(d), gradient(2 * d);
+    Eigen::MatrixXd H(2 * d, 2 * d);
+    const double* q = state.x.data();
+    double value = 0;
+    if (!m.velocity(m.model.get(), state.t, q, q + d, v.data())) return 0;
+    m.jet(m.model.get(), state.t, q, v.data(), &value, gradient.data(), H.data());
+    if (!H.allFinite()) return 0;
+    // Largest growth rate of the linearised flow by power iteration on (M^{-1} K)^2, K = -L_qq: enough for a warning.
+    const Eigen::MatrixXd A = H.bottomRightCorner(d, d).partialPivLu().solve(-H.topLeftCorner(d, d));
+    Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(d, 1, 1.5);
+    double eigenvalue = 0;
+    for (int i = 0; i < 500 && x.norm() > 0; ++i) {
+        x.normalize();
+        const Eigen::VectorXd y = A * x;
+        eigenvalue = x.dot(y);
+        x = y + 1e-3 * y.norm() * x;  // a small shift breaks ties between eigenvalues of opposite sign
+    }
+    return eigenvalue > 0 && std::isfinite(eigenvalue) ? std::sqrt(eigenvalue) : 0;
+}
+
+}  // namespace extremal

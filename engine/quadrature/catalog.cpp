@@ -1,0 +1,53 @@
+#include "engine/quadrature/catalog.hpp"
+
+namespace extremal {
+namespace {
+
+FieldInfo count(std::string key, std::string title, double min, Value fallback, std::string description) {
+    FieldInfo f;
+    f.key = f.symbol = std::move(key);
+    f.title = std::move(title);
+    f.type = FieldType::integer;
+    f.fallback = std::move(fallback);
+    f.min = min;
+    f.max = 1000;
+    f.description = std::move(description);
+    return f;
+}
+
+FieldInfo side() {
+    FieldInfo f;
+    f.key = "end";
+    f.title = "end that is a node";
+    f.type = FieldType::choice;
+    f.fallback = "right";
+    f.choices = {"right", "left"};
+    f.description = "Which end of the step is a node.";
+    return f;
+}
+
+}  // namespace
+
+const std::vector<CatalogItem>& quadratureCatalog() {
+    const std::string default0 = "Number of nodes; default: the degree of the space.";
+    const std::string default1 = "Number of nodes; default: the degree of the space plus one.";
+    static const std::vector<CatalogItem> all = {
+        {"gauss", "Gauss", "Gauss-Legendre: n nodes inside the step, exact to degree 2n - 1.",
+         {count("nodes", "nodes", 1, nullptr, default0)}, {}, ""},
+        {"lobatto", "Lobatto", "Gauss-Lobatto: both ends are nodes, exact to degree 2n - 3.",
+         {count("nodes", "nodes", 2, nullptr, default1)}, {}, ""},
+        {"radau", "Radau", "Gauss-Radau: one end is a node, exact to degree 2n - 2; not symmetric.",
+         {count("nodes", "nodes", 1, nullptr, default0), side()}, {}, ""},
+        {"clenshaw-curtis", "Clenshaw-Curtis",
+         "Chebyshev extrema: both ends are nodes, exact to degree n - 1 (n for odd n).",
+         {count("nodes", "nodes", 2, nullptr, default1)}, {}, ""},
+        {"midpoint", "midpoint", "The middle of the step, or of each of several equal panels.",
+         {count("panels", "panels", 1, 1.0, "Number of equal panels.")}, {}, ""},
+        {"trapezoid", "trapezoid", "The two ends of the step, or of each of several equal panels.",
+         {count("panels", "panels", 1, 1.0, "Number of equal panels.")}, {}, ""},
+        {"auto", "automatic", "Chosen for the space: Gauss with as many nodes as the degree.", {}, {}, ""},
+    };
+    return all;
+}
+
+}  // namespace extremal

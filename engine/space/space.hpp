@@ -1,0 +1,27 @@
+/// A finite-dimensional function space on one step, tau in [0, 1]: the span of basis functions phi_a, a = 0..size-1.
+///
+/// The unknown curve is q(tau) = sum_a z_a phi_a(tau), one coefficient vector z_a in R^d per basis function.
+/// A space is data: a size and a function that evaluates the basis anywhere (also outside [0, 1]: the continuation
+/// of a curve beyond its step is the starting guess of the next one).
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "engine/core/settings.hpp"
+
+namespace extremal {
+
+template <class T>
+struct Space {
+    int size = 0;    ///< number of basis functions
+    int degree = 0;  ///< highest degree of polynomials contained
+    /// Fills value[a] = phi_a(tau) and derivative[a] = phi_a'(tau) (derivative by tau, not by t).
+    std::function<void(const T& tau, std::span<T> value, std::span<T> derivative)> evaluate;
+};
+
+/// The space that a scene's "space" names; its keys are checked and complete.
+template <class T>
+Space<T> makeSpace(const Settings& space);
+
+}  // namespace extremal
