@@ -1,0 +1,56 @@
+/// One picture of the stage as data: what to draw at a time t, in model coordinates, with colours.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/drawing.hpp"
+#include "ui/stage/camera.hpp"
+
+namespace extremal {
+
+struct Rgb {
+    float r = 0, g = 0, b = 0;  ///< 0..1, as on screen
+    bool operator==(const Rgb&) const = default;
+};
+/// From 0xRRGGBB.
+constexpr Rgb rgb(unsigned hex) {
+    return {static_cast<float>((hex >> 16) & 255u) / 255.f, static_cast<float>((hex >> 8) & 255u) / 255.f,
+            static_cast<float>(hex & 255u) / 255.f};
+}
+
+/// The colours of the stage, made from the theme.
+struct StageStyle {
+    Rgb background, scenery, grid;
+    std::vector<Rgb> series;  ///< by SchemeResult::style, repeating
+    bool hasGrid = false;
+    bool operator==(const StageStyle&) const = default;
+};
+
+/// A point of a trail. A point that is not joined starts a new piece; a piece of one point is drawn as a dot:
+/// that is how rows too far apart for a curve are shown.
+struct TrailPoint {
+    Point r;
+    double age = 0;  ///< 0 now .. 1 about to vanish
+    bool isJoined = true;
+};
+
+/// One scheme.
+struct StageLayer {
+    std::string label;
+    Rgb colour;
+    std::vector<Shape> shapes;      ///< of role body
+    std::vector<TrailPoint> trail;  ///< oldest first
+    bool hasEnded = false;          ///< the scheme failed before t: its last state, drawn faintly
+};
+
+struct StageFrame {
+    double t = 0;
+    StageStyle style;
+    Bounds bounds;                    ///< over the whole run, so that the picture does not jump
+    std::vector<Shape> scenery;
+    std::vector<StageLayer> layers;   ///< in the order of the scene
+    std::vector<std::string> notes;   ///< failures before t: "Stormer-Verlet diverged at t = 0.31"
+};
+
+}  // namespace extremal

@@ -1,0 +1,306 @@
+#include "ui/stage/stage_player.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace extremal {
+namespace {
+
+constexpr std::size_t maxTrailRows = 400;  // per scheme and picture
+constexpr std::size_t maxBoundsRows = 500;  // per scheme
+
+double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+bool isFinite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+/// The points that make up the extent of one shape.
+void addExtent(const Shape& shape, std::vector<Point>& points) {
+    if (const auto* segment = std::get_if<Segment>(&shape)) points.insert(points.end(), {segment->a, segment->b});
+    if (const auto* spring = std::get_if<Spring>(&shape)) points.insert(points.end(), {spring->a, spring->b});
+    if (const auto* disc = std::get_if<Disc>(&shape)) points.push_back(disc->centre);
+    if (const auto* support = std::get_if<Support>(&shape)) {
+        Point left = support->centre, right = support->centre;
+        left[0] -= support->width / 2;
+        right[0] += support->width / 2;
+        points.insert(points.end(), {left, right});
+    }
+}
+
+bool isScenery(const Shape& shape) {
+    if (const auto* segment = std::get_if<Segment>(&shape)) return segment->role == ShapeRole::scenery;
+    if (const auto* spring = std::get_if<Spring>(&shape)) return spring->role == ShapeRole::scenery;
+    if (const auto* disc = std::get_if<Disc>(&shape)) return disc->role == ShapeRole::scenery;
+    return true;
+}
+
+/// The box of the points without those far beyond the rest: more than 6 times the median distance from the
+/// component-wise median. An ellipse of eccentricity 0.99 stays whole, the tail of a blow-up goes.
+Bounds robustBounds(const std::vector<Point>& points) {
+    Bounds bounds;
+    if (points.empty()) return bounds;
+    const auto median = [](std::vector<double>& v) {
+        std::nth_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2), v.end());
+        return v[v.size() / 2];
+    };
+    Point middle{};
+    std::vector<double> values(points.size());
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::transform(points.begin(), points.end(), values.begin(), [i](const Point& p) { return p[i]; });
+        middle[i] = median(values);
+    }
+    std::transform(points.begin(), points.end(), values.begin(), [&](const Point& p) { return distance(p, middle); });
+    const double reach = 6 * median(values);
+    for (const Point& p : points)
+        if (reach == 0 || distance(p, middle) <= reach) bounds.add(p);
+    return bounds;
+}
+
+std::string shortNumber(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
+    return {text, end};
+}
+
+}  // namespace
+
+StagePlayer::StagePlayer(std::shared_ptr<const Comparison> comparison) : comparison_(std::move(comparison)) {
+    if (!comparison_) return;
+    const Settings& model = comparison_->scene.model;
+    if (const ModelEntry* entry = findModel(model.type)) system_ = entry->make(model);
+    prepare();
+}
+
+StagePlayer::StagePlayer(std::shared_ptr<const Comparison> comparison, System system)
+    : comparison_(std::move(comparison)), system_(std::move(system)) {
+    if (comparison_) prepare();
+}
+
+void StagePlayer::prepare() {
+    if (!system_.draw) return;
+    for (const auto& result : comparison_->schemes) addTrack(result);
+    if (tracks_.empty()) return;
+
+    // Schemes that failed, or that reach far beyond the others, do not set the scale of the picture.
+    std::vector<Bounds> all;
+    for (const Track& track : tracks_)
+        if (!track.hasFailed) all.push_back(findBounds(track));
+    if (all.empty())
+        for (const Track& track : tracks_) all.push_back(findBounds(track));
+    std::vector<double> sizes;
+    for (const Bounds& b : all) sizes.push_back(b.diagonal());
+    std::sort(sizes.begin(), sizes.end());
+    const double typical = sizes[(sizes.size() - 1) / 2];
+    for (const Bounds& b : all)
+        if (b.diagonal() <= 2.5 * typical) bounds_.add(b);
+    trailSpan_ = findTrailSpan();
+}
+
+void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
+    if (!result) return;
+    const auto& columns = result->trajectory.columns;
+    const std::size_t width = 2 * system_.coordinates.size();
+    if (columns.size() < 1 + width) return;
+    std::size_t rows = result->trajectory.rows();
+    for (std::size_t c = 0; c <= width; ++c) {
+        const auto& values = columns[c].values;
+        const auto bad = std::find_if(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows),
+                                      [](double v) { return !std::isfinite(v); });
+        rows = static_cast<std::size_t>(bad - values.begin());
+    }
+    if (rows == 0) return;
+    Track track;
+    track.result = result;
+    track.t = std::span(columns[0].values).first(rows);
+    for (std::size_t c = 1; c <= width; ++c) track.state.push_back(std::span(columns[c].values).first(rows));
+    track.hasFailed = result->summary.status == RunStatus::failed || rows < result->trajectory.rows();
+    tracks_.push_back(std::move(track));
+}
+
+void StagePlayer::rowState(const Track& track, std::size_t row, std::vector<double>& x) const {
+    x.resize(track.state.size());
+    for (std::size_t c = 0; c < x.size(); ++c) x[c] = track.state[c][row];
+}
+
+Point StagePlayer::tracer(const std::vector<double>& x) const {
+    Drawing drawing;
+    system_.draw(x.data(), drawing);
+    return drawing.tracer;
+}
+
+Bounds StagePlayer::findBounds(const Track& track) const {
+    const std::size_t stride = (track.t.size() + maxBoundsRows - 1) / maxBoundsRows;
+    std::vector<Point> points;
+    std::vector<double> x;
+    Drawing drawing;
+    for (std::size_t row = 0; row < track.t.size(); row += stride) {
+        rowState(track, row, x);
+        drawing.clear();
+        system_.draw(x.data(), drawing);
+        for (const Shape& shape : drawing.shapes) addExtent(shape, points);
+        points.push_back(drawing.tracer);
+    }
+    std::erase_if(points, [](const Point& p) { return !isFinite(p); });
+    return robustBounds(points);
+}
+
+/// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed, covers the size
+/// of the picture; two digits.
+double StagePlayer::findTrailSpan() const {
+    const auto healthy = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& k) { return !k.hasFailed; });
+    const Track& track = healthy != tracks_.end() ? *healthy : tracks_.front();
+    const std::size_t stride = (track.t.size() + maxBoundsRows - 1) / maxBoundsRows;
+    double length = 0, time = 0;
+    Point previous{};
+    std::vector<double> x;
+    for (std::size_t row = 0; row < track.t.size(); row += stride) {
+        rowState(track, row, x);
+        const Point p = tracer(x);
+        if (row > 0) length += distance(previous, p);
+        time = track.t[row] - track.t[0];
+        previous = p;
+    }
+    const double whole = end() - start();
+    if (!(length > 0) || !std::isfinite(length)) return whole;
+    const double span = bounds_.diagonal() * time / length;
+    const double digits = std::pow(10, std::floor(std::log10(span)) - 1);
+    return std::min(std::round(span / digits) * digits, whole);
+}
+
+double StagePlayer::start() const { return tracks_.empty() ? 0 : tracks_.front().t.front(); }
+
+double StagePlayer::end() const {
+    double last = start();
+    for (const Track& track : tracks_) last = std::max(last, track.t.back());
+    return last;
+}
+
+double StagePlayer::nearestRow(double t) const {
+    double best = start();
+    for (const Track& track : tracks_) {
+        const auto after = std::lower_bound(track.t.begin(), track.t.end(), t);
+        double row = after == track.t.end() ? track.t.back() : *after;
+        if (after != track.t.begin() && after != track.t.end() && t - *(after - 1) <= row - t) row = *(after - 1);
+        if (after != track.t.end()) return row;
+        if (row > best) best = row;
+    }
+    return best;
+}
+
+/// The cubic Hermite interpolant between row and row + 1. False if the slopes are not to be had.
+bool StagePlayer::stateBetween(const Track& track, std::size_t row, double t, std::vector<double>& x) const {
+    const std::size_t d = system_.coordinates.size();
+    const double h = track.t[row + 1] - track.t[row], s = h > 0 ? (t - track.t[row]) / h : 0;
+    std::vector<double> x0, x1, v0(2 * d), v1(2 * d);
+    rowState(track, row, x0);
+    rowState(track, row + 1, x1);
+    const Mechanics<double>& m = system_.mechanics;
+    if (!m.flow || !m.flow(m.model.get(), track.t[row], x0.data(), x0.data() + d, v0.data(), v0.data() + d) ||
+        !m.flow(m.model.get(), track.t[row + 1], x1.data(), x1.data() + d, v1.data(), v1.data() + d))
+        return false;
+    x.resize(2 * d);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        x[i] = (1 + 2 * s) * (1 - s) * (1 - s) * x0[i] + s * (1 - s) * (1 - s) * h * v0[i] +
+               s * s * (3 - 2 * s) * x1[i] + s * s * (s - 1) * h * v1[i];
+    return std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
+}
+
+/// Whether the curve between row and row + 1 is known: its middle must lie near the chord, within a fifth of its
+/// length (a quarter of a circle) or half a percent of the picture. `bend` is that distance.
+bool StagePlayer::isResolved(const Track& track, std::size_t row, double& bend) const {
+    std::vector<double> x;
+    bend = 0;
+    if (!stateBetween(track, row, (track.t[row] + track.t[row + 1]) / 2, x)) return false;
+    const Point middle = tracer(x);
+    rowState(track, row, x);
+    const Point a = tracer(x);
+    rowState(track, row + 1, x);
+    const Point b = tracer(x);
+    bend = distance(middle, {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
+    return bend <= 0.2 * distance(a, b) + 0.005 * bounds_.diagonal();
+}
+
+void StagePlayer::stateAt(const Track& track, double t, std::vector<double>& x) const {
+    const auto after = std::upper_bound(track.t.begin(), track.t.end(), t);
+    if (after == track.t.begin()) return rowState(track, 0, x);
+    const auto row = static_cast<std::size_t>(after - track.t.begin()) - 1;
+    if (after == track.t.end() || track.t[row] == t) return rowState(track, row, x);
+    double bend = 0;
+    if (isResolved(track, row, bend) && stateBetween(track, row, t, x)) return;
+    rowState(track, t - track.t[row] <= track.t[row + 1] - t ? row : row + 1, x);
+}
+
+std::vector<TrailPoint> StagePlayer::trail(const Track& track, double t) const {
+    std::vector<TrailPoint> points;
+    const double now = std::min(t, track.t.back());
+    if (!(trailSpan_ > 0) || now < track.t.front()) return points;
+    const auto index = [&](auto it) { return static_cast<std::size_t>(it - track.t.begin()); };
+    const std::size_t first = index(std::lower_bound(track.t.begin(), track.t.end(), now - trailSpan_));
+    const std::size_t last = index(std::upper_bound(track.t.begin(), track.t.end(), now));  // one past
+    const std::size_t stride = first < last ? (last - first + maxTrailRows - 1) / maxTrailRows : 1;
+    const auto add = [&](const std::vector<double>& x, double time, bool isJoined) {
+        const Point p = tracer(x);
+        if (isFinite(p)) points.push_back({p, (now - time) / trailSpan_, isJoined && !points.empty()});
+    };
+    std::vector<double> x;
+    const double smooth = 0.0008 * bounds_.diagonal();
+    // From the row, along its interval while it is resolved, to the next.
+    const auto follow = [&](std::size_t row, double until) {
+        double bend = 0;
+        if (row + 1 >= track.t.size() || !isResolved(track, row, bend)) return false;
+        const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / smooth))), 1, 12);
+        const double h = (track.t[row + 1] - track.t[row]) / pieces;
+        for (int k = 1; k <= pieces && track.t[row] + k * h < until; ++k)
+            if (k < pieces && stateBetween(track, row, track.t[row] + k * h, x)) add(x, track.t[row] + k * h, true);
+        return true;
+    };
+    bool isJoined = false;
+    for (std::size_t row = first; row < last; row += stride) {
+        rowState(track, row, x);
+        add(x, track.t[row], isJoined);
+        isJoined = stride > 1 || follow(row, now);
+    }
+    if (isJoined && track.t[last - 1] < now) {
+        stateAt(track, now, x);
+        add(x, now, true);
+    }
+    return points;
+}
+
+StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
+    StageFrame frame;
+    frame.t = t;
+    frame.style = style;
+    frame.bounds = bounds_;
+    std::vector<double> x;
+    Drawing drawing;
+    for (const Track& track : tracks_) {
+        StageLayer layer;
+        layer.label = track.result->summary.label.empty() ? track.result->spec.label : track.result->summary.label;
+        if (!style.series.empty())
+            layer.colour = style.series[static_cast<std::size_t>(std::max(track.result->style, 0)) % style.series.size()];
+        const double tolerance = 1e-9 * (1 + std::abs(t));
+        layer.hasEnded = track.hasFailed && t > track.t.back() + tolerance;
+        if (layer.hasEnded)
+            frame.notes.push_back(layer.label + " " + std::string(name(track.result->summary.cause)) + " at t = " +
+                                  shortNumber(std::isfinite(track.result->summary.failedAt)
+                                                  ? track.result->summary.failedAt
+                                                  : track.t.back()) +
+                                  (system_.timeUnit.empty() ? "" : " " + system_.timeUnit));
+        stateAt(track, t, x);
+        drawing.clear();
+        system_.draw(x.data(), drawing);
+        const bool isFirst = frame.layers.empty();
+        for (const Shape& shape : drawing.shapes) {
+            if (!isScenery(shape))
+                layer.shapes.push_back(shape);
+            else if (isFirst)
+                frame.scenery.push_back(shape);
+        }
+        layer.trail = trail(track, t);
+        frame.layers.push_back(std::move(layer));
+    }
+    return frame;
+}
+
+}  // namespace extremal

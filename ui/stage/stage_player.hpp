@@ -1,0 +1,69 @@
+/// From a comparison and a time to the picture of the stage.
+///
+///     StagePlayer player(comparison);
+///     StageFrame frame = player.frame(6.2, style);
+///
+/// Between two rows a state is interpolated by the cubic through both rows with the slopes of Hamilton's equations,
+/// where the rows are close enough for that; else the nearest row is shown, and the trail is dots at the rows.
+/// Bounds come from the whole run but leave out what flies away: the tail of a blow-up, and schemes whose extent is
+/// far beyond that of the others.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/model/system.hpp"
+#include "engine/run/comparison.hpp"
+#include "ui/stage/stage_frame.hpp"
+
+namespace extremal {
+
+class StagePlayer {
+public:
+    StagePlayer() = default;
+    /// The system is made from the scene's model.
+    explicit StagePlayer(std::shared_ptr<const Comparison> comparison);
+    StagePlayer(std::shared_ptr<const Comparison> comparison, System system);
+
+    /// False if the model has nothing to draw or no scheme has a row yet.
+    bool hasStage() const { return !tracks_.empty(); }
+    const Bounds& bounds() const { return bounds_; }
+    const Comparison* comparison() const { return comparison_.get(); }
+    const std::string& timeUnit() const { return system_.timeUnit; }
+    double start() const;
+    double end() const;   ///< time of the last row of any scheme
+    double trailSpan() const { return trailSpan_; }
+    /// The row time nearest to t of the first scheme that gets there.
+    double nearestRow(double t) const;
+
+    StageFrame frame(double t, const StageStyle& style) const;
+
+private:
+    /// The rows of one scheme that can be drawn: those before the first value that is not finite.
+    struct Track {
+        std::shared_ptr<const SchemeResult> result;
+        std::span<const double> t;
+        std::vector<std::span<const double>> state;  ///< q, then p
+        bool hasFailed = false;
+    };
+
+    void prepare();
+    void addTrack(const std::shared_ptr<const SchemeResult>& result);
+    Bounds findBounds(const Track& track) const;
+    double findTrailSpan() const;
+    void rowState(const Track& track, std::size_t row, std::vector<double>& x) const;
+    bool stateBetween(const Track& track, std::size_t row, double t, std::vector<double>& x) const;
+    bool isResolved(const Track& track, std::size_t row, double& bend) const;
+    Point tracer(const std::vector<double>& x) const;
+    void stateAt(const Track& track, double t, std::vector<double>& x) const;
+    std::vector<TrailPoint> trail(const Track& track, double t) const;
+
+    std::shared_ptr<const Comparison> comparison_;
+    System system_;
+    std::vector<Track> tracks_;
+    Bounds bounds_;
+    double trailSpan_ = 0;
+};
+
+}  // namespace extremal

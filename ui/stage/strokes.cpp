@@ -1,0 +1,220 @@
+#include "ui/stage/strokes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace extremal {
+namespace {
+
+constexpr double farAway = 2e4;         // logical pixels: what lies beyond is not drawn
+constexpr double rodWidth = 2.4;        // of the first scheme; the others are a little thinner
+constexpr double hatchSpacing = 8, hatchLength = 8;
+constexpr double springAmplitude = 6.5, springLead = 10;
+
+/// Collects strokes of one picture; batches are opened and closed around them.
+class Pen {
+public:
+    Pen(const Camera& camera, double pixelRatio) : camera_(camera), axes_(camera.axes()), ratio_(pixelRatio) {}
+
+    void open(bool isUnited, double opacity) {
+        StrokeBatch batch;
+        batch.first = list_.strokes.size();
+        batch.isUnited = isUnited;
+        batch.opacity = static_cast<float>(opacity);
+        list_.batches.push_back(batch);
+    }
+
+    void stroke(const Point& a, const Point& b, double width, const Rgb& colour, double alphaA = 1, double alphaB = 1) {
+        const Point pa = camera_.project(a), pb = camera_.project(b);
+        for (std::size_t i = 0; i < 2; ++i)  // negated: also true for NaN
+            if (!(std::abs(pa[i]) < farAway) || !(std::abs(pb[i]) < farAway)) return;
+        Stroke s{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            s.a[i] = static_cast<float>(a[i] - camera_.centre[i]);
+            s.b[i] = static_cast<float>(b[i] - camera_.centre[i]);
+        }
+        s.halfWidth = static_cast<float>(width / 2 * ratio_);
+        s.colour[0] = colour.r;
+        s.colour[1] = colour.g;
+        s.colour[2] = colour.b;
+        s.alphaA = static_cast<float>(alphaA);
+        s.alphaB = static_cast<float>(alphaB);
+        list_.strokes.push_back(s);
+        grow(pa, width);
+        grow(pb, width);
+    }
+
+    void disc(const Point& centre, double radius, const Rgb& colour) { stroke(centre, centre, 2 * radius, colour); }
+
+    /// The point this many logical pixels right of and above r, as seen.
+    Point shifted(const Point& r, double right, double up) const {
+        Point p = r;
+        for (std::size_t i = 0; i < 3; ++i)
+            p[i] += (axes_[0][i] * right + axes_[1][i] * up) / camera_.pixelsPerUnit;
+        return p;
+    }
+    const Camera& camera() const { return camera_; }
+
+    StrokeList take() {
+        std::erase_if(list_.batches, [](const StrokeBatch& b) { return b.count == 0; });
+        return std::move(list_);
+    }
+
+private:
+    void grow(const Point& p, double width) {
+        StrokeBatch& batch = list_.batches.back();
+        const double reach = (width / 2 + 2) * ratio_;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const auto low = static_cast<float>(p[i] * ratio_ - reach);
+            const auto high = static_cast<float>(p[i] * ratio_ + reach);
+            batch.low[i] = batch.count == 0 ? low : std::min(batch.low[i], low);
+            batch.high[i] = batch.count == 0 ? high : std::max(batch.high[i], high);
+        }
+        batch.count = list_.strokes.size() - batch.first;
+    }
+
+    Camera camera_;
+    std::array<Point, 3> axes_;
+    double ratio_;
+    StrokeList list_;
+};
+
+Point between(const Point& a, const Point& b, double s) {
+    return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
+}
+
+void drawSpring(Pen& pen, const Spring& spring, double width, const Rgb& colour) {
+    const Point pa = pen.camera().project(spring.a), pb = pen.camera().project(spring.b);
+    const double dx = pb[0] - pa[0], dy = pb[1] - pa[1], length = std::hypot(dx, dy);
+    if (!(length > 1e-6) || !(length < farAway)) return;
+    const double lead = std::min(springLead, length / 6);
+    const double amplitude = std::min(springAmplitude, length / 8);
+    const int halves = 2 * std::max(spring.coils, 1);
+    Point previous = between(spring.a, spring.b, lead / length);
+    pen.stroke(spring.a, previous, width, colour);
+    for (int k = 0; k <= halves; ++k) {
+        // Peaks lie in the middle of each half coil; the last point is the foot of the far lead.
+        const double s = k < halves ? (k + 0.5) / halves : 1.0;
+        const double side = k == halves ? 0 : (k % 2 == 0 ? amplitude : -amplitude);
+        const Point foot = between(spring.a, spring.b, (lead + s * (length - 2 * lead)) / length);
+        const Point next = pen.shifted(foot, -dy / length * side, dx / length * side);
+        pen.stroke(previous, next, width, colour);
+        previous = next;
+    }
+    pen.stroke(previous, spring.b, width, colour);
+}
+
+void drawSupport(Pen& pen, const Support& support, const Rgb& colour) {
+    const Point left = {support.centre[0] - support.width / 2, support.centre[1], support.centre[2]};
+    const Point right = {support.centre[0] + support.width / 2, support.centre[1], support.centre[2]};
+    pen.stroke(left, right, 1.8, colour);
+    const Point pl = pen.camera().project(left), pr = pen.camera().project(right);
+    const double length = std::hypot(pr[0] - pl[0], pr[1] - pl[1]);
+    if (!(length < farAway)) return;
+    const int strokes = std::max(2, static_cast<int>(length / hatchSpacing));
+    for (int k = 0; k < strokes; ++k) {
+        const Point foot = between(left, right, k / static_cast<double>(strokes));
+        pen.stroke(foot, pen.shifted(foot, hatchLength, hatchLength), 1.2, colour);
+    }
+}
+
+void drawScenery(Pen& pen, const StageFrame& frame) {
+    pen.open(true, 1);
+    for (const Shape& shape : frame.scenery) {
+        if (const auto* support = std::get_if<Support>(&shape)) drawSupport(pen, *support, frame.style.scenery);
+        if (const auto* segment = std::get_if<Segment>(&shape))
+            pen.stroke(segment->a, segment->b, segment->width, frame.style.scenery);
+        if (const auto* spring = std::get_if<Spring>(&shape)) drawSpring(pen, *spring, 1.6, frame.style.scenery);
+        if (const auto* disc = std::get_if<Disc>(&shape)) pen.disc(disc->centre, disc->radius, frame.style.scenery);
+    }
+}
+
+/// Lines at 1, 2 or 5 times a power of ten, about 90 pixels apart, in the plane of the picture's centre.
+void drawGrid(Pen& pen, const StageFrame& frame, double width, double height) {
+    const double wanted = 90 / pen.camera().pixelsPerUnit;
+    if (!(wanted > 1e-300) || !(wanted < 1e300)) return;
+    const double decade = std::pow(10, std::floor(std::log10(wanted)));
+    const double ratio = wanted / decade;
+    const double step = decade * (ratio < 2 ? 1 : ratio < 5 ? 2 : 5);
+    pen.open(true, 1);
+    const Point& centre = pen.camera().centre;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        const double half = (axis == 0 ? width : height) / 2 / pen.camera().pixelsPerUnit;
+        const double first = std::ceil((centre[axis] - half) / step) * step;
+        for (int k = 0; first + k * step <= centre[axis] + half && k < 1000; ++k) {
+            const double offset = (first + k * step - centre[axis]) * pen.camera().pixelsPerUnit;
+            const Point a = axis == 0 ? pen.shifted(centre, offset, -height / 2) : pen.shifted(centre, -width / 2, offset);
+            const Point b = axis == 0 ? pen.shifted(centre, offset, height / 2) : pen.shifted(centre, width / 2, offset);
+            pen.stroke(a, b, 1, frame.style.grid);
+        }
+    }
+}
+
+double fade(double age) { return std::pow(std::clamp(1 - age, 0.0, 1.0), 1.4); }
+
+void drawTrail(Pen& pen, const StageLayer& layer, double width) {
+    for (std::size_t i = 0; i < layer.trail.size(); ++i) {
+        const TrailPoint& p = layer.trail[i];
+        const bool startsPiece = i == 0 || !p.isJoined;
+        const bool endsPiece = i + 1 == layer.trail.size() || !layer.trail[i + 1].isJoined;
+        if (!startsPiece)
+            pen.stroke(layer.trail[i - 1].r, p.r, width, layer.colour, fade(layer.trail[i - 1].age), fade(p.age));
+        else if (endsPiece)
+            pen.stroke(p.r, p.r, 2.2 * width, layer.colour, fade(p.age), fade(p.age));
+    }
+}
+
+/// Schemes that agree lie on top of each other: the first has the widest rod and the largest disc, each later one
+/// is smaller and drawn above it, so that coinciding schemes show as rings.
+double ringScale(std::size_t index, std::size_t count) {
+    return count <= 1 ? 1 : 1 - 0.6 * static_cast<double>(index) / static_cast<double>(std::max<std::size_t>(count - 1, 2));
+}
+
+void drawBodies(Pen& pen, const StageLayer& layer, double scale) {
+    const double width = rodWidth * (0.4 + 0.6 * scale);
+    for (const Shape& shape : layer.shapes) {
+        if (const auto* segment = std::get_if<Segment>(&shape))
+            pen.stroke(segment->a, segment->b, segment->width / 2 * width, layer.colour);
+        if (const auto* spring = std::get_if<Spring>(&shape)) drawSpring(pen, *spring, 0.75 * width, layer.colour);
+    }
+}
+
+void drawDiscs(Pen& pen, const StageFrame& frame, const StageLayer& layer, double scale, bool isFirst) {
+    // A faint scheme is mixed with the background, so that its outline does not shine through.
+    const double strength = layer.hasEnded ? 0.35 : 1;
+    const auto mix = [&](float c, float back) { return static_cast<float>(strength * c + (1 - strength) * back); };
+    const Rgb& back = frame.style.background;
+    const Rgb colour = {mix(layer.colour.r, back.r), mix(layer.colour.g, back.g), mix(layer.colour.b, back.b)};
+    pen.open(false, 1);
+    for (const Shape& shape : layer.shapes)
+        if (const auto* disc = std::get_if<Disc>(&shape)) {
+            const double radius = disc->radius * (isFirst ? 1.1 : 1.1 * scale);
+            pen.disc(disc->centre, radius + (isFirst ? 1.6 : 0.9), back);
+            pen.disc(disc->centre, radius, colour);
+        }
+}
+
+}  // namespace
+
+StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double width, double height,
+                       double pixelRatio) {
+    Pen pen(camera, pixelRatio);
+    if (frame.style.hasGrid) drawGrid(pen, frame, width, height);
+    drawScenery(pen, frame);
+    const std::size_t count = frame.layers.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const StageLayer& layer = frame.layers[i];
+        pen.open(true, layer.hasEnded ? 0.25 : 0.8);
+        drawTrail(pen, layer, i == 0 ? 2.2 : 1.5);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const StageLayer& layer = frame.layers[i];
+        pen.open(true, layer.hasEnded ? 0.3 : 1);
+        drawBodies(pen, layer, ringScale(i, count));
+    }
+    for (std::size_t i = 0; i < count; ++i)
+        drawDiscs(pen, frame, frame.layers[i], ringScale(i, count), i == 0);
+    return pen.take();
+}
+
+}  // namespace extremal
