@@ -164,18 +164,18 @@ void drawTrail(Pen& pen, const StageLayer& layer, double width) {
     }
 }
 
-/// Schemes that agree lie on top of each other: the first has the widest rod and the largest disc, each later one
-/// is smaller and drawn above it, so that coinciding schemes show as rings.
+/// Schemes that agree lie on top of each other. Their discs get smaller from the first to the last and are drawn in
+/// this order, so that coinciding schemes show as rings.
 double ringScale(std::size_t index, std::size_t count) {
-    return count <= 1 ? 1 : 1 - 0.6 * static_cast<double>(index) / static_cast<double>(std::max<std::size_t>(count - 1, 2));
+    return count <= 1 ? 1 : 1 - 0.62 * static_cast<double>(index) / static_cast<double>(std::max<std::size_t>(count - 1, 2));
 }
 
-void drawBodies(Pen& pen, const StageLayer& layer, double scale) {
-    const double width = rodWidth * (0.4 + 0.6 * scale);
+void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
+    const double width = isFirst ? rodWidth : 0.75 * rodWidth;
     for (const Shape& shape : layer.shapes) {
         if (const auto* segment = std::get_if<Segment>(&shape))
             pen.stroke(segment->a, segment->b, segment->width / 2 * width, layer.colour);
-        if (const auto* spring = std::get_if<Spring>(&shape)) drawSpring(pen, *spring, 0.75 * width, layer.colour);
+        if (const auto* spring = std::get_if<Spring>(&shape)) drawSpring(pen, *spring, 0.8 * width, layer.colour);
     }
 }
 
@@ -188,8 +188,8 @@ void drawDiscs(Pen& pen, const StageFrame& frame, const StageLayer& layer, doubl
     pen.open(false, 1);
     for (const Shape& shape : layer.shapes)
         if (const auto* disc = std::get_if<Disc>(&shape)) {
-            const double radius = disc->radius * (isFirst ? 1.1 : 1.1 * scale);
-            pen.disc(disc->centre, radius + (isFirst ? 1.6 : 0.9), back);
+            const double radius = 1.15 * disc->radius * scale;
+            pen.disc(disc->centre, radius + (isFirst ? 1.6 : 0.6), back);
             pen.disc(disc->centre, radius, colour);
         }
 }
@@ -202,15 +202,16 @@ StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double wid
     if (frame.style.hasGrid) drawGrid(pen, frame, width, height);
     drawScenery(pen, frame);
     const std::size_t count = frame.layers.size();
-    for (std::size_t i = 0; i < count; ++i) {
+    // Rods, springs and trails of the first scheme lie above those of the others, which show where they differ.
+    for (std::size_t i = count; i-- > 0;) {
         const StageLayer& layer = frame.layers[i];
-        pen.open(true, layer.hasEnded ? 0.25 : 0.8);
-        drawTrail(pen, layer, i == 0 ? 2.2 : 1.5);
+        pen.open(true, layer.hasEnded ? 0.25 : i == 0 ? 1 : 0.85);
+        drawTrail(pen, layer, i == 0 ? 2.2 : 1.6);
     }
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = count; i-- > 0;) {
         const StageLayer& layer = frame.layers[i];
         pen.open(true, layer.hasEnded ? 0.3 : 1);
-        drawBodies(pen, layer, ringScale(i, count));
+        drawBodies(pen, layer, i == 0);
     }
     for (std::size_t i = 0; i < count; ++i)
         drawDiscs(pen, frame, frame.layers[i], ringScale(i, count), i == 0);

@@ -1,0 +1,140 @@
+#include "ui/stage/stage_canvas.hpp"
+
+#include <QGuiApplication>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
+#include <QOpenGLWidget>
+#include <QPainter>
+#include <QSurfaceFormat>
+
+#include <cmath>
+
+#include "ui/stage/gl_widget_renderer.hpp"
+#include "ui/stage/stage_picture.hpp"
+
+namespace extremal {
+namespace {
+
+QSurfaceFormat wantedFormat() {
+    QSurfaceFormat format;
+    format.setVersion(3, 3);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    return format;
+}
+
+/// On the graphics card, within the window's own composition.
+class GlCanvas : public QOpenGLWidget {
+public:
+    GlCanvas(QWidget* parent, CanvasSource source) : QOpenGLWidget(parent), source_(std::move(source)) {
+        setFormat(wantedFormat());
+    }
+    ~GlCanvas() override { release(); }
+    GlCanvas(const GlCanvas&) = delete;
+    GlCanvas& operator=(const GlCanvas&) = delete;
+
+protected:
+    void initializeGL() override {
+        // Moving the widget to another window destroys its context, and with it everything made there.
+        connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { release(); });
+        try {
+            renderer_ = std::make_unique<GlWidgetRenderer>(
+                [context = context()](const char* name) { return context->getProcAddress(name); });
+            failure_.clear();
+        } catch (const std::exception& e) {
+            failure_ = QString::fromUtf8(e.what());
+        }
+    }
+    void paintGL() override {
+        const double ratio = devicePixelRatioF();
+        if (renderer_) {
+            try {
+                renderer_->draw(source_.frame(), source_.camera(), defaultFramebufferObject(),
+                                static_cast<int>(std::lround(width() * ratio)),
+                                static_cast<int>(std::lround(height() * ratio)), ratio);
+            } catch (const std::exception& e) {
+                failure_ = QString::fromUtf8(e.what());
+            }
+        }
+        QPainter painter(this);
+        if (failure_.isEmpty())
+            source_.paintOverlay(painter);
+        else
+            source_.paintFailure(painter, failure_);
+    }
+
+private:
+    void release() {
+        if (!renderer_) return;
+        makeCurrent();
+        renderer_.reset();
+        doneCurrent();
+    }
+    CanvasSource source_;
+    std::unique_ptr<GlWidgetRenderer> renderer_;
+    QString failure_;
+};
+
+/// Pictures of an offscreen surface in a plain widget.
+class PictureCanvas : public QWidget {
+public:
+    PictureCanvas(QWidget* parent, CanvasSource source) : QWidget(parent), source_(std::move(source)) {
+        setAttribute(Qt::WA_OpaquePaintEvent);
+    }
+
+protected:
+    void paintEvent(QPaintEvent*) override {
+        QPainter painter(this);
+        const double ratio = devicePixelRatioF();
+        try {
+            const QImage image = drawStage(source_.frame(), source_.camera(), QSizeF(size()), ratio);
+            painter.drawImage(QPointF(0, 0), image);
+            source_.paintOverlay(painter);
+        } catch (const std::exception& e) {
+            source_.paintFailure(painter, QString::fromUtf8(e.what()));
+        }
+    }
+
+private:
+    CanvasSource source_;
+};
+
+bool probe() {
+    const QString platform = QGuiApplication::platformName();
+    if (platform == QLatin1String("offscreen") || platform == QLatin1String("minimal")) return false;
+    QOpenGLContext context;
+    context.setFormat(wantedFormat());
+    if (!context.create()) return false;
+    QOffscreenSurface surface;
+    surface.setFormat(context.format());
+    surface.create();
+    if (!context.makeCurrent(&surface)) return false;
+    const auto version = context.format().version();
+    const auto* name = reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER));
+    const QString renderer = QString::fromLatin1(name ? name : "");
+    context.doneCurrent();
+    const bool isSoftware = renderer.contains(QLatin1String("llvmpipe")) ||
+                            renderer.contains(QLatin1String("softpipe")) ||
+                            renderer.contains(QLatin1String("swrast"), Qt::CaseInsensitive);
+    return version >= std::make_pair(3, 3) && !isSoftware;
+}
+
+}  // namespace
+
+bool hasGraphicsCard() {
+    static const bool isThere = probe();
+    return isThere;
+}
+
+QWidget* makeCanvas(QWidget* parent, CanvasSource source, bool usesGraphicsCard) {
+    QWidget* canvas = nullptr;
+    if (usesGraphicsCard)
+        canvas = new GlCanvas(parent, std::move(source));
+    else
+        canvas = new PictureCanvas(parent, std::move(source));
+    canvas->setAttribute(Qt::WA_TransparentForMouseEvents);
+    canvas->setFocusPolicy(Qt::NoFocus);
+    return canvas;
+}
+
+}  // namespace extremal

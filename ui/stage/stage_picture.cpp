@@ -1,0 +1,18 @@
+#include "ui/stage/stage_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/stage/surface.hpp"
+
+namespace extremal {
+
+QImage drawStage(const StageFrame& frame, const Camera& camera, QSizeF size, double pixelRatio) {
+    // Making a context and its shaders takes a tenth of a second; a context belongs to one thread.
+    thread_local std::unique_ptr<StagePainter> painter;
+    if (!painter) painter = std::make_unique<StagePainter>();
+    const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length * pixelRatio))); };
+    return painter->draw(frame, camera, pixels(size.width()), pixels(size.height()), pixelRatio);
+}
+
+}  // namespace extremal

@@ -1,0 +1,184 @@
+#include "ui/stage/stage_widget.hpp"
+
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <optional>
+
+#include "ui/shell/theme.hpp"
+#include "ui/stage/stage_canvas.hpp"
+#include "ui/stage/stage_overlay.hpp"
+#include "ui/stage/stage_picture.hpp"
+#include "ui/stage/stage_player.hpp"
+
+namespace extremal {
+
+struct StageWidget::Impl {
+    StageWidget* self = nullptr;
+    QWidget* canvas = nullptr;
+    bool usesGraphicsCard = false;
+    Theme theme = Theme::light();
+    StagePlayer player;
+    StageFrame frame;
+    bool isFrameCurrent = false;
+    double t = 0;
+    std::optional<Camera> chosen;  ///< the user's view; empty: everything is shown
+    QPointF dragged;
+    bool isDragging = false;
+    OverlayOptions overlay;
+    bool hasGrid = false;
+
+    Camera camera() const {
+        return chosen ? *chosen : fitCamera(player.bounds(), self->width(), self->height(), stageMargin);
+    }
+    const StageFrame& currentFrame() {
+        if (!isFrameCurrent) {
+            StageStyle style = stageStyle(theme);
+            style.hasGrid = hasGrid;
+            frame = player.frame(t, style);
+            isFrameCurrent = true;
+        }
+        return frame;
+    }
+    void paintWords(QPainter& painter) {
+        const QRectF area(QPointF(0, 0), QSizeF(self->size()));
+        if (player.hasStage())
+            paintOverlay(painter, area, currentFrame(), player, theme, overlay);
+        else
+            paintMessage(painter, player.comparison() && !player.comparison()->schemes.empty()
+                                      ? QStringLiteral("Waiting for the first step")
+                                      : QStringLiteral("Nothing to show yet"));
+    }
+    void paintMessage(QPainter& painter, const QString& text) const {
+        painter.setFont(theme.body());
+        painter.setPen(theme.muted);
+        painter.drawText(QRectF(QPointF(0, 0), QSizeF(self->size())).adjusted(16, 16, -16, -16),
+                         Qt::AlignCenter | Qt::TextWordWrap, text);
+    }
+    void changed() {
+        isFrameCurrent = false;
+        canvas->update();
+    }
+    void choose(const std::optional<Camera>& camera) {
+        const bool wasFitted = !chosen;
+        chosen = camera;
+        canvas->update();
+        if (wasFitted != !chosen) emit self->fittedChanged(!chosen);
+    }
+    /// Zooms so that the model point under this place of the widget stays there.
+    void zoomAt(double factor, QPointF place) {
+        Camera next = camera();
+        const double x = place.x() - self->width() / 2.0, y = self->height() / 2.0 - place.y();
+        const Point under = next.unproject(x, y);
+        const double least = 1e-6 * fitCamera(player.bounds(), self->width(), self->height(), stageMargin).pixelsPerUnit;
+        next.pixelsPerUnit = std::clamp(next.pixelsPerUnit * factor, 1e5 * least, 1e12 * least);
+        const Point moved = next.unproject(x, y);
+        for (std::size_t i = 0; i < 3; ++i) next.centre[i] += under[i] - moved[i];
+        choose(next);
+    }
+};
+
+StageWidget::StageWidget(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
+    impl_->self = this;
+    impl_->usesGraphicsCard = hasGraphicsCard();
+    CanvasSource source;
+    source.frame = [this]() -> const StageFrame& { return impl_->currentFrame(); };
+    source.camera = [this] { return impl_->camera(); };
+    source.paintOverlay = [this](QPainter& painter) { impl_->paintWords(painter); };
+    source.paintFailure = [this](QPainter& painter, const QString& text) {
+        painter.fillRect(QRect(QPoint(0, 0), size()), impl_->theme.panel);
+        impl_->paintMessage(painter, text);
+    };
+    impl_->canvas = makeCanvas(this, std::move(source), impl_->usesGraphicsCard);
+    setAccessibleName(QStringLiteral("Stage"));
+    setAccessibleDescription(stageSummary(impl_->player));
+    setToolTip(QString());
+}
+
+StageWidget::~StageWidget() = default;
+
+void StageWidget::setTheme(const Theme& theme) {
+    impl_->theme = theme;
+    impl_->changed();
+}
+
+void StageWidget::setComparison(std::shared_ptr<const Comparison> comparison) {
+    const Comparison* before = impl_->player.comparison();
+    const bool isOtherModel = !before || !comparison || before->scene.model.type != comparison->scene.model.type;
+    impl_->player = StagePlayer(std::move(comparison));
+    if (isOtherModel && impl_->chosen) fit();
+    setAccessibleDescription(stageSummary(impl_->player));
+    impl_->changed();
+}
+
+void StageWidget::setTime(double t) {
+    if (t == impl_->t) return;
+    impl_->t = t;
+    impl_->changed();
+}
+
+double StageWidget::time() const { return impl_->t; }
+
+void StageWidget::setLegendShown(bool isShown) {
+    impl_->overlay.hasLegend = isShown;
+    impl_->canvas->update();
+}
+
+void StageWidget::setGridShown(bool isShown) {
+    impl_->hasGrid = isShown;
+    impl_->changed();
+}
+
+void StageWidget::fit() { impl_->choose(std::nullopt); }
+void StageWidget::zoom(double factor) { impl_->zoomAt(factor, QRectF(rect()).center()); }
+bool StageWidget::isFitted() const { return !impl_->chosen; }
+bool StageWidget::usesGraphicsCard() const { return impl_->usesGraphicsCard; }
+
+QImage StageWidget::picture(double pixelRatio) {
+    const auto draw = [&] { return drawStage(impl_->currentFrame(), impl_->camera(), QSizeF(size()), pixelRatio); };
+    // A thread has one current context: OSMesa must not take the place of the window's.
+    QImage image = impl_->usesGraphicsCard ? std::async(std::launch::async, draw).get() : draw();
+    QPainter painter(&image);
+    impl_->paintWords(painter);
+    return image;
+}
+
+void StageWidget::resizeEvent(QResizeEvent*) { impl_->canvas->setGeometry(rect()); }
+
+void StageWidget::wheelEvent(QWheelEvent* event) {
+    impl_->zoomAt(std::pow(1.0015, event->angleDelta().y()), event->position());
+    event->accept();
+}
+
+void StageWidget::mousePressEvent(QMouseEvent* event) {
+    if (event->button() != Qt::LeftButton) return QWidget::mousePressEvent(event);
+    impl_->isDragging = true;
+    impl_->dragged = event->position();
+    setCursor(Qt::ClosedHandCursor);
+}
+
+void StageWidget::mouseMoveEvent(QMouseEvent* event) {
+    if (!impl_->isDragging) return QWidget::mouseMoveEvent(event);
+    const QPointF by = event->position() - impl_->dragged;
+    if (by.manhattanLength() < 1) return;
+    impl_->dragged = event->position();
+    Camera next = impl_->camera();
+    next.centre = next.unproject(-by.x(), by.y());
+    impl_->choose(next);
+}
+
+void StageWidget::mouseReleaseEvent(QMouseEvent*) {
+    impl_->isDragging = false;
+    unsetCursor();
+}
+
+void StageWidget::mouseDoubleClickEvent(QMouseEvent*) {
+    impl_->isDragging = false;
+    fit();
+}
+
+}  // namespace extremal

@@ -1,0 +1,64 @@
+/// The animated stage of the window.
+///
+///     auto* stage = new StageWidget;
+///     stage->setTheme(theme);
+///     stage->setComparison(comparison);   // again whenever there are new rows: the view stays where the user put it
+///     stage->setTime(6.2);
+///
+/// The wheel zooms at the pointer, dragging pans, a double click (or fit()) shows everything again. The picture comes
+/// from the graphics card, or through OSMesa where there is no real OpenGL (a remote or virtual display, the
+/// offscreen platform); where neither is to be had the widget says what to install.
+#pragma once
+
+#include <QWidget>
+
+#include <memory>
+
+#include "engine/run/comparison.hpp"
+
+namespace extremal {
+
+struct Theme;
+
+class StageWidget : public QWidget {
+    Q_OBJECT
+public:
+    explicit StageWidget(QWidget* parent = nullptr);
+    ~StageWidget() override;
+
+    void setTheme(const Theme& theme);
+    /// Null empties the stage. Another model brings back the full view.
+    void setComparison(std::shared_ptr<const Comparison> comparison);
+    void setTime(double t);
+    double time() const;
+    /// For places without a list of schemes beside the stage.
+    void setLegendShown(bool isShown);
+    void setGridShown(bool isShown);
+    void fit();
+    void zoom(double factor);  ///< about the middle
+    bool isFitted() const;     ///< false once the user has zoomed or panned
+    bool usesGraphicsCard() const;
+
+    /// The stage as shown, words included, with this many device pixels per logical one: for copying and saving.
+    QImage picture(double pixelRatio);
+
+    QSize sizeHint() const override { return {520, 320}; }
+    QSize minimumSizeHint() const override { return {160, 120}; }
+
+signals:
+    void fittedChanged(bool isFitted);
+
+protected:
+    void resizeEvent(QResizeEvent*) override;
+    void wheelEvent(QWheelEvent*) override;
+    void mousePressEvent(QMouseEvent*) override;
+    void mouseMoveEvent(QMouseEvent*) override;
+    void mouseReleaseEvent(QMouseEvent*) override;
+    void mouseDoubleClickEvent(QMouseEvent*) override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace extremal
