@@ -28,6 +28,10 @@ struct ReadScene {
 /// bad content: all errors are in the result. `directory` is where relative paths of the scene start.
 ReadScene readScene(std::string_view json, const std::vector<Override>& overrides = {},
                     const std::string& directory = ".");
+inline ReadScene readScene(const std::string& json, const std::vector<Override>& overrides = {},
+                           const std::string& directory = ".") {
+    return readScene(std::string_view(json), overrides, directory);
+}
 
 /// The same for a tree: what forms and undo use.
 ReadScene readScene(const Value& document, const std::vector<Override>& overrides = {},

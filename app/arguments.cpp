@@ -1,0 +1,96 @@
+#include "app/arguments.hpp"
+
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+
+#include "app/report.hpp"
+#include "engine/core/text.hpp"
+
+namespace extremal::app {
+namespace {
+
+constexpr const char* sceneHelp = "a path, preset:NAME, or - for standard input";
+
+/// The options that every verb takes.
+void addCommon(CLI::App& verb, CommonOptions& options) {
+    verb.add_option("--set", options.overrides, "change a value of the scene: --set '/schemes/*/step=0.1'; repeatable")
+        ->type_name("POINTER=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_flag("--json", options.isJson, "one JSON document on standard output");
+    verb.add_flag("--quiet", options.isQuiet, "errors only");
+    verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
+        ->type_name("N")
+        ->check(CLI::Range(1U, 1024U));
+    verb.set_help_flag("--help,-h", "this text");
+}
+
+CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description, bool takesScene) {
+    CLI::App* verb = app.add_subcommand(name, description);
+    if (takesScene) verb->add_option("SCENE", arguments.scene, sceneHelp)->required()->type_name("");
+    verb->parse_complete_callback([&arguments, name] { arguments.verb = name; });
+    return *verb;
+}
+
+void addSnapshot(CLI::App& app, Arguments& arguments) {
+    SnapshotOptions& snapshot = arguments.snapshot;
+    CLI::App& verb = addVerb(app, arguments, "snapshot", "draw what the window would show, without a display", true);
+    verb.add_option("--out", snapshot.out, "the picture: .png, .pdf or .svg")->required()->type_name("FILE");
+    verb.add_option("--size", snapshot.size, "pixels, sides 64 to 8192; 1200x800 by default")->type_name("WxH");
+    verb.add_option("--view", snapshot.view, "one view (extremal list views), or all")->type_name("NAME");
+    CLI::Option* time = verb.add_option("--time", snapshot.time, "the end by default")->type_name("T");
+    verb.add_option("--compare", snapshot.compareWith, "exit 1 if the picture differs, and write FILE.diff.png")
+        ->type_name("BASE.png");
+    verb.add_option("--tolerance", snapshot.tolerance, "percent of the pixels that may differ")
+        ->type_name("PERCENT")
+        ->check(CLI::Range(0.0, 100.0));
+    addCommon(verb, arguments.common);
+    verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
+}
+
+/// What CLI11 says, as a sentence of ours.
+void printParseError(const CLI::App& app, const CLI::ParseError& error, const Arguments& arguments) {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+    std::string what = error.what(), hint = "see extremal --help";
+    if (!arguments.verb.empty()) hint = "see extremal " + arguments.verb + " --help";
+    // A mistyped verb is taken for a scene.
+    const std::string near = nearestName(arguments.scene, verbs);
+    if (arguments.verb.empty() && !near.empty() && !std::filesystem::exists(arguments.scene)) {
+        what = "unknown verb \"" + arguments.scene + "\"";
+        hint = "did you mean \"" + near + "\"?";
+    }
+    printProblem("arguments", what, hint);
+}
+
+}  // namespace
+
+std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
+    Arguments arguments;
+    CLI::App app("Extremal compares variational integrators: a scene in; trajectories, plots and costs out.", "extremal");
+    app.set_version_flag("--version", "extremal " EXTREMAL_VERSION, "the version");
+    app.add_option("SCENE", arguments.scene, std::string(sceneHelp) + "; opens the window on it")->type_name("");
+    addCommon(app, arguments.common);
+    CLI::App& run = addVerb(app, arguments, "run", "integrate every enabled scheme; write CSV files and a summary", true);
+    run.add_option("--out", arguments.folder, "folder for the files, made if missing")->required()->type_name("DIR");
+    addCommon(run, arguments.common);
+    addSnapshot(app, arguments);
+    addCommon(addVerb(app, arguments, "check", "name every error and warning of a scene", true), arguments.common);
+    CLI::App& list = addVerb(app, arguments, "list", "name what scenes are made of", false);
+    list.add_option("KIND", arguments.kind,
+                    "models, spaces, quadratures, schemes, baselines, observables, studies, views, profiles or presets")
+        ->type_name("");
+    addCommon(list, arguments.common);
+    app.require_subcommand(0, 1);
+    try {
+        app.parse(argc, argv);
+        return arguments;
+    } catch (const CLI::ParseError& error) {
+        exitCode = error.get_exit_code() == 0 ? finish(app.exit(error)) : unusable;
+        if (error.get_exit_code() != 0) printParseError(app, error, arguments);
+        return {};
+    }
+}
+
+}  // namespace extremal::app

@@ -1,0 +1,22 @@
+/// The command line as a value.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/verbs.hpp"
+
+namespace extremal::app {
+
+struct Arguments {
+    std::string verb;  ///< empty: the window
+    std::string scene, folder, kind;
+    CommonOptions common;
+    SnapshotOptions snapshot;
+};
+
+/// Reads the arguments. Empty if there is nothing left to do (--help, --version, or an error that was printed):
+/// then `exitCode` is set.
+std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode);
+
+}  // namespace extremal::app

@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/report.hpp"
+#include "app/verbs.hpp"
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/scene/preset.hpp"
+#include "engine/space/catalog.hpp"
+
+namespace extremal::app {
+namespace {
+
+struct Kind {
+    std::string name;
+    std::vector<CatalogItem> items;
+};
+
+template <class Entries>
+std::vector<CatalogItem> itemsOf(const Entries& entries) {
+    std::vector<CatalogItem> items;
+    for (const auto& entry : entries) items.push_back(entry.item);
+    return items;
+}
+
+std::vector<CatalogItem> presetItems() {
+    std::vector<CatalogItem> items;
+    for (const Preset& preset : presets()) {
+        const Scene scene = readScene(preset.json).scene;
+        CatalogItem item;
+        item.id = std::string(preset.id);
+        item.title = scene.title;
+        item.description = scene.lesson;
+        items.push_back(item);
+    }
+    return items;
+}
+
+std::vector<Kind> kinds() {
+    return {{"models", itemsOf(modelCatalog())},
+            {"spaces", spaceCatalog()},
+            {"quadratures", quadratureCatalog()},
+            {"schemes", itemsOf(schemeCatalog())},
+            {"baselines", itemsOf(baselineCatalog())},
+            {"observables", observableCatalog()},
+            {"studies", {}},
+            {"views", viewCatalog()},
+            {"profiles", {}},
+            {"presets", presetItems()}};
+}
+
+std::string typeName(FieldType type) {
+    switch (type) {
+        case FieldType::number: return "number";
+        case FieldType::integer: return "integer";
+        case FieldType::boolean: return "boolean";
+        case FieldType::text: return "text";
+        case FieldType::choice: return "choice";
+        case FieldType::json: return "json";
+    }
+    return {};
+}
+
+Value fieldValue(const FieldInfo& field) {
+    Value value{Value::Object{}};
+    value.set("key", field.key);
+    value.set("type", typeName(field.type));
+    value.set("unit", field.unit);
+    value.set("default", field.fallback);
+    value.set("min", field.min);  // JSON writes an infinity as null
+    value.set("max", field.max);
+    value.set("description", field.description.empty() ? field.title : field.description);
+    if (!field.choices.empty()) {
+        Value::Array choices;
+        for (const std::string& c : field.choices) choices.emplace_back(c);
+        value.set("choices", choices);
+    }
+    return value;
+}
+
+Value itemValue(const CatalogItem& item) {
+    Value value{Value::Object{}};
+    value.set("id", item.id);
+    value.set("title", item.title);
+    value.set("description", item.description);
+    Value::Array parameters;
+    for (const FieldInfo& field : item.parameters) parameters.push_back(fieldValue(field));
+    value.set("parameters", parameters);
+    if (!item.claims) return value;
+    Value::Array conserves;
+    for (const std::string& c : item.claims->conserves) conserves.emplace_back(c);
+    Value claims{Value::Object{}};
+    claims.set("order", item.claims->order);
+    claims.set("symmetric", item.claims->isSymmetric);
+    claims.set("symplectic", item.claims->isSymplectic);
+    claims.set("conserves", conserves);
+    value.set("claims", claims);
+    value.set("needs", item.needs);
+    return value;
+}
+
+Value kindValue(const Kind& kind) {
+    Value::Array items;
+    for (const CatalogItem& item : kind.items) items.push_back(itemValue(item));
+    return items;
+}
+
+/// "degree 1..24, basis lobatto|chebyshev": what can be set, in one line.
+std::string parameterText(const CatalogItem& item) {
+    std::string text;
+    for (const FieldInfo& field : item.parameters) {
+        if (!text.empty()) text += ", ";
+        text += field.key;
+        if (!field.fallback.isNull()) text.append(" = ").append(field.fallback.isString() ? field.fallback.asString() : writeCompactJson(field.fallback));
+        if (!field.unit.empty()) text.append(" ").append(field.unit);
+    }
+    return text.empty() ? text : " {" + text + "}";
+}
+
+std::string kindText(const Kind& kind, const std::string& indent) {
+    Table table;
+    for (const CatalogItem& item : kind.items) {
+        std::string words = item.title;
+        if (!item.description.empty()) words.append(": ").append(item.description);
+        table.rows.push_back({indent + item.id, words + parameterText(item)});
+    }
+    return table.text();
+}
+
+}  // namespace
+
+int listVerb(const std::string& wanted, const CommonOptions& options) {
+    const std::vector<Kind> all = kinds();
+    std::vector<std::string> names;
+    for (const Kind& kind : all) names.push_back(kind.name);
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Kind& k) { return k.name == wanted; });
+    if (!wanted.empty() && found == all.end()) {
+        printProblem("list", "unknown kind \"" + wanted + "\"", suggestName(wanted, names));
+        return unusable;
+    }
+    if (options.isJson) {
+        Value document{Value::Object{}};
+        for (const Kind& kind : all) document.set(kind.name, kindValue(kind));
+        print(writeJson(wanted.empty() ? document : kindValue(*found)));
+    } else if (!wanted.empty()) {
+        print(kindText(*found, ""));
+    } else {
+        for (const Kind& kind : all)
+            if (!kind.items.empty()) print((&kind == &all.front() ? "" : "\n") + kind.name + "\n" + kindText(kind, "  "));
+    }
+    return finish(done);
+}
+
+}  // namespace extremal::app

@@ -1,0 +1,20 @@
+/// SCENE and --set of a command line, read and checked.
+#pragma once
+
+#include <string>
+
+#include "app/verbs.hpp"
+#include "engine/scene/codec.hpp"
+
+namespace extremal::app {
+
+/// Reads SCENE with its overrides; what cannot be read at all is an error in the result as well. Prints nothing.
+ReadScene loadScene(const std::string& scene, const std::vector<std::string>& overrides);
+
+/// How messages call a scene: its path, preset:NAME, or "standard input".
+std::string sceneName(const std::string& scene);
+
+/// Prints the errors, and the warnings unless quiet. True: the scene can be used.
+bool reportScene(const std::string& scene, const ReadScene& read, const CommonOptions& options);
+
+}  // namespace extremal::app

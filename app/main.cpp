@@ -1,0 +1,37 @@
+/// The program: a verb of the command line, or the window.
+#include <csignal>
+#include <exception>
+#include <new>
+
+#include "app/arguments.hpp"
+#include "app/report.hpp"
+#include "app/verbs.hpp"
+
+namespace {
+
+int dispatch(int argc, char** argv) {
+    using namespace extremal::app;
+    int exitCode = done;
+    const auto arguments = parseArguments(argc, argv, exitCode);
+    if (!arguments) return exitCode;
+    if (arguments->verb == "run") return runVerb(arguments->scene, arguments->folder, arguments->common);
+    if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
+    if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);
+    printProblem("arguments", "no verb", "see extremal --help");
+    return unusable;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    // A file that grows beyond a limit is an error of its write, with a message, and not the end of the program.
+    std::signal(SIGXFSZ, SIG_IGN);
+    try {
+        return dispatch(argc, argv);
+    } catch (const std::bad_alloc&) {
+        extremal::app::printProblem("", "out of memory", "fewer schemes at once: --threads 1, or fewer rows");
+    } catch (const std::exception& e) {
+        extremal::app::printProblem("internal error", e.what());
+    }
+    return extremal::app::failed;
+}

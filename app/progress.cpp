@@ -1,0 +1,34 @@
+#include "app/progress.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace extremal::app {
+
+ProgressLine::ProgressLine(bool isWanted) : isTerminal_(isWanted && ::isatty(STDERR_FILENO) == 1) {}
+
+void ProgressLine::show(double fraction, const std::string& what) {
+    using namespace std::chrono_literals;
+    const auto now = Clock::now();
+    if (!isTerminal_ || now - start_ < 500ms || now - last_ < 100ms) return;
+    last_ = now;
+    isShown_ = true;
+    constexpr int width = 30;
+    const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
+    const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                            std::string(static_cast<std::size_t>(width - filled), '.');
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const double left = fraction > 0.01 ? seconds / fraction - seconds : 0;
+    std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %s", bar.c_str(), 100 * fraction, what.c_str());
+    if (left > 0) std::fprintf(stderr, "  %.0f s left", left);
+    std::fflush(stderr);
+}
+
+void ProgressLine::clear() {
+    if (isShown_) std::fputs("\r\033[K", stderr);
+    isShown_ = false;
+}
+
+}  // namespace extremal::app

@@ -1,0 +1,77 @@
+#include "app/report.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <set>
+
+#include "app/verbs.hpp"
+#include "engine/core/text.hpp"
+
+namespace extremal::app {
+
+void printProblem(std::string_view where, std::string_view what, std::string_view hint) {
+    // A message may go on with lines that show the place; the hint belongs to its first line.
+    const auto lineEnd = std::min(what.find('\n'), what.size());
+    std::string text = "extremal: ";
+    if (!where.empty()) text.append(where).append(": ");
+    text.append(what.substr(0, lineEnd));
+    if (!hint.empty()) text.append(" (").append(hint).append(")");
+    text.append(what.substr(lineEnd)).append("\n");
+    std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void printProblems(const std::string& file, const std::vector<Problem>& problems, std::string_view lead) {
+    std::set<std::string> said;
+    for (const Problem& p : problems) {
+        std::string where = p.origin.empty() ? file : "--set " + p.origin;
+        if (p.origin.empty() && !p.pointer.empty()) where += ":" + p.pointer;
+        if (!said.insert(where + '\n' + p.message).second) continue;
+        printProblem(where, std::string(lead) + p.message, p.hint);
+    }
+}
+
+void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+int finish(int code) {
+    errno = 0;
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    printProblem("standard output", std::string("cannot be written: ") + std::strerror(errno ? errno : EIO));
+    return unwritable;
+}
+
+std::string Table::text() const {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows)
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            widths.resize(std::max(widths.size(), row.size()));
+            widths[c] = std::max(widths[c], codePoints(row[c]));
+        }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            const std::string gap(widths[c] - codePoints(row[c]), ' ');
+            if (c > 0) line += "  ";
+            line += c < isRightAligned.size() && isRightAligned[c] ? gap + row[c] : row[c] + gap;
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text.append(line).append("\n");
+    }
+    return text;
+}
+
+Value problemsValue(const std::vector<Problem>& problems) {
+    Value::Array all;
+    for (const Problem& p : problems) {
+        Value problem{Value::Object{}};
+        problem.set("pointer", p.pointer);
+        problem.set("message", p.message);
+        problem.set("hint", p.hint);
+        all.push_back(problem);
+    }
+    return all;
+}
+
+}  // namespace extremal::app

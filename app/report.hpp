@@ -1,0 +1,36 @@
+/// What the command line says: errors as `extremal: WHERE: WHAT (HINT)`, aligned tables, and the last word on
+/// whether standard output took it all.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/value.hpp"
+
+namespace extremal::app {
+
+/// One line on standard error. `where` may be empty.
+void printProblem(std::string_view where, std::string_view what, std::string_view hint = {});
+
+/// Problems of a scene: FILE:POINTER, or --set POINTER for what an override did. The same words are said once.
+/// `lead` comes before the message ("warning: ").
+void printProblems(const std::string& file, const std::vector<Problem>& problems, std::string_view lead = {});
+
+/// Writes to standard output.
+void print(std::string_view text);
+
+/// Flushes standard output. Returns `code`, or 3 with an error if not everything could be written.
+int finish(int code);
+
+/// Columns two spaces apart; numbers to the right. The first row is the header.
+struct Table {
+    std::vector<std::vector<std::string>> rows;
+    std::vector<bool> isRightAligned;
+    std::string text() const;
+};
+
+Value problemsValue(const std::vector<Problem>& problems);
+
+}  // namespace extremal::app

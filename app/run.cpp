@@ -1,0 +1,120 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "app/load.hpp"
+#include "app/progress.hpp"
+#include "app/report.hpp"
+#include "app/signals.hpp"
+#include "app/verbs.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/export.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/json.hpp"
+
+namespace extremal::app {
+namespace {
+
+/// Waits for the run; a first Ctrl-C stops it and keeps what is done, a second one ends the program.
+bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
+    ProgressLine progress(!options.isQuiet);
+    bool isInterrupted = false;
+    for (int pause = 1; !run.isFinished(); pause = std::min(2 * pause, 30)) {
+        if (watch.wait(pause)) {
+            if (isInterrupted) std::_Exit(interrupted);
+            isInterrupted = true;
+            run.stop();
+        }
+        progress.show(run.fraction(), isInterrupted ? "stopping" : "running");
+    }
+    run.wait();
+    return isInterrupted;
+}
+
+std::string number(double value, int digits = 3) { return std::isfinite(value) ? formatNumber(value, digits) : ""; }
+
+std::string duration(double seconds) {
+    if (!std::isfinite(seconds)) return "";
+    return seconds < 1 ? formatNumber(seconds * 1e3, 3) + " ms" : formatNumber(seconds, 3) + " s";
+}
+
+std::string order(const Summary& s) {
+    const std::string claimed = s.orderClaimed > 0 ? std::to_string(s.orderClaimed) : "";
+    if (!std::isfinite(s.orderMeasured)) return claimed;
+    return claimed.empty() ? number(s.orderMeasured) : number(s.orderMeasured) + " of " + claimed;
+}
+
+std::string summaryTable(const Comparison& comparison) {
+    Table table;
+    table.isRightAligned = {false, false, true, true, true, true, true, true, true, true};
+    table.rows.push_back({"scheme", "status", "steps", "cpu", "evaluations", "energy error", "momentum error",
+                          "max error", "final error", "order"});
+    for (const auto& scheme : comparison.schemes) {
+        const Summary& s = scheme->summary;
+        table.rows.push_back({s.label, name(s.status), std::to_string(s.steps), duration(s.cpuSeconds),
+                              std::to_string(s.evaluations), number(s.maxEnergyError), number(s.maxMomentumError),
+                              number(s.maxError), number(s.finalError), order(s)});
+    }
+    // A column that no scheme fills says nothing.
+    for (std::size_t c = table.rows[0].size(); c-- > 0;) {
+        const auto isEmpty = [c](const auto& row) { return row[c].empty(); };
+        if (!std::all_of(table.rows.begin() + 1, table.rows.end(), isEmpty)) continue;
+        for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(c));
+        table.isRightAligned.erase(table.isRightAligned.begin() + static_cast<std::ptrdiff_t>(c));
+    }
+    return table.text();
+}
+
+void printFailures(const Comparison& comparison) {
+    for (const auto& scheme : comparison.schemes) {
+        const Summary& s = scheme->summary;
+        if (s.status == RunStatus::failed)
+            printProblem(s.label, "failed at t = " + number(s.failedAt, 6) + ": " + std::string(name(s.cause)), s.advice);
+    }
+}
+
+void printResult(const Comparison& comparison, const std::string& folder, bool isPartial, const CommonOptions& options) {
+    if (options.isJson) {
+        print(writeJson(summaryValue(comparison)));
+    } else if (!options.isQuiet) {
+        print(summaryTable(comparison));
+        const auto files = comparison.schemes.size() + 3;
+        std::string line = "\n" + std::to_string(files);
+        line.append(isPartial ? " files with partial results in " : " files in ").append(folder).append("\n");
+        print(line);
+    }
+}
+
+}  // namespace
+
+int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options) {
+    const ReadScene read = loadScene(scene, options.overrides);
+    if (!reportScene(scene, read, options)) return unusable;
+    try {
+        InterruptWatch watch;
+        Run run(read.scene, {options.threads});
+        prepareFolder(folder);
+        run.start();
+        const bool isInterrupted = waitFor(run, watch, options);
+        const Comparison result = run.latest();
+        exportComparison(result, folder);
+        printFailures(result);
+        printResult(result, folder, isInterrupted, options);
+        if (isInterrupted) {
+            printProblem("", "interrupted: the results are partial");
+            return finish(interrupted);
+        }
+        const bool hasFailure = std::any_of(result.schemes.begin(), result.schemes.end(), [](const auto& s) {
+            return s->summary.status == RunStatus::failed;
+        });
+        return finish(hasFailure ? failed : done);
+    } catch (const InvalidScene& e) {
+        printProblems(sceneName(scene), e.problems());
+        return unusable;
+    } catch (const ExportError& e) {
+        printProblem(e.path.string(), std::string("cannot be written: ") + e.what(), "another --out DIR");
+        return unwritable;
+    }
+}
+
+}  // namespace extremal::app

@@ -1,0 +1,28 @@
+#include "app/signals.hpp"
+
+#include <ctime>
+
+#include <pthread.h>
+
+namespace extremal::app {
+
+InterruptWatch::InterruptWatch() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
+}
+
+InterruptWatch::~InterruptWatch() {
+    // What came after the work was done is dropped: the results are there.
+    while (wait(0)) {
+    }
+    pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
+}
+
+bool InterruptWatch::wait(int milliseconds) {
+    const timespec timeout{milliseconds / 1000, milliseconds % 1000 * 1000000L};
+    return sigtimedwait(&signals_, nullptr, &timeout) > 0;
+}
+
+}  // namespace extremal::app

@@ -1,0 +1,32 @@
+/// The verbs of the command line; each returns the exit code.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace extremal::app {
+
+/// 0 done; 1 a scheme failed numerically, or a comparison differs; 2 unusable input or arguments; 3 the output could
+/// not be written; 130 interrupted.
+enum ExitCode { done = 0, failed = 1, unusable = 2, unwritable = 3, interrupted = 130 };
+
+struct CommonOptions {
+    std::vector<std::string> overrides;  ///< --set POINTER=VALUE
+    bool isJson = false;
+    bool isQuiet = false;
+    unsigned threads = 0;  ///< 0: as many as there are cores
+};
+
+struct SnapshotOptions {
+    std::string out, view = "all", size = "1200x800", compareWith;
+    double time = 0, tolerance = -1;
+    bool hasTime = false;
+};
+
+int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options);
+int checkVerb(const std::string& scene, const CommonOptions& options);
+int listVerb(const std::string& kind, const CommonOptions& options);
+int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions& options);
+int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options);
+
+}  // namespace extremal::app

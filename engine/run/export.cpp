@@ -1,0 +1,159 @@
+#include "engine/run/export.hpp"
+
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "engine/run/file_batch.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
+
+namespace extremal {
+namespace {
+
+/// Appends the columns row by row, handing the text over in blocks so that no whole file is held in memory.
+template <class Sink>
+void writeRows(const Trajectory& trajectory, Sink&& sink) {
+    constexpr std::size_t blockSize = 1 << 16;
+    std::string block;
+    for (std::size_t c = 0; c < trajectory.columns.size(); ++c) {
+        if (c > 0) block += ',';
+        block += csvCell(trajectory.columns[c].name);
+    }
+    block += '\n';
+    for (std::size_t r = 0; r < trajectory.rows(); ++r) {
+        for (std::size_t c = 0; c < trajectory.columns.size(); ++c) {
+            if (c > 0) block += ',';
+            const double value = trajectory.columns[c].values[r];
+            if (std::isfinite(value)) block += formatNumber(value);
+        }
+        block += '\n';
+        if (block.size() > blockSize) {
+            sink(block);
+            block.clear();
+        }
+    }
+    sink(block);
+}
+
+Value knownNumber(double x) {
+    if (std::isfinite(x)) return x;
+    return nullptr;
+}
+
+Value knownText(std::string_view text) {
+    if (text.empty()) return nullptr;
+    return std::string(text);
+}
+
+/// The row of summary.csv as keys and values; null is an empty cell.
+Value summaryRow(const Summary& s) {
+    Value row{Value::Object{}};
+    row.set("label", s.label);
+    row.set("status", name(s.status));
+    row.set("cause", knownText(name(s.cause)));
+    row.set("failed_at", knownNumber(s.failedAt));
+    row.set("t_end", knownNumber(s.tEnd));
+    row.set("steps", static_cast<double>(s.steps));
+    row.set("rejected", static_cast<double>(s.rejected));
+    row.set("newton_iterations", static_cast<double>(s.newtonIterations));
+    row.set("evaluations", static_cast<double>(s.evaluations));
+    row.set("linear_solves", static_cast<double>(s.linearSolves));
+    row.set("cpu_seconds", knownNumber(s.cpuSeconds));
+    row.set("max_energy_error", knownNumber(s.maxEnergyError));
+    row.set("energy_drift_per_unit_time", knownNumber(s.energyDrift));
+    row.set("max_momentum_error", knownNumber(s.maxMomentumError));
+    row.set("max_norm_error", knownNumber(s.maxNormError));
+    row.set("max_error", knownNumber(s.maxError));
+    row.set("final_error", knownNumber(s.finalError));
+    row.set("order_claimed", knownNumber(s.orderClaimed > 0 ? s.orderClaimed : Summary::unknown));
+    row.set("order_measured", knownNumber(s.orderMeasured));
+    return row;
+}
+
+std::string cellText(const Value& value) {
+    if (value.isNumber()) return formatNumber(value.asNumber());
+    return value.isString() ? csvCell(value.asString()) : std::string();
+}
+
+std::vector<std::string> fileNames(const Comparison& comparison) {
+    std::vector<std::string> names{"scene.json"};
+    for (const std::string& csv : csvNames(comparison)) names.push_back(csv);
+    names.insert(names.end(), {"summary.csv", "summary.json"});
+    return names;
+}
+
+}  // namespace
+
+std::string csvCell(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted(1, '"');
+    for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+    quoted += '"';
+    return quoted;
+}
+
+std::string csvText(const Trajectory& trajectory) {
+    std::string text;
+    writeRows(trajectory, [&](const std::string& block) { text += block; });
+    return text;
+}
+
+std::vector<std::string> csvNames(const Comparison& comparison) {
+    std::vector<std::string> names;
+    for (const auto& scheme : comparison.schemes) names.push_back(scheme->summary.label);
+    names = uniqueSlugs(names, {"summary"});
+    for (std::string& n : names) n += ".csv";
+    return names;
+}
+
+std::string summaryCsv(const Comparison& comparison) {
+    std::string text;
+    const Value header = summaryRow({});
+    for (const auto& [key, value] : header.asObject()) {
+        if (!text.empty()) text += ',';
+        text += key;
+    }
+    text += '\n';
+    for (const auto& scheme : comparison.schemes) {
+        const Value row = summaryRow(scheme->summary);
+        for (std::size_t i = 0; i < row.asObject().size(); ++i) {
+            if (i > 0) text += ',';
+            text += cellText(row.asObject()[i].second);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+Value summaryValue(const Comparison& comparison) {
+    Value::Array schemes, files;
+    for (const auto& scheme : comparison.schemes) schemes.push_back(summaryRow(scheme->summary));
+    for (const std::string& file : fileNames(comparison)) files.emplace_back(file);
+    Value reference{Value::Object{}};
+    reference.set("type", comparison.reference.type);
+    reference.set("estimated_error", knownNumber(comparison.reference.estimatedError));
+    Value summary{Value::Object{}};
+    summary.set("extremal", 1);
+    summary.set("title", comparison.scene.title);
+    summary.set("schemes", schemes);
+    summary.set("reference", reference);
+    summary.set("files", files);
+    return summary;
+}
+
+std::vector<std::string> exportComparison(const Comparison& comparison, const std::filesystem::path& folder) {
+    prepareFolder(folder);
+    FileBatch batch(folder);
+    const auto csv = csvNames(comparison);
+    batch.write("scene.json", writeScene(comparison.scene));
+    for (std::size_t i = 0; i < csv.size(); ++i) {
+        batch.open(csv[i]);
+        writeRows(comparison.schemes[i]->trajectory, [&](const std::string& block) { batch.append(block); });
+        batch.close();
+    }
+    batch.write("summary.csv", summaryCsv(comparison));
+    batch.write("summary.json", writeJson(summaryValue(comparison)));
+    return batch.commit();
+}
+
+}  // namespace extremal

@@ -1,0 +1,48 @@
+/// The files of a finished comparison: scene.json, one <slug>.csv a scheme, summary.csv, summary.json.
+///
+/// CSV: comma, header row, quoting as in RFC 4180, LF, UTF-8; the shortest numbers that read back the same; an
+/// unknown or not finite value is an empty cell. Every file is written under a temporary name; only when all are
+/// whole are they renamed, so that no reader ever sees half a file.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "engine/core/value.hpp"
+#include "engine/run/comparison.hpp"
+
+namespace extremal {
+
+/// The output cannot be written: `path`, and why ("No space left on device").
+class ExportError : public std::runtime_error {
+public:
+    ExportError(std::filesystem::path file, const std::string& reason)
+        : std::runtime_error(reason), path(std::move(file)) {}
+    std::filesystem::path path;
+};
+
+/// Makes the folder, with its parents, and makes sure that files can be written into it. Throws ExportError.
+void prepareFolder(const std::filesystem::path& folder);
+
+/// Writes a file whole or not at all. Throws ExportError.
+void writeFile(const std::filesystem::path& path, const std::string& text);
+
+/// Writes all files of the comparison into the folder, which is made if missing; returns their names. Throws
+/// ExportError, and then leaves no file that is not whole.
+std::vector<std::string> exportComparison(const Comparison& comparison, const std::filesystem::path& folder);
+
+/// The text of a scheme's CSV.
+std::string csvText(const Trajectory& trajectory);
+/// A cell with quotes where commas, quotes or line ends need them.
+std::string csvCell(const std::string& text);
+
+/// One "<slug>.csv" per scheme of the comparison, in its order.
+std::vector<std::string> csvNames(const Comparison& comparison);
+
+/// summary.csv and the document of summary.json.
+std::string summaryCsv(const Comparison& comparison);
+Value summaryValue(const Comparison& comparison);
+
+}  // namespace extremal

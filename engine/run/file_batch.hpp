@@ -1,0 +1,34 @@
+/// Files that appear together: each is written under a temporary name, and all are renamed at the end.
+/// Internal to engine/run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace extremal {
+
+class FileBatch {
+public:
+    explicit FileBatch(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    ~FileBatch();  ///< removes what was not committed
+    FileBatch(const FileBatch&) = delete;
+    FileBatch& operator=(const FileBatch&) = delete;
+
+    /// All throw ExportError.
+    void open(const std::string& name);
+    void append(const std::string& text);
+    void close();
+    void write(const std::string& name, const std::string& text);
+    /// Gives the files their names, and returns these.
+    std::vector<std::string> commit();
+
+private:
+    std::filesystem::path temporary(const std::string& name) const;
+
+    std::filesystem::path folder_;
+    std::vector<std::string> names_;
+    int descriptor_ = -1;
+};
+
+}  // namespace extremal
