@@ -46,11 +46,40 @@ std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
     return pair;
 }
 
+/// The state at the start, as the runs take it; not finite where the model allows none there.
+State startOf(const System& system, const Scene& scene) {
+    const auto d = static_cast<std::size_t>(system.dimension());
+    State state;
+    state.t = scene.start.value;
+    state.x.resize(2 * d);
+    for (std::size_t i = 0; i < d; ++i) {
+        state.x[i] = scene.initial.q[i].value;
+        state.x[d + i] = scene.initial.pOrV[i].value;
+    }
+    if (scene.initial.second != Initial::Second::velocity) return state;
+    std::vector<double> v(state.x.begin() + system.dimension(), state.x.end()), gradient(2 * d);
+    system.mechanics.gradient(system.mechanics.model.get(), state.t, state.x.data(), v.data(), gradient.data());
+    std::copy_n(gradient.begin() + system.dimension(), d, state.x.begin() + system.dimension());
+    return state;
+}
+
+void checkStability(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+                    const PairProperties& properties, const std::string& pointer) {
+    const double frequency = highestFrequency(system, startOf(system, scene));
+    const double h = scheme.step.value, limit = properties.stabilityLimit / frequency;
+    if (!(frequency > 0) || !(h > limit) || limit <= 0) return;
+    reader.warning(pointer + "/step",
+                   formatNumber(h) + " is beyond the linear stability limit " + formatNumber(limit, 3) +
+                       ": step times frequency may be at most " + formatNumber(properties.stabilityLimit, 3) +
+                       ", and the highest frequency at the start is " + formatNumber(frequency, 3),
+                   "a smaller step, or another scheme");
+}
+
 /// Refused and unstable pairs. False: the scheme cannot be made.
-bool checkPair(Reader& reader, const SchemeSpec& scheme, const Discretization& pair, const std::string& pointer) {
-    const PairProperties properties = describe(pair.space, pair.quadrature);
+bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties, const std::string& pointer) {
     if (!properties.refusal.empty()) {
-        reader.error(pointer, "makes no sense: " + properties.refusal, "another quadrature, or auto");
+        reader.error(pointer, "makes no sense: " + properties.refusal,
+                     properties.hint.empty() ? "another quadrature, or auto" : properties.hint);
         return false;
     }
     if (properties.stabilityLimit <= 0 && !scheme.allowsUnstable) {
@@ -67,7 +96,10 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
     const Clock clock{scene.start.value, scheme.step.value};
     try {
         if (const auto pair = pairOf(scheme)) {
-            if (checkPair(reader, scheme, *pair, pointer)) makeIntegrator(system, *pair, clock);
+            const PairProperties properties = describe(pair->space, pair->quadrature);
+            if (!checkPair(reader, scheme, properties, pointer)) return;
+            makeIntegrator(system, *pair, clock);
+            checkStability(reader, system, scene, scheme, properties, pointer);
         } else if (const BaselineEntry* baseline = findBaseline(scheme.baseline.type)) {
             baseline->make(system, {clock, scene.end.value, scheme.tolerance.value_or(0), scheme.baseline});
         }

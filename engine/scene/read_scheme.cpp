@@ -25,28 +25,27 @@ std::vector<const CatalogItem*> itemsOf(const Entries& entries) {
     return items;
 }
 
-/// Nodes that suit the space: enough for the full order of its degree.
-std::optional<Value> defaultNodes(std::string_view rule, std::string_view key, const Settings& space) {
-    if (key != "nodes" || !space.find("degree")) return {};
-    const bool hasBothEnds = rule == "lobatto" || rule == "clenshaw-curtis";
-    return Value(space.number("degree") + (hasBothEnds ? 1 : 0));
+/// What a rule leaves to the space, as its number of nodes.
+std::optional<Value> fitToSpace(std::string_view rule, std::string_view key, const Settings& space) {
+    const Settings fitting = completeQuadrature(space, {std::string(rule), {}, {}});
+    const Value* value = fitting.find(key);
+    return value ? std::optional(*value) : std::nullopt;
 }
 
-/// "auto" and no quadrature at all: Gauss with as many nodes as the degree.
-Value resolveQuadrature(const Value* quadrature) {
-    const Value gauss(Value::Object{{"type", "gauss"}});
-    if (!quadrature) return gauss;
+bool isAutomatic(const Value* quadrature) {
+    if (!quadrature) return true;
     const Value* type = quadrature->isString() ? quadrature : quadrature->find("type");
-    return type && *type == Value("auto") ? gauss : *quadrature;
+    return type && *type == Value("auto");
 }
 
 void readSpaceAndQuadrature(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
     const auto space =
         readSettings(reader, *scheme.find("space"), childPointer(pointer, "space"), "space", itemsOf(spaceCatalog()));
     if (space) spec.space = *space;
-    const auto rule = readSettings(reader, resolveQuadrature(scheme.find("quadrature")), childPointer(pointer, "quadrature"),
-                                   "quadrature", itemsOf(quadratureCatalog()), defaultNodes, spec.space);
-    if (rule) spec.quadrature = *rule;
+    const Value automatic("auto"), *given = scheme.find("quadrature");
+    const auto rule = readSettings(reader, given ? *given : automatic, childPointer(pointer, "quadrature"), "quadrature",
+                                   itemsOf(quadratureCatalog()), fitToSpace, spec.space);
+    if (rule) spec.quadrature = isAutomatic(given) ? completeQuadrature(spec.space, {}) : *rule;
 }
 
 std::vector<std::string> schemeNames() {
