@@ -2,6 +2,7 @@
 /// double, the tests for quadruple precision.
 #pragma once
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <string>

@@ -64,13 +64,14 @@ State startOf(const System& system, const Scene& scene) {
 }
 
 void checkStability(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-                    const PairProperties& properties, const std::string& pointer) {
+                    double stabilityLimit, const std::string& pointer) {
+    if (!(stabilityLimit > 0) || std::isinf(stabilityLimit) || scheme.tolerance) return;
     const double frequency = highestFrequency(system, startOf(system, scene));
-    const double h = scheme.step.value, limit = properties.stabilityLimit / frequency;
-    if (!(frequency > 0) || !(h > limit) || limit <= 0) return;
+    const double h = scheme.step.value, limit = stabilityLimit / frequency;
+    if (!(frequency > 0) || !(h > limit)) return;
     reader.warning(pointer + "/step",
                    formatNumber(h) + " is beyond the linear stability limit " + formatNumber(limit, 3) +
-                       ": step times frequency may be at most " + formatNumber(properties.stabilityLimit, 3) +
+                       ": step times frequency may be at most " + formatNumber(stabilityLimit, 3) +
                        ", and the highest frequency at the start is " + formatNumber(frequency, 3),
                    "a smaller step, or another scheme");
 }
@@ -92,17 +93,18 @@ bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& p
 
 /// The makers know best what they cannot do.
 void tryToMake(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-               const std::string& pointer) {
+               const std::optional<Discretization>& pair, const std::string& pointer) {
     const Clock clock{scene.start.value, scheme.step.value};
+    double stabilityLimit = 0;
     try {
-        if (const auto pair = pairOf(scheme)) {
-            const PairProperties properties = describe(pair->space, pair->quadrature);
-            if (!checkPair(reader, scheme, properties, pointer)) return;
+        if (pair) {
             makeIntegrator(system, *pair, clock);
-            checkStability(reader, system, scene, scheme, properties, pointer);
+            stabilityLimit = describe(pair->space, pair->quadrature).stabilityLimit;
         } else if (const BaselineEntry* baseline = findBaseline(scheme.baseline.type)) {
             baseline->make(system, {clock, scene.end.value, scheme.tolerance.value_or(0), scheme.baseline});
+            stabilityLimit = baseline->stabilityLimit;
         }
+        checkStability(reader, system, scene, scheme, stabilityLimit, pointer);
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
     }
@@ -111,17 +113,19 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
 void checkScheme(Reader& reader, const System* system, const Scene& scene, const SchemeSpec& scheme,
                  const std::string& pointer) {
     const std::size_t errorsBefore = reader.errors.size();
-    checkStepCount(reader, scene, scheme, pointer);
-    if (system && reader.errors.size() == errorsBefore) tryToMake(reader, *system, scene, scheme, pointer);
+    if (scene.end.value > scene.start.value) checkStepCount(reader, scene, scheme, pointer);
+    const auto pair = pairOf(scheme);
+    if (pair && !checkPair(reader, scheme, describe(pair->space, pair->quadrature), pointer)) return;
+    if (system && reader.errors.size() == errorsBefore) tryToMake(reader, *system, scene, scheme, pair, pointer);
 }
 
 }  // namespace
 
-void checkWhole(Reader& reader, const System* system, const Scene& scene) {
-    if (!(scene.end.value > scene.start.value)) return;
-    checkRows(reader, scene);
+void checkWhole(Reader& reader, const System* system, const Scene& scene, const std::vector<std::size_t>& places) {
+    const bool isTimeKnown = scene.end.value > scene.start.value;
+    if (isTimeKnown) checkRows(reader, scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i)
-        checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", i));
+        checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", places[i]));
     for (const SchemeSpec& scheme : scene.reference.scheme)
         checkScheme(reader, system, scene, scheme, "/reference/scheme");
     if (system && reader.errors.empty() && scene.reference.kind == ReferenceSpec::Kind::exact && !system->exact)

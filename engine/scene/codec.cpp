@@ -37,12 +37,12 @@ ReadScene readDocument(const Value& document, const std::string& directory) {
     const System* model = system ? &*system : nullptr;
     if (model) readInitial(reader, document, *model, scene);
     readTime(reader, document, scene);
-    readSchemes(reader, document, scene);
+    const auto places = readSchemes(reader, document, scene);
     readReference(reader, document, directory, scene);
     readOutput(reader, document, scene);
     readObserve(reader, document, model, scene);
     readViews(reader, document, model, scene);
-    checkWhole(reader, model, scene);
+    checkWhole(reader, model, scene, places);
     result.errors = std::move(reader.errors);
     result.warnings = std::move(reader.warnings);
     return result;

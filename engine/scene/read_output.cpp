@@ -72,15 +72,15 @@ void readTime(Reader& reader, const Value& document, Scene& scene) {
     if (!time) return reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
     if (!reader.isObject(*time, "/time")) return;
     reader.checkKeys(*time, "/time", format::time);
-    const std::size_t errorsBefore = reader.errors.size();
-    if (const Value* start = time->find("start"))
-        if (const auto n = reader.number(*start, "/time/start", {})) scene.start = *n;
-    if (const Value* end = time->find("end")) {
-        if (const auto n = reader.number(*end, "/time/end", {})) scene.end = *n;
-    } else {
-        reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
-    }
-    if (reader.errors.size() == errorsBefore && !(scene.end.value > scene.start.value))
+    const Value* start = time->find("start");
+    const Value* end = time->find("end");
+    const auto from = start ? reader.number(*start, "/time/start", {}) : std::optional(Number{});
+    if (!end) return reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
+    const auto to = reader.number(*end, "/time/end", {});
+    if (!from || !to) return;
+    scene.start = *from;
+    scene.end = *to;
+    if (!(to->value > from->value))
         reader.error("/time/end", "must be after the start " + formatNumber(scene.start.value) + ", got " +
                                       formatNumber(scene.end.value));
 }

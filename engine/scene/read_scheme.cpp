@@ -59,6 +59,12 @@ std::vector<std::string> schemeNames() {
     return names;
 }
 
+std::vector<std::string> schemeFamilies() {
+    std::vector<std::string> names;
+    for (const SchemeEntry& entry : schemeCatalog()) names.push_back(entry.item.id);
+    return names;
+}
+
 void readNamed(Reader& reader, const Value& value, const std::string& pointer, SchemeSpec& spec) {
     const auto name = reader.text(value, pointer);
     if (!name) return;
@@ -69,7 +75,7 @@ void readNamed(Reader& reader, const Value& value, const std::string& pointer, S
     const auto names = schemeNames();
     const std::string near = nearestName(*name, names);
     reader.error(pointer, "unknown scheme " + describeValue(*name),
-                 near.empty() ? "extremal list schemes names them" : "did you mean \"" + near + "\"?");
+                 near.empty() ? "known: " + joinNames(schemeFamilies()) : "did you mean \"" + near + "\"?");
 }
 
 void readSolver(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
@@ -190,7 +196,9 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
     if (isKindKnown || value.find("step")) readStep(reader, value, pointer, baseline && baseline->isAdaptive, spec);
     readSolver(reader, value, childPointer(pointer, "solver"), spec);
-    if (reader.errors.size() > errorsBefore) return {};
+    // A step that follows from a parameter whose own error is reported is unknown without a further one.
+    const bool hasStep = spec.step.value > 0 || spec.tolerance;
+    if (reader.errors.size() > errorsBefore || !hasStep) return {};
     return spec;
 }
 
@@ -212,17 +220,17 @@ void fillLabels(std::vector<SchemeSpec>& schemes) {
     }
 }
 
-void readSchemes(Reader& reader, const Value& document, Scene& scene) {
+std::vector<std::size_t> readSchemes(Reader& reader, const Value& document, Scene& scene) {
+    std::vector<std::size_t> places;
     const Value* schemes = document.find("schemes");
     if (!schemes) {
         reader.error("/schemes", "is required", "for example \"schemes\": [{ \"scheme\": \"midpoint\", \"step\": 0.1 }]");
-        return;
+        return places;
     }
-    if (!reader.isArray(*schemes, "/schemes", "schemes")) return;
+    if (!reader.isArray(*schemes, "/schemes", "schemes")) return places;
     if (schemes->asArray().empty())
         reader.error("/schemes", "must have at least one scheme", "for example { \"scheme\": \"midpoint\", \"step\": 0.1 }");
     std::map<std::string, std::size_t> firstUse;
-    const std::size_t errorsBefore = reader.errors.size();
     for (std::size_t i = 0; i < schemes->asArray().size(); ++i) {
         const std::string pointer = childPointer("/schemes", i);
         const Value& value = schemes->asArray()[i];
@@ -233,13 +241,15 @@ void readSchemes(Reader& reader, const Value& document, Scene& scene) {
                                                      " already: " + describeValue(*label),
                              "labels are unique");
         }
-        if (const auto spec = readScheme(reader, value, pointer)) scene.schemes.push_back(*spec);
+        if (const auto spec = readScheme(reader, value, pointer)) {
+            scene.schemes.push_back(*spec);
+            places.push_back(i);
+        }
     }
-    // Places in the list are places in the document only if all could be read.
-    if (reader.errors.size() > errorsBefore) scene.schemes.clear();
     fillLabels(scene.schemes);
     const bool runsNothing = std::none_of(scene.schemes.begin(), scene.schemes.end(), [](const auto& s) { return s.isEnabled; });
     if (!scene.schemes.empty() && runsNothing) reader.warning("/schemes", "has no enabled scheme: nothing will run");
+    return places;
 }
 
 }  // namespace extremal

@@ -1,0 +1,218 @@
+#include "engine/scene/schema.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/model/system.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/space/catalog.hpp"
+
+namespace extremal {
+namespace {
+
+Value typed(const char* type, const char* description = "") {
+    Value v{Value::Object{}};
+    v.set("type", type);
+    if (*description) v.set("description", description);
+    return v;
+}
+
+Value reference(const char* definition) {
+    Value v{Value::Object{}};
+    v.set("$ref", std::string("#/$defs/") + definition);
+    return v;
+}
+
+Value strings(const std::vector<std::string>& texts) {
+    Value::Array all;
+    for (const std::string& t : texts) all.emplace_back(t);
+    return all;
+}
+
+Value enumeration(const std::vector<std::string>& texts) {
+    Value v{Value::Object{}};
+    v.set("enum", strings(texts));
+    return v;
+}
+
+Value anyOf(std::vector<Value> choices) {
+    Value v{Value::Object{}};
+    v.set("anyOf", Value(std::move(choices)));
+    return v;
+}
+
+Value arrayOf(Value items, const char* description = "") {
+    Value v = typed("array", description);
+    v.set("items", std::move(items));
+    return v;
+}
+
+Value object(Value properties, const std::vector<std::string>& required, const char* description = "") {
+    Value v = typed("object", description);
+    v.set("properties", std::move(properties));
+    if (!required.empty()) v.set("required", strings(required));
+    v.set("additionalProperties", false);
+    return v;
+}
+
+/// A number, or an expression whose value only the program knows.
+Value numberOf(const FieldInfo& field) {
+    Value number = typed(field.type == FieldType::integer ? "integer" : "number");
+    if (std::isfinite(field.min)) number.set(field.isMinExcluded ? "exclusiveMinimum" : "minimum", field.min);
+    if (std::isfinite(field.max)) number.set("maximum", field.max);
+    return anyOf({number, typed("string")});
+}
+
+Value property(const FieldInfo& field) {
+    Value v{Value::Object{}};
+    switch (field.type) {
+        case FieldType::number:
+        case FieldType::integer: v = numberOf(field); break;
+        case FieldType::boolean: v = typed("boolean"); break;
+        case FieldType::text: v = typed("string"); break;
+        case FieldType::choice: v = enumeration(field.choices); break;
+        case FieldType::json: break;
+    }
+    const std::string& words = field.description.empty() ? field.title : field.description;
+    v.set("description", field.unit.empty() ? words : words + " Unit: " + field.unit + ".");
+    if (!field.fallback.isNull()) v.set("default", field.fallback);
+    return v;
+}
+
+/// {"type": ID, keys...} for each entry, or the bare name where no key is required.
+template <class Entries>
+Value typedChoice(const Entries& entries) {
+    std::vector<Value> choices;
+    std::vector<std::string> names;
+    for (const auto& entry : entries) {
+        const CatalogItem* item = nullptr;
+        if constexpr (requires { entry.item; }) item = &entry.item;
+        else item = &entry;
+        Value properties{Value::Object{}}, type{Value::Object{}};
+        type.set("const", item->id);
+        properties.set("type", type);
+        for (const FieldInfo& field : item->parameters) properties.set(field.key, property(field));
+        choices.push_back(object(properties, {"type"}, item->description.c_str()));
+        names.push_back(item->id);
+    }
+    choices.push_back(enumeration(names));
+    return anyOf(std::move(choices));
+}
+
+std::vector<std::string> idsOf(const std::vector<CatalogItem>& items) {
+    std::vector<std::string> ids;
+    for (const CatalogItem& item : items) ids.push_back(item.id);
+    return ids;
+}
+
+Value namedSchemes() {
+    std::string pattern;
+    for (const SchemeEntry& entry : schemeCatalog()) {
+        if (!pattern.empty()) pattern += '|';
+        pattern += entry.item.id.substr(0, entry.item.id.find('<'));
+        if (entry.maxDegree > 0) pattern += "[1-9][0-9]*";
+    }
+    Value v = typed("string", "A named scheme.");
+    v.set("pattern", "^(" + pattern + ")$");
+    return v;
+}
+
+Value schemeDefinition() {
+    Value solver{Value::Object{}};
+    solver.set("method", enumeration({"auto", "newton", "fixed-point", "banded", "dense", "krylov"}));
+    solver.set("tolerance", reference("number"));
+    solver.set("max_iterations", reference("number"));
+    Value p{Value::Object{}};
+    p.set("label", typed("string", "Unique; made from the parts if left out."));
+    p.set("enabled", typed("boolean"));
+    p.set("step", reference("number"));
+    p.set("tolerance", reference("number"));
+    p.set("space", typedChoice(spaceCatalog()));
+    p.set("quadrature", typedChoice(quadratureCatalog()));
+    p.set("baseline", typedChoice(baselineCatalog()));
+    p.set("scheme", namedSchemes());
+    p.set("solver", object(solver, {}));
+    p.set("allow_unstable", typed("boolean", "Accept a pair that is unstable for every step."));
+    return object(p, {}, "A row of the comparison: a space and a quadrature, a baseline, or a named scheme.");
+}
+
+Value initialData() {
+    const Value vector = reference("vector");
+    Value p{Value::Object{}};
+    p.set("q", vector);
+    p.set("p", vector);
+    p.set("v", vector);
+    return object(p, {}, "Coordinates, and momenta or velocities.");
+}
+
+Value referenceChoice() {
+    Value p{Value::Object{}};
+    p.set("type", enumeration({"auto", "exact", "none", "scheme", "file"}));
+    p.set("scheme", reference("scheme"));
+    p.set("path", typed("string", "A CSV file with t and the state columns, relative to the scene."));
+    return anyOf({object(p, {"type"}), enumeration({"auto", "exact", "none"})});
+}
+
+Value definitions() {
+    Value byName = typed("object");
+    byName.set("additionalProperties", reference("number"));
+    Value number = anyOf({typed("number"), typed("string")});
+    number.set("description", "A number, or an expression in the model's parameters.");
+    Value d{Value::Object{}};
+    d.set("number", number);
+    d.set("vector", anyOf({arrayOf(reference("number")), byName}));
+    d.set("scheme", schemeDefinition());
+    return d;
+}
+
+Value viewChoice() {
+    Value p{Value::Object{}};
+    p.set("view", enumeration(idsOf(viewCatalog())));
+    p.set("x", typed("string", "A column, for phase portraits."));
+    p.set("y", typed("string", "A column, for phase portraits."));
+    return anyOf({enumeration(idsOf(viewCatalog())), object(p, {"view"})});
+}
+
+Value rootProperties() {
+    Value version{Value::Object{}}, time{Value::Object{}}, output{Value::Object{}}, limits{Value::Object{}};
+    version.set("const", 1);
+    time.set("start", reference("number"));
+    time.set("end", reference("number"));
+    output.set("every", reference("number"));
+    output.set("dense", typed("boolean", "Rows exactly at the multiples, from the scheme's own curve."));
+    limits.set("steps", reference("number"));
+    Value schemes = arrayOf(reference("scheme"));
+    schemes.set("minItems", 1);
+    Value p{Value::Object{}};
+    p.set("$schema", typed("string"));
+    p.set("extremal", version);
+    for (const char* key : {"title", "source", "lesson", "notes"}) p.set(key, typed("string"));
+    p.set("model", typedChoice(modelCatalog()));
+    p.set("initial", initialData());
+    p.set("time", object(time, {"end"}));
+    p.set("schemes", schemes);
+    p.set("reference", referenceChoice());
+    p.set("observe", arrayOf(enumeration(idsOf(observableCatalog()))));
+    p.set("output", object(output, {}));
+    p.set("views", arrayOf(viewChoice()));
+    p.set("limits", object(limits, {}));
+    return p;
+}
+
+}  // namespace
+
+Value sceneSchema() {
+    Value schema = object(rootProperties(), {"extremal", "model", "time", "schemes"}, "A comparison for Extremal.");
+    Value document{Value::Object{}};
+    document.set("$schema", "https://json-schema.org/draft/2020-12/schema");
+    document.set("title", "Extremal scene");
+    for (const auto& [key, value] : schema.asObject()) document.set(key, value);
+    document.set("$defs", definitions());
+    return document;
+}
+
+}  // namespace extremal
