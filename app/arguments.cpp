@@ -1,6 +1,7 @@
 #include "app/arguments.hpp"
 
 #include <filesystem>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -22,7 +23,7 @@ void addCommon(CLI::App& verb, CommonOptions& options) {
     verb.add_flag("--quiet", options.isQuiet, "errors only");
     verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
         ->type_name("N")
-        ->check(CLI::Range(1U, 1024U));
+        ->check(CLI::Range(1U, 1024U).description(""));
     verb.set_help_flag("--help,-h", "this text");
 }
 
@@ -44,7 +45,7 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
         ->type_name("BASE.png");
     verb.add_option("--tolerance", snapshot.tolerance, "percent of the pixels that may differ")
         ->type_name("PERCENT")
-        ->check(CLI::Range(0.0, 100.0));
+        ->check(CLI::Range(0.0, 100.0).description(""));
     addCommon(verb, arguments.common);
     verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
 }
@@ -54,10 +55,11 @@ void printParseError(const CLI::App& app, const CLI::ParseError& error, const Ar
     std::vector<std::string> verbs;
     for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
     std::string what = error.what(), hint = "see extremal --help";
-    if (!arguments.verb.empty()) hint = "see extremal " + arguments.verb + " --help";
+    const auto parsed = app.get_subcommands();
+    if (!parsed.empty()) hint = "see extremal " + parsed.front()->get_name() + " --help";
     // A mistyped verb is taken for a scene.
     const std::string near = nearestName(arguments.scene, verbs);
-    if (arguments.verb.empty() && !near.empty() && !std::filesystem::exists(arguments.scene)) {
+    if (parsed.empty() && !near.empty() && !std::filesystem::exists(arguments.scene)) {
         what = "unknown verb \"" + arguments.scene + "\"";
         hint = "did you mean \"" + near + "\"?";
     }
@@ -83,12 +85,20 @@ std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
         ->type_name("");
     addCommon(list, arguments.common);
     app.require_subcommand(0, 1);
+    for (const auto& [label, word] : {std::pair{"SUBCOMMAND", "VERB"}, {"Subcommands", "Verbs"}, {"REQUIRED", "(required)"}})
+        app.get_formatter()->label(label, word);
     try {
         app.parse(argc, argv);
         return arguments;
     } catch (const CLI::ParseError& error) {
-        exitCode = error.get_exit_code() == 0 ? finish(app.exit(error)) : unusable;
-        if (error.get_exit_code() != 0) printParseError(app, error, arguments);
+        exitCode = unusable;
+        if (error.get_exit_code() != 0) {
+            printParseError(app, error, arguments);
+        } else {
+            std::ostringstream text;
+            exitCode = app.exit(error, text);
+            exitCode = print(text.str(), exitCode);
+        }
         return {};
     }
 }

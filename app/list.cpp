@@ -143,17 +143,17 @@ int listVerb(const std::string& wanted, const CommonOptions& options) {
         printProblem("list", "unknown kind \"" + wanted + "\"", suggestName(wanted, names));
         return unusable;
     }
-    if (options.isJson) {
-        Value document{Value::Object{}};
-        for (const Kind& kind : all) document.set(kind.name, kindValue(kind));
-        print(writeJson(wanted.empty() ? document : kindValue(*found)));
-    } else if (!wanted.empty()) {
-        print(kindText(*found, ""));
-    } else {
-        for (const Kind& kind : all)
-            if (!kind.items.empty()) print((&kind == &all.front() ? "" : "\n") + kind.name + "\n" + kindText(kind, "  "));
+    if (options.isJson && !wanted.empty()) return print(writeJson(kindValue(*found)), done);
+    if (!wanted.empty()) return print(kindText(*found, ""), done);
+    Value document{Value::Object{}};
+    std::string text;
+    for (const Kind& kind : all) {
+        document.set(kind.name, kindValue(kind));
+        if (kind.items.empty()) continue;
+        if (!text.empty()) text += '\n';
+        text.append(kind.name).append("\n").append(kindText(kind, "  "));
     }
-    return finish(done);
+    return print(options.isJson ? writeJson(document) : text, done);
 }
 
 }  // namespace extremal::app

@@ -32,12 +32,10 @@ void printProblems(const std::string& file, const std::vector<Problem>& problems
     }
 }
 
-void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
-
-int finish(int code) {
-    errno = 0;
-    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-    printProblem("standard output", std::string("cannot be written: ") + std::strerror(errno ? errno : EIO));
+int print(std::string_view text, int code) {
+    const bool isWritten = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (isWritten) return code;
+    printProblem("standard output", std::string("cannot be written: ") + std::strerror(errno));
     return unwritable;
 }
 

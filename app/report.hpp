@@ -1,5 +1,5 @@
-/// What the command line says: errors as `extremal: WHERE: WHAT (HINT)`, aligned tables, and the last word on
-/// whether standard output took it all.
+/// What the command line says: errors as `extremal: WHERE: WHAT (HINT)` on standard error, tables and documents on
+/// standard output.
 #pragma once
 
 #include <string>
@@ -18,11 +18,8 @@ void printProblem(std::string_view where, std::string_view what, std::string_vie
 /// `lead` comes before the message ("warning: ").
 void printProblems(const std::string& file, const std::vector<Problem>& problems, std::string_view lead = {});
 
-/// Writes to standard output.
-void print(std::string_view text);
-
-/// Flushes standard output. Returns `code`, or 3 with an error if not everything could be written.
-int finish(int code);
+/// Writes to standard output. Returns `code`, or 3 after an error message if not all could be written.
+[[nodiscard]] int print(std::string_view text, int code);
 
 /// Columns two spaces apart; numbers to the right. The first row is the header.
 struct Table {

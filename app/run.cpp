@@ -73,16 +73,19 @@ void printFailures(const Comparison& comparison) {
     }
 }
 
-void printResult(const Comparison& comparison, const std::string& folder, bool isPartial, const CommonOptions& options) {
-    if (options.isJson) {
-        print(writeJson(summaryValue(comparison)));
-    } else if (!options.isQuiet) {
-        print(summaryTable(comparison));
-        const auto files = comparison.schemes.size() + 3;
-        std::string line = "\n" + std::to_string(files);
-        line.append(isPartial ? " files with partial results in " : " files in ").append(folder).append("\n");
-        print(line);
-    }
+int printResult(const Comparison& comparison, const std::string& folder, int code, const CommonOptions& options) {
+    if (options.isJson) return print(writeJson(summaryValue(comparison)), code);
+    if (options.isQuiet) return code;
+    std::string text = summaryTable(comparison);
+    text.append("\n").append(std::to_string(comparison.schemes.size() + 3));
+    text.append(code == interrupted ? " files with partial results in " : " files in ").append(folder).append("\n");
+    return print(text, code);
+}
+
+int exitCode(const Comparison& comparison, bool isInterrupted) {
+    if (isInterrupted) return interrupted;
+    const auto isFailed = [](const auto& scheme) { return scheme->summary.status == RunStatus::failed; };
+    return std::any_of(comparison.schemes.begin(), comparison.schemes.end(), isFailed) ? failed : done;
 }
 
 }  // namespace
@@ -99,15 +102,9 @@ int runVerb(const std::string& scene, const std::string& folder, const CommonOpt
         const Comparison result = run.latest();
         exportComparison(result, folder);
         printFailures(result);
-        printResult(result, folder, isInterrupted, options);
-        if (isInterrupted) {
-            printProblem("", "interrupted: the results are partial");
-            return finish(interrupted);
-        }
-        const bool hasFailure = std::any_of(result.schemes.begin(), result.schemes.end(), [](const auto& s) {
-            return s->summary.status == RunStatus::failed;
-        });
-        return finish(hasFailure ? failed : done);
+        const int code = printResult(result, folder, exitCode(result, isInterrupted), options);
+        if (isInterrupted) printProblem("", "interrupted: the results are partial");
+        return code;
     } catch (const InvalidScene& e) {
         printProblems(sceneName(scene), e.problems());
         return unusable;

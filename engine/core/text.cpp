@@ -37,6 +37,11 @@ std::string formatNumber(double value) {
     return {buffer.data(), end};
 }
 
+std::string formatCount(double value) {
+    if (value != std::trunc(value) || std::fabs(value) >= 1e15) return formatNumber(value);
+    return std::to_string(static_cast<long long>(value));
+}
+
 std::string formatNumber(double value, int digits) {
     std::array<char, 64> buffer;
     const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,

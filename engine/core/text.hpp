@@ -13,6 +13,9 @@ namespace extremal {
 /// The shortest text that reads back as the same double: "0.1", "1e-12", "10000"; "nan", "inf" if not finite.
 std::string formatNumber(double value);
 
+/// The same, but whole numbers below 1e15 in full: 100000 and not 1e+05. For counts, and for JSON.
+std::string formatCount(double value);
+
 /// At most `digits` significant digits, for people: "3.14", "1.2e-07".
 std::string formatNumber(double value, int digits);
 

@@ -71,7 +71,7 @@ Value summaryRow(const Summary& s) {
 }
 
 std::string cellText(const Value& value) {
-    if (value.isNumber()) return formatNumber(value.asNumber());
+    if (value.isNumber()) return formatCount(value.asNumber());
     return value.isString() ? csvCell(value.asString()) : std::string();
 }
 

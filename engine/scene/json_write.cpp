@@ -36,7 +36,7 @@ void appendString(std::string& out, std::string_view s) {
 std::string numberText(double d) {
     if (!std::isfinite(d)) return "null";
     // "-0" would be read back as the integer 0.
-    return d == 0 && std::signbit(d) ? "-0.0" : formatNumber(d);
+    return d == 0 && std::signbit(d) ? "-0.0" : formatCount(d);
 }
 
 void appendScalar(std::string& out, const Value& v) {

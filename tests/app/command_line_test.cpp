@@ -1,0 +1,240 @@
+/// The command line run as a user runs it: arguments in; exit code, words and files out.
+#include <QtTest>
+
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+
+#include <csignal>
+#include <unistd.h>
+
+namespace {
+
+struct Answer {
+    int code = -1;
+    QString out, err;
+};
+
+Answer extremal(const QStringList& arguments, const QByteArray& input = {}, const QString& outFile = {}) {
+    QProcess process;
+    if (!outFile.isEmpty()) process.setStandardOutputFile(outFile);
+    process.start(QStringLiteral(EXTREMAL_BINARY), arguments);
+    process.write(input);
+    process.closeWriteChannel();
+    if (!process.waitForFinished(60000)) return {};
+    return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
+            QString::fromUtf8(process.readAllStandardOutput()), QString::fromUtf8(process.readAllStandardError())};
+}
+
+/// A short scene; `schemes` as JSON.
+QByteArray scene(const QByteArray& schemes, const QByteArray& rest = "\"time\": { \"end\": 1 }") {
+    return "{ \"extremal\": 1, \"model\": { \"type\": \"kepler\" }, \"initial\": { \"q\": [0.4, 0], \"p\": [0, 2] }, " + rest +
+           ", \"schemes\": " + schemes + " }";
+}
+
+const QByteArray midpoint = "[{ \"label\": \"Midpoint A\", \"scheme\": \"midpoint\", \"step\": 0.1 }]";
+
+QByteArray contents(const QString& path) {
+    QFile file(path);
+    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray("cannot be opened");
+}
+
+/// The file without the values of cpu_seconds, in CSV and JSON alike.
+QByteArray withoutClock(const QString& path) {
+    QByteArray text = contents(path);
+    if (path.endsWith("summary.csv")) {
+        QByteArrayList lines = text.split('\n');
+        for (QByteArray& line : lines) {
+            QByteArrayList cells = line.split(',');
+            if (cells.size() > 10) cells[10].clear();
+            line = cells.join(',');
+        }
+        return lines.join('\n');
+    }
+    return QString::fromUtf8(text).replace(QRegularExpression("\"cpu_seconds\": [^,]*"), "").toUtf8();
+}
+
+QStringList filesIn(const QString& folder) { return QDir(folder).entryList(QDir::Files | QDir::Hidden, QDir::Name); }
+
+}  // namespace
+
+class CommandLineTest : public QObject {
+    Q_OBJECT
+private slots:
+    void runWritesWhatTheContractSays() {
+        QTemporaryDir dir;
+        const Answer a = extremal({"run", "-", "--out", dir.filePath("out")}, scene(midpoint));
+        QCOMPARE(a.code, 0);
+        QCOMPARE(a.err, QString());
+        QVERIFY(a.out.contains("Midpoint A  done"));
+        QCOMPARE(filesIn(dir.filePath("out")), (QStringList{"midpoint-a.csv", "scene.json", "summary.csv", "summary.json"}));
+        const QByteArrayList rows = contents(dir.filePath("out/midpoint-a.csv")).trimmed().split('\n');
+        QCOMPARE(rows.size(), 12);
+        QCOMPARE(rows[0], QByteArray("t,q.x,q.y,p.x,p.y,energy,energy_error,error,error.p,error.x,error.y"));
+        QVERIFY(rows[1].startsWith("0,0.4,0,0,2,"));
+        QVERIFY(rows[11].startsWith("1,"));
+    }
+
+    void rerunningTheResolvedSceneGivesTheSameBytes() {
+        QTemporaryDir dir;
+        QCOMPARE(extremal({"run", "preset:spring-pendulum", "--set", "/time/end=1", "--quiet", "--out", dir.filePath("a")}).code, 0);
+        const QString resolved = dir.filePath("a/scene.json");
+        QCOMPARE(extremal({"run", resolved, "--quiet", "--threads", "1", "--out", dir.filePath("b")}).code, 0);
+        QCOMPARE(extremal({"run", resolved, "--quiet", "--threads", "7", "--out", dir.filePath("c")}).code, 0);
+        const QStringList files = filesIn(dir.filePath("a"));
+        QCOMPARE(files.size(), 8);
+        for (const char* other : {"b", "c"}) {
+            QCOMPARE(filesIn(dir.filePath(other)), files);
+            for (const QString& file : files)
+                QVERIFY2(withoutClock(dir.filePath(QString(other) + "/" + file)) == withoutClock(dir.filePath("a/" + file)),
+                         qPrintable(file));
+        }
+    }
+
+    void jsonIsOneDocument() {
+        QTemporaryDir dir;
+        const Answer a = extremal({"run", "-", "--json", "--out", dir.path()}, scene(midpoint));
+        QCOMPARE(a.code, 0);
+        QCOMPARE(a.out.toUtf8(), contents(dir.filePath("summary.json")));
+        const QJsonObject check =
+            QJsonDocument::fromJson(extremal({"check", "-", "--json"}, scene("[]")).out.toUtf8()).object();
+        QCOMPARE(check["valid"].toBool(true), false);
+        QCOMPARE(check["errors"].toArray()[0].toObject()["pointer"].toString(), QString("/schemes"));
+        const QJsonObject all = QJsonDocument::fromJson(extremal({"list", "--json"}).out.toUtf8()).object();
+        for (const char* kind : {"models", "spaces", "quadratures", "schemes", "baselines", "observables", "studies", "views",
+                                 "profiles", "presets"})
+            QVERIFY2(all[kind].isArray(), kind);
+        const QJsonArray baselines = QJsonDocument::fromJson(extremal({"list", "baselines", "--json"}).out.toUtf8()).array();
+        QVERIFY(baselines[0].toObject()["claims"].toObject()["order"].isDouble());
+    }
+
+    void aFailedSchemeLeavesTheOthersAlone() {
+        QTemporaryDir dir;
+        const Answer a = extremal(
+            {"run", "-", "--out", dir.path(), "--json"},
+            scene("[{ \"label\": \"ok\", \"scheme\": \"midpoint\", \"step\": 0.1 },"
+                  "{ \"label\": \"bad\", \"baseline\": \"stormer-verlet\", \"step\": 0.1 }]",
+                  "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1 }")
+                .replace("\"q\": [0.4, 0]", "\"q\": [0, 0]"));
+        QCOMPARE(a.code, 1);
+        QVERIFY(a.err.contains("extremal: bad: failed at t = 0"));
+        const QJsonArray schemes = QJsonDocument::fromJson(a.out.toUtf8()).object()["schemes"].toArray();
+        QCOMPARE(schemes[1].toObject()["status"].toString(), QString("failed"));
+        QVERIFY(!schemes[1].toObject()["cause"].toString().isEmpty());
+        QVERIFY(schemes[1].toObject()["failed_at"].isDouble());
+        QVERIFY(filesIn(dir.path()).contains("bad.csv"));
+    }
+
+    void badInputWritesNoFile_data() {
+        QTest::addColumn<QStringList>("arguments");
+        QTest::addColumn<QByteArray>("input");
+        QTest::addColumn<QString>("error");
+        const QStringList standard{"run", "-"};
+        const auto row = [](const char* what, const QStringList& arguments, const QByteArray& input, const char* error) {
+            QTest::newRow(what) << arguments << input << error;
+        };
+        row("negative step", standard, scene("[{ \"scheme\": \"midpoint\", \"step\": -0.1 }]"),
+            "extremal: standard input:/schemes/0/step: must be a positive finite number, got -0.1\n");
+        row("override", {"run", "-", "--set", "/schemes/*/step=0"}, scene(midpoint),
+            "extremal: --set /schemes/*/step: must be a positive finite number, got 0\n");
+        row("unknown override", {"run", "-", "--set", "/tume/end=1"}, scene(midpoint),
+            "extremal: --set /tume/end: unknown key \"tume\" (did you mean \"time\"?)\n");
+        row("override without a value", {"run", "-", "--set", "/time/end"}, scene(midpoint),
+            "extremal: --set /time/end: has no value (write --set POINTER=VALUE)\n");
+        row("10^12 steps", standard, scene("[{ \"scheme\": \"midpoint\", \"step\": 1e-12 }]"),
+            "/schemes/0/step: needs 1e+12 steps from 0 to 1, the limit is 1e+11");
+        row("caret", standard, scene("[{ \"scheme\": \"midpoint\", \"step\": \"1/nu\" }]"), "\n    1/nu\n      ^\n");
+        row("malformed", standard, "{", "extremal: standard input: is not JSON: ");
+        row("a million brackets", standard, QByteArray(1000000, '['), "nested deeper than 200");
+        row("missing file", {"run", "nowhere.json"}, "", "extremal: nowhere.json: there is no such file");
+        row("folder", {"run", "/"}, "", "extremal: /: is a folder");
+        row("device", {"run", "/dev/zero"}, "", "extremal: /dev/zero: is not a regular file");
+        row("preset", {"run", "preset:keppler"}, "", "(did you mean \"kepler\"?)");
+        row("threads", {"run", "-", "--threads", "0"}, scene(midpoint), "--threads");
+    }
+    void badInputWritesNoFile() {
+        QFETCH(QStringList, arguments);
+        QFETCH(QByteArray, input);
+        QFETCH(QString, error);
+        QTemporaryDir dir;
+        const Answer a = extremal(arguments + QStringList{"--out", dir.filePath("out")}, input);
+        QCOMPARE(a.code, 2);
+        QVERIFY2(a.err.contains(error), qPrintable(a.err));
+        QVERIFY(a.out.isEmpty());
+        QVERIFY(!QFileInfo::exists(dir.filePath("out")));
+    }
+
+    void badArgumentsAreNamed_data() {
+        QTest::addColumn<QStringList>("arguments");
+        QTest::addColumn<QString>("error");
+        QTest::newRow("verb") << QStringList{"rum", "preset:kepler"} << "unknown verb \"rum\" (did you mean \"run\"?)";
+        QTest::newRow("no out") << QStringList{"run", "preset:kepler"} << "--out";
+        QTest::newRow("option") << QStringList{"check", "preset:kepler", "--ste", "/a=1"} << "--ste";
+        QTest::newRow("kind") << QStringList{"list", "model"} << "unknown kind \"model\" (did you mean \"models\"?)";
+    }
+    void badArgumentsAreNamed() {
+        QFETCH(QStringList, arguments);
+        QFETCH(QString, error);
+        const Answer a = extremal(arguments);
+        QCOMPARE(a.code, 2);
+        QVERIFY2(a.err.startsWith("extremal: ") && a.err.contains(error), qPrintable(a.err));
+    }
+
+    void unreadableAndUnwritablePathsAreTold() {
+        QTemporaryDir dir;
+        QFile file(dir.filePath("scene.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(scene(midpoint));
+        file.close();
+        // A file stands where the folder should be; root may write anywhere else.
+        Answer a = extremal({"run", file.fileName(), "--out", file.fileName() + "/out"});
+        QCOMPARE(a.code, 3);
+        QVERIFY2(a.err.contains("cannot be written: Not a directory"), qPrintable(a.err));
+        a = extremal({"list"}, {}, "/dev/full");
+        QCOMPARE(a.code, 3);
+        QVERIFY2(a.err.contains("standard output: cannot be written: No space left on device"), qPrintable(a.err));
+        if (::geteuid() == 0) return;
+        file.setPermissions({});
+        a = extremal({"check", file.fileName()});
+        QCOMPARE(a.code, 2);
+        QVERIFY2(a.err.contains("cannot be opened: Permission denied"), qPrintable(a.err));
+    }
+
+    void interruptingKeepsWhatIsFinished() {
+        QTemporaryDir dir;
+        QProcess process;
+        process.start(QStringLiteral(EXTREMAL_BINARY), {"run", "-", "--out", dir.path()});
+        process.write(scene("[{ \"label\": \"short\", \"scheme\": \"midpoint\", \"step\": 0.5 },"
+                            "{ \"label\": \"long\", \"scheme\": \"midpoint\", \"step\": 1e-7 }]",
+                            "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1000 }"));
+        process.closeWriteChannel();
+        QVERIFY(process.waitForStarted());
+        QTest::qWait(700);
+        QCOMPARE(process.state(), QProcess::Running);
+        QElapsedTimer timer;
+        timer.start();
+        ::kill(static_cast<pid_t>(process.processId()), SIGINT);
+        QVERIFY(process.waitForFinished(5000));
+        QVERIFY2(timer.elapsed() < 500, qPrintable(QString::number(timer.elapsed())));  // 40 ms measured
+        QCOMPARE(process.exitStatus(), QProcess::NormalExit);
+        QCOMPARE(process.exitCode(), 130);
+        QVERIFY(process.readAllStandardError().contains("interrupted: the results are partial"));
+        const QByteArray summary = contents(dir.filePath("summary.csv"));
+        QVERIFY2(summary.contains("short,done,,") && summary.contains("long,partial,stopped,"), summary.constData());
+        QVERIFY(contents(dir.filePath("long.csv")).count('\n') > 2);
+    }
+
+    void helpAndVersionGoToStandardOutput() {
+        QCOMPARE(extremal({"--version"}).code, 0);
+        QVERIFY(extremal({"--version"}).out.startsWith("extremal "));
+        for (const QStringList& arguments : {QStringList{"--help"}, {"run", "--help"}, {"snapshot", "--help"}}) {
+            const Answer a = extremal(arguments);
+            QCOMPARE(a.code, 0);
+            QVERIFY(a.err.isEmpty() && a.out.contains("--set"));
+        }
+    }
+};
+
+QTEST_GUILESS_MAIN(CommandLineTest)
+#include "command_line_test.moc"
