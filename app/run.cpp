@@ -1,35 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "app/load.hpp"
-#include "app/progress.hpp"
 #include "app/report.hpp"
-#include "app/signals.hpp"
 #include "app/verbs.hpp"
+#include "app/watch_run.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/export.hpp"
-#include "engine/run/run.hpp"
 #include "engine/scene/json.hpp"
 
 namespace extremal::app {
 namespace {
-
-/// Waits for the run; a first Ctrl-C stops it and keeps what is done, a second one ends the program.
-bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
-    ProgressLine progress(!options.isQuiet);
-    bool isInterrupted = false;
-    for (int pause = 1; !run.isFinished(); pause = std::min(2 * pause, 30)) {
-        if (watch.wait(pause)) {
-            if (isInterrupted) std::_Exit(interrupted);
-            isInterrupted = true;
-            run.stop();
-        }
-        progress.show(run.fraction(), isInterrupted ? "stopping" : "running");
-    }
-    run.wait();
-    return isInterrupted;
-}
 
 std::string number(double value, int digits = 3) { return std::isfinite(value) ? formatNumber(value, digits) : ""; }
 
