@@ -1,13 +1,51 @@
 /// Names of what can be observed and seen; the observables themselves are in observe/observables, one file each.
 #pragma once
 
+#include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/core/catalog.hpp"
+#include "engine/core/outcome.hpp"
+#include "engine/core/state.hpp"
+#include "engine/model/system.hpp"
+#include "engine/trajectory/trajectory.hpp"
 
 namespace extremal {
 
+/// What an observable may look at when it is bound to a run.
+struct ObserveContext {
+    const System& system;
+    const State& initial;
+    /// The reference solution, one per run because it may keep a warm start; empty where there is none.
+    ExactSolution reference;
+};
+
+/// An observable bound to one run: its columns, and a pure function from a node to their values.
+struct Observer {
+    std::vector<Column> columns;  ///< names, symbols, units; values empty
+    /// Fills one value per column. `report` is that of the step that ended at this node (empty at the first node).
+    std::function<void(const State& state, const StepReport& report, double* values)> evaluate;
+    /// Column whose size goes into the summary as a maximum over every node ("energy_error", ...); -1 if none.
+    int extreme = -1;
+};
+
+struct ObservableEntry {
+    CatalogItem item;
+    bool needsReference = false;
+    /// Whether the system has it; the default is every system.
+    std::function<bool(const System&)> applies;
+    /// Empty for what only fills the summary ("order").
+    std::function<Observer(const ObserveContext&)> bind;
+};
+
+const std::vector<ObservableEntry>& observableEntries();
+const ObservableEntry* findObservable(std::string_view id);
+
+/// The same as catalogue items.
 const std::vector<CatalogItem>& observableCatalog();
+/// What can be drawn (engine/figure).
 const std::vector<CatalogItem>& viewCatalog();
 
 }  // namespace extremal

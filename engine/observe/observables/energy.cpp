@@ -1,0 +1,26 @@
+/// Energy H(t, q, p) and its signed change H(t) - H(0): conserved by the flow of a time-independent Lagrangian.
+#include "engine/observe/catalog.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry energy() {
+    ObservableEntry e;
+    e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.", {}, {}, ""};
+    e.bind = [](const ObserveContext& context) {
+        Observer o;
+        o.columns = {{"energy", "H", context.system.energyUnit, {}},
+                     {"energy_error", "H - H(0)", context.system.energyUnit, {}}};
+        o.extreme = 1;
+        const Mechanics<double> m = context.system.mechanics;
+        const double* x = context.initial.x.data();
+        const double start = m.energy(m.model.get(), context.initial.t, x, x + m.dimension);
+        o.evaluate = [m, start](const State& state, const StepReport&, double* values) {
+            values[0] = m.energy(m.model.get(), state.t, state.x.data(), state.x.data() + m.dimension);
+            values[1] = values[0] - start;
+        };
+        return o;
+    };
+    return e;
+}
+
+}  // namespace extremal::observables

@@ -1,0 +1,43 @@
+/// Error against the reference at the node's own t: |q - q_ref|, |p - p_ref| (Euclidean), and q_i - q_ref,i of each
+/// coordinate, signed.
+#include <cmath>
+
+#include "engine/observe/catalog.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry error() {
+    ObservableEntry e;
+    e.item = {"error", "error", "Distance from the reference solution: |q - q_ref|, |p - p_ref| and each coordinate.", {},
+              {}, "a reference"};
+    e.needsReference = true;
+    e.bind = [](const ObserveContext& context) {
+        Observer o;
+        const auto& coordinates = context.system.coordinates;
+        const std::size_t d = coordinates.size();
+        bool sameUnit = true;
+        for (const Coordinate& c : coordinates) sameUnit = sameUnit && c.unit == coordinates[0].unit;
+        o.columns.push_back({"error", "|q - q_ref|", sameUnit ? coordinates[0].unit : "", {}});
+        o.columns.push_back({"error.p", "|p - p_ref|", sameUnit ? coordinates[0].momentumUnit : "", {}});
+        for (const Coordinate& c : coordinates)
+            o.columns.push_back({"error." + c.name, c.symbol + " - " + c.symbol + "_ref", c.unit, {}});
+        o.extreme = 0;
+        o.evaluate = [reference = context.reference, d, exact = std::vector<double>(2 * d)](
+                         const State& state, const StepReport&, double* values) mutable {
+            reference(state.t, exact);
+            double q = 0, p = 0;
+            for (std::size_t i = 0; i < d; ++i) {
+                const double dq = state.x[i] - exact[i], dp = state.x[d + i] - exact[d + i];
+                values[2 + i] = dq;
+                q += dq * dq;
+                p += dp * dp;
+            }
+            values[0] = std::sqrt(q);
+            values[1] = std::sqrt(p);
+        };
+        return o;
+    };
+    return e;
+}
+
+}  // namespace extremal::observables
