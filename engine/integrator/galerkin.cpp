@@ -51,7 +51,7 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 }  // namespace
 
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
-    Table<double> table = makeTable(makeSpace<double>(pair.space), makeRule<double>(pair.quadrature));
+    Table<double> table = makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature));
     const SolverPolicy policy = solverPolicy(pair.solver, system);
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(table), clock, policy);

@@ -95,7 +95,7 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
     if (p.knownAs == "Gauss collocation" || p.knownAs == "implicit midpoint")
         p.claims.conserves.push_back("quadratic invariants");
     try {
-        p.stabilityLimit = firstInstability(makeTable(makeSpace<double>(space), rule));
+        p.stabilityLimit = firstInstability(makeTable(makeSpace(space), rule));
     } catch (const InvalidScene& e) {
         p.refusal = e.problems().front().message;
         p.hint = e.problems().front().hint;

@@ -1,27 +1,25 @@
 #include "engine/space/catalog.hpp"
 
+#include <algorithm>
+
+#include "engine/core/problem.hpp"
+
 namespace extremal {
 
 const std::vector<CatalogItem>& spaceCatalog() {
-    FieldInfo degree;
-    degree.key = "degree";
-    degree.title = "degree";
-    degree.symbol = "s";
-    degree.type = FieldType::integer;
-    degree.min = 1;
-    degree.max = 24;
-    degree.description = "Degree of the polynomials on one step.";
-    FieldInfo basis;
-    basis.key = "basis";
-    basis.title = "basis";
-    basis.type = FieldType::choice;
-    basis.fallback = "lobatto";
-    basis.choices = {"lobatto", "chebyshev", "equispaced", "legendre", "chebyshev-modal"};
-    basis.description = "Control points of a nodal basis, or a modal basis; the step is the same to round-off.";
-    static const std::vector<CatalogItem> all = {
-        {"polynomial", "polynomial", "Polynomials in time, continuous from step to step.", {degree, basis}, {}, ""},
-    };
-    return all;
+    static const std::vector<CatalogItem> items = [] {
+        std::vector<CatalogItem> all;
+        for (const SpaceEntry& e : spaceEntries()) all.push_back(e.item);
+        return all;
+    }();
+    return items;
+}
+
+Space<double> makeSpace(const Settings& space) {
+    const auto& all = spaceEntries();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const SpaceEntry& e) { return e.item.id == space.type; });
+    if (found == all.end()) throw InvalidScene("/space/type", "there is no space \"" + space.type + "\"");
+    return found->make(space);
 }
 
 }  // namespace extremal

@@ -87,14 +87,7 @@ Space<T> polynomialSpace(int degree, PolynomialBasis basis) {
     return nodal(controlPoints<T>(degree, basis));
 }
 
-template <class T>
-Space<T> makeSpace(const Settings& space) {
-    return polynomialSpace<T>(space.integer("degree"), polynomialBasis(space.text("basis")));
-}
-
 template Space<double> polynomialSpace<double>(int, PolynomialBasis);
 template Space<Quad> polynomialSpace<Quad>(int, PolynomialBasis);
-template Space<double> makeSpace<double>(const Settings&);
-template Space<Quad> makeSpace<Quad>(const Settings&);
 
 }  // namespace extremal

@@ -20,8 +20,7 @@ struct Space {
     std::function<void(const T& tau, std::span<T> value, std::span<T> derivative)> evaluate;
 };
 
-/// The space that a scene's "space" names; its keys are checked and complete.
-template <class T>
-Space<T> makeSpace(const Settings& space);
+/// The space that a scene's "space" names (space/catalog.hpp); its keys are checked and complete.
+Space<double> makeSpace(const Settings& space);
 
 }  // namespace extremal
