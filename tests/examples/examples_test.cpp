@@ -1,0 +1,98 @@
+/// The worked examples of the handbook ("Adding to it"): each is one file, and does what the handbook says.
+#include <QFile>
+#include <QTest>
+
+#include <cmath>
+
+#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "tests/examples/galerkin_fine.cpp"
+#include "tests/examples/quartic_oscillator.cpp"
+#include "tests/examples/trigonometric.cpp"
+#include "tests/examples/virial.cpp"
+
+using namespace extremal;
+
+namespace {
+
+System quartic() { return systems::quartic_oscillator().make({"quartic-oscillator", {{"m", 1}, {"c", 1}}, {}}); }
+
+System harmonic() { return findModel("harmonic-oscillator")->make({"harmonic-oscillator", {{"m", 1}, {"k", 1}}, {}}); }
+
+State integrate(const System& system, const Discretization& pair, State state, double step, int steps) {
+    const auto integrator = makeIntegrator(system, pair, Clock{0, step});
+    for (int i = 0; i < steps; ++i)
+        if (integrator->advance(state).outcome != Outcome::converged) return {};
+    return state;
+}
+
+QString fileText(const QString& path) {
+    QFile file(QStringLiteral(EXTREMAL_SOURCE_DIR "/") + path);
+    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
+
+}  // namespace
+
+class ExamplesTest : public QObject {
+    Q_OBJECT
+
+private slots:
+    void systemIsIntegratedWithItsEnergyBounded() {
+        const System system = quartic();
+        const Mechanics<double>& m = system.mechanics;
+        State state{0, 0, {1, 0}};
+        const double start = m.energy(m.model.get(), 0, &state.x[0], &state.x[1]);
+        QCOMPARE(start, 0.25);
+        state = integrate(system, *namedScheme("galerkin-gauss-2"), state, 0.1, 1000);
+        QCOMPARE(state.x.size(), std::size_t{2});
+        const double change = m.energy(m.model.get(), state.t, &state.x[0], &state.x[1]) - start;
+        QVERIFY2(std::abs(change) < 1e-5, qPrintable(QString::number(change)));
+    }
+
+    void spaceFittedToTheFrequencyIsExact() {
+        // The exact motion cos t lies in the space, so the step finds it, here with four fifths of a period each.
+        const double step = 5;
+        const SpaceEntry entry = spaces::trigonometric();
+        const Rule<double> rule = gauss<double>(24);
+        const Table<double> table = makeTable(entry.make({"trigonometric", {{"z", step}}, {}}), rule);
+        GalerkinStep<double, 1> integrator(harmonic().mechanics, table, step, {});
+        double q = 1, p = 0;
+        for (int i = 0; i < 20; ++i)
+            QVERIFY(integrator.advance(i * step, &q, &p, {}).outcome == Outcome::converged);
+        QVERIFY2(std::hypot(q - std::cos(20 * step), p + std::sin(20 * step)) < 1e-11, qPrintable(QString::number(q)));
+    }
+
+    void schemeClaimsAndHasTheOrderOfItsDegree() {
+        const Discretization pair = schemes::galerkin_fine().make(2);
+        QCOMPARE(describe(pair.space, pair.quadrature).claims.order, 4);
+        const System system = quartic();
+        const auto end = [&](int n) { return integrate(system, pair, {0, 0, {1, 0}}, 3.0 / n, n).x; };
+        const auto finest = end(1280), coarse = end(40), fine = end(80);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double order = std::log2(std::abs(coarse[i] - finest[i]) / std::abs(fine[i] - finest[i]));
+            QVERIFY2(std::abs(order - 4) < 0.1, qPrintable(QString::number(order)));  // measured: 3.995 for q, 3.999 for p
+        }
+    }
+
+    void observableIsComputedAtANode() {
+        const System system = quartic();
+        const State state{0, 0, {3, -2}};
+        const Observer observer = observables::virial().bind({system, state, {}});
+        QCOMPARE(observer.columns.size(), std::size_t{1});
+        double value = 0;
+        observer.evaluate(state, {}, &value);
+        QCOMPARE(value, -6.0);
+    }
+
+    void handbookShowsTheseFiles() {
+        const QString page = fileText("resources/handbook/extending.md");
+        for (const char* name : {"quartic_oscillator", "trigonometric", "galerkin_fine", "virial"}) {
+            const QString code = fileText(QStringLiteral("tests/examples/%1.cpp").arg(name));
+            QVERIFY(!code.isEmpty());
+            QVERIFY2(page.contains("```cpp\n" + code + "```"), name);
+        }
+    }
+};
+
+QTEST_GUILESS_MAIN(ExamplesTest)
+#include "examples_test.moc"

@@ -1,0 +1,23 @@
+/// Degree s with Gauss(s + 1): one node more than collocation needs.
+#include "engine/integrator/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry galerkin_fine() {
+    SchemeEntry e;
+    // The claims are those of the smallest degree; what a pair of degree s claims follows from space and rule.
+    e.item = {"galerkin-fine-<s>", "Galerkin, fine rule", "Degree s with Gauss(s + 1): order 2s.", {},
+              Claims{2, true, true, {"momentum"}}, ""};
+    e.source = "Leok 2004, sec. 2.1";
+    e.minDegree = 1;
+    e.maxDegree = 12;
+    e.make = [](int s) {
+        Discretization pair;
+        pair.space = {"polynomial", {{"degree", s}, {"basis", "lobatto"}}, {}};
+        pair.quadrature = {"gauss", {{"nodes", s + 1}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes
