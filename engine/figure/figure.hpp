@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
 
 namespace extremal {
@@ -43,14 +44,20 @@ struct Figure {
     std::vector<Series> series;
     std::vector<FailureMark> failures;
     std::optional<double> floor;  ///< round-off floor: a faint horizontal line
+    std::optional<double> doubtfulBelow;  ///< values below are not resolved by the reference: a faint band
+    std::string message;          ///< why there is nothing to see, in place of the series; else empty
     bool hasEqualScales = false;  ///< trajectories in a plane: one unit is as long on both axes
     std::string summary;          ///< one sentence for screen readers
 };
 
-/// The figure of one view of a comparison. The view must be one of viewCatalog() that is a plot (not "stage").
+/// The figure of one view of a comparison. The view must be one of viewCatalog() that is a plot (not "stage");
+/// anything else throws std::invalid_argument. All axes come with a range.
 Figure makeFigure(const Comparison& comparison, const View& view);
+/// The same for a system made before, or null: titles and units then come from the columns alone.
+Figure makeFigure(const Comparison& comparison, const View& view, const System* system);
 
-/// Views that this scene asks for and that are plots, in order; with defaults when the scene names none.
+/// Views that this scene asks for and that are plots, in order; with defaults when the scene names none. A trajectory
+/// that is not an orbit in a plane becomes one view per coordinate (up to three), as their units differ.
 std::vector<View> plotViews(const Scene& scene);
 
 }  // namespace extremal

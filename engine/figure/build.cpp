@@ -1,0 +1,214 @@
+#include "engine/figure/build.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <set>
+
+#include "engine/figure/range.hpp"
+
+namespace extremal {
+
+std::string axisTitle(std::string_view symbol, std::string_view unit) {
+    std::string title(symbol);
+    for (std::size_t at = 0; (at = title.find(" - ", at)) != std::string::npos; at += 3) title.replace(at, 3, " − ");
+    if (!unit.empty()) title.append("  [").append(unit).append("]");
+    return title;
+}
+
+std::string shortNumber(double value, int digits) {
+    if (!std::isfinite(value)) return std::isnan(value) ? "unknown" : value > 0 ? "∞" : "−∞";
+    std::array<char, 40> buffer;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general,
+                                   std::max(digits, 1));
+    std::string text(buffer.data(), end.ptr);
+    const std::size_t e = text.find('e');
+    if (e == std::string::npos) return text;
+    int exponent = 0;  // "1e+06" and "1e-06" lose their sign of plus and their zeros
+    const std::size_t first = e + 1 + (text[e + 1] == '+' ? 1u : 0u);
+    std::from_chars(text.data() + first, text.data() + text.size(), exponent);
+    if (exponent >= 0 && exponent < 6) return std::to_string(std::llround(value));
+    return text.substr(0, e + 1) + std::to_string(exponent);
+}
+
+ColumnInfo columnInfo(const FigureContext& context, std::string_view column) {
+    for (const auto& scheme : context.comparison.schemes)
+        if (const Column* c = scheme->trajectory.find(column)) return {c->symbol.empty() ? c->name : c->symbol, c->unit};
+    if (column == "t") return {"t", context.system ? context.system->timeUnit : ""};
+    if (context.system) {
+        for (const Coordinate& c : context.system->coordinates) {
+            if (column == "q." + c.name) return {c.symbol, c.unit};
+            if (column == "p." + c.name) return {"p " + c.symbol, c.momentumUnit};
+        }
+    }
+    return {std::string(column), ""};
+}
+
+Axis timeAxis(const FigureContext& context) {
+    const ColumnInfo t = columnInfo(context, "t");
+    Axis axis;
+    axis.title = axisTitle(t.symbol, t.unit);
+    axis.isTime = true;
+    const double start = context.comparison.scene.start.value, end = context.comparison.scene.end.value;
+    if (std::isfinite(start) && std::isfinite(end) && end > start) axis.range = {start, end};
+    return axis;
+}
+
+Axis logAxis(std::string title) {
+    Axis axis;
+    axis.title = std::move(title);
+    axis.isLog = true;
+    return axis;
+}
+
+Figure startFigure(const FigureContext& context, std::string title) {
+    Figure figure;
+    figure.view = context.view.id;
+    figure.title = std::move(title);
+    return figure;
+}
+
+namespace {
+
+Series startSeries(const SchemeResult& scheme) {
+    Series s;
+    s.label = scheme.spec.label;
+    s.style = scheme.style;
+    return s;
+}
+
+}  // namespace
+
+void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take) {
+    for (const auto& scheme : context.comparison.schemes) {
+        const std::span<const double> t = scheme->trajectory["t"], y = scheme->trajectory[column];
+        if (y.empty()) continue;
+        Series s = startSeries(*scheme);
+        s.x.assign(t.begin(), t.end());
+        s.y.assign(y.begin(), y.end());
+        if (take == Take::magnitude)
+            for (double& v : s.y) v = std::abs(v);
+        figure.series.push_back(std::move(s));
+    }
+}
+
+void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn) {
+    for (const auto& scheme : context.comparison.schemes) {
+        const std::span<const double> x = scheme->trajectory[xColumn], y = scheme->trajectory[yColumn];
+        if (x.empty() || y.empty()) continue;
+        Series s = startSeries(*scheme);
+        s.isCurve = xColumn != "t";
+        s.x.assign(x.begin(), x.end());
+        s.y.assign(y.begin(), y.end());
+        figure.series.push_back(std::move(s));
+    }
+}
+
+namespace {
+
+/// A point with a coordinate its axis cannot show becomes a gap and is counted. The first value of an error is zero
+/// by definition; it is a gap like the others.
+void hideWhatAxesCannotShow(Figure& figure) {
+    const double gap = Summary::unknown;
+    for (Series& s : figure.series) {
+        for (std::size_t r = 0; r < s.x.size(); ++r) {
+            const bool isShown = std::isfinite(s.x[r]) && std::isfinite(s.y[r]) && (!figure.x.isLog || s.x[r] > 0) &&
+                                 (!figure.y.isLog || s.y[r] > 0);
+            if (isShown) continue;
+            s.y[r] = gap;
+            if (!std::isfinite(s.x[r]) || (figure.x.isLog && s.x[r] <= 0)) s.x[r] = gap;
+            ++s.hidden;
+        }
+    }
+}
+
+void markFailures(Figure& figure, const FigureContext& context) {
+    const std::string unit = columnInfo(context, "t").unit;
+    for (const auto& scheme : context.comparison.schemes) {
+        const Summary& summary = scheme->summary;
+        if (summary.status != RunStatus::failed || !std::isfinite(summary.failedAt)) continue;
+        std::string cause(name(summary.cause));
+        std::replace(cause.begin(), cause.end(), '-', ' ');
+        if (cause.empty()) cause = "failed";
+        figure.failures.push_back({scheme->spec.label, scheme->style, summary.failedAt,
+                                   cause + " at t = " + shortNumber(summary.failedAt, 3) + (unit.empty() ? "" : " " + unit)});
+    }
+}
+
+void fitAxis(Axis& axis, const Figure& figure, std::vector<double> Series::*values) {
+    std::set<std::string> failed;
+    for (const FailureMark& f : figure.failures) failed.insert(f.label);
+    std::vector<RangeInput> inputs;
+    for (const Series& s : figure.series) inputs.push_back({s.*values, failed.count(s.label) > 0});
+    if (!axis.range) axis.range = fitRange(inputs, axis.isLog);
+}
+
+/// "largest 0.03 (RK4), smallest 1e-7 (midpoint)", by the largest value of each series.
+std::string extremesText(const Figure& figure) {
+    const Series *most = nullptr, *least = nullptr;
+    double high = 0, low = 0;
+    for (const Series& s : figure.series) {
+        const double m = maxMagnitude(s.y);
+        if (m == 0) continue;
+        if (!most || m > high) most = &s, high = m;
+        if (!least || m < low) least = &s, low = m;
+    }
+    if (!most) return "";
+    if (most == least) return "; at most " + shortNumber(high) + " (" + most->label + ")";
+    return "; at most between " + shortNumber(low) + " (" + least->label + ") and " + shortNumber(high) + " (" +
+           most->label + ")";
+}
+
+}  // namespace
+
+void finishFigure(Figure& figure, const FigureContext& context, std::string_view what) {
+    markFailures(figure, context);
+    hideWhatAxesCannotShow(figure);
+    fitAxis(figure.x, figure, &Series::x);
+    fitAxis(figure.y, figure, &Series::y);
+
+    const bool hasPoints = std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
+        return std::any_of(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });
+    });
+    if (!hasPoints && figure.message.empty()) {
+        const ViewEntry* entry = findView(figure.view);
+        const auto& observe = context.comparison.scene.observe;
+        if (entry && !entry->observable.empty() &&
+            std::find(observe.begin(), observe.end(), entry->observable) == observe.end())
+            figure.message = "The scene does not observe \"" + entry->observable + "\"";
+        else
+            figure.message = context.comparison.isFinished ? "Nothing to show" : "No values yet";
+    }
+    figure.summary = std::string(what);
+    figure.summary += hasPoints ? extremesText(figure) : ": " + figure.message;
+    for (const FailureMark& f : figure.failures) figure.summary += "; " + f.label + " " + f.text;
+    figure.summary += ".";
+}
+
+double maxMagnitude(std::span<const double> values) {
+    double result = 0;
+    for (double v : values)
+        if (std::isfinite(v)) result = std::max(result, std::abs(v));
+    return result;
+}
+
+double initialNorm(const Comparison& comparison, std::string_view prefix) {
+    for (const auto& scheme : comparison.schemes) {
+        if (scheme->trajectory.rows() == 0) continue;
+        double norm = 0;
+        for (const Column& c : scheme->trajectory.columns)
+            if (c.name.starts_with(prefix) && std::isfinite(c.values.front())) norm = std::hypot(norm, c.values.front());
+        return norm;
+    }
+    return 0;
+}
+
+bool isBounded(std::span<const double> values, double noise) {
+    const std::size_t half = values.size() / 2;
+    const double early = maxMagnitude(values.first(half)), late = maxMagnitude(values.subspan(half));
+    const bool isFinite = std::all_of(values.begin(), values.end(), [](double v) { return !std::isinf(v); });
+    return isFinite && (late <= 1.5 * early || late <= noise);
+}
+
+}  // namespace extremal

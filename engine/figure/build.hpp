@@ -1,0 +1,53 @@
+/// What the views share: axes with titles and units, series from columns, marks, ranges and the sentence for readers.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/figure/view.hpp"
+
+namespace extremal {
+
+/// "H  [J]"; without a unit the symbol alone. ASCII minus signs between spaces become real ones.
+std::string axisTitle(std::string_view symbol, std::string_view unit);
+
+/// For people: `digits` significant ones, "3.2e-7", "0.31", "1200".
+std::string shortNumber(double value, int digits = 2);
+
+/// Symbol and unit of a state or observable column: from the trajectories, else from the system, else its name alone.
+struct ColumnInfo {
+    std::string symbol, unit;
+};
+ColumnInfo columnInfo(const FigureContext& context, std::string_view column);
+
+/// Time from the start to the end of the scene, linked with all other time axes.
+Axis timeAxis(const FigureContext& context);
+Axis logAxis(std::string title);
+
+/// A figure with the entry's title and the id of the view.
+Figure startFigure(const FigureContext& context, std::string title);
+
+/// One series per scheme: a column, or its magnitude, against time.
+enum class Take { value, magnitude };
+void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take);
+
+/// One curve per scheme: a column against another.
+void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn);
+
+/// Marks of the schemes that failed, gaps where an axis cannot show a value, ranges, a message if there is nothing,
+/// and the summary. Last call of every view. `what` starts the summary: "Energy error of 3 schemes against time".
+void finishFigure(Figure& figure, const FigureContext& context, std::string_view what);
+
+/// Largest magnitude among the finite values; 0 if there is none.
+double maxMagnitude(std::span<const double> values);
+
+/// Euclidean norm at the first row of all columns whose name starts with the prefix ("q.", "momentum."), of the
+/// first scheme that has rows: the scale to which round-off is relative.
+double initialNorm(const Comparison& comparison, std::string_view prefix);
+
+/// A positive quantity that returns to where it was: its largest value in the second half of the rows is at most
+/// 1.5 times that in the first half (a line gives 2, a random walk 1.41), or all of it is below `noise`.
+bool isBounded(std::span<const double> values, double noise);
+
+}  // namespace extremal

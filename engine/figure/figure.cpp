@@ -1,0 +1,74 @@
+#include "engine/figure/figure.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/figure/view.hpp"
+#include "engine/observe/catalog.hpp"
+
+namespace extremal {
+
+const ViewEntry* findView(std::string_view id) {
+    const auto& all = viewEntries();
+    const auto found = std::find_if(all.begin(), all.end(), [&](const ViewEntry& e) { return e.item.id == id; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+const std::vector<CatalogItem>& viewCatalog() {
+    static const std::vector<CatalogItem> items = [] {
+        std::vector<CatalogItem> result;
+        for (const ViewEntry& e : viewEntries()) result.push_back(e.item);
+        return result;
+    }();
+    return items;
+}
+
+Figure makeFigure(const Comparison& comparison, const View& view) {
+    const ModelEntry* model = findModel(comparison.scene.model.type);
+    if (!model) return makeFigure(comparison, view, nullptr);
+    const System system = model->make(comparison.scene.model);
+    return makeFigure(comparison, view, &system);
+}
+
+Figure makeFigure(const Comparison& comparison, const View& view, const System* system) {
+    const ViewEntry* entry = findView(view.id);
+    if (!entry || !entry->make) throw std::invalid_argument("no plot is called \"" + view.id + "\"");
+    return entry->make(FigureContext{comparison, view, system});
+}
+
+namespace {
+
+bool isObserved(const Scene& scene, const std::string& observable) {
+    return observable.empty() || std::find(scene.observe.begin(), scene.observe.end(), observable) != scene.observe.end();
+}
+
+std::vector<View> defaultViews(const Scene& scene) {
+    std::vector<View> result;
+    for (const char* id : {"work-precision", "energy", "error", "momentum", "norm", "trajectory", "phase"}) {
+        const ViewEntry* entry = findView(id);
+        if (entry && isObserved(scene, entry->observable)) result.push_back({id, "", ""});
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<View> plotViews(const Scene& scene) {
+    const ModelEntry* model = findModel(scene.model.type);
+    const System system = model ? model->make(scene.model) : System{};
+    std::vector<View> result;
+    for (const View& view : scene.views.empty() ? defaultViews(scene) : scene.views) {
+        const ViewEntry* entry = findView(view.id);
+        if (!entry || !entry->make) continue;
+        const bool isOneForEach = view.id == "trajectory" && view.x.empty() && view.y.empty() &&
+                                  !system.hasPlanarTrajectory && system.dimension() > 1 && system.dimension() <= 3;
+        if (!isOneForEach) {
+            result.push_back(view);
+            continue;
+        }
+        for (const Coordinate& c : system.coordinates) result.push_back({view.id, "t", "q." + c.name});
+    }
+    return result;
+}
+
+}  // namespace extremal

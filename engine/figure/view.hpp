@@ -1,0 +1,30 @@
+/// A view: one way to look at a comparison. One file of figure/views makes one entry; the catalogue is gathered from
+/// the folder. What the files share is in figure/build.hpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/catalog.hpp"
+#include "engine/figure/figure.hpp"
+
+namespace extremal {
+
+struct FigureContext {
+    const Comparison& comparison;
+    const View& view;
+    const System* system = nullptr;  ///< null: unknown model; titles then come from the columns
+};
+
+struct ViewEntry {
+    CatalogItem item;
+    std::string observable;  ///< the scene must observe it; empty: the state is enough
+    Figure (*make)(const FigureContext&) = nullptr;  ///< null: no plot (the stage)
+};
+
+/// In alphabetical order of their ids.
+const std::vector<ViewEntry>& viewEntries();
+const ViewEntry* findView(std::string_view id);
+
+}  // namespace extremal

@@ -1,0 +1,48 @@
+/// Distance to the reference on a logarithmic axis, with the floor below which the reference itself is no better.
+#include <cmath>
+
+#include "engine/figure/build.hpp"
+
+namespace extremal::views {
+namespace {
+
+std::string symbolOf(const FigureContext& context) {
+    const bool isSingle = context.system && context.system->dimension() == 1;
+    const std::string q = isSingle ? context.system->coordinates.front().symbol : "q";
+    return isSingle ? "|" + q + " − " + q + " ref|" : "‖q − q ref‖";
+}
+
+std::string referenceText(const ReferenceInfo& reference) {
+    if (reference.type == "none") return "no reference";
+    if (reference.type == "exact") return "reference: exact";
+    std::string text = "reference: " + (reference.description.empty() ? reference.type : reference.description);
+    if (std::isfinite(reference.estimatedError)) text += ", good to " + shortNumber(reference.estimatedError, 1);
+    return text;
+}
+
+Figure make(const FigureContext& context) {
+    Figure figure = startFigure(context, "Error");
+    figure.x = timeAxis(context);
+    figure.y = logAxis(axisTitle(symbolOf(context), columnInfo(context, "error").unit));
+    addAgainstTime(figure, context, "error", Take::magnitude);
+
+    const ReferenceInfo& reference = context.comparison.reference;
+    figure.subtitle = referenceText(reference);
+    const double scale = initialNorm(context.comparison, "q.");
+    if (scale > 0) figure.floor = 0x1p-52 * scale;
+    if (reference.estimatedError > 0 && std::isfinite(reference.estimatedError)) {
+        figure.floor = std::max(figure.floor.value_or(0), reference.estimatedError);
+        figure.doubtfulBelow = 10 * reference.estimatedError;
+    }
+    if (reference.type == "none") figure.message = "Without a reference there is no error to show";
+    finishFigure(figure, context, "Distance to the reference against time (" + figure.subtitle + ")");
+    return figure;
+}
+
+}  // namespace
+
+ViewEntry error() {
+    return {{"error", "Error", "distance to the reference solution against time, logarithmic", {}, {}, {}}, "error", make};
+}
+
+}  // namespace extremal::views

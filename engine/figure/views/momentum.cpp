@@ -1,0 +1,38 @@
+/// Norm of the change of the conserved momenta, on a logarithmic axis.
+#include "engine/figure/build.hpp"
+
+namespace extremal::views {
+namespace {
+
+Figure make(const FigureContext& context) {
+    Figure figure = startFigure(context, "Momentum error");
+    figure.x = timeAxis(context);
+    std::string symbol = "‖J − J(0)‖", unit = columnInfo(context, "momentum_error").unit;
+    if (context.system && context.system->momenta.size() == 1) {
+        const MomentumMap& only = context.system->momenta.front();
+        symbol = "|" + only.symbol + " − " + only.symbol + "(0)|";
+        unit = only.unit;
+    }
+    figure.y = logAxis(axisTitle(symbol, unit));
+    addAgainstTime(figure, context, "momentum_error", Take::magnitude);
+
+    const double scale = initialNorm(context.comparison, "momentum.");
+    if (scale > 0) figure.floor = 0x1p-52 * scale;
+    int conserved = 0;
+    for (const Series& s : figure.series) conserved += maxMagnitude(s.y) <= 1e-10 * (scale > 0 ? scale : 1);
+    if (!figure.series.empty())
+        figure.subtitle = "conserved: " + std::to_string(conserved) + " of " + std::to_string(figure.series.size());
+    if (context.system && context.system->momenta.empty()) figure.message = "This model has no conserved momentum";
+    finishFigure(figure, context, "Momentum error against time, " +
+                                      (figure.subtitle.empty() ? std::string("not measured") : figure.subtitle));
+    return figure;
+}
+
+}  // namespace
+
+ViewEntry momentum() {
+    return {{"momentum", "Momentum error", "norm of the change of the conserved momenta against time, logarithmic", {}, {}, {}},
+            "momentum", make};
+}
+
+}  // namespace extremal::views

@@ -1,0 +1,54 @@
+/// The orbit, where the system moves in a plane; else a coordinate against time.
+#include "engine/figure/build.hpp"
+
+namespace extremal::views {
+namespace {
+
+std::string titleOf(const FigureContext& context, const std::string& column) {
+    if (context.system)
+        for (const Coordinate& c : context.system->coordinates)
+            if (column == "q." + c.name && !c.title.empty()) {
+                std::string title = c.title;
+                title[0] = static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
+                return title;
+            }
+    return "Trajectory";
+}
+
+std::string firstCoordinate(const FigureContext& context) {
+    if (context.system && !context.system->coordinates.empty()) return std::string("q.").append(context.system->coordinates.front().name);
+    for (const auto& scheme : context.comparison.schemes)
+        for (const Column& c : scheme->trajectory.columns)
+            if (c.name.starts_with("q.")) return c.name;
+    return "q";
+}
+
+Figure make(const FigureContext& context) {
+    std::string x = context.view.x, y = context.view.y;
+    const bool isOrbit = x.empty() && y.empty() && context.system && context.system->hasPlanarTrajectory;
+    if (isOrbit) {
+        x = context.system->trajectoryX;
+        y = context.system->trajectoryY;
+    }
+    if (x.empty()) x = std::string("t");
+    if (y.empty() && context.system) y = context.system->trajectoryY;
+    if (y.empty()) y = firstCoordinate(context);
+
+    Figure figure = startFigure(context, isOrbit ? "Trajectory" : titleOf(context, y));
+    figure.hasEqualScales = isOrbit;
+    const ColumnInfo xInfo = columnInfo(context, x), yInfo = columnInfo(context, y);
+    figure.x = x == "t" ? timeAxis(context) : Axis{axisTitle(xInfo.symbol, xInfo.unit), false, false, {}};
+    figure.y.title = axisTitle(yInfo.symbol, yInfo.unit);
+    addCurves(figure, context, x, y);
+    finishFigure(figure, context, isOrbit ? "Orbit in the plane of " + xInfo.symbol + " and " + yInfo.symbol
+                                          : figure.title + " " + yInfo.symbol + " against " + xInfo.symbol);
+    return figure;
+}
+
+}  // namespace
+
+ViewEntry trajectory() {
+    return {{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time", {}, {}, {}}, "", make};
+}
+
+}  // namespace extremal::views

@@ -1,0 +1,169 @@
+#include "engine/figure/figure.hpp"
+
+#include <QTest>
+#include <stdexcept>
+
+#include "engine/figure/build.hpp"
+#include "engine/figure/digest.hpp"
+#include "engine/figure/range.hpp"
+#include "engine/observe/catalog.hpp"
+#include "tests/engine/figure/hand_made.hpp"
+
+using namespace extremal;
+
+namespace {
+Figure energyFigure(const Comparison& comparison) {
+    const System system = handmade::pendulum();
+    return makeFigure(comparison, {"energy", "", ""}, &system);
+}
+}  // namespace
+
+class FigureTest : public QObject {
+    Q_OBJECT
+private slots:
+    void axesCarrySymbolsAndUnits() {
+        const Comparison comparison = handmade::comparison();
+        const System pendulum = handmade::pendulum(), kepler = handmade::kepler();
+        const auto titles = [&](const char* id, const System& system) {
+            const Figure f = makeFigure(comparison, {id, "", ""}, &system);
+            return f.x.title + " | " + f.y.title;
+        };
+        QCOMPARE(titles("energy", pendulum), "t  [s] | |H − H(0)|  [J]");
+        QCOMPARE(titles("error", pendulum), "t  [s] | |θ − θ ref|  [rad]");
+        QCOMPARE(titles("momentum", kepler), "t  [s] | |L − L(0)|");
+        QCOMPARE(titles("trajectory", pendulum), "t  [s] | θ  [rad]");
+        QCOMPARE(titles("trajectory", kepler), "x | y");
+        QCOMPARE(titles("phase", pendulum), "θ  [rad] | p  [kg m²/s]");
+        QCOMPARE(titles("step", pendulum), "t  [s] | h  [s]");
+        QCOMPARE(titles("work-precision", pendulum), "CPU time  [s] | max error in θ  [rad]");
+    }
+    void zerosAndInfinitiesAreGapsAndCounted() {
+        const Figure f = energyFigure(handmade::comparison());
+        QCOMPARE(f.series.size(), std::size_t{5});
+        QCOMPARE(f.series[0].hidden, 1);  // the error at t = 0 is zero
+        QVERIFY(std::isnan(f.series[0].y[0]));
+        QCOMPARE(f.series[4].hidden, 2);  // and the last value is infinite
+        QVERIFY(std::isnan(f.series[4].y.back()));
+        for (const Series& s : f.series)
+            for (double v : s.y) QVERIFY(std::isnan(v) || v > 0);
+    }
+    void boundednessIsSeen() {
+        QCOMPARE(energyFigure(handmade::comparison()).subtitle, "bounded: 3 of 5");
+        std::vector<double> line, walk, wave;
+        for (int i = 0; i < 1000; ++i) {
+            line.push_back(i);
+            walk.push_back(std::sqrt(i));
+            wave.push_back(std::sin(0.1 * i));
+        }
+        QVERIFY(!isBounded(line, 0));
+        QVERIFY(isBounded(line, 1000));
+        QVERIFY(isBounded(walk, 0));
+        QVERIFY(isBounded(wave, 0));
+        wave.back() = std::numeric_limits<double>::infinity();
+        QVERIFY(!isBounded(wave, 0));
+    }
+    void blowUpDoesNotFlattenTheOthers() {
+        const Figure f = energyFigure(handmade::comparison());
+        const auto [low, high] = *f.y.range;
+        QVERIFY2(high < 1e4, qPrintable(QString::number(high)));  // the failed scheme reaches 1e28
+        QVERIFY(high > 0.09);                                     // RK4 reaches 0.09
+        QVERIFY(low > 1e-10 && low < 1e-7);                       // sign changes of 2e-7 |sin| reach below 1e-10
+        QCOMPARE(*f.x.range, (std::pair<double, double>{0, 10}));
+    }
+    void rangesAreUsableForAnyData() {
+        const double inf = std::numeric_limits<double>::infinity();
+        const std::vector<std::vector<double>> cases = {
+            {}, {0}, {1}, {-1, -1}, {inf, -inf, std::nan("")}, {1e300, 1}, {-1e300, 1e300}, {1e-300}, {0, 0, 5e-324}, {1e279, -1e279}};
+        for (const auto& values : cases)
+            for (bool isLog : {false, true})
+                for (bool hasFailed : {false, true}) {
+                    const auto [low, high] = fitRange({{values, hasFailed}}, isLog);
+                    QVERIFY(std::isfinite(low) && std::isfinite(high) && low < high && (!isLog || low > 0));
+                }
+    }
+    void failuresAreMarkedWithTimeAndCause() {
+        const Figure f = energyFigure(handmade::comparison());
+        QCOMPARE(f.failures.size(), std::size_t{1});
+        QCOMPARE(f.failures[0].text, "not finite at t = 0.31 s");
+        QCOMPARE(f.failures[0].style, 4);
+        QVERIFY(f.summary.find("Störmer-Verlet not finite at t = 0.31 s") != std::string::npos);
+    }
+    void unresolvedErrorsAreMarked() {
+        Comparison c = handmade::comparison();
+        const System system = handmade::pendulum();
+        Figure f = makeFigure(c, {"error", "", ""}, &system);
+        QCOMPARE(*f.floor, 3e-12);
+        QCOMPARE(*f.doubtfulBelow, 3e-11);
+        QCOMPARE(f.subtitle, "reference: Gauss(12), h = 0.01, good to 3e-12");
+        c.reference = {"exact", Summary::unknown, ""};
+        f = makeFigure(c, {"error", "", ""}, &system);
+        QCOMPARE(f.subtitle, "reference: exact");
+        QCOMPARE(*f.floor, 0x1p-52);  // |q(0)| = 1
+        QVERIFY(!f.doubtfulBelow);
+    }
+    void energyFloorIsRelativeToTheEnergy() {
+        QCOMPARE(*energyFigure(handmade::comparison()).floor, 4 * 0x1p-52);  // H(0) = -4
+    }
+    void costPlotHasOnePointPerFinishedScheme() {
+        const Figure f = makeFigure(handmade::comparison(), {"work-precision", "", ""}, nullptr);
+        QCOMPARE(f.series.size(), std::size_t{4});
+        for (const Series& s : f.series) QVERIFY(s.x.size() == 1 && s.hasMarkers && !s.hasLine);
+        QVERIFY(f.x.isLog && f.y.isLog);
+    }
+    void fixedStepsNeedNoColumn() {
+        const Figure f = makeFigure(handmade::comparison(), {"step", "", ""}, nullptr);
+        QCOMPARE(f.series[1].y, (std::vector<double>{0.02, 0.02}));
+    }
+    void orbitsHaveEqualScales() {
+        const System kepler = handmade::kepler(), pendulum = handmade::pendulum();
+        const Comparison c = handmade::comparison();
+        QVERIFY(makeFigure(c, {"trajectory", "", ""}, &kepler).hasEqualScales);
+        QVERIFY(!makeFigure(c, {"trajectory", "", ""}, &pendulum).hasEqualScales);
+        const Figure other = makeFigure(c, {"phase", "p.theta", "q.theta"}, &pendulum);
+        QCOMPARE(other.y.title, "θ  [rad]");
+        QVERIFY(other.series[0].isCurve);
+    }
+    void emptyComparisonsSayWhatIsMissing() {
+        Comparison c;
+        c.scene.end.value = 1;
+        for (const CatalogItem& item : viewCatalog()) {
+            if (item.id == "stage") continue;
+            const Figure f = makeFigure(c, {item.id, "", ""}, nullptr);
+            QVERIFY2(!f.message.empty() && !f.title.empty() && f.y.range, item.id.c_str());
+        }
+        QCOMPARE(makeFigure(c, {"energy", "", ""}, nullptr).message, "The scene does not observe \"energy\"");
+        QVERIFY_THROWS_EXCEPTION(std::invalid_argument, makeFigure(c, {"stage", "", ""}, nullptr));
+        QVERIFY_THROWS_EXCEPTION(std::invalid_argument, makeFigure(c, {"enrgy", "", ""}, nullptr));
+    }
+    void defaultViewsFollowWhatIsObserved() {
+        Scene scene;
+        scene.observe = {"energy"};
+        std::vector<std::string> ids;
+        for (const View& v : plotViews(scene)) ids.push_back(v.id);
+        QCOMPARE(ids, (std::vector<std::string>{"work-precision", "energy", "trajectory", "phase"}));
+        scene.views = {{"stage", "", ""}, {"phase", "q.x", "p.y"}};
+        QCOMPARE(plotViews(scene), (std::vector<View>{{"phase", "q.x", "p.y"}}));
+    }
+    void digestSeesNineDigitsAndNotMore() {
+        const Comparison c = handmade::comparison();
+        Figure a = energyFigure(c), b = a, d = a;
+        for (double& v : b.series[1].y) v *= 1 + 1e-14;
+        for (double& v : d.series[1].y) v *= 1 + 1e-7;
+        QCOMPARE(digest(a), digest(b));
+        QVERIFY(digest(a) != digest(d));
+        d = a;
+        d.series[1].style = 2;
+        QVERIFY(digest(a) != digest(d));
+    }
+    void numbersAreShort() {
+        QCOMPARE(shortNumber(3.21e-7), "3.2e-7");
+        QCOMPARE(shortNumber(0.31, 3), "0.31");
+        QCOMPARE(shortNumber(1200), "1200");
+        QCOMPARE(shortNumber(1e7), "1e7");
+        QCOMPARE(shortNumber(0), "0");
+        QCOMPARE(axisTitle("H - H(0)", "J"), "H − H(0)  [J]");
+    }
+};
+
+QTEST_APPLESS_MAIN(FigureTest)
+#include "figure_test.moc"
