@@ -99,6 +99,7 @@ void addCurves(Figure& figure, const FigureContext& context, std::string_view xC
         if (x.empty() || y.empty()) continue;
         Series s = startSeries(*scheme);
         s.isCurve = xColumn != "t";
+        if (const std::span<const double> t = scheme->trajectory["t"]; s.isCurve) s.t.assign(t.begin(), t.end());
         s.x.assign(x.begin(), x.end());
         s.y.assign(y.begin(), y.end());
         figure.series.push_back(std::move(s));

@@ -25,6 +25,7 @@ struct Series {
     bool hasMarkers = false;   ///< a point at every value
     bool hasLine = true;
     std::vector<double> x, y;  ///< NaN is a gap
+    std::vector<double> t;     ///< of the points of a curve, so that a cursor in time finds its place; else empty
     int hidden = 0;      ///< values a log axis cannot show (<= 0) or that are not finite
 };
 

@@ -1,0 +1,179 @@
+#include "ui/plots/figure_plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/plots/plot_layers.hpp"
+#include "ui/plots/tickers.hpp"
+
+namespace extremal {
+namespace {
+
+QFont axisTitleFont(const Theme& theme) {
+    QFont font = theme.caption();
+    font.setWeight(QFont::DemiBold);
+    return font;
+}
+
+void styleAxis(QCPAxis& axis, const Theme& theme, bool isSmall) {
+    const QPen hairline(theme.line, 1);
+    axis.setBasePen(hairline);
+    axis.setTickPen(hairline);
+    axis.setSubTickPen(hairline);
+    axis.setTickLength(0, 4);
+    axis.setSubTickLength(0, 2);
+    axis.setTickLabelPadding(axis.axisType() == QCPAxis::atLeft ? 5 : 4);
+    axis.setLabelPadding(isSmall ? 2 : 4);
+    axis.setTickLabelFont(theme.caption());
+    axis.setTickLabelColor(theme.muted);
+    axis.setLabelFont(axisTitleFont(theme));
+    axis.setLabelColor(theme.text);
+    axis.setPadding(isSmall ? 1 : 3);
+    axis.grid()->setPen(QPen(theme.grid, 1));
+    axis.grid()->setZeroLinePen(Qt::NoPen);
+    axis.grid()->setSubGridVisible(false);
+}
+
+/// Number of labels for which an axis has room.
+int roomFor(double length, bool isVertical, bool isLog) {
+    const double each = isVertical ? (isLog ? 26 : 30) : (isLog ? 46 : 64);
+    return std::max(2, static_cast<int>(length / each));
+}
+
+PlotRange toPlotRange(const std::optional<std::pair<double, double>>& range) {
+    return range ? PlotRange{range->first, range->second} : PlotRange{};
+}
+
+}  // namespace
+
+FigurePlot::FigurePlot(QCustomPlot& plot, const Theme& theme) : shared_(new Shared{plot, theme, {}, {}, {}, {}, {}}) {
+    plot.setInteractions(QCP::iNone);
+    plot.setPlottingHint(QCP::phFastPolylines, true);
+    plot.setPlottingHint(QCP::phCacheLabels, true);
+    plot.setNotAntialiasedElements(QCP::aeAxes | QCP::aeGrid);
+    plot.xAxis->setNumberFormat("gb");
+    plot.axisRect()->setMinimumMargins(QMargins(8, 8, 16, 0));
+    plot.addLayer("cursor", plot.layer("overlay"), QCustomPlot::limBelow);
+    plot.layer("cursor")->setMode(QCPLayer::lmBuffered);
+    new CurvesLayer(*shared_);  // owned by the plot
+    new MarksLayer(*shared_);
+    new CursorLayer(*shared_);
+    setTheme(theme);
+}
+
+FigurePlot::~FigurePlot() = default;
+
+void FigurePlot::setTheme(const Theme& theme) {
+    shared_->theme = theme;
+    shared_->plot.setBackground(QBrush(theme.panel));
+}
+
+void FigurePlot::setFigure(const Figure& figure) {
+    if (figure.x.isLog != shared_->figure.x.isLog || figure.y.isLog != shared_->figure.y.isLog ||
+        figure.view != shared_->figure.view) {
+        shared_->view.fit();
+        shared_->view.forget();
+    }
+    shared_->figure = figure;
+    shared_->view.setLog(figure.x.isLog, figure.y.isLog);
+}
+
+void FigurePlot::setStale(bool isStale) { shared_->isStale = isStale; }
+void FigurePlot::setHighlighted(const QString& label) { shared_->highlighted = label; }
+void FigurePlot::setPrintDensity(double pointsPerPixel) { shared_->density = pointsPerPixel; }
+void FigurePlot::setHidden(const QString& label, bool isHidden) {
+    if (isHidden) shared_->hidden.insert(label);
+    else shared_->hidden.remove(label);
+}
+
+const Figure& FigurePlot::figure() const { return shared_->figure; }
+bool FigurePlot::isHidden(const QString& label) const { return shared_->hidden.contains(label); }
+ViewState& FigurePlot::view() { return shared_->view; }
+PlotCursors& FigurePlot::cursors() { return shared_->cursors; }
+PixelMap FigurePlot::pixelMap() const { return shared_->map(); }
+
+void FigurePlot::prepare(QSize size) {
+    Shared& s = *shared_;
+    const bool isSmall = size.width() < 360 || size.height() < 220;
+    QCPAxis &x = *s.plot.xAxis, &y = *s.plot.yAxis;
+    styleAxis(x, s.theme, isSmall);
+    styleAxis(y, s.theme, isSmall);
+    x.setLabel(QString::fromStdString(s.figure.x.title));
+    y.setLabel(QString::fromStdString(s.figure.y.title));
+    x.setScaleType(s.figure.x.isLog ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+    y.setScaleType(s.figure.y.isLog ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
+
+    s.view.setFitted(PlotAxis::x, toPlotRange(s.figure.x.range));
+    s.view.setFitted(PlotAxis::y, toPlotRange(s.figure.y.range));
+    const QRect before = s.plot.viewport();
+    s.plot.setViewport(QRect(QPoint(0, 0), size));
+    const auto apply = [&](double width, double height) {
+        const auto set = [](QCPAxis& axis, PlotRange r) { axis.setRange(r.low, r.high); };
+        set(x, s.view.range(PlotAxis::x));
+        set(y, s.view.range(PlotAxis::y));
+        const int xRoom = roomFor(width, false, s.figure.x.isLog), yRoom = roomFor(height, true, s.figure.y.isLog);
+        x.setTicker(s.figure.x.isLog ? logTicker(xRoom) : linearTicker(xRoom));
+        y.setTicker(s.figure.y.isLog ? logTicker(yRoom) : linearTicker(yRoom));
+        s.plot.plotLayout()->update(QCPLayoutElement::upPreparation);
+        s.plot.plotLayout()->update(QCPLayoutElement::upMargins);
+        s.plot.plotLayout()->update(QCPLayoutElement::upLayout);
+    };
+    apply(size.width() - 80, size.height() - 50);  // a guess, only to measure the margins
+    const QRect rect = s.plot.axisRect()->rect();
+    if (s.figure.hasEqualScales && rect.width() > 0 && rect.height() > 0 && !s.view.isUserChosen()) {
+        PlotRange rx = toPlotRange(s.figure.x.range), ry = toPlotRange(s.figure.y.range);
+        const double unit = std::max((rx.high - rx.low) / rect.width(), (ry.high - ry.low) / rect.height());
+        const auto widen = [unit](PlotRange& r, double pixels) {
+            const double middle = (r.low + r.high) / 2;
+            r = {middle - unit * pixels / 2, middle + unit * pixels / 2};
+        };
+        widen(rx, rect.width());
+        widen(ry, rect.height());
+        s.view.setFitted(PlotAxis::x, rx);
+        s.view.setFitted(PlotAxis::y, ry);
+    }
+    apply(rect.width(), rect.height());
+    s.plot.setViewport(before);
+}
+
+namespace {
+
+double distance(QPointF a, QPointF b) { return std::hypot(a.x() - b.x(), a.y() - b.y()); }
+
+/// Rows whose x lies within reach of a pixel; all rows of a curve, thinned to what a move of the pointer can afford.
+struct Rows {
+    std::size_t from, to, step;
+};
+
+Rows rowsNear(const Series& s, const PixelMap& map, double pixel, double reach) {
+    if (s.isCurve || s.hasMarkers) return {0, s.x.size(), std::max<std::size_t>(1, s.x.size() / 50000)};
+    const auto valueAt = [&](double px) {
+        const double f = (px - map.rect.left()) / map.rect.width();
+        return map.isXLog ? map.x.low * std::pow(map.x.high / map.x.low, f) : map.x.low + f * (map.x.high - map.x.low);
+    };
+    const auto low = std::lower_bound(s.x.begin(), s.x.end(), valueAt(pixel - reach));
+    const auto high = std::upper_bound(low, s.x.end(), valueAt(pixel + reach));
+    const auto from = static_cast<std::size_t>(low - s.x.begin()), to = static_cast<std::size_t>(high - s.x.begin());
+    return {from > 0 ? from - 1 : 0, std::min(to + 1, s.x.size()), std::max<std::size_t>(1, (to - from) / 20000)};
+}
+
+}  // namespace
+
+std::optional<FigurePlot::Hit> FigurePlot::hit(QPointF pixel, double reach) const {
+    const PixelMap map = pixelMap();
+    std::optional<Hit> best;
+    for (std::size_t i = 0; i < shared_->figure.series.size(); ++i) {
+        const Series& s = shared_->figure.series[i];
+        if (!shared_->isShown(s)) continue;
+        const Rows rows = rowsNear(s, map, pixel.x(), reach);
+        for (std::size_t r = rows.from; r < rows.to; r += rows.step) {
+            const QPointF p = map(s.x[r], s.y[r]);
+            const double d = distance(p, pixel);
+            if (!(d <= reach) || !map.rect.adjusted(-2, -2, 2, 2).contains(p)) continue;
+            if (!best || d < distance(best->at, pixel)) best = Hit{i, r, p};
+        }
+    }
+    return best;
+}
+
+}  // namespace extremal

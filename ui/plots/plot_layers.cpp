@@ -1,0 +1,223 @@
+#include "ui/plots/plot_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/figure/build.hpp"
+#include "engine/figure/sample.hpp"
+
+namespace extremal {
+
+PixelMap FigurePlot::Shared::map() const {
+    return {view.range(PlotAxis::x), view.range(PlotAxis::y), figure.x.isLog, figure.y.isLog, QRectF(plot.axisRect()->rect())};
+}
+
+QColor FigurePlot::Shared::colorOf(int style) const {
+    const QColor c = theme.series(style).color;
+    if (!isStale) return c;
+    const auto mix = [](int a, int b) { return (35 * a + 65 * b) / 100; };  // opaque: overlaps must not show
+    return {mix(c.red(), theme.panel.red()), mix(c.green(), theme.panel.green()), mix(c.blue(), theme.panel.blue())};
+}
+
+CurvesLayer::CurvesLayer(const FigurePlot::Shared& shared) : QCPLayerable(&shared.plot, "main"), shared_(shared) {}
+MarksLayer::MarksLayer(const FigurePlot::Shared& shared) : QCPLayerable(&shared.plot, "legend"), shared_(shared) {}
+CursorLayer::CursorLayer(const FigurePlot::Shared& shared) : QCPLayerable(&shared.plot, "cursor"), shared_(shared) {}
+
+namespace {
+
+/// A polyline in short pieces: one long path takes quadratic time in the stroker. The dash goes on across pieces.
+void drawPieces(QCPPainter& painter, QPen pen, const QPolygonF& line) {
+    if (line.size() == 1) {
+        pen.setStyle(Qt::SolidLine);
+        pen.setCapStyle(Qt::RoundCap);
+        painter.setPen(pen);
+        painter.drawPoint(line.front());
+        return;
+    }
+    const qsizetype pieceLength = painter.modes().testFlag(QCPPainter::pmVectorized) ? 4000 : 120;
+    double done = 0;
+    for (qsizetype start = 0; start + 1 < line.size(); start += pieceLength) {
+        const qsizetype count = std::min(pieceLength + 1, line.size() - start);
+        if (pen.style() == Qt::CustomDashLine) pen.setDashOffset(done / pen.widthF());
+        painter.setPen(pen);
+        painter.drawPolyline(line.constData() + start, static_cast<int>(count));
+        for (qsizetype i = start + 1; i < start + count; ++i) {
+            const QPointF d = line[i] - line[i - 1];
+            done += std::hypot(d.x(), d.y());
+        }
+    }
+}
+
+QFont small(const Theme& theme, QFont::Weight weight = QFont::Normal) {
+    QFont font = theme.caption();
+    font.setPixelSize(std::max(6, font.pixelSize() - 1));
+    font.setWeight(weight);
+    return font;
+}
+
+/// A rounded box with a line of text; returns its rectangle.
+QRectF drawPill(QCPPainter& painter, QPointF topLeft, const QString& text, const QFont& font, const QColor& ground,
+                const QColor& line, const QColor& color) {
+    const QFontMetricsF metrics(font);
+    const QRectF box(topLeft.x(), topLeft.y(), std::ceil(metrics.horizontalAdvance(text)) + 12, std::ceil(metrics.height()) + 4);
+    painter.setPen(QPen(line, 1));
+    painter.setBrush(ground);
+    painter.drawRoundedRect(box.translated(0.5, 0.5), 4, 4);
+    painter.setBrush(Qt::NoBrush);
+    painter.setFont(font);
+    painter.setPen(color);
+    painter.drawText(box, Qt::AlignCenter, text);
+    return box;
+}
+
+}  // namespace
+
+void CurvesLayer::draw(QCPPainter* painter) {
+    const PixelMap map = shared_.map();
+    drawFloor(*painter, map);
+    const Series* highlighted = nullptr;
+    for (const Series& s : shared_.figure.series) {
+        if (!shared_.isShown(s)) continue;
+        if (QString::fromStdString(s.label) == shared_.highlighted) highlighted = &s;
+        else drawSeries(*painter, map, s);
+    }
+    if (highlighted) drawSeries(*painter, map, *highlighted);
+}
+
+void CurvesLayer::drawFloor(QCPPainter& painter, const PixelMap& map) const {
+    const auto level = [&](double value) { return map(map.x.low, value).y(); };
+    if (const auto& below = shared_.figure.doubtfulBelow; below && *below > map.y.low) {
+        QColor tint = shared_.theme.muted;
+        tint.setAlphaF(0.07f);
+        const double top = std::max(level(*below), map.rect.top());
+        painter.fillRect(QRectF(map.rect.left(), top, map.rect.width(), map.rect.bottom() - top), tint);
+    }
+    if (const auto& floor = shared_.figure.floor; floor && *floor > map.y.low && *floor < map.y.high) {
+        painter.setPen(QPen(shared_.theme.muted, 1, Qt::DotLine));
+        painter.setOpacity(0.6);
+        const double y = std::round(level(*floor)) + 0.5;
+        painter.drawLine(QPointF(map.rect.left(), y), QPointF(map.rect.right(), y));
+        painter.setOpacity(1);
+    }
+}
+
+void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const {
+    const SeriesStyle style = shared_.theme.series(series.style);
+    const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
+    const QColor color = shared_.colorOf(series.style);
+    if (series.hasLine) {
+        QPen pen(color, isHighlighted ? 2.4 : 1.5, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
+        if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
+        for (const QPolygonF& line : visiblePolylines(series.x, series.y, map, series.isCurve, shared_.density))
+            drawPieces(painter, pen, line);
+    }
+    if (series.hasMarkers) {
+        painter.setPen(QPen(shared_.theme.panel, 1.2));
+        painter.setBrush(color);
+        const double radius = isHighlighted ? 6 : 4.5;
+        for (std::size_t i = 0; i < series.x.size(); ++i) {
+            const QPointF p = map(series.x[i], series.y[i]);
+            if (map.rect.adjusted(-6, -6, 6, 6).contains(p)) painter.drawEllipse(p, radius, radius);
+        }
+        painter.setBrush(Qt::NoBrush);
+    }
+}
+
+void MarksLayer::draw(QCPPainter* painter) {
+    const PixelMap map = shared_.map();
+    drawFailures(*painter, map);
+    if (shared_.figure.message.empty()) return;
+    painter->setFont(shared_.theme.caption());
+    painter->setPen(shared_.theme.muted);
+    painter->drawText(map.rect.adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap,
+                      QString::fromStdString(shared_.figure.message));
+}
+
+void MarksLayer::drawFailures(QCPPainter& painter, const PixelMap& map) const {
+    const Theme& theme = shared_.theme;
+    const QFont font = small(theme);
+    double top = map.rect.top() + 2;
+    for (const FailureMark& f : shared_.figure.failures) {
+        const QString label = QString::fromStdString(f.label);
+        if (shared_.hidden.contains(label)) continue;
+        QPointF cross(map.rect.left() + 8, top + 9);
+        if (shared_.figure.x.isTime) {
+            if (f.x < map.x.low || f.x > map.x.high) continue;
+            cross.setX(map(f.x, map.y.low).x());
+            painter.setPen(QPen(shared_.colorOf(f.style), 1, Qt::DashLine));
+            painter.drawLine(QPointF(cross.x(), top + 15), QPointF(cross.x(), map.rect.bottom()));
+        }
+        painter.setPen(QPen(shared_.colorOf(f.style), 2));
+        painter.drawLine(cross + QPointF(-4, -4), cross + QPointF(4, 4));
+        painter.drawLine(cross + QPointF(-4, 4), cross + QPointF(4, -4));
+
+        const double right = map.rect.right() - cross.x() - 12, left = cross.x() - 12 - map.rect.left();
+        const double room = std::max(right, left) - 14;
+        if (room < 50) continue;
+        const QString full = label + QStringLiteral(": ") + QString::fromStdString(f.text);
+        const QString text = QFontMetricsF(font).elidedText(full, Qt::ElideRight, room);
+        const double width = QFontMetricsF(font).horizontalAdvance(text) + 12;
+        const double x = right >= left || width <= right ? cross.x() + 9 : cross.x() - 9 - width;
+        top = drawPill(painter, {x, top}, text, font, theme.warningGround, theme.warningLine, theme.warning).bottom() + 4;
+        if (top > map.rect.bottom() - 20) return;
+    }
+}
+
+void CursorLayer::draw(QCPPainter* painter) {
+    const PixelMap map = shared_.map();
+    const PlotCursors& c = shared_.cursors;
+    if (c.pinned) drawCursor(*painter, map, *c.pinned, true);
+    if (c.time) drawCursor(*painter, map, *c.time, false);
+    if (c.box) {
+        QColor tint = shared_.theme.accent;
+        painter->setPen(QPen(tint, 1));
+        tint.setAlphaF(0.12f);
+        painter->setBrush(tint);
+        painter->drawRect(c.box->translated(0.5, 0.5));
+        painter->setBrush(Qt::NoBrush);
+    }
+    if (!c.hoverText.isEmpty()) drawHover(*painter);
+}
+
+void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t, bool isPinned) const {
+    const Theme& theme = shared_.theme;
+    if (shared_.figure.x.isTime) {
+        if (t < map.x.low || t > map.x.high) return;
+        const double x = std::round(map(t, map.y.low).x()) + 0.5;
+        painter.setPen(QPen(theme.muted, 1, isPinned ? Qt::DashLine : Qt::SolidLine));
+        painter.drawLine(QPointF(x, map.rect.top()), QPointF(x, map.rect.bottom()));
+        if (!isPinned && shared_.cursors.pinned) {
+            const QString text = QStringLiteral("Δt = ") + QString::fromStdString(shortNumber(t - *shared_.cursors.pinned, 4));
+            const double width = QFontMetricsF(small(theme)).horizontalAdvance(text) + 12;
+            const double left = x + 4 + width > map.rect.right() ? x - 4 - width : x + 4;
+            drawPill(painter, {left, map.rect.bottom() - 20}, text, small(theme), theme.panel, theme.line, theme.text);
+        }
+    }
+    for (const Series& s : shared_.figure.series) {
+        if (!shared_.isShown(s)) continue;
+        const auto value = pointAt(s, t);
+        if (!value) continue;
+        const QPointF p = map(value->first, value->second);
+        if (!map.rect.adjusted(-1, -1, 1, 1).contains(p)) continue;
+        painter.setPen(QPen(isPinned ? shared_.colorOf(s.style) : theme.panel, 1.2));
+        painter.setBrush(isPinned ? theme.panel : shared_.colorOf(s.style));
+        painter.drawEllipse(p, 3.6, 3.6);
+    }
+    painter.setBrush(Qt::NoBrush);
+}
+
+void CursorLayer::drawHover(QCPPainter& painter) const {
+    const PlotCursors& c = shared_.cursors;
+    painter.setPen(QPen(shared_.theme.panel, 1.2));
+    painter.setBrush(c.hoverColor);
+    painter.drawEllipse(c.hoverPoint, 4, 4);
+    const QFont font = small(shared_.theme);
+    const QRectF rect(shared_.plot.axisRect()->rect());
+    const double width = QFontMetricsF(font).horizontalAdvance(c.hoverText) + 12, height = QFontMetricsF(font).height() + 4;
+    const double x = std::clamp(c.hoverPoint.x() + 9, rect.left(), std::max(rect.left(), rect.right() - width));
+    const double above = c.hoverPoint.y() - height - 8;
+    drawPill(painter, {x, above < rect.top() ? c.hoverPoint.y() + 9 : above}, c.hoverText, font, shared_.theme.panel,
+             shared_.theme.line, shared_.theme.text);
+}
+
+}  // namespace extremal

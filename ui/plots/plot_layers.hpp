@@ -1,0 +1,73 @@
+/// The things a FigurePlot puts on the layers of its QCustomPlot. Only for the sources of ui/plots: it includes
+/// QCustomPlot.
+#pragma once
+
+#include <qcustomplot.h>
+
+#include "ui/plots/figure_plot.hpp"
+
+namespace extremal {
+
+struct FigurePlot::Shared {
+    QCustomPlot& plot;
+    Theme theme;
+    Figure figure;
+    ViewState view;
+    PlotCursors cursors;
+    QSet<QString> hidden;
+    QString highlighted;
+    bool isStale = false;
+    double density = 1;
+
+    PixelMap map() const;
+    bool isShown(const Series& s) const { return !hidden.contains(QString::fromStdString(s.label)); }
+    QColor colorOf(int style) const;
+};
+
+/// Floor and doubtful band below the curves, curves, then marks of failures and the message above them.
+class CurvesLayer : public QCPLayerable {
+public:
+    explicit CurvesLayer(const FigurePlot::Shared& shared);
+
+protected:
+    void applyDefaultAntialiasingHint(QCPPainter* painter) const override { painter->setAntialiasing(true); }
+    QRect clipRect() const override { return shared_.plot.axisRect()->rect().adjusted(0, 0, 1, 1); }
+    void draw(QCPPainter* painter) override;
+
+private:
+    void drawFloor(QCPPainter& painter, const PixelMap& map) const;
+    void drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const;
+    const FigurePlot::Shared& shared_;
+};
+
+class MarksLayer : public QCPLayerable {
+public:
+    explicit MarksLayer(const FigurePlot::Shared& shared);
+
+protected:
+    void applyDefaultAntialiasingHint(QCPPainter* painter) const override { painter->setAntialiasing(true); }
+    QRect clipRect() const override { return shared_.plot.axisRect()->rect().adjusted(-8, -8, 8, 8); }
+    void draw(QCPPainter* painter) override;
+
+private:
+    void drawFailures(QCPPainter& painter, const PixelMap& map) const;
+    const FigurePlot::Shared& shared_;
+};
+
+/// Cursor lines and dots, hover text, zoom box: on a buffered layer of its own.
+class CursorLayer : public QCPLayerable {
+public:
+    explicit CursorLayer(const FigurePlot::Shared& shared);
+
+protected:
+    void applyDefaultAntialiasingHint(QCPPainter* painter) const override { painter->setAntialiasing(true); }
+    QRect clipRect() const override { return shared_.plot.axisRect()->rect().adjusted(-6, -6, 6, 6); }
+    void draw(QCPPainter* painter) override;
+
+private:
+    void drawCursor(QCPPainter& painter, const PixelMap& map, double t, bool isPinned) const;
+    void drawHover(QCPPainter& painter) const;
+    const FigurePlot::Shared& shared_;
+};
+
+}  // namespace extremal

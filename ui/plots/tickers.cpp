@@ -1,0 +1,131 @@
+#include "ui/plots/tickers.hpp"
+
+#include <qcustomplot.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace extremal {
+
+QString powerOfTen(int exponent) {
+    static const QString digits = QStringLiteral("⁰¹²³⁴⁵⁶⁷⁸⁹");
+    QString text = QStringLiteral("10");
+    if (exponent < 0) text += QChar(0x207b);
+    for (const QChar& c : QString::number(std::abs(exponent))) text += digits[c.digitValue()];
+    return text;
+}
+
+namespace {
+
+QString withRealMinus(QString text) { return text.replace(QLatin1Char('-'), QChar(0x2212)); }
+
+/// Fixed digits without trailing zeros.
+QString plain(double value, int decimals) {
+    QString text = QString::number(value, 'f', std::clamp(decimals, 0, 15));
+    if (text.contains(QLatin1Char('.'))) {
+        while (text.endsWith(QLatin1Char('0'))) text.chop(1);
+        if (text.endsWith(QLatin1Char('.'))) text.chop(1);
+    }
+    return withRealMinus(text);
+}
+
+}  // namespace
+
+QString tickText(double value, double step) {
+    if (std::abs(value) < 1e-9 * step) return QStringLiteral("0");
+    const int stepExponent = static_cast<int>(std::floor(std::log10(step) + 1e-9));
+    const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-9));
+    const int decimals = std::max(0, 1 - stepExponent);  // steps are 1, 2, 2.5, 5 times a power of ten
+    const bool isLong = exponent >= 5 || (exponent < -3 && stepExponent < -3) || stepExponent < -12;
+    if (!isLong) return plain(value, decimals);
+    const QString mantissa = plain(value / std::pow(10.0, exponent), exponent - stepExponent + 1);
+    if (mantissa == QLatin1String("1")) return powerOfTen(exponent);
+    return mantissa + QChar(0x00d7) + powerOfTen(exponent);
+}
+
+namespace {
+
+class LinearTicker : public QCPAxisTicker {
+public:
+    explicit LinearTicker(int room) : room_(std::max(1, room)) {}
+
+protected:
+    /// The smallest of 1, 2, 2.5, 5 times a power of ten that gives no more ticks than there is room for.
+    double getTickStep(const QCPRange& range) override {
+        const double atLeast = range.size() / room_;
+        const double power = std::pow(10.0, std::floor(std::log10(atLeast)));
+        for (double m : {1.0, 2.0, 2.5, 5.0, 10.0})
+            if (m * power >= atLeast * (1 - 1e-9)) return step_ = m * power;
+        return step_ = 10 * power;
+    }
+    int getSubTickCount(double) override { return 0; }
+    QString getTickLabel(double tick, const QLocale&, QChar, int) override { return tickText(tick, step_); }
+
+private:
+    int room_;
+    double step_ = 1;
+};
+
+/// Powers of ten; within a decade also 2 and 5 times them; on less than a factor of two, equidistant ticks.
+class LogTicker : public QCPAxisTicker {
+public:
+    explicit LogTicker(int room) : room_(std::max(1, room)) {}
+
+    void generate(const QCPRange& range, const QLocale&, QChar, int, QVector<double>& ticks, QVector<double>* subTicks,
+                  QVector<QString>* labels) override {
+        ticks.clear();
+        if (subTicks) subTicks->clear();
+        if (labels) labels->clear();
+        if (!(range.lower > 0) || !(range.upper > range.lower)) return;
+        const double low = std::log10(range.lower), high = std::log10(range.upper);
+        const auto add = [&](double value, const QString& text) {
+            ticks.push_back(value);
+            if (labels) labels->push_back(text);
+        };
+        if (high - low >= 1.5) {
+            decades(low, high, add, subTicks);
+        } else if (high - low > 0.3) {
+            for (int e = static_cast<int>(std::floor(low)); e <= static_cast<int>(std::ceil(high)); ++e)
+                for (int m : {1, 2, 5}) {
+                    const double value = m * std::pow(10.0, e);
+                    if (value < range.lower * (1 - 1e-12) || value > range.upper * (1 + 1e-12)) continue;
+                    add(value, m == 1 ? powerOfTen(e) : QString::number(m) + QChar(0x00d7) + powerOfTen(e));
+                }
+        } else {
+            QVector<double> even;
+            QVector<QString> evenLabels;
+            LinearTicker(std::min(room_, 4)).generate(range, QLocale::c(), QLatin1Char('g'), 6, even, nullptr, &evenLabels);
+            for (qsizetype i = 0; i < even.size(); ++i)
+                if (even[i] >= range.lower && even[i] <= range.upper) add(even[i], evenLabels[i]);
+        }
+    }
+
+private:
+    template <class Add>
+    void decades(double low, double high, const Add& add, QVector<double>* subTicks) const {
+        int step = 1;
+        for (int candidate : {1, 2, 3, 4, 5, 10, 20, 50, 100}) {
+            step = candidate;
+            if ((high - low) / candidate <= room_) break;
+        }
+        const int first = static_cast<int>(std::ceil(low - 1e-9)), last = static_cast<int>(std::floor(high + 1e-9));
+        for (int e = first - 1; e <= last; ++e) {
+            const bool isShown = e >= first;
+            if (isShown && ((e % step) + step) % step == 0) add(std::pow(10.0, e), powerOfTen(e));
+            else if (isShown && subTicks && step <= 3) subTicks->push_back(std::pow(10.0, e));
+            if (step != 1 || !subTicks || high - low > 0.6 * room_) continue;
+            for (int m = 2; m <= 9; ++m) {
+                const double value = m * std::pow(10.0, e);
+                if (std::log10(value) >= low && std::log10(value) <= high) subTicks->push_back(value);
+            }
+        }
+    }
+    int room_;
+};
+
+}  // namespace
+
+QSharedPointer<QCPAxisTicker> linearTicker(int room) { return QSharedPointer<QCPAxisTicker>(new LinearTicker(room)); }
+QSharedPointer<QCPAxisTicker> logTicker(int room) { return QSharedPointer<QCPAxisTicker>(new LogTicker(room)); }
+
+}  // namespace extremal

@@ -1,0 +1,23 @@
+/// Where the ticks of an axis stand and what they say: as many as there is room for, powers of ten with real
+/// superscripts, real minus signs.
+#pragma once
+
+#include <QSharedPointer>
+#include <QString>
+
+class QCPAxisTicker;
+
+namespace extremal {
+
+/// `room`: number of labels that fit on the axis.
+QSharedPointer<QCPAxisTicker> linearTicker(int room);
+QSharedPointer<QCPAxisTicker> logTicker(int room);
+
+/// "10⁻²".
+QString powerOfTen(int exponent);
+
+/// A tick's value when the ticks are `step` apart: no more decimals than the step needs, "2.5×10⁻⁷" where plain
+/// digits would be long.
+QString tickText(double value, double step);
+
+}  // namespace extremal
