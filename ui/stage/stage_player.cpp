@@ -1,9 +1,10 @@
 #include "ui/stage/stage_player.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
+
+#include "engine/core/text.hpp"
 
 namespace extremal {
 namespace {
@@ -56,10 +57,18 @@ Bounds robustBounds(const std::vector<Point>& points) {
     return bounds;
 }
 
-std::string shortNumber(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
-    return {text, end};
+/// Whether all points lie on one line, within a thousandth of its length: |a x b| = |a| times the distance from it.
+bool isStraight(const std::vector<Point>& path) {
+    const auto far = std::max_element(path.begin(), path.end(), [&](const Point& a, const Point& b) {
+        return distance(a, path[0]) < distance(b, path[0]);
+    });
+    const Point a = {(*far)[0] - path[0][0], (*far)[1] - path[0][1], (*far)[2] - path[0][2]};
+    const double length = distance(*far, path[0]);
+    return std::all_of(path.begin(), path.end(), [&](const Point& p) {
+        const Point b = {p[0] - path[0][0], p[1] - path[0][1], p[2] - path[0][2]};
+        const double away = std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+        return away <= 1e-3 * length * length;
+    });
 }
 
 }  // namespace
@@ -144,25 +153,23 @@ Bounds StagePlayer::findBounds(const Track& track) const {
     return robustBounds(points);
 }
 
-/// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed, covers the size
-/// of the picture; two digits.
+/// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed, covers 1.3 times
+/// the size of the picture; two digits. A motion to and fro on a line has no trail to show: 0.
 double StagePlayer::findTrailSpan() const {
     const auto healthy = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& k) { return !k.hasFailed; });
     const Track& track = healthy != tracks_.end() ? *healthy : tracks_.front();
     const std::size_t stride = (track.t.size() + maxBoundsRows - 1) / maxBoundsRows;
-    double length = 0, time = 0;
-    Point previous{};
+    std::vector<Point> path;
     std::vector<double> x;
+    double length = 0;
     for (std::size_t row = 0; row < track.t.size(); row += stride) {
         rowState(track, row, x);
-        const Point p = tracer(x);
-        if (row > 0) length += distance(previous, p);
-        time = track.t[row] - track.t[0];
-        previous = p;
+        path.push_back(tracer(x));
+        if (path.size() > 1) length += distance(path[path.size() - 2], path.back());
     }
-    const double whole = end() - start();
-    if (!(length > 0) || !std::isfinite(length)) return whole;
-    const double span = bounds_.diagonal() * time / length;
+    const double time = track.t[(path.size() - 1) * stride] - track.t[0], whole = end() - start();
+    if (!(length > 0) || !std::isfinite(length) || (path.size() > 2 && isStraight(path))) return 0;
+    const double span = 1.3 * bounds_.diagonal() * time / length;
     const double digits = std::pow(10, std::floor(std::log10(span)) - 1);
     return std::min(std::round(span / digits) * digits, whole);
 }
@@ -173,18 +180,6 @@ double StagePlayer::end() const {
     double last = start();
     for (const Track& track : tracks_) last = std::max(last, track.t.back());
     return last;
-}
-
-double StagePlayer::nearestRow(double t) const {
-    double best = start();
-    for (const Track& track : tracks_) {
-        const auto after = std::lower_bound(track.t.begin(), track.t.end(), t);
-        double row = after == track.t.end() ? track.t.back() : *after;
-        if (after != track.t.begin() && after != track.t.end() && t - *(after - 1) <= row - t) row = *(after - 1);
-        if (after != track.t.end()) return row;
-        if (row > best) best = row;
-    }
-    return best;
 }
 
 /// The cubic Hermite interpolant between row and row + 1. False if the slopes are not to be had.
@@ -267,6 +262,14 @@ std::vector<TrailPoint> StagePlayer::trail(const Track& track, double t) const {
     return points;
 }
 
+std::string StagePlayer::failureNote(const Track& track, const std::string& label) const {
+    const Summary& summary = track.result->summary;
+    const std::string_view cause = name(summary.cause);
+    const double when = std::isfinite(summary.failedAt) ? summary.failedAt : track.t.back();
+    return label + (cause.empty() ? " ended" : ": " + std::string(cause)) + " at t = " + formatNumber(when, 3) +
+           (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
+}
+
 StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
     StageFrame frame;
     frame.t = t;
@@ -281,12 +284,7 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
             layer.colour = style.series[static_cast<std::size_t>(std::max(track.result->style, 0)) % style.series.size()];
         const double tolerance = 1e-9 * (1 + std::abs(t));
         layer.hasEnded = track.hasFailed && t > track.t.back() + tolerance;
-        if (layer.hasEnded)
-            frame.notes.push_back(layer.label + " " + std::string(name(track.result->summary.cause)) + " at t = " +
-                                  shortNumber(std::isfinite(track.result->summary.failedAt)
-                                                  ? track.result->summary.failedAt
-                                                  : track.t.back()) +
-                                  (system_.timeUnit.empty() ? "" : " " + system_.timeUnit));
+        if (layer.hasEnded) frame.notes.push_back(failureNote(track, layer.label));
         stateAt(track, t, x);
         drawing.clear();
         system_.draw(x.data(), drawing);

@@ -34,8 +34,6 @@ public:
     double start() const;
     double end() const;   ///< time of the last row of any scheme
     double trailSpan() const { return trailSpan_; }
-    /// The row time nearest to t of the first scheme that gets there.
-    double nearestRow(double t) const;
 
     StageFrame frame(double t, const StageStyle& style) const;
 
@@ -58,6 +56,7 @@ private:
     Point tracer(const std::vector<double>& x) const;
     void stateAt(const Track& track, double t, std::vector<double>& x) const;
     std::vector<TrailPoint> trail(const Track& track, double t) const;
+    std::string failureNote(const Track& track, const std::string& label) const;
 
     std::shared_ptr<const Comparison> comparison_;
     System system_;

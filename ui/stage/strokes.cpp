@@ -9,7 +9,7 @@ namespace {
 constexpr double farAway = 2e4;         // logical pixels: what lies beyond is not drawn
 constexpr double rodWidth = 2.4;        // of the first scheme; the others are a little thinner
 constexpr double hatchSpacing = 8, hatchLength = 8;
-constexpr double springAmplitude = 6.5, springLead = 10;
+constexpr double springLead = 10, slimmestSpring = 5, widestSpring = 11;
 
 /// Collects strokes of one picture; batches are opened and closed around them.
 class Pen {
@@ -88,8 +88,8 @@ void drawSpring(Pen& pen, const Spring& spring, double width, const Rgb& colour)
     const double dx = pb[0] - pa[0], dy = pb[1] - pa[1], length = std::hypot(dx, dy);
     if (!(length > 1e-6) || !(length < farAway)) return;
     const double lead = std::min(springLead, length / 6);
-    const double amplitude = std::min(springAmplitude, length / 8);
     const int halves = 2 * std::max(spring.coils, 1);
+    const double amplitude = std::min(std::clamp(length / halves, slimmestSpring, widestSpring), length / 8);
     Point previous = between(spring.a, spring.b, lead / length);
     pen.stroke(spring.a, previous, width, colour);
     for (int k = 0; k <= halves; ++k) {
@@ -167,7 +167,7 @@ void drawTrail(Pen& pen, const StageLayer& layer, double width) {
 /// Schemes that agree lie on top of each other. Their discs get smaller from the first to the last and are drawn in
 /// this order, so that coinciding schemes show as rings.
 double ringScale(std::size_t index, std::size_t count) {
-    return count <= 1 ? 1 : 1 - 0.62 * static_cast<double>(index) / static_cast<double>(std::max<std::size_t>(count - 1, 2));
+    return count <= 1 ? 1 : 1 - 0.55 * static_cast<double>(index) / static_cast<double>(std::max<std::size_t>(count - 1, 2));
 }
 
 void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {

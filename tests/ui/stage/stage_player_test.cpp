@@ -85,15 +85,7 @@ private slots:
         QVERIFY(player.frame(5.2, {}).notes.empty());
         const StageFrame after = player.frame(6, {});
         QCOMPARE(after.notes.size(), std::size_t{1});
-        QCOMPARE(after.notes[0], std::string("Verlet diverged at t = 5.3 s"));
-    }
-
-    void nearestRowIsThatOfTheFirstSchemeThatGetsThere() {
-        const StagePlayer player(fake::comparison({{"short", 1, 0, 0.5, 2}, {"long", 1, 0, 0.25, 10}}), fake::swing());
-        QCOMPARE(player.nearestRow(1.3), 1.5);
-        QCOMPARE(player.nearestRow(7.3), 7.25);
-        QCOMPARE(player.nearestRow(99), 10.0);
-        QCOMPARE(player.nearestRow(-1), 0.0);
+        QCOMPARE(after.notes[0], std::string("Verlet: diverged at t = 5.3 s"));
     }
 
     void aModelWithoutPictureHasNoStage() {

@@ -1,0 +1,34 @@
+/// Kept pictures of whole snapshots: stage, plots, cards and words together.
+#include <QtTest>
+
+#include "tests/golden/golden_check.hpp"
+#include "tests/ui/stage/model_comparison.hpp"
+#include "ui/stage/snapshot.hpp"
+
+using namespace extremal;
+
+class SnapshotGoldenTest : public QObject {
+    Q_OBJECT
+
+    static void check(const fake::Film& film, const SnapshotRequest& request, const QString& name) {
+        // Stricter than the stage alone: words and plots are to the pixel.
+        const GoldenResult result =
+            checkGolden(snapshotImage(fake::comparison(film), request), name, {16, 0.4, 0.98});
+        QVERIFY2(result.isEqual, qPrintable(result.message));
+    }
+    static SnapshotRequest request(const std::string& view, int width, int height, double time) {
+        SnapshotRequest r;
+        r.view = view;
+        r.width = width;
+        r.height = height;
+        r.time = time;
+        return r;
+    }
+
+private slots:
+    void allViewsOfASceneLookAsKept() { check(fake::springPendulum(), request("all", 900, 600, 6.2), "snapshot-all"); }
+    void oneViewFillsThePage() { check(fake::kepler(), request("stage", 600, 400, 6.2), "snapshot-stage"); }
+};
+
+QTEST_MAIN(SnapshotGoldenTest)
+#include "snapshot_test.moc"

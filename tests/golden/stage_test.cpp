@@ -1,0 +1,52 @@
+/// Kept pictures of the stage, through OSMesa.
+#include <QPainter>
+#include <QtTest>
+
+#include "tests/golden/golden_check.hpp"
+#include "tests/ui/stage/model_comparison.hpp"
+#include "ui/shell/theme.hpp"
+#include "ui/stage/stage_overlay.hpp"
+#include "ui/stage/stage_picture.hpp"
+#include "ui/stage/stage_player.hpp"
+
+using namespace extremal;
+
+class StageGoldenTest : public QObject {
+    Q_OBJECT
+
+    static QImage stage(const fake::Film& film, double t, const Theme& theme) {
+        const StagePlayer player(fake::comparison(film));
+        const QSizeF size(520, 300);
+        const StageFrame frame = player.frame(t, stageStyle(theme));
+        const Camera camera = fitCamera(player.bounds(), size.width(), size.height(), stageMargin);
+        QImage image = drawStage(frame, camera, size, 1);
+        QPainter painter(&image);
+        paintOverlay(painter, QRectF(QPointF(0, 0), size), frame, player, theme, {true});
+        return image;
+    }
+    static void check(const QImage& image, const QString& name) {
+        const GoldenResult result = checkGolden(image, name, GoldenLimits::stage());
+        QVERIFY2(result.isEqual, qPrintable(result.message));
+    }
+
+private slots:
+    void springPendulumLooksAsKept() { check(stage(fake::springPendulum(), 3.2, Theme::light()), "stage-spring-pendulum"); }
+    void springPendulumLooksAsKeptInTheDark() {
+        check(stage(fake::springPendulum(), 6.2, Theme::dark()), "stage-spring-pendulum-dark");
+    }
+    void pendulumLooksAsKept() { check(stage(fake::pendulum(), 2.6, Theme::light()), "stage-pendulum"); }
+    void keplerLooksAsKept() { check(stage(fake::kepler(), 11.3, Theme::light()), "stage-kepler"); }
+    void oscillatorLooksAsKept() { check(stage(fake::oscillator(), 2, Theme::light()), "stage-oscillator"); }
+
+    void theLimitsSeeASwappedColourAndAMovedBody() {
+        const QImage right = stage(fake::pendulum(), 2.6, Theme::light());
+        Theme swapped = Theme::light();
+        std::swap(swapped.seriesColors[0], swapped.seriesColors[2]);
+        const GoldenLimits limits = GoldenLimits::stage();
+        QVERIFY(!isWithin(compareImages(stage(fake::pendulum(), 2.6, swapped), right, limits.threshold), limits));
+        QVERIFY(!isWithin(compareImages(stage(fake::pendulum(), 2.62, Theme::light()), right, limits.threshold), limits));
+    }
+};
+
+QTEST_MAIN(StageGoldenTest)
+#include "stage_test.moc"
