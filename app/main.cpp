@@ -17,6 +17,7 @@ int dispatch(int argc, char** argv) {
     if (arguments->verb == "run") return runVerb(arguments->scene, arguments->folder, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);
+    if (arguments->verb == "snapshot") return snapshotVerb(arguments->scene, arguments->snapshot, arguments->common);
     printProblem("arguments", "no verb", "see extremal --help");
     return unusable;
 }

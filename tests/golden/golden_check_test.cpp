@@ -19,7 +19,8 @@ class GoldenCheckTest : public QObject {
         painter.setRenderHint(QPainter::Antialiasing);
         const auto curve = [&](const QColor& colour, double phase, double down) {
             QPolygonF points;
-            for (int x = 40; x < 580; ++x) points << QPointF(x, 200 + down + 120 * std::sin(x / 50.0 + phase));
+            for (int x = 40; x < 580; ++x)
+                points << QPointF(x, 200 + down + 120 * std::sin(x / 50.0 + phase));
             painter.setPen(QPen(colour, 1.5));
             painter.drawPolyline(points);
         };
@@ -42,7 +43,8 @@ private slots:
     void aCurveShiftedByOnePixelFailsAndIsShown() {
         QTemporaryDir kept, out;
         plot(0, "#D1490C").save(kept.filePath("plot.png"));
-        const GoldenResult result = checkGolden(plot(1, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path());
+        const GoldenResult result =
+            checkGolden(plot(1, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path());
         QVERIFY(!result.isEqual);
         for (const char* file : {"plot.actual.png", "plot.expected.png", "plot.difference.png", "plot.html"})
             QVERIFY2(QFile::exists(out.filePath(file)), file);
@@ -51,12 +53,14 @@ private slots:
     void aSwappedColourFails() {
         QTemporaryDir kept, out;
         plot(0, "#D1490C").save(kept.filePath("plot.png"));
-        QVERIFY(!checkGolden(plot(0, "#0A8F6A"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
+        QVERIFY(
+            !checkGolden(plot(0, "#0A8F6A"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
     }
 
     void aMissingPictureFails() {
         QTemporaryDir kept, out;
-        QVERIFY(!checkGolden(plot(0, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
+        QVERIFY(
+            !checkGolden(plot(0, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
     }
 
     void updatingIsRefusedWhereCiIsSet() {
@@ -64,10 +68,12 @@ private slots:
         const QByteArray before = qgetenv("CI");
         qputenv("EXTREMAL_UPDATE_GOLDEN", "1");
         qputenv("CI", "true");
-        QVERIFY(!checkGolden(plot(0, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
+        QVERIFY(
+            !checkGolden(plot(0, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
         QVERIFY(QDir(kept.path()).isEmpty());
         qunsetenv("CI");
-        QVERIFY(checkGolden(plot(0, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
+        QVERIFY(
+            checkGolden(plot(0, "#D1490C"), "plot", GoldenLimits::plot(), kept.path(), out.path()).isEqual);
         QVERIFY(QFile::exists(kept.filePath("plot.png")));
         qunsetenv("EXTREMAL_UPDATE_GOLDEN");
         if (!before.isEmpty()) qputenv("CI", before);

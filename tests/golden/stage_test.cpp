@@ -30,7 +30,9 @@ class StageGoldenTest : public QObject {
     }
 
 private slots:
-    void springPendulumLooksAsKept() { check(stage(fake::springPendulum(), 3.2, Theme::light()), "stage-spring-pendulum"); }
+    void springPendulumLooksAsKept() {
+        check(stage(fake::springPendulum(), 3.2, Theme::light()), "stage-spring-pendulum");
+    }
     void springPendulumLooksAsKeptInTheDark() {
         check(stage(fake::springPendulum(), 6.2, Theme::dark()), "stage-spring-pendulum-dark");
     }
@@ -43,8 +45,10 @@ private slots:
         Theme swapped = Theme::light();
         std::swap(swapped.seriesColors[0], swapped.seriesColors[2]);
         const GoldenLimits limits = GoldenLimits::stage();
-        QVERIFY(!isWithin(compareImages(stage(fake::pendulum(), 2.6, swapped), right, limits.threshold), limits));
-        QVERIFY(!isWithin(compareImages(stage(fake::pendulum(), 2.62, Theme::light()), right, limits.threshold), limits));
+        QVERIFY(
+            !isWithin(compareImages(stage(fake::pendulum(), 2.6, swapped), right, limits.threshold), limits));
+        QVERIFY(!isWithin(
+            compareImages(stage(fake::pendulum(), 2.62, Theme::light()), right, limits.threshold), limits));
     }
 };
 

@@ -43,7 +43,8 @@ std::array<Point, 3> Camera::axes() const {
 Point Camera::project(const Point& r) const {
     const auto rows = axes();
     const Point d = minus(r, centre);
-    return {dot(rows[0], d) * pixelsPerUnit, dot(rows[1], d) * pixelsPerUnit, dot(rows[2], d) * pixelsPerUnit};
+    return {dot(rows[0], d) * pixelsPerUnit, dot(rows[1], d) * pixelsPerUnit,
+            dot(rows[2], d) * pixelsPerUnit};
 }
 
 Point Camera::unproject(double x, double y) const {
@@ -69,7 +70,8 @@ Camera fitCamera(const Bounds& bounds, double width, double height, double margi
     const double halfHeight = std::max(height / 2 - margin, height / 4);
     const double tiny = 1e-12 * (1 + std::abs(camera.centre[0]) + std::abs(camera.centre[1]));
     if (extent[0] <= tiny && extent[1] <= tiny) extent[0] = extent[1] = 1;
-    camera.pixelsPerUnit = std::min(halfWidth / std::max(extent[0], tiny), halfHeight / std::max(extent[1], tiny));
+    camera.pixelsPerUnit =
+        std::min(halfWidth / std::max(extent[0], tiny), halfHeight / std::max(extent[1], tiny));
     return camera;
 }
 

@@ -1,9 +1,10 @@
 /// The part of OpenGL 3.3 core that the stage uses, as function pointers of our own.
 ///
-/// The table is filled by any getProcAddress: the window's context, OSMesa or EGL. Qt's function classes need a
-/// QOpenGLContext, and loaders that resolve by themselves find the wrong library beside OSMesa, so neither is used.
-/// A getProcAddress may hand out stubs for functions the context does not have; therefore the version decides and
-/// never a null pointer. Do not include this header beside Qt's OpenGL headers: both declare the same constants.
+/// The table is filled by any getProcAddress: the window's context, OSMesa or EGL. Qt's function classes need
+/// a QOpenGLContext, and loaders that resolve by themselves find the wrong library beside OSMesa, so neither
+/// is used. A getProcAddress may hand out stubs for functions the context does not have; therefore the
+/// version decides and never a null pointer. Do not include this header beside Qt's OpenGL headers: both
+/// declare the same constants.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -16,65 +17,65 @@
 namespace extremal {
 
 // One line per function: its PFNGL...PROC type and its name without "gl".
-#define EXTREMAL_GL_FUNCTIONS(X)                                   \
-    X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                       \
-    X(PFNGLATTACHSHADERPROC, AttachShader)                         \
-    X(PFNGLBINDBUFFERPROC, BindBuffer)                             \
-    X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                   \
-    X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)                 \
-    X(PFNGLBINDTEXTUREPROC, BindTexture)                           \
-    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                   \
-    X(PFNGLBLENDEQUATIONPROC, BlendEquation)                       \
-    X(PFNGLBLENDFUNCPROC, BlendFunc)                               \
-    X(PFNGLBUFFERDATAPROC, BufferData)                             \
-    X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)     \
-    X(PFNGLCLEARPROC, Clear)                                       \
-    X(PFNGLCLEARCOLORPROC, ClearColor)                             \
-    X(PFNGLCOLORMASKPROC, ColorMask)                               \
-    X(PFNGLCOMPILESHADERPROC, CompileShader)                       \
-    X(PFNGLCREATEPROGRAMPROC, CreateProgram)                       \
-    X(PFNGLCREATESHADERPROC, CreateShader)                         \
-    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                       \
-    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)             \
-    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                       \
-    X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)           \
-    X(PFNGLDELETESHADERPROC, DeleteShader)                         \
-    X(PFNGLDELETETEXTURESPROC, DeleteTextures)                     \
-    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)             \
-    X(PFNGLDISABLEPROC, Disable)                                   \
-    X(PFNGLDRAWARRAYSPROC, DrawArrays)                             \
-    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)           \
-    X(PFNGLENABLEPROC, Enable)                                     \
-    X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray)   \
-    X(PFNGLFINISHPROC, Finish)                                     \
-    X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer)   \
-    X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)         \
-    X(PFNGLGENBUFFERSPROC, GenBuffers)                             \
-    X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                   \
-    X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)                 \
-    X(PFNGLGENTEXTURESPROC, GenTextures)                           \
-    X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                   \
-    X(PFNGLGETINTEGERVPROC, GetIntegerv)                           \
-    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)               \
-    X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                         \
-    X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)                 \
-    X(PFNGLGETSHADERIVPROC, GetShaderiv)                           \
-    X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)             \
-    X(PFNGLLINKPROGRAMPROC, LinkProgram)                           \
-    X(PFNGLPIXELSTOREIPROC, PixelStorei)                           \
-    X(PFNGLREADPIXELSPROC, ReadPixels)                             \
-    X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)           \
-    X(PFNGLSCISSORPROC, Scissor)                                   \
-    X(PFNGLSHADERSOURCEPROC, ShaderSource)                         \
-    X(PFNGLTEXIMAGE2DPROC, TexImage2D)                             \
-    X(PFNGLTEXPARAMETERIPROC, TexParameteri)                       \
-    X(PFNGLUNIFORM1FPROC, Uniform1f)                               \
-    X(PFNGLUNIFORM1IPROC, Uniform1i)                               \
-    X(PFNGLUNIFORM2FPROC, Uniform2f)                               \
-    X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)                 \
-    X(PFNGLUSEPROGRAMPROC, UseProgram)                             \
-    X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)           \
-    X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)           \
+#define EXTREMAL_GL_FUNCTIONS(X)                                 \
+    X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                     \
+    X(PFNGLATTACHSHADERPROC, AttachShader)                       \
+    X(PFNGLBINDBUFFERPROC, BindBuffer)                           \
+    X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer)                 \
+    X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer)               \
+    X(PFNGLBINDTEXTUREPROC, BindTexture)                         \
+    X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray)                 \
+    X(PFNGLBLENDEQUATIONPROC, BlendEquation)                     \
+    X(PFNGLBLENDFUNCPROC, BlendFunc)                             \
+    X(PFNGLBUFFERDATAPROC, BufferData)                           \
+    X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)   \
+    X(PFNGLCLEARPROC, Clear)                                     \
+    X(PFNGLCLEARCOLORPROC, ClearColor)                           \
+    X(PFNGLCOLORMASKPROC, ColorMask)                             \
+    X(PFNGLCOMPILESHADERPROC, CompileShader)                     \
+    X(PFNGLCREATEPROGRAMPROC, CreateProgram)                     \
+    X(PFNGLCREATESHADERPROC, CreateShader)                       \
+    X(PFNGLDELETEBUFFERSPROC, DeleteBuffers)                     \
+    X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers)           \
+    X(PFNGLDELETEPROGRAMPROC, DeleteProgram)                     \
+    X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers)         \
+    X(PFNGLDELETESHADERPROC, DeleteShader)                       \
+    X(PFNGLDELETETEXTURESPROC, DeleteTextures)                   \
+    X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays)           \
+    X(PFNGLDISABLEPROC, Disable)                                 \
+    X(PFNGLDRAWARRAYSPROC, DrawArrays)                           \
+    X(PFNGLDRAWARRAYSINSTANCEDPROC, DrawArraysInstanced)         \
+    X(PFNGLENABLEPROC, Enable)                                   \
+    X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
+    X(PFNGLFINISHPROC, Finish)                                   \
+    X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
+    X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D)       \
+    X(PFNGLGENBUFFERSPROC, GenBuffers)                           \
+    X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers)                 \
+    X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers)               \
+    X(PFNGLGENTEXTURESPROC, GenTextures)                         \
+    X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays)                 \
+    X(PFNGLGETINTEGERVPROC, GetIntegerv)                         \
+    X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog)             \
+    X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
+    X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
+    X(PFNGLGETSHADERIVPROC, GetShaderiv)                         \
+    X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
+    X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
+    X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \
+    X(PFNGLREADPIXELSPROC, ReadPixels)                           \
+    X(PFNGLRENDERBUFFERSTORAGEPROC, RenderbufferStorage)         \
+    X(PFNGLSCISSORPROC, Scissor)                                 \
+    X(PFNGLSHADERSOURCEPROC, ShaderSource)                       \
+    X(PFNGLTEXIMAGE2DPROC, TexImage2D)                           \
+    X(PFNGLTEXPARAMETERIPROC, TexParameteri)                     \
+    X(PFNGLUNIFORM1FPROC, Uniform1f)                             \
+    X(PFNGLUNIFORM1IPROC, Uniform1i)                             \
+    X(PFNGLUNIFORM2FPROC, Uniform2f)                             \
+    X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv)               \
+    X(PFNGLUSEPROGRAMPROC, UseProgram)                           \
+    X(PFNGLVERTEXATTRIBDIVISORPROC, VertexAttribDivisor)         \
+    X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer)         \
     X(PFNGLVIEWPORTPROC, Viewport)
 
 struct GlFunctions {

@@ -23,11 +23,13 @@ std::vector<double> luminance(const QImage& image) {
     return y;
 }
 
-double windowSsim(const std::vector<double>& a, const std::vector<double>& b, int stride, int x0, int y0, int w, int h) {
+double windowSsim(const std::vector<double>& a, const std::vector<double>& b, int stride, int x0, int y0,
+                  int w, int h) {
     double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
     for (int y = y0; y < y0 + h; ++y)
         for (int x = x0; x < x0 + w; ++x) {
-            const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(x);
+            const auto i =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(x);
             sa += a[i];
             sb += b[i];
             saa += a[i] * a[i];
@@ -52,8 +54,8 @@ double meanSsim(const QImage& actual, const QImage& expected) {
 }
 
 int channelDifference(QRgb a, QRgb b) {
-    return std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)), std::abs(qBlue(a) - qBlue(b)),
-                     std::abs(qAlpha(a) - qAlpha(b))});
+    return std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)),
+                     std::abs(qBlue(a) - qBlue(b)), std::abs(qAlpha(a) - qAlpha(b))});
 }
 
 }  // namespace
@@ -79,7 +81,8 @@ ImageDifference compareImages(const QImage& actual, const QImage& expected, int 
             if (difference > threshold) ++differing;
         }
     }
-    result.differingPercent = 100.0 * static_cast<double>(differing) / (static_cast<double>(a.width()) * a.height());
+    result.differingPercent =
+        100.0 * static_cast<double>(differing) / (static_cast<double>(a.width()) * a.height());
     result.ssim = meanSsim(a, b);
     return result;
 }
@@ -88,15 +91,17 @@ QImage sideBySide(const QImage& actual, const QImage& expected, const ImageDiffe
     const Theme theme = Theme::light();
     const int caption = 28, gap = 12;
     const QImage pictures[] = {actual, expected, difference.picture};
-    const QString words[] = {
-        QStringLiteral("actual"), QStringLiteral("expected"),
-        difference.hasSameSize ? QStringLiteral("difference: %1 % of the pixels, largest %2, SSIM %3")
-                                     .arg(difference.differingPercent, 0, 'f', 3)
-                                     .arg(difference.largest)
-                                     .arg(difference.ssim, 0, 'f', 4)
-                               : QStringLiteral("the sizes differ: %1x%2 and %3x%4")
-                                     .arg(actual.width()).arg(actual.height())
-                                     .arg(expected.width()).arg(expected.height())};
+    const QString words[] = {QStringLiteral("actual"), QStringLiteral("expected"),
+                             difference.hasSameSize
+                                 ? QStringLiteral("difference: %1 % of the pixels, largest %2, SSIM %3")
+                                       .arg(difference.differingPercent, 0, 'f', 3)
+                                       .arg(difference.largest)
+                                       .arg(difference.ssim, 0, 'f', 4)
+                                 : QStringLiteral("the sizes differ: %1x%2 and %3x%4")
+                                       .arg(actual.width())
+                                       .arg(actual.height())
+                                       .arg(expected.width())
+                                       .arg(expected.height())};
     int width = gap, height = 0;
     for (const QImage& p : pictures) {
         width += std::max(p.width(), 320) + gap;

@@ -13,8 +13,8 @@ struct LibraryCloser {
     void operator()(void* handle) const { dlclose(handle); }
 };
 
-/// The few functions of libOSMesa, found at run time. The library exports every gl* name, so it is opened with
-/// RTLD_LOCAL: it must not answer for the window's libOpenGL.
+/// The few functions of libOSMesa, found at run time. The library exports every gl* name, so it is opened
+/// with RTLD_LOCAL: it must not answer for the window's libOpenGL.
 class OsmesaLibrary {
 public:
     OsmesaLibrary() {
@@ -48,13 +48,21 @@ private:
 class OsmesaSurface : public Surface {
 public:
     OsmesaSurface() {
-        const int attributes[] = {OSMESA_FORMAT,                OSMESA_RGBA, OSMESA_DEPTH_BITS,            24,
-                                  OSMESA_PROFILE,               OSMESA_CORE_PROFILE,
-                                  OSMESA_CONTEXT_MAJOR_VERSION, 3,           OSMESA_CONTEXT_MINOR_VERSION, 3,
+        const int attributes[] = {OSMESA_FORMAT,
+                                  OSMESA_RGBA,
+                                  OSMESA_DEPTH_BITS,
+                                  24,
+                                  OSMESA_PROFILE,
+                                  OSMESA_CORE_PROFILE,
+                                  OSMESA_CONTEXT_MAJOR_VERSION,
+                                  3,
+                                  OSMESA_CONTEXT_MINOR_VERSION,
+                                  3,
                                   0};
         context_ = library_.create(attributes, nullptr);
         if (!context_)
-            throw OpenGlUnavailable("libOSMesa has no OpenGL 3.3 (install the package libosmesa6 of Mesa 11.2 or later)");
+            throw OpenGlUnavailable(
+                "libOSMesa has no OpenGL 3.3 (install the package libosmesa6 of Mesa 11.2 or later)");
     }
     ~OsmesaSurface() override { library_.destroy(context_); }
     OsmesaSurface(const OsmesaSurface&) = delete;
@@ -65,7 +73,8 @@ public:
         if (!library_.makeCurrent(context_, pixels_.data(), GL_UNSIGNED_BYTE, width, height))
             throw OpenGlUnavailable("libOSMesa cannot draw a picture of " + std::to_string(width) + "x" +
                                     std::to_string(height));
-        if (!functions_) functions_ = loadGlFunctions([this](const char* name) { return library_.procAddress(name); });
+        if (!functions_)
+            functions_ = loadGlFunctions([this](const char* name) { return library_.procAddress(name); });
         return 0;
     }
     const GlFunctions& functions() const override { return *functions_; }

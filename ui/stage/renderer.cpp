@@ -23,7 +23,8 @@ GLuint compile(const GlFunctions& gl, GLenum kind, const char* source) {
         std::array<char, 1024> log{};
         gl.GetShaderInfoLog(shader, static_cast<GLsizei>(log.size() - 1), nullptr, log.data());
         gl.DeleteShader(shader);
-        throw OpenGlUnavailable(std::string("the graphics driver refuses a shader of the stage: ") + log.data());
+        throw OpenGlUnavailable(std::string("the graphics driver refuses a shader of the stage: ") +
+                                log.data());
     }
     return shader;
 }
@@ -42,12 +43,14 @@ GLuint link(const GlFunctions& gl, const char* vertex, const char* fragment) {
         std::array<char, 1024> log{};
         gl.GetProgramInfoLog(program, static_cast<GLsizei>(log.size() - 1), nullptr, log.data());
         gl.DeleteProgram(program);
-        throw OpenGlUnavailable(std::string("the graphics driver cannot link the stage's shaders: ") + log.data());
+        throw OpenGlUnavailable(std::string("the graphics driver cannot link the stage's shaders: ") +
+                                log.data());
     }
     return program;
 }
 
-/// Clip coordinates of a point relative to the camera's centre; column-major. Depth spans some thousand pixels.
+/// Clip coordinates of a point relative to the camera's centre; column-major. Depth spans some thousand
+/// pixels.
 std::array<float, 16> viewMatrix(const Camera& camera, const RenderTarget& target) {
     const auto rows = camera.axes();
     const double scale = camera.pixelsPerUnit * target.pixelRatio;
@@ -105,8 +108,8 @@ struct Renderer::Impl {
         gl.BindFramebuffer(GL_FRAMEBUFFER, layerFramebuffer);
         gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, layerTexture, 0);
         if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-            throw OpenGlUnavailable("the graphics driver cannot draw a picture of " + std::to_string(width) + "x" +
-                                    std::to_string(height));
+            throw OpenGlUnavailable("the graphics driver cannot draw a picture of " + std::to_string(width) +
+                                    "x" + std::to_string(height));
     }
 
     /// OpenGL 3.3 has no first instance: the attributes are pointed at the batch instead.
@@ -159,7 +162,8 @@ struct Renderer::Impl {
         return x1 > x0 && y1 > y0;
     }
 
-    void draw(const StrokeList& list, const Camera& camera, const RenderTarget& target, const Rgb& background) {
+    void draw(const StrokeList& list, const Camera& camera, const RenderTarget& target,
+              const Rgb& background) {
         makeLayer(target.width, target.height);
         gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
         gl.Viewport(0, 0, target.width, target.height);

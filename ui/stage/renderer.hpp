@@ -1,9 +1,9 @@
 /// Draws a StageFrame with OpenGL 3.3 core: the same pixels on screen and off screen.
 ///
-/// Strokes are quads whose edges are smoothed in the fragment shader, so no multisampled framebuffer is needed and
-/// every surface gives the same picture. A batch of united strokes is first gathered in a layer of its own, where
-/// the largest coverage wins (premultiplied colours, blend equation MAX), and then laid over the picture.
-/// The context must be current in every call, the destructor included.
+/// Strokes are quads whose edges are smoothed in the fragment shader, so no multisampled framebuffer is
+/// needed and every surface gives the same picture. A batch of united strokes is first gathered in a layer of
+/// its own, where the largest coverage wins (premultiplied colours, blend equation MAX), and then laid over
+/// the picture. The context must be current in every call, the destructor included.
 #pragma once
 
 #include <memory>

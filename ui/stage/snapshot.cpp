@@ -38,8 +38,9 @@ std::vector<View> chooseViews(const Scene& scene, const std::string& name) {
         if (plots.empty()) plots.push_back({name, "", ""});
         return plots;
     }
-    const bool isStageWanted = scene.views.empty() || std::any_of(scene.views.begin(), scene.views.end(),
-                                                                  [](const View& v) { return v.id == "stage"; });
+    const bool isStageWanted =
+        scene.views.empty() ||
+        std::any_of(scene.views.begin(), scene.views.end(), [](const View& v) { return v.id == "stage"; });
     std::vector<View> views;
     if (isStageWanted && hasPicture(scene)) views.push_back({"stage", "", ""});
     for (const View& v : plots)
@@ -58,7 +59,8 @@ void checkView(const Scene& scene, const std::string& name) {
     std::vector<std::string> names = {"all"};
     for (const ViewEntry& entry : viewEntries()) names.push_back(entry.item.id);
     if (std::find(names.begin(), names.end(), name) == names.end()) {
-        throw SnapshotError(Kind::unusable, "--view", "there is no view \"" + name + "\"", suggestName(name, names));
+        throw SnapshotError(Kind::unusable, "--view", "there is no view \"" + name + "\"",
+                            suggestName(name, names));
     }
     if (name == "stage" && !hasPicture(scene))
         throw SnapshotError(Kind::unusable, "--view", "the model " + scene.model.type + " has no stage",
@@ -66,7 +68,8 @@ void checkView(const Scene& scene, const std::string& name) {
     const ViewEntry* entry = findView(name);
     if (entry && !entry->observable.empty() &&
         std::find(scene.observe.begin(), scene.observe.end(), entry->observable) == scene.observe.end())
-        throw SnapshotError(Kind::unusable, "--view", "the scene does not observe what the view " + name + " shows",
+        throw SnapshotError(Kind::unusable, "--view",
+                            "the scene does not observe what the view " + name + " shows",
                             "add --set /observe/-=" + entry->observable);
 }
 
@@ -96,7 +99,8 @@ double nearestRow(const Comparison& comparison, double t) {
     return last;
 }
 
-SnapshotPage pageOf(std::shared_ptr<const Comparison> comparison, const SnapshotRequest& request, bool isVector) {
+SnapshotPage pageOf(std::shared_ptr<const Comparison> comparison, const SnapshotRequest& request,
+                    bool isVector) {
     SnapshotPage page;
     page.views = chooseViews(comparison->scene, request.view);
     page.isSingle = page.views.size() == 1;
@@ -128,9 +132,11 @@ void compareWithBase(const QImage& picture, const SnapshotRequest& request, Snap
         result.verdict = formatNumber(difference.differingPercent, 4) + " % of the pixels differ, " +
                          formatNumber(request.tolerance) + " % may";
     else
-        result.verdict = "the sizes differ: " + std::to_string(picture.width()) + "x" + std::to_string(picture.height()) +
-                         " and " + std::to_string(base.width()) + "x" + std::to_string(base.height());
-    writePng(difference.hasSameSize ? difference.picture : sideBySide(picture, base, difference), result.differenceFile);
+        result.verdict = "the sizes differ: " + std::to_string(picture.width()) + "x" +
+                         std::to_string(picture.height()) + " and " + std::to_string(base.width()) + "x" +
+                         std::to_string(base.height());
+    writePng(difference.hasSameSize ? difference.picture : sideBySide(picture, base, difference),
+             result.differenceFile);
 }
 
 }  // namespace
@@ -139,17 +145,18 @@ void checkSnapshot(const Scene& scene, const SnapshotRequest& request) {
     const QFileInfo file(request.file);
     const QString kind = file.suffix().toLower();
     if (kind != QLatin1String("png") && kind != QLatin1String("pdf") && kind != QLatin1String("svg"))
-        throw SnapshotError(Kind::unusable, "--out", "pictures end in .png, .pdf or .svg, got \"" +
-                                                         request.file.toStdString() + "\"");
+        throw SnapshotError(Kind::unusable, "--out",
+                            "pictures end in .png, .pdf or .svg, got \"" + request.file.toStdString() + "\"");
     for (const int side : {request.width, request.height})
         if (side < smallestSide || side > largestSide)
-            throw SnapshotError(Kind::unusable, "--size", "sides must be 64 to 8192 pixels, got " +
-                                                              std::to_string(request.width) + "x" +
-                                                              std::to_string(request.height));
+            throw SnapshotError(Kind::unusable, "--size",
+                                "sides must be 64 to 8192 pixels, got " + std::to_string(request.width) +
+                                    "x" + std::to_string(request.height));
     if (request.time && !std::isfinite(*request.time))
         throw SnapshotError(Kind::unusable, "--time", "must be a finite number");
     if (!(request.tolerance >= 0) || request.tolerance > 100)
-        throw SnapshotError(Kind::unusable, "--tolerance", "must be 0 to 100 percent, got " + formatNumber(request.tolerance));
+        throw SnapshotError(Kind::unusable, "--tolerance",
+                            "must be 0 to 100 percent, got " + formatNumber(request.tolerance));
     checkView(scene, request.view);
     if (!request.compareWith.isEmpty()) readBase(request.compareWith);
     const auto views = chooseViews(scene, request.view);
@@ -175,27 +182,31 @@ SnapshotResult makeSnapshot(std::shared_ptr<const Comparison> comparison, const 
     result.time = page.time;
     try {
         const Theme theme = Theme::light();
-        const QString problem =
-            savePage(request.file, QSize(request.width, request.height), 1, title,
-                     [&](FigurePainter& painter, QRectF area) { drawSnapshotPage(painter, area, page, theme); });
+        const QString problem = savePage(
+            request.file, QSize(request.width, request.height), 1, title,
+            [&](FigurePainter& painter, QRectF area) { drawSnapshotPage(painter, area, page, theme); });
         if (!problem.isEmpty())
-            throw SnapshotError(Kind::unwritable, request.file.toStdString(), "cannot be written: " + problem.toStdString());
+            throw SnapshotError(Kind::unwritable, request.file.toStdString(),
+                                "cannot be written: " + problem.toStdString());
     } catch (const OpenGlUnavailable& e) {
         throw SnapshotError(Kind::noOpenGl, "stage", e.what());
     }
     if (!request.compareWith.isEmpty())
-        compareWithBase(isVector ? snapshotImage(comparison, request) : QImage(request.file), request, result);
+        compareWithBase(isVector ? snapshotImage(comparison, request) : QImage(request.file), request,
+                        result);
     return result;
 }
 
 QImage snapshotImage(std::shared_ptr<const Comparison> comparison, const SnapshotRequest& request) {
     QImage image(request.width, request.height, QImage::Format_RGB32);
-    if (image.isNull()) throw SnapshotError(Kind::unusable, "--size", "there is not enough memory for this picture");
+    if (image.isNull())
+        throw SnapshotError(Kind::unusable, "--size", "there is not enough memory for this picture");
     image.setDotsPerMeterX(3780);
     image.setDotsPerMeterY(3780);
     try {
         FigurePainter painter(image, false);
-        drawSnapshotPage(painter, QRectF(image.rect()), pageOf(std::move(comparison), request, false), Theme::light());
+        drawSnapshotPage(painter, QRectF(image.rect()), pageOf(std::move(comparison), request, false),
+                         Theme::light());
     } catch (const OpenGlUnavailable& e) {
         throw SnapshotError(Kind::noOpenGl, "stage", e.what());
     }

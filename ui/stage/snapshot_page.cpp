@@ -32,7 +32,8 @@ double drawTitle(QPainter& painter, const QRectF& rect, const QFont& font, const
     if (!subtitle.isEmpty() && rect.right() - left > 40) {
         painter.setFont(theme.caption());
         painter.setPen(theme.muted);
-        painter.drawText(QPointF(left, base), small.elidedText(subtitle, Qt::ElideRight, rect.right() - left));
+        painter.drawText(QPointF(left, base),
+                         small.elidedText(subtitle, Qt::ElideRight, rect.right() - left));
     }
     return std::ceil(metrics.height());
 }
@@ -54,7 +55,8 @@ void drawStagePicture(QPainter& painter, const QRectF& area, double scale, const
                       const SnapshotPage& page, const Theme& theme, const OverlayOptions& overlay) {
     const double finer = page.isVector ? 2 : 1;
     const double left = std::round(area.left() * scale), top = std::round(area.top() * scale);
-    const double width = std::floor(area.right() * scale) - left, height = std::floor(area.bottom() * scale) - top;
+    const double width = std::floor(area.right() * scale) - left,
+                 height = std::floor(area.bottom() * scale) - top;
     if (width < 8 || height < 8) return;
     const StageFrame frame = player.frame(page.time, stageStyle(theme));
     const Camera camera = fitCamera(player.bounds(), width / scale, height / scale, stageMargin);
@@ -79,8 +81,10 @@ void drawStageCard(QPainter& painter, const QRectF& place, double scale, const S
     }
     QRectF area = place.adjusted(padding, padding, -padding, -4);
     if (area.height() > 110) {
-        const QString subtitle = page.isSingle ? QString::fromStdString(page.comparison->scene.title) : QString();
-        area.setTop(area.top() + drawTitle(painter, area, theme.title(), QStringLiteral("Stage"), subtitle, theme));
+        const QString subtitle =
+            page.isSingle ? QString::fromStdString(page.comparison->scene.title) : QString();
+        area.setTop(area.top() +
+                    drawTitle(painter, area, theme.title(), QStringLiteral("Stage"), subtitle, theme));
     }
     drawStagePicture(painter, area.adjusted(-6, 2, 6, 0), scale, player, page, theme, {page.isSingle});
 }
@@ -88,7 +92,8 @@ void drawStageCard(QPainter& painter, const QRectF& place, double scale, const S
 }  // namespace
 
 double pageScale(const SnapshotPage& page, int width, int height) {
-    const double ratio = page.isSingle ? std::min(width / 840.0, height / 560.0) : std::min(width / 1200.0, height / 800.0);
+    const double ratio =
+        page.isSingle ? std::min(width / 840.0, height / 560.0) : std::min(width / 1200.0, height / 800.0);
     return std::max(ratio, 0.75);
 }
 
@@ -136,12 +141,15 @@ void drawSnapshotPage(FigurePainter& figures, QRectF pixels, const SnapshotPage&
     QRectF area = whole;
     if (!page.isSingle) {
         const bool isSmall = whole.height() < 300;
-        area.adjust(isSmall ? 4 : margin, isSmall ? 4 : margin, isSmall ? -4 : -margin, isSmall ? -4 : -margin);
+        area.adjust(isSmall ? 4 : margin, isSmall ? 4 : margin, isSmall ? -4 : -margin,
+                    isSmall ? -4 : -margin);
         if (!isSmall) {
             const Scene& scene = page.comparison->scene;
-            area.setTop(area.top() + 2 + drawTitle(painter, area, theme.heading(), QString::fromStdString(scene.title),
-                                                   QString::fromStdString(scene.source), theme));
-            area.setTop(area.top() + 6 + drawLegend(&painter, area.adjusted(0, 6, 0, 0), legendOf(*page.comparison), theme));
+            area.setTop(area.top() + 2 +
+                        drawTitle(painter, area, theme.heading(), QString::fromStdString(scene.title),
+                                  QString::fromStdString(scene.source), theme));
+            area.setTop(area.top() + 6 +
+                        drawLegend(&painter, area.adjusted(0, 6, 0, 0), legendOf(*page.comparison), theme));
             area.setTop(area.top() + 6);
         }
     }

@@ -1,5 +1,5 @@
-/// The two kinds of ground a StageWidget can paint on: an OpenGL widget, or a plain one that shows pictures made
-/// without a display.
+/// The two kinds of ground a StageWidget can paint on: an OpenGL widget, or a plain one that shows pictures
+/// made without a display.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,6 @@
 #include "ui/stage/camera.hpp"
 #include "ui/stage/stage_frame.hpp"
 
-class QPainter;
 class QString;
 class QWidget;
 
@@ -18,16 +17,18 @@ namespace extremal {
 struct CanvasSource {
     std::function<const StageFrame&()> frame;
     std::function<Camera()> camera;
-    std::function<void(QPainter&)> paintOverlay;
     /// Called when nothing can be drawn; the text says why and what to install.
-    std::function<void(QPainter&, const QString&)> paintFailure;
+    std::function<void(const QString&)> fail;
 };
 
-/// True if the platform gives a hardware OpenGL 3.3 context. Software OpenGL on a display is refused: composing
-/// the whole window with it is slower than showing pictures made by OSMesa. Asked once; GUI thread.
+/// True if the platform gives a hardware OpenGL 3.3 context. Software OpenGL on a display is refused:
+/// composing the whole window with it is slower than showing pictures made by OSMesa. The environment can
+/// insist: EXTREMAL_STAGE=opengl takes software OpenGL as well, EXTREMAL_STAGE=picture takes none (for faulty
+/// drivers). Asked once; GUI thread.
 bool hasGraphicsCard();
 
-/// A child widget of `parent` that paints from `source`; call update() on it for a new frame.
+/// A child widget of `parent` that paints from `source`, without words: grabbing an OpenGL widget loses what
+/// a QPainter adds to it. Call update() on it for a new frame.
 QWidget* makeCanvas(QWidget* parent, CanvasSource source, bool usesGraphicsCard);
 
 }  // namespace extremal

@@ -47,10 +47,10 @@ struct StageLayer {
 struct StageFrame {
     double t = 0;
     StageStyle style;
-    Bounds bounds;                    ///< over the whole run, so that the picture does not jump
+    Bounds bounds;  ///< over the whole run, so that the picture does not jump
     std::vector<Shape> scenery;
-    std::vector<StageLayer> layers;   ///< in the order of the scene
-    std::vector<std::string> notes;   ///< failures before t: "Stormer-Verlet diverged at t = 0.31"
+    std::vector<StageLayer> layers;  ///< in the order of the scene
+    std::vector<std::string> notes;  ///< failures before t: "Stormer-Verlet diverged at t = 0.31"
 };
 
 }  // namespace extremal

@@ -19,7 +19,8 @@ Rgb toRgb(const QColor& c) {
 }
 
 QString withUnit(const QString& number, const StagePlayer& player) {
-    return player.timeUnit().empty() ? number : number + QLatin1Char(' ') + QString::fromStdString(player.timeUnit());
+    return player.timeUnit().empty() ? number
+                                     : number + QLatin1Char(' ') + QString::fromStdString(player.timeUnit());
 }
 
 /// Amber chips at the top, one a failure; those that do not fit are counted.
@@ -78,7 +79,8 @@ StageStyle stageStyle(const Theme& theme) {
 
 QString timeText(double t, const StagePlayer& player) {
     const double range = std::max(std::abs(player.end()), std::abs(player.start()));
-    const int digits = range > 0 ? std::clamp(3 - static_cast<int>(std::ceil(std::log10(range) - 1e-9)), 0, 9) : 2;
+    const int digits =
+        range > 0 ? std::clamp(3 - static_cast<int>(std::ceil(std::log10(range) - 1e-9)), 0, 9) : 2;
     return withUnit(QStringLiteral("t = %1").arg(t, 0, 'f', digits), player);
 }
 

@@ -11,7 +11,9 @@ QImage drawStage(const StageFrame& frame, const Camera& camera, QSizeF size, dou
     // Making a context and its shaders takes a tenth of a second; a context belongs to one thread.
     thread_local std::unique_ptr<StagePainter> painter;
     if (!painter) painter = std::make_unique<StagePainter>();
-    const auto pixels = [&](double length) { return std::max(1, static_cast<int>(std::lround(length * pixelRatio))); };
+    const auto pixels = [&](double length) {
+        return std::max(1, static_cast<int>(std::lround(length * pixelRatio)));
+    };
     return painter->draw(frame, camera, pixels(size.width()), pixels(size.height()), pixelRatio);
 }
 

@@ -9,7 +9,7 @@
 namespace extremal {
 namespace {
 
-constexpr std::size_t maxTrailRows = 400;  // per scheme and picture
+constexpr std::size_t maxTrailRows = 400;   // per scheme and picture
 constexpr std::size_t maxBoundsRows = 500;  // per scheme
 
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
@@ -17,7 +17,8 @@ bool isFinite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]
 
 /// The points that make up the extent of one shape.
 void addExtent(const Shape& shape, std::vector<Point>& points) {
-    if (const auto* segment = std::get_if<Segment>(&shape)) points.insert(points.end(), {segment->a, segment->b});
+    if (const auto* segment = std::get_if<Segment>(&shape))
+        points.insert(points.end(), {segment->a, segment->b});
     if (const auto* spring = std::get_if<Spring>(&shape)) points.insert(points.end(), {spring->a, spring->b});
     if (const auto* disc = std::get_if<Disc>(&shape)) points.push_back(disc->centre);
     if (const auto* support = std::get_if<Support>(&shape)) {
@@ -50,14 +51,16 @@ Bounds robustBounds(const std::vector<Point>& points) {
         std::transform(points.begin(), points.end(), values.begin(), [i](const Point& p) { return p[i]; });
         middle[i] = median(values);
     }
-    std::transform(points.begin(), points.end(), values.begin(), [&](const Point& p) { return distance(p, middle); });
+    std::transform(points.begin(), points.end(), values.begin(),
+                   [&](const Point& p) { return distance(p, middle); });
     const double reach = 6 * median(values);
     for (const Point& p : points)
         if (reach == 0 || distance(p, middle) <= reach) bounds.add(p);
     return bounds;
 }
 
-/// Whether all points lie on one line, within a thousandth of its length: |a x b| = |a| times the distance from it.
+/// Whether all points lie on one line, within a thousandth of its length: |a x b| = |a| times the distance
+/// from it.
 bool isStraight(const std::vector<Point>& path) {
     const auto far = std::max_element(path.begin(), path.end(), [&](const Point& a, const Point& b) {
         return distance(a, path[0]) < distance(b, path[0]);
@@ -66,7 +69,8 @@ bool isStraight(const std::vector<Point>& path) {
     const double length = distance(*far, path[0]);
     return std::all_of(path.begin(), path.end(), [&](const Point& p) {
         const Point b = {p[0] - path[0][0], p[1] - path[0][1], p[2] - path[0][2]};
-        const double away = std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+        const double away =
+            std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
         return away <= 1e-3 * length * length;
     });
 }
@@ -153,10 +157,12 @@ Bounds StagePlayer::findBounds(const Track& track) const {
     return robustBounds(points);
 }
 
-/// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed, covers 1.3 times
-/// the size of the picture; two digits. A motion to and fro on a line has no trail to show: 0.
+/// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed,
+/// covers 1.3 times the size of the picture; two digits. A motion to and fro on a line has no trail to show:
+/// 0.
 double StagePlayer::findTrailSpan() const {
-    const auto healthy = std::find_if(tracks_.begin(), tracks_.end(), [](const Track& k) { return !k.hasFailed; });
+    const auto healthy =
+        std::find_if(tracks_.begin(), tracks_.end(), [](const Track& k) { return !k.hasFailed; });
     const Track& track = healthy != tracks_.end() ? *healthy : tracks_.front();
     const std::size_t stride = (track.t.size() + maxBoundsRows - 1) / maxBoundsRows;
     std::vector<Point> path;
@@ -200,8 +206,8 @@ bool StagePlayer::stateBetween(const Track& track, std::size_t row, double t, st
     return std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
 }
 
-/// Whether the curve between row and row + 1 is known: its middle must lie near the chord, within a fifth of its
-/// length (a quarter of a circle) or half a percent of the picture. `bend` is that distance.
+/// Whether the curve between row and row + 1 is known: its middle must lie near the chord, within a fifth of
+/// its length (a quarter of a circle) or half a percent of the picture. `bend` is that distance.
 bool StagePlayer::isResolved(const Track& track, std::size_t row, double& bend) const {
     std::vector<double> x;
     bend = 0;
@@ -246,7 +252,8 @@ std::vector<TrailPoint> StagePlayer::trail(const Track& track, double t) const {
         const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / smooth))), 1, 12);
         const double h = (track.t[row + 1] - track.t[row]) / pieces;
         for (int k = 1; k <= pieces && track.t[row] + k * h < until; ++k)
-            if (k < pieces && stateBetween(track, row, track.t[row] + k * h, x)) add(x, track.t[row] + k * h, true);
+            if (k < pieces && stateBetween(track, row, track.t[row] + k * h, x))
+                add(x, track.t[row] + k * h, true);
         return true;
     };
     bool isJoined = false;
@@ -266,8 +273,8 @@ std::string StagePlayer::failureNote(const Track& track, const std::string& labe
     const Summary& summary = track.result->summary;
     const std::string_view cause = name(summary.cause);
     const double when = std::isfinite(summary.failedAt) ? summary.failedAt : track.t.back();
-    return label + (cause.empty() ? " ended" : ": " + std::string(cause)) + " at t = " + formatNumber(when, 3) +
-           (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
+    return label + (cause.empty() ? " ended" : ": " + std::string(cause)) +
+           " at t = " + formatNumber(when, 3) + (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
 }
 
 StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
@@ -279,9 +286,12 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
     Drawing drawing;
     for (const Track& track : tracks_) {
         StageLayer layer;
-        layer.label = track.result->summary.label.empty() ? track.result->spec.label : track.result->summary.label;
+        layer.label =
+            track.result->summary.label.empty() ? track.result->spec.label : track.result->summary.label;
         if (!style.series.empty())
-            layer.colour = style.series[static_cast<std::size_t>(std::max(track.result->style, 0)) % style.series.size()];
+            layer.colour =
+                style
+                    .series[static_cast<std::size_t>(std::max(track.result->style, 0)) % style.series.size()];
         const double tolerance = 1e-9 * (1 + std::abs(t));
         layer.hasEnded = track.hasFailed && t > track.t.back() + tolerance;
         if (layer.hasEnded) frame.notes.push_back(failureNote(track, layer.label));

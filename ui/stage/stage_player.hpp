@@ -3,10 +3,10 @@
 ///     StagePlayer player(comparison);
 ///     StageFrame frame = player.frame(6.2, style);
 ///
-/// Between two rows a state is interpolated by the cubic through both rows with the slopes of Hamilton's equations,
-/// where the rows are close enough for that; else the nearest row is shown, and the trail is dots at the rows.
-/// Bounds come from the whole run but leave out what flies away: the tail of a blow-up, and schemes whose extent is
-/// far beyond that of the others.
+/// Between two rows a state is interpolated by the cubic through both rows with the slopes of Hamilton's
+/// equations, where the rows are close enough for that; else the nearest row is shown, and the trail is dots
+/// at the rows. Bounds come from the whole run but leave out what flies away: the tail of a blow-up, and
+/// schemes whose extent is far beyond that of the others.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,7 @@ public:
     const Comparison* comparison() const { return comparison_.get(); }
     const std::string& timeUnit() const { return system_.timeUnit; }
     double start() const;
-    double end() const;   ///< time of the last row of any scheme
+    double end() const;  ///< time of the last row of any scheme
     double trailSpan() const { return trailSpan_; }
 
     StageFrame frame(double t, const StageStyle& style) const;

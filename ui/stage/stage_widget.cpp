@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <optional>
 
@@ -16,10 +17,33 @@
 #include "ui/stage/stage_player.hpp"
 
 namespace extremal {
+namespace {
+
+/// The words, above the canvas.
+class Words : public QWidget {
+public:
+    Words(QWidget* parent, std::function<void(QPainter&)> paint) : QWidget(parent), paint_(std::move(paint)) {
+        setAttribute(Qt::WA_TransparentForMouseEvents);
+        setAttribute(Qt::WA_NoSystemBackground);
+    }
+
+protected:
+    void paintEvent(QPaintEvent*) override {
+        QPainter painter(this);
+        paint_(painter);
+    }
+
+private:
+    std::function<void(QPainter&)> paint_;
+};
+
+}  // namespace
 
 struct StageWidget::Impl {
     StageWidget* self = nullptr;
     QWidget* canvas = nullptr;
+    QWidget* words = nullptr;
+    QString failure;  ///< why nothing can be drawn
     bool usesGraphicsCard = false;
     Theme theme = Theme::light();
     StagePlayer player;
@@ -46,7 +70,10 @@ struct StageWidget::Impl {
     }
     void paintWords(QPainter& painter) {
         const QRectF area(QPointF(0, 0), QSizeF(self->size()));
-        if (player.hasStage())
+        if (!failure.isEmpty()) {
+            painter.fillRect(area, theme.panel);
+            paintMessage(painter, failure);
+        } else if (player.hasStage())
             paintOverlay(painter, area, currentFrame(), player, theme, overlay);
         else
             paintMessage(painter, player.comparison() && !player.comparison()->schemes.empty()
@@ -59,14 +86,18 @@ struct StageWidget::Impl {
         painter.drawText(QRectF(QPointF(0, 0), QSizeF(self->size())).adjusted(16, 16, -16, -16),
                          Qt::AlignCenter | Qt::TextWordWrap, text);
     }
+    void repaint() {
+        canvas->update();
+        words->update();
+    }
     void changed() {
         isFrameCurrent = false;
-        canvas->update();
+        repaint();
     }
     void choose(const std::optional<Camera>& camera) {
         const bool wasFitted = !chosen;
         chosen = camera;
-        canvas->update();
+        repaint();
         if (wasFitted != !chosen) emit self->fittedChanged(!chosen);
     }
     /// Zooms so that the model point under this place of the widget stays there.
@@ -74,7 +105,8 @@ struct StageWidget::Impl {
         Camera next = camera();
         const double x = place.x() - self->width() / 2.0, y = self->height() / 2.0 - place.y();
         const Point under = next.unproject(x, y);
-        const double least = 1e-6 * fitCamera(player.bounds(), self->width(), self->height(), stageMargin).pixelsPerUnit;
+        const double least =
+            1e-6 * fitCamera(player.bounds(), self->width(), self->height(), stageMargin).pixelsPerUnit;
         next.pixelsPerUnit = std::clamp(next.pixelsPerUnit * factor, 1e5 * least, 1e12 * least);
         const Point moved = next.unproject(x, y);
         for (std::size_t i = 0; i < 3; ++i) next.centre[i] += under[i] - moved[i];
@@ -88,15 +120,14 @@ StageWidget::StageWidget(QWidget* parent) : QWidget(parent), impl_(std::make_uni
     CanvasSource source;
     source.frame = [this]() -> const StageFrame& { return impl_->currentFrame(); };
     source.camera = [this] { return impl_->camera(); };
-    source.paintOverlay = [this](QPainter& painter) { impl_->paintWords(painter); };
-    source.paintFailure = [this](QPainter& painter, const QString& text) {
-        painter.fillRect(QRect(QPoint(0, 0), size()), impl_->theme.panel);
-        impl_->paintMessage(painter, text);
+    source.fail = [this](const QString& text) {
+        impl_->failure = text;
+        impl_->words->update();
     };
     impl_->canvas = makeCanvas(this, std::move(source), impl_->usesGraphicsCard);
+    impl_->words = new Words(this, [this](QPainter& painter) { impl_->paintWords(painter); });
     setAccessibleName(QStringLiteral("Stage"));
     setAccessibleDescription(stageSummary(impl_->player));
-    setToolTip(QString());
 }
 
 StageWidget::~StageWidget() = default;
@@ -108,7 +139,8 @@ void StageWidget::setTheme(const Theme& theme) {
 
 void StageWidget::setComparison(std::shared_ptr<const Comparison> comparison) {
     const Comparison* before = impl_->player.comparison();
-    const bool isOtherModel = !before || !comparison || before->scene.model.type != comparison->scene.model.type;
+    const bool isOtherModel =
+        !before || !comparison || before->scene.model.type != comparison->scene.model.type;
     impl_->player = StagePlayer(std::move(comparison));
     if (isOtherModel && impl_->chosen) fit();
     setAccessibleDescription(stageSummary(impl_->player));
@@ -125,7 +157,7 @@ double StageWidget::time() const { return impl_->t; }
 
 void StageWidget::setLegendShown(bool isShown) {
     impl_->overlay.hasLegend = isShown;
-    impl_->canvas->update();
+    impl_->repaint();
 }
 
 void StageWidget::setGridShown(bool isShown) {
@@ -139,7 +171,9 @@ bool StageWidget::isFitted() const { return !impl_->chosen; }
 bool StageWidget::usesGraphicsCard() const { return impl_->usesGraphicsCard; }
 
 QImage StageWidget::picture(double pixelRatio) {
-    const auto draw = [&] { return drawStage(impl_->currentFrame(), impl_->camera(), QSizeF(size()), pixelRatio); };
+    const auto draw = [&] {
+        return drawStage(impl_->currentFrame(), impl_->camera(), QSizeF(size()), pixelRatio);
+    };
     // A thread has one current context: OSMesa must not take the place of the window's.
     QImage image = impl_->usesGraphicsCard ? std::async(std::launch::async, draw).get() : draw();
     QPainter painter(&image);
@@ -147,7 +181,11 @@ QImage StageWidget::picture(double pixelRatio) {
     return image;
 }
 
-void StageWidget::resizeEvent(QResizeEvent*) { impl_->canvas->setGeometry(rect()); }
+void StageWidget::resizeEvent(QResizeEvent*) {
+    impl_->failure.clear();
+    impl_->canvas->setGeometry(rect());
+    impl_->words->setGeometry(rect());
+}
 
 void StageWidget::wheelEvent(QWheelEvent* event) {
     impl_->zoomAt(std::pow(1.0015, event->angleDelta().y()), event->position());

@@ -2,12 +2,12 @@
 ///
 ///     auto* stage = new StageWidget;
 ///     stage->setTheme(theme);
-///     stage->setComparison(comparison);   // again whenever there are new rows: the view stays where the user put it
-///     stage->setTime(6.2);
+///     stage->setComparison(comparison);   // again whenever there are new rows: the view stays where the
+///     user put it stage->setTime(6.2);
 ///
-/// The wheel zooms at the pointer, dragging pans, a double click (or fit()) shows everything again. The picture comes
-/// from the graphics card, or through OSMesa where there is no real OpenGL (a remote or virtual display, the
-/// offscreen platform); where neither is to be had the widget says what to install.
+/// The wheel zooms at the pointer, dragging pans, a double click (or fit()) shows everything again. The
+/// picture comes from the graphics card, or through OSMesa where there is no real OpenGL (a remote or virtual
+/// display, the offscreen platform); where neither is to be had the widget says what to install.
 #pragma once
 
 #include <QWidget>
@@ -39,7 +39,8 @@ public:
     bool isFitted() const;     ///< false once the user has zoomed or panned
     bool usesGraphicsCard() const;
 
-    /// The stage as shown, words included, with this many device pixels per logical one: for copying and saving.
+    /// The stage as shown, words included, with this many device pixels per logical one: for copying and
+    /// saving.
     QImage picture(double pixelRatio);
 
     QSize sizeHint() const override { return {520, 320}; }

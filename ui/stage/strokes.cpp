@@ -6,15 +6,16 @@
 namespace extremal {
 namespace {
 
-constexpr double farAway = 2e4;         // logical pixels: what lies beyond is not drawn
-constexpr double rodWidth = 2.4;        // of the first scheme; the others are a little thinner
+constexpr double farAway = 2e4;   // logical pixels: what lies beyond is not drawn
+constexpr double rodWidth = 2.4;  // of the first scheme; the others are a little thinner
 constexpr double hatchSpacing = 8, hatchLength = 8;
 constexpr double springLead = 10, slimmestSpring = 5, widestSpring = 11;
 
 /// Collects strokes of one picture; batches are opened and closed around them.
 class Pen {
 public:
-    Pen(const Camera& camera, double pixelRatio) : camera_(camera), axes_(camera.axes()), ratio_(pixelRatio) {}
+    Pen(const Camera& camera, double pixelRatio)
+        : camera_(camera), axes_(camera.axes()), ratio_(pixelRatio) {}
 
     void open(bool isUnited, double opacity) {
         StrokeBatch batch;
@@ -24,7 +25,8 @@ public:
         list_.batches.push_back(batch);
     }
 
-    void stroke(const Point& a, const Point& b, double width, const Rgb& colour, double alphaA = 1, double alphaB = 1) {
+    void stroke(const Point& a, const Point& b, double width, const Rgb& colour, double alphaA = 1,
+                double alphaB = 1) {
         const Point pa = camera_.project(a), pb = camera_.project(b);
         for (std::size_t i = 0; i < 2; ++i)  // negated: also true for NaN
             if (!(std::abs(pa[i]) < farAway) || !(std::abs(pb[i]) < farAway)) return;
@@ -44,7 +46,9 @@ public:
         grow(pb, width);
     }
 
-    void disc(const Point& centre, double radius, const Rgb& colour) { stroke(centre, centre, 2 * radius, colour); }
+    void disc(const Point& centre, double radius, const Rgb& colour) {
+        stroke(centre, centre, 2 * radius, colour);
+    }
 
     /// The point this many logical pixels right of and above r, as seen.
     Point shifted(const Point& r, double right, double up) const {
@@ -121,11 +125,14 @@ void drawSupport(Pen& pen, const Support& support, const Rgb& colour) {
 void drawScenery(Pen& pen, const StageFrame& frame) {
     pen.open(true, 1);
     for (const Shape& shape : frame.scenery) {
-        if (const auto* support = std::get_if<Support>(&shape)) drawSupport(pen, *support, frame.style.scenery);
+        if (const auto* support = std::get_if<Support>(&shape))
+            drawSupport(pen, *support, frame.style.scenery);
         if (const auto* segment = std::get_if<Segment>(&shape))
             pen.stroke(segment->a, segment->b, segment->width, frame.style.scenery);
-        if (const auto* spring = std::get_if<Spring>(&shape)) drawSpring(pen, *spring, 1.6, frame.style.scenery);
-        if (const auto* disc = std::get_if<Disc>(&shape)) pen.disc(disc->centre, disc->radius, frame.style.scenery);
+        if (const auto* spring = std::get_if<Spring>(&shape))
+            drawSpring(pen, *spring, 1.6, frame.style.scenery);
+        if (const auto* disc = std::get_if<Disc>(&shape))
+            pen.disc(disc->centre, disc->radius, frame.style.scenery);
     }
 }
 
@@ -143,8 +150,10 @@ void drawGrid(Pen& pen, const StageFrame& frame, double width, double height) {
         const double first = std::ceil((centre[axis] - half) / step) * step;
         for (int k = 0; first + k * step <= centre[axis] + half && k < 1000; ++k) {
             const double offset = (first + k * step - centre[axis]) * pen.camera().pixelsPerUnit;
-            const Point a = axis == 0 ? pen.shifted(centre, offset, -height / 2) : pen.shifted(centre, -width / 2, offset);
-            const Point b = axis == 0 ? pen.shifted(centre, offset, height / 2) : pen.shifted(centre, width / 2, offset);
+            const Point a = axis == 0 ? pen.shifted(centre, offset, -height / 2)
+                                      : pen.shifted(centre, -width / 2, offset);
+            const Point b =
+                axis == 0 ? pen.shifted(centre, offset, height / 2) : pen.shifted(centre, width / 2, offset);
             pen.stroke(a, b, 1, frame.style.grid);
         }
     }
@@ -158,16 +167,19 @@ void drawTrail(Pen& pen, const StageLayer& layer, double width) {
         const bool startsPiece = i == 0 || !p.isJoined;
         const bool endsPiece = i + 1 == layer.trail.size() || !layer.trail[i + 1].isJoined;
         if (!startsPiece)
-            pen.stroke(layer.trail[i - 1].r, p.r, width, layer.colour, fade(layer.trail[i - 1].age), fade(p.age));
+            pen.stroke(layer.trail[i - 1].r, p.r, width, layer.colour, fade(layer.trail[i - 1].age),
+                       fade(p.age));
         else if (endsPiece)
             pen.stroke(p.r, p.r, 2.2 * width, layer.colour, fade(p.age), fade(p.age));
     }
 }
 
-/// Schemes that agree lie on top of each other. Their discs get smaller from the first to the last and are drawn in
-/// this order, so that coinciding schemes show as rings.
+/// Schemes that agree lie on top of each other. Their discs get smaller from the first to the last and are
+/// drawn in this order, so that coinciding schemes show as rings.
 double ringScale(std::size_t index, std::size_t count) {
-    return count <= 1 ? 1 : 1 - 0.55 * static_cast<double>(index) / static_cast<double>(std::max<std::size_t>(count - 1, 2));
+    return count <= 1 ? 1
+                      : 1 - 0.55 * static_cast<double>(index) /
+                                static_cast<double>(std::max<std::size_t>(count - 1, 2));
 }
 
 void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
@@ -175,16 +187,20 @@ void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
     for (const Shape& shape : layer.shapes) {
         if (const auto* segment = std::get_if<Segment>(&shape))
             pen.stroke(segment->a, segment->b, segment->width / 2 * width, layer.colour);
-        if (const auto* spring = std::get_if<Spring>(&shape)) drawSpring(pen, *spring, 0.8 * width, layer.colour);
+        if (const auto* spring = std::get_if<Spring>(&shape))
+            drawSpring(pen, *spring, 0.8 * width, layer.colour);
     }
 }
 
 void drawDiscs(Pen& pen, const StageFrame& frame, const StageLayer& layer, double scale, bool isFirst) {
     // A faint scheme is mixed with the background, so that its outline does not shine through.
     const double strength = layer.hasEnded ? 0.35 : 1;
-    const auto mix = [&](float c, float back) { return static_cast<float>(strength * c + (1 - strength) * back); };
+    const auto mix = [&](float c, float back) {
+        return static_cast<float>(strength * c + (1 - strength) * back);
+    };
     const Rgb& back = frame.style.background;
-    const Rgb colour = {mix(layer.colour.r, back.r), mix(layer.colour.g, back.g), mix(layer.colour.b, back.b)};
+    const Rgb colour = {mix(layer.colour.r, back.r), mix(layer.colour.g, back.g),
+                        mix(layer.colour.b, back.b)};
     pen.open(false, 1);
     for (const Shape& shape : layer.shapes)
         if (const auto* disc = std::get_if<Disc>(&shape)) {
@@ -202,7 +218,8 @@ StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double wid
     if (frame.style.hasGrid) drawGrid(pen, frame, width, height);
     drawScenery(pen, frame);
     const std::size_t count = frame.layers.size();
-    // Rods, springs and trails of the first scheme lie above those of the others, which show where they differ.
+    // Rods, springs and trails of the first scheme lie above those of the others, which show where they
+    // differ.
     for (std::size_t i = count; i-- > 0;) {
         const StageLayer& layer = frame.layers[i];
         pen.open(true, layer.hasEnded ? 0.25 : i == 0 ? 1 : 0.85);
@@ -213,8 +230,10 @@ StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double wid
         pen.open(true, layer.hasEnded ? 0.3 : 1);
         drawBodies(pen, layer, i == 0);
     }
-    for (std::size_t i = 0; i < count; ++i)
-        drawDiscs(pen, frame, frame.layers[i], ringScale(i, count), i == 0);
+    for (const bool hasEnded : {true, false})  // those that have failed lie below the others
+        for (std::size_t i = 0; i < count; ++i)
+            if (frame.layers[i].hasEnded == hasEnded)
+                drawDiscs(pen, frame, frame.layers[i], ringScale(i, count), i == 0);
     return pen.take();
 }
 

@@ -1,8 +1,8 @@
 /// A StageFrame turned into what the renderer draws: round-ended strokes in batches.
 ///
-/// Everything on the stage is a stroke: a rod, a piece of a spring or trail, a hatch line, and a disc, which is a
-/// stroke of length zero. Widths are in pixels of the picture, ends in model units relative to the camera's centre
-/// (subtracted in double precision, so that zooming far in stays exact).
+/// Everything on the stage is a stroke: a rod, a piece of a spring or trail, a hatch line, and a disc, which
+/// is a stroke of length zero. Widths are in pixels of the picture, ends in model units relative to the
+/// camera's centre (subtracted in double precision, so that zooming far in stays exact).
 #pragma once
 
 #include <vector>
@@ -26,8 +26,8 @@ struct StrokeBatch {
     /// True: the strokes are of one colour and are united before they meet the picture, so that overlapping
     /// half-transparent pieces do not show their joints. False: each is drawn over what is there.
     bool isUnited = false;
-    float opacity = 1;                          ///< of the whole batch
-    float low[2] = {0, 0}, high[2] = {0, 0};    ///< pixels it may touch, from the middle, y up
+    float opacity = 1;                        ///< of the whole batch
+    float low[2] = {0, 0}, high[2] = {0, 0};  ///< pixels it may touch, from the middle, y up
 };
 
 struct StrokeList {

@@ -23,7 +23,8 @@ StagePainter::~StagePainter() {
     }
 }
 
-QImage StagePainter::draw(const StageFrame& frame, const Camera& camera, int width, int height, double pixelRatio) {
+QImage StagePainter::draw(const StageFrame& frame, const Camera& camera, int width, int height,
+                          double pixelRatio) {
     const unsigned framebuffer = surface_->begin(width, height);
     const GlFunctions& gl = surface_->functions();
     if (!renderer_) renderer_ = std::make_unique<Renderer>(gl);

@@ -1,8 +1,8 @@
 /// Where the stage is drawn: something that makes an OpenGL context current and owns a framebuffer.
 ///
-/// Three kinds: the window's widget (stage_canvas.cpp), OSMesa, the default without a display, and EGL without a
-/// surface, which succeeds it where Mesa no longer has OSMesa (from 25.1 on). The libraries of the last two are
-/// opened at run time, so that everything that draws no stage works without them.
+/// Three kinds: the window's widget (stage_canvas.cpp), OSMesa, the default without a display, and EGL
+/// without a surface, which succeeds it where Mesa no longer has OSMesa (from 25.1 on). The libraries of the
+/// last two are opened at run time, so that everything that draws no stage works without them.
 #pragma once
 
 #include <QImage>

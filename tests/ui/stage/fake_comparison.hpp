@@ -1,4 +1,5 @@
-/// Comparisons made by hand, without integrating anything: curves that are known, drawn as a pendulum on a spring.
+/// Comparisons made by hand, without integrating anything: curves that are known, drawn as a pendulum on a
+/// spring.
 #pragma once
 
 #include <cmath>
@@ -19,7 +20,8 @@ inline System swing() {
     s.coordinates = {{"theta", "angle", "θ", "rad", ""}};
     s.timeUnit = "s";
     s.mechanics.dimension = 1;
-    s.mechanics.flow = [](const void*, const double&, const double* q, const double* p, double* v, double* f) {
+    s.mechanics.flow = [](const void*, const double&, const double* q, const double* p, double* v,
+                          double* f) {
         v[0] = p[0];
         f[0] = -4 * q[0];
         return true;
@@ -68,7 +70,8 @@ inline std::shared_ptr<const Comparison> comparison(const std::vector<Curve>& cu
     auto c = std::make_shared<Comparison>();
     c->scene.title = "Swing";
     c->isFinished = true;
-    for (std::size_t i = 0; i < curves.size(); ++i) c->schemes.push_back(result(curves[i], static_cast<int>(i)));
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        c->schemes.push_back(result(curves[i], static_cast<int>(i)));
     return c;
 }
 

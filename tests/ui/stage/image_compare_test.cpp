@@ -37,7 +37,9 @@ private slots:
         QVERIFY(d.ssim < 0.99);
     }
 
-    void aSwappedColourDiffers() { QVERIFY(compareImages(curve(0, "#D1490C"), curve()).differingPercent > 0.5); }
+    void aSwappedColourDiffers() {
+        QVERIFY(compareImages(curve(0, "#D1490C"), curve()).differingPercent > 0.5);
+    }
 
     void differencesUpToTheThresholdCountAsEqual() {
         QImage a(10, 10, QImage::Format_RGB32), b = a;

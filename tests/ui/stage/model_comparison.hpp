@@ -1,5 +1,5 @@
-/// Comparisons of the program's own models, made from formulas instead of runs, so that pictures of them depend on
-/// nothing but the drawing.
+/// Comparisons of the program's own models, made from formulas instead of runs, so that pictures of them
+/// depend on nothing but the drawing.
 #pragma once
 
 #include <cmath>
@@ -42,7 +42,8 @@ inline std::shared_ptr<Comparison> comparison(const Film& film) {
         scheme->summary.status = RunStatus::done;
         auto& columns = scheme->trajectory.columns;
         columns.push_back({"t", "t", system.timeUnit, {}});
-        for (const Coordinate& c : system.coordinates) columns.push_back({"q." + c.name, c.symbol, c.unit, {}});
+        for (const Coordinate& c : system.coordinates)
+            columns.push_back({"q." + c.name, c.symbol, c.unit, {}});
         for (const Coordinate& c : system.coordinates)
             columns.push_back({"p." + c.name, "p" + c.symbol, c.momentumUnit, {}});
         columns.push_back({"energy", "H", system.energyUnit, {}});
@@ -118,7 +119,9 @@ inline Film oscillator() {
     film.title = "Harmonic oscillator";
     film.model = settings("harmonic-oscillator", {{"m", 1.0}, {"k", 1.0}});
     film.labels = {"midpoint", "symplectic Euler"};
-    film.motion = [](int k, double t) { return std::vector<double>{std::cos(t - 0.3 * k), -std::sin(t - 0.3 * k)}; };
+    film.motion = [](int k, double t) {
+        return std::vector<double>{std::cos(t - 0.3 * k), -std::sin(t - 0.3 * k)};
+    };
     return film;
 }
 

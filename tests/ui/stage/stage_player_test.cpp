@@ -60,7 +60,8 @@ private slots:
         const StagePlayer player(fake::comparison({{"a", 1, 0, 0.1}}), fake::swing());
         const double t = 3.14159, theta = std::cos(2 * t);
         const Point bob = bobOf(player.frame(t, {}).layers[0]);
-        QVERIFY(std::abs(bob[0] - std::sin(theta)) < 1e-5);  // measured 2e-6; straight lines would miss by 1e-3
+        QVERIFY(std::abs(bob[0] - std::sin(theta)) <
+                1e-5);  // measured 2e-6; straight lines would miss by 1e-3
     }
 
     void rowsTooFarApartAreShownAsTheyAre() {
@@ -76,7 +77,8 @@ private slots:
         const StageLayer layer = player.frame(6.213, {}).layers[0];
         QVERIFY(layer.trail.size() > 10);
         QCOMPARE(layer.trail.back().r, bobOf(layer));
-        for (std::size_t i = 1; i < layer.trail.size(); ++i) QVERIFY(layer.trail[i].age < layer.trail[i - 1].age);
+        for (std::size_t i = 1; i < layer.trail.size(); ++i)
+            QVERIFY(layer.trail[i].age < layer.trail[i - 1].age);
         QVERIFY(layer.trail.front().age <= 1);
     }
 
@@ -118,7 +120,8 @@ private slots:
         StageFrame frame;
         frame.layers.resize(1);
         const double infinity = std::numeric_limits<double>::infinity();
-        frame.layers[0].shapes = {Disc{{0, 0, 0}, 5}, Disc{{1e300, 0, 0}, 5}, Segment{{0, 0, 0}, {0, infinity, 0}},
+        frame.layers[0].shapes = {Disc{{0, 0, 0}, 5}, Disc{{1e300, 0, 0}, 5},
+                                  Segment{{0, 0, 0}, {0, infinity, 0}},
                                   Spring{{0, 0, 0}, {std::nan(""), 0, 0}}};
         const StrokeList list = makeStrokes(frame, Camera{}, 200, 200, 1);
         QCOMPARE(list.strokes.size(), std::size_t{2});  // outline and disc

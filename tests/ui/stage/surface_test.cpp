@@ -43,13 +43,14 @@ private slots:
     }
 
     void aTrailOfOneSchemeShowsNoJoints() {
-        // Half-transparent pieces that overlap must be as dark as one piece: a straight trail of equal age, cut in
-        // forty pieces, has one colour along its middle.
+        // Half-transparent pieces that overlap must be as dark as one piece: a straight trail of equal age,
+        // cut in forty pieces, has one colour along its middle.
         StageFrame picture;
         picture.style = stageStyle(Theme::light());
         picture.layers.resize(1);
         picture.layers[0].colour = rgb(0x0B62D6);
-        for (int i = 0; i <= 40; ++i) picture.layers[0].trail.push_back({{-0.8 + 0.04 * i, 0, 0}, 0.5, i > 0});
+        for (int i = 0; i <= 40; ++i)
+            picture.layers[0].trail.push_back({{-0.8 + 0.04 * i, 0, 0}, 0.5, i > 0});
         StagePainter painter(makeOsmesaSurface());
         const QImage image = painter.draw(picture, Camera{}, 200, 101, 1);
         const QRgb middle = image.pixel(100, 50);
@@ -78,13 +79,15 @@ private slots:
             QSKIP(e.what());
         }
         StagePainter first(std::move(egl)), second(makeOsmesaSurface());
-        const QImage a = first.draw(frame(), camera(), 300, 200, 1), b = second.draw(frame(), camera(), 300, 200, 1);
+        const QImage a = first.draw(frame(), camera(), 300, 200, 1),
+                     b = second.draw(frame(), camera(), 300, 200, 1);
         QVERIFY(compareImages(a, b, 8).differingPercent < 0.1);
     }
 
     void unknownOpenGlVersionsAreRefusedByNumber() {
         const auto old = [](const char*) -> void (*)() {
-            return reinterpret_cast<void (*)()>(+[](unsigned name, int* value) { *value = name == GL_MAJOR_VERSION ? 2 : 1; });
+            return reinterpret_cast<void (*)()>(
+                +[](unsigned name, int* value) { *value = name == GL_MAJOR_VERSION ? 2 : 1; });
         };
         try {
             loadGlFunctions(old);

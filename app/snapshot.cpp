@@ -1,0 +1,127 @@
+#include <QApplication>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "app/load.hpp"
+#include "app/report.hpp"
+#include "app/verbs.hpp"
+#include "app/watch_run.hpp"
+#include "engine/core/text.hpp"
+#include "engine/scene/json.hpp"
+#include "ui/stage/snapshot.hpp"
+
+namespace extremal::app {
+namespace {
+
+/// Qt's remarks on the machine are no news to somebody who wants a picture; what is wrong with it, we say
+/// ourselves.
+void dropRemarks(QtMsgType type, const QMessageLogContext&, const QString& text) {
+    if (type == QtCriticalMsg || type == QtFatalMsg) printProblem("", text.toStdString());
+}
+
+/// "1200x800".
+std::optional<std::pair<int, int>> parseSize(const std::string& text) {
+    int width = 0, height = 0;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data(), end, width);
+    if (first.ec != std::errc() || first.ptr == end || *first.ptr != 'x') return std::nullopt;
+    const auto second = std::from_chars(first.ptr + 1, end, height);
+    if (second.ec != std::errc() || second.ptr != end) return std::nullopt;
+    return std::pair(width, height);
+}
+
+SnapshotRequest requestOf(const SnapshotOptions& options) {
+    SnapshotRequest request;
+    const auto size = parseSize(options.size);
+    if (!size)
+        throw SnapshotError(SnapshotError::Kind::unusable, "--size",
+                            "must be WIDTHxHEIGHT, got \"" + options.size + "\"", "for example 1200x800");
+    request.file = QString::fromStdString(options.out);
+    request.width = size->first;
+    request.height = size->second;
+    request.view = options.view;
+    if (options.hasTime) request.time = options.time;
+    request.compareWith = QString::fromStdString(options.compareWith);
+    if (options.tolerance >= 0) request.tolerance = options.tolerance;
+    return request;
+}
+
+void printResult(const SnapshotOptions& snapshot, const SnapshotRequest& request,
+                 const SnapshotResult& result, const CommonOptions& options) {
+    if (options.isJson) {
+        Value document;
+        document.set("file", snapshot.out);
+        document.set("width", request.width);
+        document.set("height", request.height);
+        document.set("view", request.view);
+        document.set("time", result.time);
+        if (result.isCompared) {
+            document.set("equal", result.isEqual);
+            document.set("differing_percent", result.differingPercent);
+            document.set("difference", result.differenceFile.toStdString());
+        }
+        print(writeJson(document));
+    } else if (!options.isQuiet) {
+        print(snapshot.out + ": " + std::to_string(request.width) + "x" + std::to_string(request.height) +
+              ", view " + request.view + ", t = " + formatNumber(result.time) + "\n");
+        if (result.isCompared)
+            print(snapshot.compareWith + ": " + (result.isEqual ? "equal, " : "differs, ") + result.verdict +
+                  "\n");
+    }
+}
+
+int exitCode(const SnapshotError& error) {
+    return error.kind == SnapshotError::Kind::unwritable ? unwritable : unusable;
+}
+
+}  // namespace
+
+int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options) {
+    const ReadScene read = loadScene(scene, options.overrides);
+    if (!reportScene(scene, read, options)) return unusable;
+    qInstallMessageHandler(dropRemarks);
+    qputenv("QT_QPA_PLATFORM", "offscreen");
+    int argc = 1;
+    char program[] = "extremal";
+    char* argv[] = {program, nullptr};
+    const QApplication application(argc, argv);
+    try {
+        const SnapshotRequest request = requestOf(snapshot);
+        checkSnapshot(read.scene, request);
+        InterruptWatch watch;
+        Run run(read.scene, {options.threads});
+        run.start();
+        const bool isInterrupted = waitFor(run, watch, options);
+        const auto comparison = std::make_shared<const Comparison>(run.latest());
+        const SnapshotResult result = makeSnapshot(comparison, request);
+        printResult(snapshot, request, result, options);
+        if (isInterrupted) {
+            printProblem("", "interrupted: the picture shows partial results");
+            return finish(interrupted);
+        }
+        // Comparing asks about the picture, which shows failures as it should; else they are the news.
+        if (result.isCompared) return finish(result.isEqual ? done : failed);
+        bool hasFailure = false;
+        for (const auto& scheme : comparison->schemes) {
+            const Summary& s = scheme->summary;
+            if (s.status != RunStatus::failed) continue;
+            hasFailure = true;
+            printProblem(s.label,
+                         "failed at t = " + formatNumber(s.failedAt, 6) + ": " + std::string(name(s.cause)),
+                         s.advice);
+        }
+        return finish(hasFailure ? failed : done);
+    } catch (const InvalidScene& e) {
+        printProblems(sceneName(scene), e.problems());
+        return unusable;
+    } catch (const SnapshotError& e) {
+        printProblem(e.where, e.what(), e.hint);
+        return exitCode(e);
+    }
+}
+
+}  // namespace extremal::app
