@@ -201,6 +201,7 @@ QImage snapshotImage(std::shared_ptr<const Comparison> comparison, const Snapsho
     QImage image(request.width, request.height, QImage::Format_RGB32);
     if (image.isNull())
         throw SnapshotError(Kind::unusable, "--size", "there is not enough memory for this picture");
+    image.fill(Qt::white);
     image.setDotsPerMeterX(3780);
     image.setDotsPerMeterY(3780);
     try {

@@ -134,10 +134,10 @@ std::vector<QRectF> cardPlaces(QRectF area, std::size_t count, double between) {
 void drawSnapshotPage(FigurePainter& figures, QRectF pixels, const SnapshotPage& page, const Theme& theme) {
     QPainter& painter = figures.painter();
     const double scale = pageScale(page, static_cast<int>(pixels.width()), static_cast<int>(pixels.height()));
+    painter.fillRect(pixels, page.isSingle ? theme.panel : theme.window);
     painter.save();
     painter.scale(scale, scale);
     const QRectF whole(QPointF(0, 0), pixels.size() / scale);
-    painter.fillRect(whole, page.isSingle ? theme.panel : theme.window);
     QRectF area = whole;
     if (!page.isSingle) {
         const bool isSmall = whole.height() < 300;
