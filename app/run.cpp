@@ -46,14 +46,6 @@ std::string summaryTable(const Comparison& comparison) {
     return table.text();
 }
 
-void printFailures(const Comparison& comparison) {
-    for (const auto& scheme : comparison.schemes) {
-        const Summary& s = scheme->summary;
-        if (s.status == RunStatus::failed)
-            printProblem(s.label, "failed at t = " + number(s.failedAt, 6) + ": " + std::string(name(s.cause)), s.advice);
-    }
-}
-
 int printResult(const Comparison& comparison, const std::string& folder, int code, const CommonOptions& options) {
     if (options.isJson) return print(writeJson(summaryValue(comparison)), code);
     if (options.isQuiet) return code;
@@ -61,12 +53,6 @@ int printResult(const Comparison& comparison, const std::string& folder, int cod
     text.append("\n").append(std::to_string(comparison.schemes.size() + 3));
     text.append(code == interrupted ? " files with partial results in " : " files in ").append(folder).append("\n");
     return print(text, code);
-}
-
-int exitCode(const Comparison& comparison, bool isInterrupted) {
-    if (isInterrupted) return interrupted;
-    const auto isFailed = [](const auto& scheme) { return scheme->summary.status == RunStatus::failed; };
-    return std::any_of(comparison.schemes.begin(), comparison.schemes.end(), isFailed) ? failed : done;
 }
 
 }  // namespace

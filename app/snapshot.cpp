@@ -1,8 +1,6 @@
 #include <QApplication>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -50,8 +48,9 @@ SnapshotRequest requestOf(const SnapshotOptions& options) {
     return request;
 }
 
-void printResult(const SnapshotOptions& snapshot, const SnapshotRequest& request,
-                 const SnapshotResult& result, const CommonOptions& options) {
+/// Prints what was made; returns the exit code, which writing to a full disk can change.
+int printResult(const SnapshotOptions& snapshot, const SnapshotRequest& request, const SnapshotResult& result,
+                int code, const CommonOptions& options) {
     if (options.isJson) {
         Value document;
         document.set("file", snapshot.out);
@@ -64,18 +63,14 @@ void printResult(const SnapshotOptions& snapshot, const SnapshotRequest& request
             document.set("differing_percent", result.differingPercent);
             document.set("difference", result.differenceFile.toStdString());
         }
-        print(writeJson(document));
-    } else if (!options.isQuiet) {
-        print(snapshot.out + ": " + std::to_string(request.width) + "x" + std::to_string(request.height) +
-              ", view " + request.view + ", t = " + formatNumber(result.time) + "\n");
-        if (result.isCompared)
-            print(snapshot.compareWith + ": " + (result.isEqual ? "equal, " : "differs, ") + result.verdict +
-                  "\n");
+        return print(writeJson(document), code);
     }
-}
-
-int exitCode(const SnapshotError& error) {
-    return error.kind == SnapshotError::Kind::unwritable ? unwritable : unusable;
+    if (options.isQuiet) return code;
+    std::string text = snapshot.out + ": " + std::to_string(request.width) + "x" + std::to_string(request.height) +
+                       ", view " + request.view + ", t = " + formatNumber(result.time) + "\n";
+    if (result.isCompared)
+        text += snapshot.compareWith + ": " + (result.isEqual ? "equal, " : "differs, ") + result.verdict + "\n";
+    return print(text, code);
 }
 
 }  // namespace
@@ -98,29 +93,18 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         const bool isInterrupted = waitFor(run, watch, options);
         const auto comparison = std::make_shared<const Comparison>(run.latest());
         const SnapshotResult result = makeSnapshot(comparison, request);
-        printResult(snapshot, request, result, options);
-        if (isInterrupted) {
-            printProblem("", "interrupted: the picture shows partial results");
-            return finish(interrupted);
-        }
         // Comparing asks about the picture, which shows failures as it should; else they are the news.
-        if (result.isCompared) return finish(result.isEqual ? done : failed);
-        bool hasFailure = false;
-        for (const auto& scheme : comparison->schemes) {
-            const Summary& s = scheme->summary;
-            if (s.status != RunStatus::failed) continue;
-            hasFailure = true;
-            printProblem(s.label,
-                         "failed at t = " + formatNumber(s.failedAt, 6) + ": " + std::string(name(s.cause)),
-                         s.advice);
-        }
-        return finish(hasFailure ? failed : done);
+        const bool isVerdict = result.isCompared && !isInterrupted;
+        if (!isVerdict) printFailures(*comparison);
+        const int code = isVerdict ? (result.isEqual ? done : failed) : exitCode(*comparison, isInterrupted);
+        if (isInterrupted) printProblem("", "interrupted: the picture shows partial results");
+        return printResult(snapshot, request, result, code, options);
     } catch (const InvalidScene& e) {
         printProblems(sceneName(scene), e.problems());
         return unusable;
     } catch (const SnapshotError& e) {
         printProblem(e.where, e.what(), e.hint);
-        return exitCode(e);
+        return e.kind == SnapshotError::Kind::unwritable ? unwritable : unusable;
     }
 }
 

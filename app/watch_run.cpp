@@ -4,6 +4,8 @@
 #include <cstdlib>
 
 #include "app/progress.hpp"
+#include "app/report.hpp"
+#include "engine/core/text.hpp"
 
 namespace extremal::app {
 
@@ -20,6 +22,20 @@ bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
     }
     run.wait();
     return isInterrupted;
+}
+
+void printFailures(const Comparison& comparison) {
+    for (const auto& scheme : comparison.schemes) {
+        const Summary& s = scheme->summary;
+        if (s.status == RunStatus::failed)
+            printProblem(s.label, "failed at t = " + formatNumber(s.failedAt, 6) + ": " + std::string(name(s.cause)), s.advice);
+    }
+}
+
+int exitCode(const Comparison& comparison, bool isInterrupted) {
+    if (isInterrupted) return interrupted;
+    const auto isFailed = [](const auto& scheme) { return scheme->summary.status == RunStatus::failed; };
+    return std::any_of(comparison.schemes.begin(), comparison.schemes.end(), isFailed) ? failed : done;
 }
 
 }  // namespace extremal::app
