@@ -14,6 +14,7 @@ enum class Outcome {
     stepBudget,        ///< an adaptive code needs more steps than the scene allows
     stopped,           ///< a stop was requested
 };
+constexpr int outcomeCount = 7;
 
 /// The spelling used in files and on the command line ("energy-unsolvable", ...); empty for converged.
 constexpr std::string_view name(Outcome outcome) {

@@ -4,6 +4,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 
@@ -38,35 +39,10 @@ void checkRows(Reader& reader, const Scene& scene) {
                      "a larger interval");
 }
 
-std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
-    if (scheme.kind == SchemeSpec::Kind::pair) return Discretization{scheme.space, scheme.quadrature, scheme.solver};
-    if (scheme.kind != SchemeSpec::Kind::named) return {};
-    auto pair = namedScheme(scheme.named);
-    if (pair && !scheme.solver.type.empty()) pair->solver = scheme.solver;
-    return pair;
-}
-
-/// The state at the start, as the runs take it; not finite where the model allows none there.
-State startOf(const System& system, const Scene& scene) {
-    const auto d = static_cast<std::size_t>(system.dimension());
-    State state;
-    state.t = scene.start.value;
-    state.x.resize(2 * d);
-    for (std::size_t i = 0; i < d; ++i) {
-        state.x[i] = scene.initial.q[i].value;
-        state.x[d + i] = scene.initial.pOrV[i].value;
-    }
-    if (scene.initial.second != Initial::Second::velocity) return state;
-    std::vector<double> v(state.x.begin() + system.dimension(), state.x.end()), gradient(2 * d);
-    system.mechanics.gradient(system.mechanics.model.get(), state.t, state.x.data(), v.data(), gradient.data());
-    std::copy_n(gradient.begin() + system.dimension(), d, state.x.begin() + system.dimension());
-    return state;
-}
-
 void checkStability(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                     double stabilityLimit, const std::string& pointer) {
     if (!(stabilityLimit > 0) || std::isinf(stabilityLimit) || scheme.tolerance) return;
-    const double frequency = highestFrequency(system, startOf(system, scene));
+    const double frequency = highestFrequency(system, initialState(scene, system));
     const double h = scheme.step.value, limit = stabilityLimit / frequency;
     if (!(frequency > 0) || !(h > limit)) return;
     reader.warning(pointer + "/step",

@@ -15,7 +15,8 @@ struct Column {
     std::string name;    ///< CSV header: "q.theta", "energy_error"
     std::string symbol;  ///< for axis titles: "θ", "H - H(0)"
     std::string unit;    ///< "rad"; empty if dimensionless
-    std::vector<double> values;
+    std::vector<double> values = {};
+    std::vector<std::string> words = {};  ///< names of the values 0, 1, ... of a column that is a choice; empty for numbers
 };
 
 struct Trajectory {

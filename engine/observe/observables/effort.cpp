@@ -8,7 +8,7 @@ ObservableEntry effort() {
     e.item = {"effort", "solver effort", "Iterations and evaluations of the step that ended at each row.", {}, {}, ""};
     e.bind = [](const ObserveContext&) {
         Observer o;
-        o.columns = {{"newton_iterations", "iterations", "", {}}, {"evaluations", "evaluations", "", {}}};
+        o.columns = {{"newton_iterations", "iterations", "", {}, {}}, {"evaluations", "evaluations", "", {}, {}}};
         o.evaluate = [](const State&, const StepReport& report, double* values) {
             values[0] = report.iterations;
             values[1] = report.evaluations;

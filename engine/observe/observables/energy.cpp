@@ -8,8 +8,8 @@ ObservableEntry energy() {
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.", {}, {}, ""};
     e.bind = [](const ObserveContext& context) {
         Observer o;
-        o.columns = {{"energy", "H", context.system.energyUnit, {}},
-                     {"energy_error", "H - H(0)", context.system.energyUnit, {}}};
+        o.columns = {{"energy", "H", context.system.energyUnit, {}, {}},
+                     {"energy_error", "H - H(0)", context.system.energyUnit, {}, {}}};
         o.extreme = 1;
         const Mechanics<double> m = context.system.mechanics;
         const double* x = context.initial.x.data();

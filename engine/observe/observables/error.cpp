@@ -17,8 +17,8 @@ ObservableEntry error() {
         const std::size_t d = coordinates.size();
         bool sameUnit = true;
         for (const Coordinate& c : coordinates) sameUnit = sameUnit && c.unit == coordinates[0].unit;
-        o.columns.push_back({"error", "|q - q_ref|", sameUnit ? coordinates[0].unit : "", {}});
-        o.columns.push_back({"error.p", "|p - p_ref|", sameUnit ? coordinates[0].momentumUnit : "", {}});
+        o.columns.push_back({"error", "|q - q_ref|", sameUnit ? coordinates[0].unit : "", {}, {}});
+        o.columns.push_back({"error.p", "|p - p_ref|", sameUnit ? coordinates[0].momentumUnit : "", {}, {}});
         for (const Coordinate& c : coordinates)
             o.columns.push_back({"error." + c.name, c.symbol + " - " + c.symbol + "_ref", c.unit, {}});
         o.extreme = 0;

@@ -1,0 +1,34 @@
+#include "engine/run/advice.hpp"
+
+#include <cmath>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/scene/bind.hpp"
+
+namespace extremal {
+
+std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system,
+                      const State& state) {
+    if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
+    if (outcome == Outcome::stepBudget)
+        return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an earlier end.";
+    const double w = highestFrequency(system, state);
+    double limit = 0;
+    if (const auto pair = pairOf(scheme))
+        limit = describe(pair->space, pair->quadrature).stabilityLimit;
+    else if (const BaselineEntry* entry = findBaseline(scheme.baseline.type))
+        limit = entry->stabilityLimit;
+    if (w > 0 && std::isfinite(limit) && limit > 0 && step * w > limit)
+        return "h ω = " + formatNumber(step * w, 2) + " is beyond its stability limit " + formatNumber(limit, 3) +
+               ". Try h ≤ " + formatNumber(limit / w, 2) + ".";
+    if (scheme.tolerance) return "Try a smaller tolerance, or start away from the singularity.";
+    if (outcome == Outcome::singular)
+        return "The equations of the step are singular here. Try other initial data, or a smaller step.";
+    if (w > 0 && step * w > 0.5)
+        return "h ω = " + formatNumber(step * w, 2) + " is large for the solver. Try h ≤ " + formatNumber(0.5 / w, 2) + ".";
+    return "Try half the step, h = " + formatNumber(step / 2, 3) + ".";
+}
+
+}  // namespace extremal

@@ -1,0 +1,14 @@
+/// What to try after a failure, in one or two sentences for the scheme's row.
+#pragma once
+
+#include <string>
+
+#include "engine/core/outcome.hpp"
+#include "engine/model/system.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace extremal {
+
+std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system, const State& state);
+
+}  // namespace extremal

@@ -1,0 +1,217 @@
+#include "engine/run/reference.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <memory>
+#include <sstream>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/scene/bind.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Runs an integrator alongside, as far as it is asked, and answers from its curve. Going back in time starts anew.
+class Marching {
+public:
+    Marching(std::function<std::unique_ptr<Integrator>()> make, State initial)
+        : make_(std::move(make)), initial_(std::move(initial)) {
+        rewind();
+    }
+    void operator()(double t, std::span<double> x) {
+        if (t < before_) rewind();
+        while (!hasFailed_ && state_.t < t) {
+            before_ = state_.t;
+            hasFailed_ = integrator_->advance(state_).outcome != Outcome::converged;
+        }
+        if (hasFailed_)
+            std::fill(x.begin(), x.end(), unknown);
+        else if (t == state_.t)
+            std::copy(state_.x.begin(), state_.x.end(), x.begin());
+        else
+            integrator_->curve((t - before_) / (state_.t - before_), x);
+    }
+
+private:
+    void rewind() {
+        integrator_ = make_();
+        state_ = initial_;
+        before_ = initial_.t;
+        hasFailed_ = false;
+    }
+    std::function<std::unique_ptr<Integrator>()> make_;
+    State initial_, state_;
+    std::unique_ptr<Integrator> integrator_;
+    double before_ = 0;
+    bool hasFailed_ = false;
+};
+
+std::function<ExactSolution()> marching(std::function<std::unique_ptr<Integrator>()> make, const State& initial) {
+    return [make = std::move(make), initial]() -> ExactSolution {
+        const auto march = std::make_shared<Marching>(make, initial);
+        return [march](double t, std::span<double> x) { (*march)(t, x); };
+    };
+}
+
+/// Largest |q - q'| of two solutions at times spread over the run; infinity where one is not known.
+double distance(const ExactSolution& a, const ExactSolution& b, const Scene& scene, std::size_t d,
+                const std::stop_token& stop) {
+    constexpr int samples = 997;  // a prime: not in step with the nodes of either
+    std::vector<double> x(2 * d), y(2 * d);
+    double worst = 0;
+    for (int i = 1; i <= samples && !stop.stop_requested(); ++i) {
+        const double t = scene.start.value + (scene.end.value - scene.start.value) * i / samples;
+        a(t, x);
+        b(t, y);
+        double sum = 0;
+        for (std::size_t k = 0; k < d; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
+        worst = std::max(worst, std::isfinite(sum) ? std::sqrt(sum) : std::numeric_limits<double>::infinity());
+    }
+    return worst;
+}
+
+Reference computed(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
+    constexpr double degree = 12;
+    constexpr double maxSteps = 2e6;
+    Discretization pair;
+    pair.space = {"polynomial", {{"degree", degree}, {"basis", "lobatto"}}, {}};
+    pair.quadrature = {"gauss", {{"nodes", degree}}, {}};
+    auto solution = [&](double step) {
+        return marching(
+            [system, pair, step, start = initial.t, stop] {
+                auto integrator = makeIntegrator(system, pair, Clock{start, step});
+                integrator->setStop(stop);
+                return integrator;
+            },
+            initial);
+    };
+    const double length = scene.end.value - scene.start.value;
+    const double w = highestFrequency(system, initial);
+    double step = std::min(length / 20, w > 0 ? 2 / w : length / 200);
+    step = std::max(step, length / maxSteps);
+    double scale = 0;
+    for (int k = 0; k < system.dimension(); ++k) scale = std::max(scale, std::abs(initial.x[static_cast<std::size_t>(k)]));
+
+    Reference best;
+    double last = std::numeric_limits<double>::infinity();
+    for (int refinement = 0; refinement < 8 && !stop.stop_requested(); ++refinement, step /= 2) {
+        if (length / step > maxSteps) break;
+        auto coarse = solution(step), fine = solution(step / 2);
+        const double error = distance(coarse(), fine(), scene, system.coordinates.size(), stop);
+        if (error < last || refinement == 0) {
+            best.info = {"computed", error, "Gauss collocation of degree 12, h = " + formatNumber(step / 2, 3)};
+            best.make = std::move(fine);
+        }
+        if (error <= 2e-13 * std::max(scale, 1.0) || error > last / 4) break;
+        last = error;
+    }
+    if (stop.stop_requested() || !std::isfinite(best.info.estimatedError)) return {};
+    best.info.estimatedError = std::max(best.info.estimatedError, 1e-15 * scale);
+    return best;
+}
+
+Reference fromScheme(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
+    const SchemeSpec spec = scene.reference.scheme.front();
+    // An adaptive code must not be stopped at the very end of the others by round-off.
+    const double end = scene.end.value + 1e-6 * (scene.end.value - scene.start.value);
+    auto make = [system, spec, end, start = initial.t, stop](double step) {
+        return [=] {
+            auto integrator = makeScheme(system, spec, step, start, end);
+            integrator->setStop(stop);
+            return integrator;
+        };
+    };
+    Reference reference;
+    reference.info = {"scheme", unknown, spec.label};
+    reference.make = marching(make(spec.step.value), initial);
+    if (!isAdaptive(spec)) {
+        const auto coarse = marching(make(2 * spec.step.value), initial);
+        reference.info.estimatedError =
+            distance(reference.make(), coarse(), scene, system.coordinates.size(), stop);
+    }
+    return reference;
+}
+
+/// Rows of a CSV with t and the state columns; known at its own times, to 1e-9 of their spacing.
+Reference fromFile(const Scene& scene, const System& system) {
+    std::ifstream in(scene.reference.path);
+    std::string line;
+    if (!in || !std::getline(in, line))
+        throw InvalidScene("/reference/path", "cannot read \"" + scene.reference.path + "\"", "a CSV with t and the state");
+    std::vector<std::string> header;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) {
+        while (!cell.empty() && (cell.back() == '\r' || cell.back() == '"')) cell.pop_back();
+        if (!cell.empty() && cell.front() == '"') cell.erase(0, 1);
+        header.push_back(cell);
+    }
+    auto find = [&](const std::string& name) {
+        const auto it = std::find(header.begin(), header.end(), name);
+        if (it == header.end())
+            throw InvalidScene("/reference/path", "\"" + scene.reference.path + "\" has no column \"" + name + "\"",
+                               "a CSV with t and the state columns");
+        return static_cast<std::size_t>(it - header.begin());
+    };
+    std::vector<std::size_t> wanted{find("t")};
+    for (const Coordinate& c : system.coordinates) wanted.push_back(find("q." + c.name));
+    for (const Coordinate& c : system.coordinates) wanted.push_back(find("p." + c.name));
+    auto rows = std::make_shared<std::map<double, std::vector<double>>>();
+    while (std::getline(in, line)) {
+        std::vector<double> values;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, ',');) {
+            double v = unknown;
+            std::from_chars(cell.data(), cell.data() + cell.size(), v);
+            values.push_back(v);
+        }
+        values.resize(header.size(), unknown);
+        std::vector<double> x;
+        for (std::size_t k = 1; k < wanted.size(); ++k) x.push_back(values[wanted[k]]);
+        if (std::isfinite(values[wanted[0]])) (*rows)[values[wanted[0]]] = x;
+    }
+    Reference reference;
+    reference.info = {"file", unknown, scene.reference.path};
+    reference.make = [rows]() -> ExactSolution {
+        return [rows](double t, std::span<double> x) {
+            std::fill(x.begin(), x.end(), unknown);
+            const double slack = 1e-9 * std::max(1e-300, std::abs(t)) + 1e-12;
+            const auto it = rows->lower_bound(t - slack);
+            if (it != rows->end() && std::abs(it->first - t) <= slack)
+                std::copy(it->second.begin(), it->second.end(), x.begin());
+        };
+    };
+    return reference;
+}
+
+}  // namespace
+
+Reference makeReference(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
+    using Kind = ReferenceSpec::Kind;
+    const Kind kind = scene.reference.kind;
+    if (kind == Kind::none) return {};
+    if (kind == Kind::scheme) return fromScheme(scene, system, initial, stop);
+    if (kind == Kind::file) return fromFile(scene, system);
+    if (system.exact) {
+        if (system.exact(initial)) {
+            double scale = 0;
+            for (const double v : initial.x) scale = std::max(scale, std::abs(v));
+            Reference reference;
+            reference.info = {"exact", 2e-15 * scale, "exact solution"};
+            reference.make = [exact = system.exact, initial] { return exact(initial); };
+            return reference;
+        }
+    }
+    if (kind == Kind::exact)
+        throw InvalidScene("/reference", "no exact solution is known from these initial data", "use \"auto\"");
+    return computed(scene, system, initial, stop);
+}
+
+}  // namespace extremal

@@ -1,0 +1,38 @@
+/// Which nodes become rows: with output.every = E the first node at or after each multiple of E, else every m-th node
+/// with the smallest m that gives at most 2,000 rows; always the first and the last node reached.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace extremal {
+
+class RowSampler {
+public:
+    static constexpr long long maxRows = 2000;
+
+    /// Smallest m for N steps: nodes 0, m, 2m, ... and N are at most maxRows.
+    static long long stride(long long steps) {
+        long long m = std::max(1LL, steps / maxRows);
+        while (steps / m + 1 + (steps % m != 0 ? 1 : 0) > maxRows) ++m;
+        return m;
+    }
+    RowSampler(double start, std::optional<double> every, long long stride)
+        : start_(start), every_(every.value_or(0)), stride_(stride) {}
+
+    bool isRow(long long node, double t, double step) {
+        if (every_ <= 0) return node % stride_ == 0;
+        const double k = (t - start_) / every_ + 1e-9 * step / every_;
+        if (node > 0 && k < next_) return false;
+        next_ = std::floor(k) + 1;
+        return true;
+    }
+
+private:
+    double start_, every_;
+    long long stride_;
+    double next_ = 0;
+};
+
+}  // namespace extremal

@@ -1,0 +1,116 @@
+#include "engine/run/run.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/run/reference.hpp"
+#include "engine/run/scheme_run.hpp"
+#include "engine/scene/bind.hpp"
+
+namespace extremal {
+
+/// One coordinator prepares the reference, then a pool takes the schemes in turn: each scheme is one task, so results
+/// do not depend on the number of threads.
+struct Run::Impl {
+    Scene scene;
+    System system;
+    State initial;
+    unsigned threads;
+    std::vector<std::unique_ptr<SchemeRun>> tasks;
+    mutable std::mutex mutex;
+    ReferenceInfo reference;  ///< guarded by mutex
+    std::atomic<bool> isFinished{false};
+    std::jthread coordinator;
+
+    Impl(const Scene& s, const RunOptions& options)
+        : scene(s), system(makeSystem(scene)), initial(initialState(scene, system)) {
+        const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+        threads = options.threads > 0 ? options.threads : cores;
+        for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+            if (scene.schemes[i].isEnabled)
+                tasks.push_back(std::make_unique<SchemeRun>(scene, scene.schemes[i], static_cast<int>(i)));
+        if (scene.reference.kind == ReferenceSpec::Kind::exact && (!system.exact || !system.exact(initial)))
+            throw InvalidScene("/reference", "no exact solution is known for these initial data", "use \"auto\"");
+    }
+
+    bool needsReference() const {
+        return std::any_of(scene.observe.begin(), scene.observe.end(), [](const std::string& id) {
+            const ObservableEntry* entry = findObservable(id);
+            return entry && entry->needsReference;
+        });
+    }
+
+    void work(const std::stop_token& stop) {
+        Reference ref;
+        if (needsReference()) {
+            try {
+                ref = makeReference(scene, system, initial, stop);
+            } catch (const InvalidScene& e) {
+                ref.info.description = e.what();
+            }
+        }
+        {
+            const std::lock_guard lock(mutex);
+            reference = ref.info;
+        }
+        std::atomic<std::size_t> next{0};
+        auto takeTasks = [&] {
+            for (std::size_t i = next++; i < tasks.size(); i = next++) tasks[i]->run(system, initial, ref, stop);
+        };
+        {
+            std::vector<std::jthread> pool;
+            const auto helpers = std::min<std::size_t>(threads, tasks.size());
+            for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(takeTasks);
+            takeTasks();
+        }
+        isFinished = true;
+        isFinished.notify_all();
+    }
+};
+
+Run::Run(const Scene& scene, const RunOptions& options) : impl_(std::make_unique<Impl>(scene, options)) {}
+
+Run::~Run() { stop(); }
+
+void Run::start() {
+    if (impl_->coordinator.joinable()) return;
+    impl_->coordinator = std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->work(stop); });
+}
+
+void Run::stop() { impl_->coordinator.request_stop(); }
+
+void Run::wait() {
+    if (impl_->coordinator.joinable()) impl_->isFinished.wait(false);
+}
+
+bool Run::isFinished() const { return impl_->isFinished; }
+
+Comparison Run::latest() const {
+    Comparison c;
+    c.scene = impl_->scene;
+    c.isFinished = impl_->isFinished;
+    for (const auto& task : impl_->tasks) c.schemes.push_back(task->latest());
+    const std::lock_guard lock(impl_->mutex);
+    c.reference = impl_->reference;
+    return c;
+}
+
+double Run::fraction() const {
+    double sum = 0;
+    for (const auto& task : impl_->tasks) sum += task->latest()->fraction;
+    return impl_->tasks.empty() ? 1 : sum / static_cast<double>(impl_->tasks.size());
+}
+
+Comparison run(const Scene& scene, const RunOptions& options) {
+    Run r(scene, options);
+    r.start();
+    r.wait();
+    return r.latest();
+}
+
+}  // namespace extremal

@@ -1,0 +1,355 @@
+#include "engine/run/scheme_run.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/run/advice.hpp"
+#include "engine/run/row_sampler.hpp"
+#include "engine/scene/bind.hpp"
+
+namespace extremal {
+namespace {
+
+double threadSeconds() {
+    timespec ts{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ts);
+    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
+}
+
+/// Least-squares slope of y over x; NaN values are left out.
+double slope(const std::vector<double>& x, const std::vector<double>& y) {
+    double n = 0, mx = 0, my = 0, sxx = 0, sxy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::isfinite(y[i])) {
+            n += 1;
+            mx += x[i];
+            my += y[i];
+        }
+    if (n < 2) return Summary::unknown;
+    mx /= n;
+    my /= n;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::isfinite(y[i])) {
+            sxx += (x[i] - mx) * (x[i] - mx);
+            sxy += (x[i] - mx) * (y[i] - my);
+        }
+    return sxx > 0 ? sxy / sxx : Summary::unknown;
+}
+
+std::vector<Column> stateColumns(const System& system) {
+    std::vector<Column> columns{{"t", "t", system.timeUnit, {}, {}}};
+    for (const Coordinate& c : system.coordinates) columns.push_back({"q." + c.name, c.symbol, c.unit, {}, {}});
+    for (const Coordinate& c : system.coordinates)
+        columns.push_back({"p." + c.name, "p_" + c.symbol, c.momentumUnit, {}, {}});
+    return columns;
+}
+
+bool isFinite(const std::vector<double>& x) {
+    return std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
+}
+
+void growTo(double& extreme, double value) {
+    if (std::isfinite(value) && !(std::abs(value) <= extreme)) extreme = std::abs(value);
+}
+
+}  // namespace
+
+/// One pass over the time interval with fixed sampling.
+struct SchemeRun::Pass {
+    struct Bound {
+        Observer observer;
+        std::size_t firstColumn;
+        double Summary::*extreme;
+    };
+    const Scene& scene;
+    const SchemeSpec& spec;
+    const System& system;
+    std::stop_token stop;
+    double step;
+    bool isAdaptiveScheme;
+    long long steps = 0;       ///< planned; 0 for adaptive schemes
+    long long maxRows = 0;     ///< adaptive: rows kept at most; more sets hasOverflown
+    bool hasOverflown = false;
+    std::unique_ptr<Integrator> integrator;
+    RowSampler sampler;
+    std::vector<Bound> observers;
+    SchemeResult result;
+    State state;
+    bool isLastNodeRow = false;
+    StepReport lastReport;
+    std::vector<double> values;
+
+    Pass(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
+         const Reference& reference, const std::vector<std::string>& observe, double step_, long long stride, int style,
+         std::stop_token stop_)
+        : scene(scene_),
+          spec(spec_),
+          system(system_),
+          stop(std::move(stop_)),
+          step(step_),
+          isAdaptiveScheme(isAdaptive(spec_)),
+          sampler(initial.t, scene_.every ? std::optional<double>(scene_.every->value) : std::nullopt, stride),
+          state(initial) {
+        if (!isAdaptiveScheme) steps = stepCount(scene.start.value, scene.end.value, step);
+        result.spec = spec;
+        result.style = style;
+        result.summary.label = spec.label;
+        result.summary.status = RunStatus::running;
+        result.summary.orderClaimed = claimsOf(spec).order;
+        result.trajectory.columns = stateColumns(system);
+        integrator = makeScheme(system, spec, step, initial.t, scene.end.value);
+        integrator->setStop(stop);
+        bindObservers(reference, observe, initial);
+    }
+
+    void bindObservers(const Reference& reference, const std::vector<std::string>& observe, const State& initial) {
+        for (const std::string& id : observe) {
+            const ObservableEntry* entry = findObservable(id);
+            if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
+            Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{}}),
+                    result.trajectory.columns.size(), nullptr};
+            if (b.observer.extreme >= 0) {
+                if (id == "energy") b.extreme = &Summary::maxEnergyError;
+                if (id == "momentum") b.extreme = &Summary::maxMomentumError;
+                if (id == "norm") b.extreme = &Summary::maxNormError;
+                if (id == "error") b.extreme = &Summary::maxError;
+            }
+            for (const Column& c : b.observer.columns) result.trajectory.columns.push_back(c);
+            observers.push_back(std::move(b));
+        }
+        values.resize(result.trajectory.columns.size());
+    }
+
+    /// Evaluates everything at one node; keeps it if it is a row.
+    void look(const State& at, const StepReport& report, bool isRow, bool isNode) {
+        for (Bound& b : observers) {
+            b.observer.evaluate(at, report, values.data() + b.firstColumn);
+            if (!isNode || !b.extreme) continue;
+            const double v = values[b.firstColumn + static_cast<std::size_t>(b.observer.extreme)];
+            growTo(result.summary.*(b.extreme), v);
+            if (b.extreme == &Summary::maxError) result.summary.finalError = v;
+        }
+        if (isRow) keep(at);
+    }
+    void keep(const State& at) {
+        values[0] = at.t;
+        std::copy(at.x.begin(), at.x.end(), values.begin() + 1);
+        for (std::size_t c = 0; c < values.size(); ++c) result.trajectory.columns[c].values.push_back(values[c]);
+    }
+    bool isDone() const {
+        return isAdaptiveScheme ? state.t >= scene.end.value : state.node >= steps;
+    }
+    void finish(Outcome outcome) {
+        Summary& s = result.summary;
+        s.tEnd = state.t;
+        s.steps = state.node;
+        if (outcome == Outcome::converged) {
+            s.status = RunStatus::done;
+        } else {
+            s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
+            s.cause = outcome;
+            s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
+            s.advice = adviceFor(outcome, spec, step, system, state);
+        }
+        const Column* energy = result.trajectory.find("energy_error");
+        if (energy) s.energyDrift = slope(result.trajectory.columns[0].values, energy->values);
+        result.fraction = s.status == RunStatus::done ? 1 : fraction();
+    }
+    double fraction() const {
+        const double length = scene.end.value - scene.start.value;
+        return length > 0 ? std::clamp((state.t - scene.start.value) / length, 0.0, 1.0) : 1;
+    }
+    void count(const StepReport& r) {
+        Summary& s = result.summary;
+        s.newtonIterations += r.iterations;
+        s.evaluations += r.evaluations;
+        s.linearSolves += r.linearSolves;
+        s.rejected += r.rejected;
+    }
+
+    /// Rows exactly at the multiples of output.every inside the last step, from the scheme's own curve.
+    void lookDense(double before, const StepReport& report, long long& next) {
+        const double every = scene.every->value, start = scene.start.value;
+        for (;; ++next) {
+            const double t = start + static_cast<double>(next) * every;
+            if (t > state.t + 1e-12 * step || t > scene.end.value + 1e-9 * every) break;
+            State at = state;
+            if (std::abs(t - state.t) > 1e-12 * (state.t - before))
+                integrator->curve((t - before) / (state.t - before), at.x);
+            at.t = t;
+            look(at, report, true, false);
+            isLastNodeRow = t >= state.t - 1e-12 * (state.t - before);
+        }
+    }
+
+    /// Integrates to the end or the first trouble; `publish` is called between blocks.
+    template <class Publish>
+    Outcome integrate(Publish&& publish) {
+        look(state, {}, true, true);
+        isLastNodeRow = true;
+        const bool isDense = scene.isDense && scene.every;
+        const std::size_t width = state.x.size();
+        const std::size_t blockMax = isDense ? 1 : 1024;
+        std::vector<State> block(blockMax, state);
+        std::vector<StepReport> reports(blockMax);
+        std::size_t blockSize = 1;
+        long long nextMultiple = 1;
+        Outcome outcome = Outcome::converged;
+        StepReport report;
+        while (!isDone() && outcome == Outcome::converged) {
+            if (stop.stop_requested()) return Outcome::stopped;
+            const double before = state.t;
+            const double cpu = threadSeconds();
+            std::size_t taken = 0;
+            while (taken < blockSize && !isDone()) {
+                report = integrator->advance(state);
+                if (report.outcome != Outcome::converged) break;
+                block[taken].t = state.t;
+                block[taken].node = state.node;
+                std::copy_n(state.x.begin(), width, block[taken].x.begin());
+                reports[taken++] = report;
+            }
+            const double used = threadSeconds() - cpu;
+            result.summary.cpuSeconds += used;
+            if (used < 5e-4) blockSize = std::min(blockMax, 2 * blockSize);
+            if (used > 5e-3) blockSize = std::max<std::size_t>(1, blockSize / 2);
+            outcome = report.outcome;
+            if (outcome != Outcome::converged) count(report);
+            for (std::size_t i = 0; i < taken; ++i) {
+                count(reports[i]);
+                if (!isFinite(block[i].x)) {
+                    state = i > 0 ? block[i - 1] : state;
+                    return Outcome::notFinite;
+                }
+                lastReport = reports[i];
+                isLastNodeRow = !isDense && sampler.isRow(block[i].node, block[i].t, reports[i].step);
+                look(block[i], reports[i], isLastNodeRow, true);
+                if (isDense) lookDense(before, reports[i], nextMultiple);
+            }
+            if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows) hasOverflown = true;
+            if (hasOverflown) {
+                // More nodes than can be held: count on, keep nothing; a second pass knows the stride.
+                for (Column& c : result.trajectory.columns) c.values.clear();
+            }
+            result.fraction = fraction();
+            result.summary.tEnd = state.t;
+            result.summary.steps = state.node;
+            publish();
+        }
+        return outcome;
+    }
+
+    template <class Publish>
+    void run(Publish&& publish) {
+        const Outcome outcome = integrate(publish);
+        if (!isLastNodeRow) {
+            for (Bound& b : observers) b.observer.evaluate(state, lastReport, values.data() + b.firstColumn);
+            keep(state);
+        }
+        finish(outcome);
+    }
+};
+
+SchemeRun::SchemeRun(const Scene& scene, const SchemeSpec& spec, int style) : scene_(scene), spec_(spec) {
+    SchemeResult empty;
+    empty.spec = spec;
+    empty.style = style;
+    empty.summary.label = spec.label;
+    latest_ = std::make_shared<const SchemeResult>(std::move(empty));
+}
+
+std::shared_ptr<const SchemeResult> SchemeRun::latest() const {
+    const std::lock_guard lock(mutex_);
+    return latest_;
+}
+
+void SchemeRun::publish(const SchemeResult& result) {
+    auto copy = std::make_shared<const SchemeResult>(result);
+    const std::lock_guard lock(mutex_);
+    latest_ = std::move(copy);
+}
+
+void SchemeRun::run(const System& system, const State& initial, const Reference& reference,
+                    const std::stop_token& stop) {
+    const int style = latest()->style;
+    using Clock_ = std::chrono::steady_clock;
+    constexpr long long heldRows = 60000;
+    auto pass = [&](long long stride, long long maxRows) {
+        Pass p(scene_, spec_, system, initial, reference, scene_.observe, spec_.step.value, stride, style, stop);
+        p.maxRows = maxRows;
+        auto last = Clock_::now();
+        auto pause = std::chrono::milliseconds(30);
+        p.run([&] {
+            const auto now = Clock_::now();
+            if (now - last < pause) return;
+            publish(p.result);
+            last = Clock_::now();
+            // Copying rows must stay a small part of the work.
+            pause = std::max(std::chrono::milliseconds(30),
+                             std::chrono::duration_cast<std::chrono::milliseconds>(20 * (last - now)));
+        });
+        return p;
+    };
+    try {
+        const bool isFree = isAdaptive(spec_) && !scene_.every;
+        const long long planned =
+            isAdaptive(spec_) ? 0 : stepCount(scene_.start.value, scene_.end.value, spec_.step.value);
+        Pass p = pass(isFree ? 1 : RowSampler::stride(planned), isFree ? heldRows : 0);
+        SchemeResult result = std::move(p.result);
+        if (isFree) {
+            const long long m = RowSampler::stride(result.summary.steps);
+            if (p.hasOverflown) {
+                result = std::move(pass(m, 0).result);
+            } else if (m > 1) {
+                for (Column& c : result.trajectory.columns) {
+                    std::vector<double> thinned;
+                    for (std::size_t r = 0; r < c.values.size(); r += static_cast<std::size_t>(m))
+                        thinned.push_back(c.values[r]);
+                    if ((c.values.size() - 1) % static_cast<std::size_t>(m) != 0) thinned.push_back(c.values.back());
+                    c.values = std::move(thinned);
+                }
+            }
+        }
+        const bool wantsOrder =
+            std::find(scene_.observe.begin(), scene_.observe.end(), "order") != scene_.observe.end();
+        if (wantsOrder && result.summary.status == RunStatus::done && !isAdaptive(spec_) && reference.make)
+            measureOrder(result, system, initial, reference, stop);
+        publish(result);
+    } catch (const InvalidScene& e) {
+        SchemeResult failed = *latest();
+        failed.summary.status = RunStatus::failed;
+        failed.summary.cause = Outcome::singular;
+        failed.summary.failedAt = initial.t;
+        failed.summary.tEnd = initial.t;
+        failed.summary.advice = e.problems().front().message;
+        publish(failed);
+    }
+}
+
+/// Slope of log(max error) over log(step) from runs with h, h/2 and h/4; points at the floor of the reference or of
+/// round-off are left out.
+void SchemeRun::measureOrder(SchemeResult& result, const System& system, const State& initial,
+                             const Reference& reference, const std::stop_token& stop) const {
+    double scale = 0;
+    for (const double v : initial.x) scale = std::max(scale, std::abs(v));
+    const double floor = std::max(100 * 2.2e-16 * scale, 10 * reference.info.estimatedError);
+    std::vector<double> x, y;
+    for (const double divisor : {1.0, 2.0, 4.0}) {
+        Pass p(scene_, spec_, system, initial, reference, {"error"}, spec_.step.value / divisor, 1LL << 60, 0, stop);
+        p.run([] {});
+        const double error = p.result.summary.maxError;
+        if (p.result.summary.status != RunStatus::done || !(error > floor)) break;
+        x.push_back(std::log(spec_.step.value / divisor));
+        y.push_back(std::log(error));
+    }
+    if (x.size() >= 2) result.summary.orderMeasured = slope(x, y);
+}
+
+}  // namespace extremal

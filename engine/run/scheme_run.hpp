@@ -1,0 +1,41 @@
+/// One scheme of a scene, run from start to end: nodes, rows, extremes, outcome.
+///
+/// Steps go in blocks: the states of a block are taken first, under the clock of the thread, then looked at, so that
+/// cpu_seconds is the cost of the scheme alone. Every node is seen by the running extremes; only the rows are kept.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <vector>
+
+#include "engine/model/system.hpp"
+#include "engine/run/comparison.hpp"
+#include "engine/run/reference.hpp"
+
+namespace extremal {
+
+class SchemeRun {
+public:
+    SchemeRun(const Scene& scene, const SchemeSpec& spec, int style);
+
+    /// Integrates; returns when done, failed or stopped. Never throws for numerical trouble.
+    void run(const System& system, const State& initial, const Reference& reference, const std::stop_token& stop);
+
+    /// What there is now; immutable.
+    std::shared_ptr<const SchemeResult> latest() const;
+
+private:
+    struct Pass;
+    void publish(const SchemeResult& result);
+    void measureOrder(SchemeResult& result, const System& system, const State& initial, const Reference& reference,
+                      const std::stop_token& stop) const;
+
+    const Scene& scene_;
+    SchemeSpec spec_;
+    mutable std::mutex mutex_;
+    std::shared_ptr<const SchemeResult> latest_;
+};
+
+}  // namespace extremal

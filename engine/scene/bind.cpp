@@ -1,0 +1,74 @@
+#include "engine/scene/bind.hpp"
+
+#include <cmath>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/problem.hpp"
+
+namespace extremal {
+
+System makeSystem(const Scene& scene) {
+    const ModelEntry* entry = findModel(scene.model.type);
+    if (!entry) throw InvalidScene("/model/type", "unknown model \"" + scene.model.type + "\"");
+    return entry->make(scene.model);
+}
+
+State initialState(const Scene& scene, const System& system) {
+    const auto d = static_cast<std::size_t>(system.dimension());
+    State state;
+    state.t = scene.start.value;
+    state.x.assign(2 * d, 0);
+    for (std::size_t i = 0; i < d; ++i) {
+        state.x[i] = scene.initial.q[i].value;
+        if (i < scene.initial.pOrV.size()) state.x[d + i] = scene.initial.pOrV[i].value;
+    }
+    if (scene.initial.second == Initial::Second::velocity) {
+        const std::vector<double> v(state.x.begin() + static_cast<std::ptrdiff_t>(d), state.x.end());
+        std::vector<double> gradient(2 * d);
+        const auto& m = system.mechanics;
+        m.gradient(m.model.get(), state.t, state.x.data(), v.data(), gradient.data());
+        for (std::size_t i = 0; i < d; ++i) state.x[d + i] = gradient[d + i];
+    }
+    return state;
+}
+
+std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
+    if (scheme.kind == SchemeSpec::Kind::pair)
+        return Discretization{scheme.space, completeQuadrature(scheme.space, scheme.quadrature), scheme.solver};
+    if (scheme.kind != SchemeSpec::Kind::named) return {};
+    auto pair = namedScheme(scheme.named);
+    if (pair && !scheme.solver.type.empty()) pair->solver = scheme.solver;
+    return pair;
+}
+
+Claims claimsOf(const SchemeSpec& scheme) {
+    if (const auto pair = pairOf(scheme)) return describe(pair->space, pair->quadrature).claims;
+    const BaselineEntry* entry = findBaseline(scheme.baseline.type);
+    return entry && entry->item.claims ? *entry->item.claims : Claims{};
+}
+
+bool isAdaptive(const SchemeSpec& scheme) {
+    if (scheme.kind != SchemeSpec::Kind::baseline) return false;
+    const BaselineEntry* entry = findBaseline(scheme.baseline.type);
+    return entry && entry->isAdaptive;
+}
+
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, double start,
+                                       double end) {
+    const Clock clock{start, step};
+    if (const auto pair = pairOf(scheme)) return makeIntegrator(system, *pair, clock);
+    const BaselineEntry* entry = findBaseline(scheme.baseline.type);
+    if (!entry) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
+    BaselineOptions options;
+    options.clock = clock;
+    options.end = end;
+    options.tolerance = scheme.tolerance.value_or(0);
+    options.settings = scheme.baseline;
+    return entry->make(system, options);
+}
+
+long long stepCount(double start, double end, double step) {
+    return static_cast<long long>(std::floor((end - start) / step + 1e-9));
+}
+
+}  // namespace extremal

@@ -1,0 +1,34 @@
+/// From a checked scene to what runs: the system, its initial state, and the integrator of each scheme.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "engine/integrator/integrator.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/model/system.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace extremal {
+
+System makeSystem(const Scene& scene);
+
+/// The state at the start; velocities are turned into momenta, p = L_v(t, q, v).
+State initialState(const Scene& scene, const System& system);
+
+/// The pair that a scheme stands for; none for baselines.
+std::optional<Discretization> pairOf(const SchemeSpec& scheme);
+
+/// What the scheme promises.
+Claims claimsOf(const SchemeSpec& scheme);
+
+bool isAdaptive(const SchemeSpec& scheme);
+
+/// The integrator of a scheme with the given step, from `start` to `end`. Throws InvalidScene.
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, double start,
+                                       double end);
+
+/// Number of whole steps from start to the last node not after end + 1e-9 step.
+long long stepCount(double start, double end, double step);
+
+}  // namespace extremal
