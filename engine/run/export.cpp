@@ -24,7 +24,12 @@ void writeRows(const Trajectory& trajectory, Sink&& sink) {
         for (std::size_t c = 0; c < trajectory.columns.size(); ++c) {
             if (c > 0) block += ',';
             const double value = trajectory.columns[c].values[r];
-            if (std::isfinite(value)) block += formatNumber(value);
+            const auto& words = trajectory.columns[c].words;
+            if (!std::isfinite(value)) continue;
+            if (words.empty())
+                block += formatNumber(value);
+            else if (value >= 0 && value < static_cast<double>(words.size()))
+                block += words[static_cast<std::size_t>(value)];
         }
         block += '\n';
         if (block.size() > blockSize) {

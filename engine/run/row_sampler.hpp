@@ -21,10 +21,11 @@ public:
     RowSampler(double start, std::optional<double> every, long long stride)
         : start_(start), every_(every.value_or(0)), stride_(stride) {}
 
+    /// Whether this node, not the first, is a row. Call it once per node, in order.
     bool isRow(long long node, double t, double step) {
         if (every_ <= 0) return node % stride_ == 0;
         const double k = (t - start_) / every_ + 1e-9 * step / every_;
-        if (node > 0 && k < next_) return false;
+        if (k < next_) return false;
         next_ = std::floor(k) + 1;
         return true;
     }
@@ -32,7 +33,7 @@ public:
 private:
     double start_, every_;
     long long stride_;
-    double next_ = 0;
+    double next_ = 1;  ///< the next multiple; node 0 is always a row
 };
 
 }  // namespace extremal

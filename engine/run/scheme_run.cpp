@@ -339,12 +339,14 @@ void SchemeRun::measureOrder(SchemeResult& result, const System& system, const S
                              const Reference& reference, const std::stop_token& stop) const {
     double scale = 0;
     for (const double v : initial.x) scale = std::max(scale, std::abs(v));
-    const double floor = std::max(100 * 2.2e-16 * scale, 10 * reference.info.estimatedError);
     std::vector<double> x, y;
     for (const double divisor : {1.0, 2.0, 4.0}) {
         Pass p(scene_, spec_, system, initial, reference, {"error"}, spec_.step.value / divisor, 1LL << 60, 0, stop);
         p.run([] {});
         const double error = p.result.summary.maxError;
+        // Round-off accumulates along the run: in the worst case, for growing errors, by every step.
+        const double floor = std::max(2.2e-15 * scale * static_cast<double>(p.result.summary.steps),
+                                      10 * reference.info.estimatedError);
         if (p.result.summary.status != RunStatus::done || !(error > floor)) break;
         x.push_back(std::log(spec_.step.value / divisor));
         y.push_back(std::log(error));
