@@ -35,4 +35,11 @@ if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     say "There is no display: running without the window."
     headless
 fi
-exec "$program" "$scene"
+status=0
+"$program" "$scene" || status=$?
+# The program gives 2 for a scene it cannot use, which it has named, and for a display it cannot open.
+if [ "$status" -eq 2 ] && "$program" check "$scene" --quiet >/dev/null 2>&1; then
+    say "The display cannot be used: running without the window."
+    headless
+fi
+exit "$status"
