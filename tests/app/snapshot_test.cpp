@@ -1,0 +1,124 @@
+/// `extremal snapshot` run as a user runs it.
+#include <QtTest>
+
+#include <QImage>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QTemporaryDir>
+
+namespace {
+
+struct Answer {
+    int code = -1;
+    QString out, err;
+};
+
+Answer snapshot(const QStringList& arguments, const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
+    QProcess process;
+    QProcessEnvironment plain = environment;
+    plain.remove("QT_QPA_PLATFORM");  // no display, and no help from outside
+    plain.remove("DISPLAY");
+    process.setProcessEnvironment(plain);
+    process.start(QStringLiteral(EXTREMAL_BINARY), QStringList{"snapshot"} + arguments);
+    if (!process.waitForFinished(60000)) return {};
+    return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
+            QString::fromUtf8(process.readAllStandardOutput()), QString::fromUtf8(process.readAllStandardError())};
+}
+
+QByteArray bytes(const QString& file) {
+    QFile f(file);
+    return f.open(QIODevice::ReadOnly) ? f.readAll() : QByteArray();
+}
+
+}  // namespace
+
+class SnapshotVerbTest : public QObject {
+    Q_OBJECT
+
+    QTemporaryDir dir_;
+    QString path(const char* name) const { return dir_.filePath(name); }
+
+private slots:
+    void drawsEveryPresetsViewsWithoutADisplay() {
+        for (const char* preset : {"spring-pendulum", "pendulum", "kepler", "harmonic-oscillator"}) {
+            const Answer a = snapshot({QString("preset:") + preset, "--out", path("all.png")});
+            QVERIFY2(a.code == 0 || a.code == 1, qPrintable(a.err));  // 1: a scheme of the preset fails, as it should
+            QCOMPARE(QImage(path("all.png")).size(), QSize(1200, 800));
+        }
+    }
+
+    void twoRunsGiveTheSameBytes() {
+        for (const char* kind : {"png", "pdf", "svg"}) {
+            const QString a = path("a.") + kind, b = path("b.") + kind;
+            QCOMPARE(snapshot({"preset:pendulum", "--size", "700x500", "--out", a}).code,
+                     snapshot({"preset:pendulum", "--size", "700x500", "--threads", "1", "--out", b}).code);
+            QVERIFY2(!bytes(a).isEmpty() && bytes(a) == bytes(b), kind);
+        }
+    }
+
+    void saysInJsonWhatWasDrawn() {
+        const Answer a = snapshot({"preset:kepler", "--view", "stage", "--time", "3.14", "--size", "320x200", "--json",
+                                   "--out", path("k.png")});
+        const QJsonObject json = QJsonDocument::fromJson(a.out.toUtf8()).object();
+        QCOMPARE(json["file"].toString(), path("k.png"));
+        QCOMPARE(json["width"].toInt(), 320);
+        QCOMPARE(json["height"].toInt(), 200);
+        QCOMPARE(json["view"].toString(), QString("stage"));
+        QVERIFY(std::abs(json["time"].toDouble() - 3.14) < 0.06);  // the nearest row: half the first scheme's step
+    }
+
+    void compareTellsEqualFromDifferent() {
+        const QStringList common = {"preset:kepler", "--view", "stage", "--size", "400x300"};
+        snapshot(common + QStringList{"--out", path("base.png")});
+        const Answer same = snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png")});
+        QCOMPARE(same.code, 0);
+        const Answer other = snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png"),
+                                                           "--time", "3"});
+        QCOMPARE(other.code, 1);
+        QVERIFY(!QImage(path("new.png.diff.png")).isNull());
+        QCOMPARE(snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png"), "--time", "3",
+                                               "--tolerance", "50"}).code, 0);
+    }
+
+    void unusableArgumentsAreNamedAndWriteNothing() {
+        const auto check = [&](const QStringList& arguments, const char* word) {
+            const Answer a = snapshot(QStringList{"preset:kepler"} + arguments);
+            QCOMPARE(a.code, 2);
+            QVERIFY2(a.err.contains(word), qPrintable(a.err));
+            QVERIFY(a.err.startsWith("extremal: "));
+        };
+        check({"--out", path("x.gif")}, ".png");
+        check({"--out", path("x.png"), "--size", "63x100"}, "64");
+        check({"--out", path("x.png"), "--size", "100"}, "--size");
+        check({"--out", path("x.png"), "--size", "100x9000"}, "8192");
+        check({"--out", path("x.png"), "--view", "stge"}, "stage");
+        check({"--out", path("x.png"), "--compare", path("missing.png")}, "missing.png");
+        QVERIFY(!QFile::exists(path("x.png")));
+    }
+
+    void filesThatCannotBeWrittenAreExitThree() {
+        const Answer a = snapshot({"preset:kepler", "--out", path("no/such/folder/x.png")});
+        QCOMPARE(a.code, 3);
+        QVERIFY(a.err.contains("folder"));
+    }
+
+    void aMissingOsmesaIsExitTwoNamingThePackage() {
+        QTemporaryDir broken;
+        for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"}) {
+            QFile f(broken.filePath(name));
+            QVERIFY(f.open(QIODevice::WriteOnly) && f.write("not a library") > 0);
+        }
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        environment.insert("LD_LIBRARY_PATH", broken.path());
+        const Answer a = snapshot({"preset:kepler", "--out", path("stage.png")}, environment);
+        QCOMPARE(a.code, 2);
+        QVERIFY2(a.err.contains("libosmesa6"), qPrintable(a.err));
+        QVERIFY(!QFile::exists(path("stage.png")));
+        // What draws no stage still works.
+        QCOMPARE(snapshot({"preset:kepler", "--view", "phase", "--out", path("phase.png")}, environment).code, 0);
+    }
+};
+
+QTEST_GUILESS_MAIN(SnapshotVerbTest)
+#include "snapshot_test.moc"
