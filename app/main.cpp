@@ -1,4 +1,6 @@
 /// The program: a verb of the command line, or the window.
+#include <QHashFunctions>
+
 #include <csignal>
 #include <exception>
 #include <new>
@@ -27,6 +29,8 @@ int dispatch(int argc, char** argv) {
 int main(int argc, char** argv) {
     // A file that grows beyond a limit is an error of its write, with a message, and not the end of the program.
     std::signal(SIGXFSZ, SIG_IGN);
+    // What stands in a PDF comes out of hash tables: the same picture shall give the same bytes.
+    QHashSeed::setDeterministicGlobalSeed();
     try {
         return dispatch(argc, argv);
     } catch (const std::bad_alloc&) {

@@ -48,7 +48,7 @@ QByteArray pdfBytes(QSize size, const QString& title, const DrawPage& draw) {
     static const QByteArray key("/CreationDate (");
     if (const qsizetype at = bytes.indexOf(key); at >= 0) {
         const qsizetype from = at + key.size(), to = bytes.indexOf(')', from);
-        const QByteArray epoch = QByteArray("D:19700101000000+00'00'").leftJustified(to - from, ' ', true);
+        const QByteArray epoch = QByteArray("D:19700101000000Z").leftJustified(to - from, ' ', true);
         bytes.replace(from, to - from, epoch);
     }
     return bytes;
