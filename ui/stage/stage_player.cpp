@@ -244,7 +244,7 @@ std::vector<TrailPoint> StagePlayer::trail(const Track& track, double t) const {
         if (isFinite(p)) points.push_back({p, (now - time) / trailSpan_, isJoined && !points.empty()});
     };
     std::vector<double> x;
-    const double smooth = 0.0008 * bounds_.diagonal();
+    const double smooth = 0.0002 * bounds_.diagonal();
     // From the row, along its interval while it is resolved, to the next.
     const auto follow = [&](std::size_t row, double until) {
         double bend = 0;
@@ -271,9 +271,10 @@ std::vector<TrailPoint> StagePlayer::trail(const Track& track, double t) const {
 
 std::string StagePlayer::failureNote(const Track& track, const std::string& label) const {
     const Summary& summary = track.result->summary;
-    const std::string_view cause = name(summary.cause);
+    std::string cause(name(summary.cause));
+    std::replace(cause.begin(), cause.end(), '-', ' ');
     const double when = std::isfinite(summary.failedAt) ? summary.failedAt : track.t.back();
-    return label + (cause.empty() ? " ended" : ": " + std::string(cause)) +
+    return label + (cause.empty() ? " ended" : ": " + cause) +
            " at t = " + formatNumber(when, 3) + (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
 }
 
