@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "app/report.hpp"
+#include "engine/run/reference.hpp"
+#include "engine/scene/bind.hpp"
 
 namespace extremal::app {
 namespace {
@@ -11,6 +13,17 @@ namespace {
 std::string directoryOf(const std::string& scene) {
     const std::string parent = std::filesystem::path(scene).parent_path().string();
     return parent.empty() || scene == "-" || scene.starts_with("preset:") ? "." : parent;
+}
+
+/// A reference file is read now, so that a bad one is an error before anything runs.
+void checkReferenceFile(ReadScene& read) {
+    if (!read.errors.empty() || read.scene.reference.kind != ReferenceSpec::Kind::file) return;
+    try {
+        const System system = makeSystem(read.scene);
+        makeReference(read.scene, system, initialState(read.scene, system), {});
+    } catch (const InvalidScene& e) {
+        read.errors = e.problems();
+    }
 }
 
 }  // namespace
@@ -30,6 +43,7 @@ ReadScene loadScene(const std::string& scene, const std::vector<std::string>& ov
     ReadScene result;
     try {
         result = readScene(loadSceneText(scene), parsed, directoryOf(scene));
+        checkReferenceFile(result);
     } catch (const InvalidScene& e) {
         result.errors = e.problems();
     }

@@ -16,6 +16,7 @@ std::string number(double value, int digits = 3) { return std::isfinite(value) ?
 
 std::string duration(double seconds) {
     if (!std::isfinite(seconds)) return "";
+    if (seconds < 1e-3) return formatNumber(seconds * 1e6, 3) + " µs";
     return seconds < 1 ? formatNumber(seconds * 1e3, 3) + " ms" : formatNumber(seconds, 3) + " s";
 }
 

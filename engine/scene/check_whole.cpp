@@ -5,6 +5,7 @@
 #include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/cost.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 
@@ -67,45 +68,63 @@ bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& p
     return true;
 }
 
+std::string durationText(double seconds) {
+    if (seconds < 120) return formatNumber(std::round(seconds)) + " s";
+    if (seconds < 7200) return formatNumber(std::round(seconds / 60)) + " min";
+    if (seconds < 172800) return formatNumber(std::round(seconds / 3600)) + " h";
+    return formatNumber(seconds / 86400, 2) + " days";
+}
+
+/// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds.
+void checkCost(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+               const std::string& pointer) {
+    constexpr double longest = 60, slowestStep = 5e-3;
+    const double duration = scene.end.value - scene.start.value;
+    if (!scheme.isEnabled || (!scheme.tolerance && duration / scheme.step.value * slowestStep < longest)) return;
+    const double seconds = predictSeconds(scene, system, scheme);
+    if (seconds > longest)
+        reader.warning(pointer, "will take about " + durationText(seconds) + " of computing",
+                       "a larger step, or an earlier end");
+}
+
 /// The makers know best what they cannot do.
 void tryToMake(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                const std::optional<Discretization>& pair, const std::string& pointer) {
-    const Clock clock{scene.start.value, scheme.step.value};
-    double stabilityLimit = 0;
     try {
-        if (pair) {
-            makeIntegrator(system, *pair, clock);
-            stabilityLimit = describe(pair->space, pair->quadrature).stabilityLimit;
-        } else if (const BaselineEntry* baseline = findBaseline(scheme.baseline.type)) {
-            baseline->make(system, {clock, scene.end.value, scheme.tolerance.value_or(0), scheme.baseline});
-            stabilityLimit = baseline->stabilityLimit;
-        }
-        checkStability(reader, system, scene, scheme, stabilityLimit, pointer);
+        makeScheme(system, scheme, scheme.step.value, scene.start.value, scene.end.value);
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
+        return;
     }
+    const BaselineEntry* baseline = findBaseline(scheme.baseline.type);
+    const double limit = pair ? describe(pair->space, pair->quadrature).stabilityLimit : baseline->stabilityLimit;
+    checkStability(reader, system, scene, scheme, limit, pointer);
+    checkCost(reader, system, scene, scheme, pointer);
 }
 
 void checkScheme(Reader& reader, const System* system, const Scene& scene, const SchemeSpec& scheme,
                  const std::string& pointer) {
     const std::size_t errorsBefore = reader.errors.size();
-    if (scene.end.value > scene.start.value) checkStepCount(reader, scene, scheme, pointer);
+    const bool isTimeKnown = scene.end.value > scene.start.value;
+    if (isTimeKnown) checkStepCount(reader, scene, scheme, pointer);
     const auto pair = pairOf(scheme);
     if (pair && !checkPair(reader, scheme, describe(pair->space, pair->quadrature), pointer)) return;
-    if (system && reader.errors.size() == errorsBefore) tryToMake(reader, *system, scene, scheme, pair, pointer);
+    if (system && isTimeKnown && reader.errors.size() == errorsBefore)
+        tryToMake(reader, *system, scene, scheme, pair, pointer);
 }
 
 }  // namespace
 
 void checkWhole(Reader& reader, const System* system, const Scene& scene, const std::vector<std::size_t>& places) {
-    const bool isTimeKnown = scene.end.value > scene.start.value;
-    if (isTimeKnown) checkRows(reader, scene);
+    if (scene.end.value > scene.start.value) checkRows(reader, scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i)
         checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", places[i]));
     for (const SchemeSpec& scheme : scene.reference.scheme)
         checkScheme(reader, system, scene, scheme, "/reference/scheme");
-    if (system && reader.errors.empty() && scene.reference.kind == ReferenceSpec::Kind::exact && !system->exact)
-        reader.error("/reference/type", "the model " + scene.model.type + " has no exact solution", "take auto");
+    if (!system || !reader.errors.empty() || scene.reference.kind != ReferenceSpec::Kind::exact) return;
+    if (!system->exact || !system->exact(initialState(scene, *system)))
+        reader.error("/reference", "no exact solution of " + scene.model.type + " is known for these initial data",
+                     "take auto");
 }
 
 }  // namespace extremal

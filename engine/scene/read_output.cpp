@@ -4,6 +4,7 @@
 
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
@@ -23,7 +24,8 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 }
 
 bool isLacking(const System& system, const std::string& observable) {
-    return observable == "momentum" && system.momenta.empty();
+    const ObservableEntry* entry = findObservable(observable);
+    return entry && entry->applies && !entry->applies(system);
 }
 
 std::vector<std::string> availableObservables(const System& system) {
@@ -34,21 +36,14 @@ std::vector<std::string> availableObservables(const System& system) {
 }
 
 /// The columns of a CSV of this scene: what a phase portrait can show.
-std::vector<std::string> columnNames(const System& system, const std::vector<std::string>& observe) {
+std::vector<std::string> columnNames(const System& system, const Scene& scene) {
     std::vector<std::string> names{"t"};
     for (const char* letter : {"q.", "p."})
         for (const Coordinate& c : system.coordinates) names.push_back(letter + c.name);
-    if (contains(observe, "energy")) names.insert(names.end(), {"energy", "energy_error"});
-    if (contains(observe, "momentum")) {
-        for (const MomentumMap& m : system.momenta) names.push_back("momentum." + m.name);
-        names.emplace_back("momentum_error");
-    }
-    if (contains(observe, "error")) {
-        names.insert(names.end(), {"error", "error.p"});
-        for (const Coordinate& c : system.coordinates) names.push_back("error." + c.name);
-    }
-    if (contains(observe, "effort")) names.insert(names.end(), {"newton_iterations", "evaluations"});
-    if (contains(observe, "step")) names.emplace_back("step");
+    const State initial = initialState(scene, system);
+    for (const std::string& id : scene.observe)
+        if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
+            for (const Column& column : entry->bind({system, initial, {}}).columns) names.push_back(column.name);
     return names;
 }
 
@@ -190,8 +185,8 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             const std::string at = childPointer(pointer, key);
             *target = reader.text(*column, at).value_or("");
             if (view.id != "phase") reader.error(at, "is only for phase portraits");
-            else if (system && column->isString() && !contains(columnNames(*system, scene.observe), *target))
-                reader.unknownName(at, "column", *target, columnNames(*system, scene.observe));
+            else if (system && column->isString() && !contains(columnNames(*system, scene), *target))
+                reader.unknownName(at, "column", *target, columnNames(*system, scene));
         }
         for (const char* id : {"energy", "momentum", "error"})
             if (view.id == id && !contains(scene.observe, id))

@@ -151,6 +151,8 @@ private slots:
         row("folder", {"run", "/"}, "", "extremal: /: is a folder");
         row("device", {"run", "/dev/zero"}, "", "extremal: /dev/zero: is not a regular file");
         row("preset", {"run", "preset:keppler"}, "", "(did you mean \"kepler\"?)");
+        row("reference file", standard, scene(midpoint, "\"time\": { \"end\": 1 }, \"reference\": "
+            "{ \"type\": \"file\", \"path\": \"" EXTREMAL_SOURCE_DIR "/LICENSE\" }"), "extremal: standard input:/reference");
         row("threads", {"run", "-", "--threads", "0"}, scene(midpoint), "--threads");
     }
     void badInputWritesNoFile() {
@@ -205,7 +207,7 @@ private slots:
         QTemporaryDir dir;
         QProcess process;
         process.start(QStringLiteral(EXTREMAL_BINARY), {"run", "-", "--out", dir.path()});
-        process.write(scene("[{ \"label\": \"short\", \"scheme\": \"midpoint\", \"step\": 0.5 },"
+        process.write(scene("[{ \"label\": \"short\", \"baseline\": \"rk4\", \"step\": 0.5 },"
                             "{ \"label\": \"long\", \"scheme\": \"midpoint\", \"step\": 1e-7 }]",
                             "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1000 }"));
         process.closeWriteChannel();
