@@ -143,16 +143,11 @@ void readStep(Reader& reader, const Value& scheme, const std::string& pointer, b
     const char* other = isAdaptive ? "step" : "tolerance";
     const std::string place = childPointer(pointer, wanted);
     if (scheme.find(other))
-        reader.error(childPointer(pointer, other),
-                     isAdaptive ? "is not used: " + spec.baseline.type + " chooses its steps"
-                                : std::string("is only for baselines that choose their steps"),
-                     std::string("give a ") + wanted);
+        reader.warning(childPointer(pointer, other),
+                       isAdaptive ? "is not used: " + spec.baseline.type + " chooses its steps by its tolerance"
+                                  : std::string("is not used: the step is fixed"));
     const Value* value = scheme.find(wanted);
-    if (!value) {
-        if (!scheme.find(other))
-            reader.error(place, "is required: a positive finite number", isAdaptive ? "for example 1e-9" : "");
-        return;
-    }
+    if (!value) return reader.error(place, "is required: a positive finite number", isAdaptive ? "for example 1e-9" : "");
     const auto number = reader.number(*value, place, isAdaptive ? Limits{0, 1, true, false} : Limits::positive());
     if (!number) return;
     if (isAdaptive) spec.tolerance = number->value;
