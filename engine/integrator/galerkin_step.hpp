@@ -11,7 +11,7 @@
 /// The nonlinear system is solved by Newton with the Jacobian factored at the starting guess and kept while it contracts
 /// well, or, for separable Lagrangians, by fixed-point iteration: the same iteration with the kinetic part of the Jacobian,
 /// which is constant and factored once for the run. Both go on to round-off, so that symplecticity and momentum maps
-/// hold to round-off. Starting guess: the previous curve continued, else a Taylor step.
+/// hold to round-off. Starting guess: the previous curve continued, and where that fails or is missing a Taylor step.
 ///
 /// T: scalar; D: dimension d at compile time or Eigen::Dynamic. All buffers are allocated in the constructor.
 /// Array shapes: Y is d x m, node quantities d x n.
@@ -70,6 +70,7 @@ private:
     bool startVelocity(const T& t);
     T correction(bool isNewton);
     Attempt iterate(const T& t, bool isNewton, const std::stop_token& stop);
+    Attempt attempt(const T& t, bool isNewton, const std::stop_token& stop);
     Attempt solve(const T& t, const std::stop_token& stop);
 
     Mechanics<T> mechanics_;

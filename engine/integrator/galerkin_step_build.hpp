@@ -202,27 +202,30 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, boo
     return Attempt::failed;
 }
 
+/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from the Taylor guess.
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::attempt(const T& t, bool isNewton,
+                                                                 const std::stop_token& stop) {
+    for (;;) {
+        if (!guess(t)) return Attempt::singular;
+        const Attempt result = iterate(t, isNewton, stop);
+        if (result == Attempt::solved || result == Attempt::stopped || !hasCurve_) return result;
+        hasCurve_ = false;
+    }
+}
+
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const std::stop_token& stop) {
-    const bool mayFix = mechanics_.isSeparable && policy_.method != SolverMethod::newton;
-    if (mayFix && newtonSteps_ == 0) {
+    if (policy_.method == SolverMethod::fixedPoint) return attempt(t, false, stop);
+    if (policy_.method == SolverMethod::automatic && mechanics_.isSeparable && newtonSteps_ == 0) {
         if (!guess(t)) return Attempt::singular;
-        const Attempt attempt = iterate(t, false, stop);
-        if (attempt == Attempt::solved || attempt == Attempt::stopped || policy_.method == SolverMethod::fixedPoint)
-            return attempt;
-        newtonSteps_ = 32;
+        const Attempt result = iterate(t, false, stop);
+        if (result == Attempt::solved || result == Attempt::stopped) return result;
+        newtonSteps_ = 32;  // the fixed point is slow here: stay with Newton for a while
     } else if (newtonSteps_ > 0) {
         --newtonSteps_;
     }
-    if (!guess(t)) return Attempt::singular;
-    Attempt attempt = iterate(t, true, stop);
-    if (hasCurve_ && attempt != Attempt::solved && attempt != Attempt::stopped) {
-        // The continued curve can be a poor guess where the step is large: the Taylor guess is the more robust one.
-        hasCurve_ = false;
-        if (!guess(t)) return Attempt::singular;
-        attempt = iterate(t, true, stop);
-    }
-    return attempt;
+    return attempt(t, true, stop);
 }
 
 template <class T, int D>

@@ -1,0 +1,51 @@
+/// The step is the hot loop: after the first one it allocates nothing. Counted by replacing operator new.
+#include <QTest>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/laws/laws.hpp"
+
+namespace {
+std::atomic<long long> allocations{0};
+}
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size)) return p;
+    throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace extremal::laws {
+
+class AllocationTest : public QObject {
+    Q_OBJECT
+private slots:
+    void aStepAllocatesNothing() {
+        for (const char* id : {"kepler", "spring-pendulum"}) {
+            const System s = systemNamed(id);
+            const State start = s.id == "kepler" ? keplerStart : State{0, 0, {0.01, 1, 0, 0}};
+            for (const Case& c : everyScheme(8)) {
+                const auto integrator = c.make(s, {0, 0.005});
+                State state = start;
+                for (int i = 0; i < 3; ++i) (void)integrator->advance(state);
+                const long long before = allocations;
+                for (int i = 0; i < 100; ++i) (void)integrator->advance(state);
+                QVERIFY2(allocations == before, (c.name + " on " + id).c_str());
+            }
+        }
+    }
+    void theCounterCounts() {
+        const long long before = allocations;
+        delete new int(1);
+        const std::vector<double> v(100);
+        QVERIFY(allocations > before);
+    }
+};
+
+}  // namespace extremal::laws
+
+QTEST_APPLESS_MAIN(extremal::laws::AllocationTest)
+#include "allocation_test.moc"

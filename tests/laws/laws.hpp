@@ -1,0 +1,92 @@
+/// What the laws share: systems by name, every scheme and baseline of the catalogues, end states, slopes.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/model/system.hpp"
+
+namespace extremal::laws {
+
+inline System systemNamed(const std::string& id, Value::Object overrides = {}) {
+    const ModelEntry* entry = findModel(id);
+    Settings settings;
+    settings.type = id;
+    for (const FieldInfo& f : entry->item.parameters) settings.keys.emplace_back(f.key, f.fallback);
+    for (auto& [key, value] : overrides)
+        for (auto& member : settings.keys)
+            if (member.first == key) member.second = value;
+    return entry->make(settings);
+}
+
+/// A scheme under test: its name, what it claims, and how to make it.
+struct Case {
+    std::string name;
+    Claims claims;
+    std::function<std::unique_ptr<Integrator>(const System&, const Clock&)> make;
+    bool isPair = false;
+};
+
+/// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline.
+inline std::vector<Case> everyScheme(int maxDegree) {
+    std::vector<Case> cases;
+    for (const SchemeEntry& e : schemeCatalog()) {
+        const int low = e.maxDegree == 0 ? 0 : e.minDegree, high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
+        for (int degree = low; degree <= high; ++degree) {
+            const Discretization pair = e.make(degree);
+            std::string name = e.item.id;
+            if (const auto at = name.find('<'); at != std::string::npos) name = name.substr(0, at) + std::to_string(degree);
+            cases.push_back({name, describe(pair.space, pair.quadrature).claims,
+                             [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); }, true});
+        }
+    }
+    for (const BaselineEntry& e : baselineCatalog())
+        if (!e.isAdaptive)
+            cases.push_back({e.item.id, *e.item.claims,
+                             [make = e.make](const System& s, const Clock& c) { return make(s, {c, 0, 0, {}}); }});
+    return cases;
+}
+
+inline Discretization polynomialPair(int degree, Settings quadrature, const std::string& basis = "lobatto") {
+    Discretization pair;
+    pair.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", basis}}, {}};
+    pair.quadrature = completeQuadrature(pair.space, quadrature);
+    return pair;
+}
+
+/// The state after n steps, or nothing if one failed.
+inline std::optional<State> after(Integrator& integrator, State state, long long n) {
+    for (long long k = 0; k < n; ++k)
+        if (integrator.advance(state).outcome != Outcome::converged) return {};
+    return state;
+}
+
+inline double distance(const std::vector<double>& a, const std::vector<double>& b, std::size_t from, std::size_t to) {
+    double sum = 0;
+    for (std::size_t i = from; i < to; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum);
+}
+
+/// Least-squares slope of y over x.
+inline double slope(const std::vector<double>& x, const std::vector<double>& y) {
+    const double n = static_cast<double>(x.size());
+    double mx = 0, my = 0, sxx = 0, sxy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        mx += x[i] / n;
+        my += y[i] / n;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        sxx += (x[i] - mx) * (x[i] - mx);
+        sxy += (x[i] - mx) * (y[i] - my);
+    }
+    return sxy / sxx;
+}
+
+inline const State keplerStart{0, 0, {0.4, 0, 0, 2}};
+
+}  // namespace extremal::laws
