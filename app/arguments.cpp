@@ -15,7 +15,8 @@ constexpr const char* sceneHelp = "a path, preset:NAME, or - for standard input"
 
 /// The options that every verb takes.
 void addCommon(CLI::App& verb, CommonOptions& options) {
-    verb.add_option("--set", options.overrides, "change a value of the scene: --set '/schemes/*/step=0.1'; repeatable")
+    verb.add_option("--set", options.overrides,
+                    "change a value of the scene: --set '/schemes/*/step=0.1'; repeatable")
         ->type_name("POINTER=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -27,7 +28,8 @@ void addCommon(CLI::App& verb, CommonOptions& options) {
     verb.set_help_flag("--help,-h", "this text");
 }
 
-CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description, bool takesScene) {
+CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description,
+                  bool takesScene) {
     CLI::App* verb = app.add_subcommand(name, description);
     if (takesScene) verb->add_option("SCENE", arguments.scene, sceneHelp)->required()->type_name("");
     verb->parse_complete_callback([&arguments, name] { arguments.verb = name; });
@@ -36,12 +38,15 @@ CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const c
 
 void addSnapshot(CLI::App& app, Arguments& arguments) {
     SnapshotOptions& snapshot = arguments.snapshot;
-    CLI::App& verb = addVerb(app, arguments, "snapshot", "draw what the window would show, without a display", true);
+    CLI::App& verb =
+        addVerb(app, arguments, "snapshot", "draw what the window would show, without a display", true);
     verb.add_option("--out", snapshot.out, "the picture: .png, .pdf or .svg")->required()->type_name("FILE");
-    verb.add_option("--size", snapshot.size, "pixels, sides 64 to 8192; 1200x800 by default")->type_name("WxH");
+    verb.add_option("--size", snapshot.size, "pixels, sides 64 to 8192; 1200x800 by default")
+        ->type_name("WxH");
     verb.add_option("--view", snapshot.view, "one view (extremal list views), or all")->type_name("NAME");
     CLI::Option* time = verb.add_option("--time", snapshot.time, "the end by default")->type_name("T");
-    verb.add_option("--compare", snapshot.compareWith, "exit 1 if the picture differs, and write FILE.diff.png")
+    verb.add_option("--compare", snapshot.compareWith,
+                    "exit 1 if the picture differs, and write FILE.diff.png")
         ->type_name("BASE.png");
     verb.add_option("--tolerance", snapshot.tolerance, "percent of the pixels that may differ")
         ->type_name("PERCENT")
@@ -53,7 +58,8 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
 /// What CLI11 says, as a sentence of ours.
 void printParseError(const CLI::App& app, const CLI::ParseError& error, const Arguments& arguments) {
     std::vector<std::string> verbs;
-    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+        verbs.push_back(verb->get_name());
     std::string what = error.what(), hint = "see extremal --help";
     const auto parsed = app.get_subcommands();
     if (!parsed.empty()) hint = "see extremal " + parsed.front()->get_name() + " --help";
@@ -70,22 +76,30 @@ void printParseError(const CLI::App& app, const CLI::ParseError& error, const Ar
 
 std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
     Arguments arguments;
-    CLI::App app("Extremal compares variational integrators: a scene in; trajectories, plots and costs out.", "extremal");
+    CLI::App app("Extremal compares variational integrators: a scene in; trajectories, plots and costs out.",
+                 "extremal");
     app.set_version_flag("--version", "extremal " EXTREMAL_VERSION, "the version");
-    app.add_option("SCENE", arguments.scene, std::string(sceneHelp) + "; opens the window on it")->type_name("");
+    app.add_option("SCENE", arguments.scene, std::string(sceneHelp) + "; opens the window on it")
+        ->type_name("");
     addCommon(app, arguments.common);
-    CLI::App& run = addVerb(app, arguments, "run", "integrate every enabled scheme; write CSV files and a summary", true);
-    run.add_option("--out", arguments.folder, "folder for the files, made if missing")->required()->type_name("DIR");
+    CLI::App& run =
+        addVerb(app, arguments, "run", "integrate every enabled scheme; write CSV files and a summary", true);
+    run.add_option("--out", arguments.folder, "folder for the files, made if missing")
+        ->required()
+        ->type_name("DIR");
     addCommon(run, arguments.common);
     addSnapshot(app, arguments);
-    addCommon(addVerb(app, arguments, "check", "name every error and warning of a scene", true), arguments.common);
+    addCommon(addVerb(app, arguments, "check", "name every error and warning of a scene", true),
+              arguments.common);
     CLI::App& list = addVerb(app, arguments, "list", "name what scenes are made of", false);
     list.add_option("KIND", arguments.kind,
-                    "models, spaces, quadratures, schemes, baselines, observables, studies, views, profiles or presets")
+                    "models, spaces, quadratures, schemes, baselines, observables, studies, views, profiles "
+                    "or presets")
         ->type_name("");
     addCommon(list, arguments.common);
     app.require_subcommand(0, 1);
-    for (const auto& [label, word] : {std::pair{"SUBCOMMAND", "VERB"}, {"Subcommands", "Verbs"}, {"REQUIRED", "(required)"}})
+    for (const auto& [label, word] :
+         {std::pair{"SUBCOMMAND", "VERB"}, {"Subcommands", "Verbs"}, {"REQUIRED", "(required)"}})
         app.get_formatter()->label(label, word);
     try {
         app.parse(argc, argv);

@@ -15,8 +15,8 @@ struct Arguments {
     SnapshotOptions snapshot;
 };
 
-/// Reads the arguments. Empty if there is nothing left to do (--help, --version, or an error that was printed):
-/// then `exitCode` is set.
+/// Reads the arguments. Empty if there is nothing left to do (--help, --version, or an error that was
+/// printed): then `exitCode` is set.
 std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode);
 
 }  // namespace extremal::app

@@ -56,12 +56,18 @@ std::vector<Kind> kinds() {
 
 std::string typeName(FieldType type) {
     switch (type) {
-        case FieldType::number: return "number";
-        case FieldType::integer: return "integer";
-        case FieldType::boolean: return "boolean";
-        case FieldType::text: return "text";
-        case FieldType::choice: return "choice";
-        case FieldType::json: return "json";
+        case FieldType::number:
+            return "number";
+        case FieldType::integer:
+            return "integer";
+        case FieldType::boolean:
+            return "boolean";
+        case FieldType::text:
+            return "text";
+        case FieldType::choice:
+            return "choice";
+        case FieldType::json:
+            return "json";
     }
     return {};
 }
@@ -116,7 +122,9 @@ std::string parameterText(const CatalogItem& item) {
     for (const FieldInfo& field : item.parameters) {
         if (!text.empty()) text += ", ";
         text += field.key;
-        if (!field.fallback.isNull()) text.append(" = ").append(field.fallback.isString() ? field.fallback.asString() : writeCompactJson(field.fallback));
+        if (!field.fallback.isNull())
+            text.append(" = ").append(field.fallback.isString() ? field.fallback.asString()
+                                                                : writeCompactJson(field.fallback));
         if (!field.unit.empty()) text.append(" ").append(field.unit);
     }
     return text.empty() ? text : " {" + text + "}";

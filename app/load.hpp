@@ -8,7 +8,8 @@
 
 namespace extremal::app {
 
-/// Reads SCENE with its overrides; what cannot be read at all is an error in the result as well. Prints nothing.
+/// Reads SCENE with its overrides; what cannot be read at all is an error in the result as well. Prints
+/// nothing.
 ReadScene loadScene(const std::string& scene, const std::vector<std::string>& overrides);
 
 /// How messages call a scene: its path, preset:NAME, or "standard input".

@@ -19,15 +19,16 @@ int dispatch(int argc, char** argv) {
     if (arguments->verb == "run") return runVerb(arguments->scene, arguments->folder, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);
-    if (arguments->verb == "snapshot") return snapshotVerb(arguments->scene, arguments->snapshot, arguments->common);
-    printProblem("arguments", "no verb", "see extremal --help");
-    return unusable;
+    if (arguments->verb == "snapshot")
+        return snapshotVerb(arguments->scene, arguments->snapshot, arguments->common);
+    return guiVerb(argc, argv, arguments->scene, arguments->common);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    // A file that grows beyond a limit is an error of its write, with a message, and not the end of the program.
+    // A file that grows beyond a limit is an error of its write, with a message, and not the end of the
+    // program.
     std::signal(SIGXFSZ, SIG_IGN);
     // What stands in a PDF comes out of hash tables: the same picture shall give the same bytes.
     QHashSeed::setDeterministicGlobalSeed();

@@ -20,7 +20,8 @@ void ProgressLine::show(double fraction, const std::string& what) {
     const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                             std::string(static_cast<std::size_t>(width - filled), '.');
     const double seconds = std::chrono::duration<double>(now - start_).count();
-    std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %s, %.0f s", bar.c_str(), 100 * fraction, what.c_str(), seconds);
+    std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %s, %.0f s", bar.c_str(), 100 * fraction, what.c_str(),
+                 seconds);
     std::fflush(stderr);
 }
 

@@ -33,7 +33,8 @@ void printProblems(const std::string& file, const std::vector<Problem>& problems
 }
 
 int print(std::string_view text, int code) {
-    const bool isWritten = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    const bool isWritten =
+        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (isWritten) return code;
     printProblem("standard output", std::string("cannot be written: ") + std::strerror(errno));
     return unwritable;

@@ -1,5 +1,5 @@
-/// What the command line says: errors as `extremal: WHERE: WHAT (HINT)` on standard error, tables and documents on
-/// standard output.
+/// What the command line says: errors as `extremal: WHERE: WHAT (HINT)` on standard error, tables and
+/// documents on standard output.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ namespace extremal::app {
 /// One line on standard error. `where` may be empty.
 void printProblem(std::string_view where, std::string_view what, std::string_view hint = {});
 
-/// Problems of a scene: FILE:POINTER, or --set POINTER for what an override did. The same words are said once.
-/// `lead` comes before the message ("warning: ").
+/// Problems of a scene: FILE:POINTER, or --set POINTER for what an override did. The same words are said
+/// once. `lead` comes before the message ("warning: ").
 void printProblems(const std::string& file, const std::vector<Problem>& problems, std::string_view lead = {});
 
 /// Writes to standard output. Returns `code`, or 3 after an error message if not all could be written.

@@ -12,7 +12,9 @@
 namespace extremal::app {
 namespace {
 
-std::string number(double value, int digits = 3) { return std::isfinite(value) ? formatNumber(value, digits) : ""; }
+std::string number(double value, int digits = 3) {
+    return std::isfinite(value) ? formatNumber(value, digits) : "";
+}
 
 std::string duration(double seconds) {
     if (!std::isfinite(seconds)) return "";
@@ -34,8 +36,9 @@ std::string summaryTable(const Comparison& comparison) {
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         table.rows.push_back({s.label, name(s.status), std::to_string(s.steps), duration(s.cpuSeconds),
-                              std::to_string(s.evaluations), number(s.maxEnergyError), number(s.maxMomentumError),
-                              number(s.maxError), number(s.finalError), order(s)});
+                              std::to_string(s.evaluations), number(s.maxEnergyError),
+                              number(s.maxMomentumError), number(s.maxError), number(s.finalError),
+                              order(s)});
     }
     // A column that no scheme fills says nothing.
     for (std::size_t c = table.rows[0].size(); c-- > 0;) {
@@ -47,12 +50,15 @@ std::string summaryTable(const Comparison& comparison) {
     return table.text();
 }
 
-int printResult(const Comparison& comparison, const std::string& folder, int code, const CommonOptions& options) {
+int printResult(const Comparison& comparison, const std::string& folder, int code,
+                const CommonOptions& options) {
     if (options.isJson) return print(writeJson(summaryValue(comparison)), code);
     if (options.isQuiet) return code;
     std::string text = summaryTable(comparison);
     text.append("\n").append(std::to_string(comparison.schemes.size() + 3));
-    text.append(code == interrupted ? " files with partial results in " : " files in ").append(folder).append("\n");
+    text.append(code == interrupted ? " files with partial results in " : " files in ")
+        .append(folder)
+        .append("\n");
     return print(text, code);
 }
 

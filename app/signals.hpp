@@ -1,4 +1,5 @@
-/// Ctrl-C while work is going on: the signal is held back from all threads and asked for, so that no handler runs.
+/// Ctrl-C while work is going on: the signal is held back from all threads and asked for, so that no handler
+/// runs.
 #pragma once
 
 #include <csignal>

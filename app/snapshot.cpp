@@ -66,10 +66,12 @@ int printResult(const SnapshotOptions& snapshot, const SnapshotRequest& request,
         return print(writeJson(document), code);
     }
     if (options.isQuiet) return code;
-    std::string text = snapshot.out + ": " + std::to_string(request.width) + "x" + std::to_string(request.height) +
-                       ", view " + request.view + ", t = " + formatNumber(result.time) + "\n";
+    std::string text = snapshot.out + ": " + std::to_string(request.width) + "x" +
+                       std::to_string(request.height) + ", view " + request.view +
+                       ", t = " + formatNumber(result.time) + "\n";
     if (result.isCompared)
-        text += snapshot.compareWith + ": " + (result.isEqual ? "equal, " : "differs, ") + result.verdict + "\n";
+        text +=
+            snapshot.compareWith + ": " + (result.isEqual ? "equal, " : "differs, ") + result.verdict + "\n";
     return print(text, code);
 }
 

@@ -6,8 +6,8 @@
 
 namespace extremal::app {
 
-/// 0 done; 1 a scheme failed numerically, or a comparison differs; 2 unusable input or arguments; 3 the output could
-/// not be written; 130 interrupted.
+/// 0 done; 1 a scheme failed numerically, or a comparison differs; 2 unusable input or arguments; 3 the
+/// output could not be written; 130 interrupted.
 enum ExitCode { done = 0, failed = 1, unusable = 2, unwritable = 3, interrupted = 130 };
 
 struct CommonOptions {

@@ -28,7 +28,9 @@ void printFailures(const Comparison& comparison) {
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         if (s.status == RunStatus::failed)
-            printProblem(s.label, "failed at t = " + formatNumber(s.failedAt, 6) + ": " + std::string(name(s.cause)), s.advice);
+            printProblem(s.label,
+                         "failed at t = " + formatNumber(s.failedAt, 6) + ": " + std::string(name(s.cause)),
+                         s.advice);
     }
 }
 

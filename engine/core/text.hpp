@@ -19,7 +19,8 @@ std::string formatCount(double value);
 /// At most `digits` significant digits, for people: "3.14", "1.2e-07".
 std::string formatNumber(double value, int digits);
 
-/// The double a whole text stands for ("1e-3"); empty if there is anything else in it. May be infinite or NaN.
+/// The double a whole text stands for ("1e-3"); empty if there is anything else in it. May be infinite or
+/// NaN.
 std::optional<double> parseNumber(std::string_view text);
 
 /// Number of single-character insertions, deletions, replacements and swaps of neighbours between two words,

@@ -1,8 +1,8 @@
 /// The files of a finished comparison: scene.json, one <slug>.csv a scheme, summary.csv, summary.json.
 ///
-/// CSV: comma, header row, quoting as in RFC 4180, LF, UTF-8; the shortest numbers that read back the same; an
-/// unknown or not finite value is an empty cell. Every file is written under a temporary name; only when all are
-/// whole are they renamed, so that no reader ever sees half a file.
+/// CSV: comma, header row, quoting as in RFC 4180, LF, UTF-8; the shortest numbers that read back the same;
+/// an unknown or not finite value is an empty cell. Every file is written under a temporary name; only when
+/// all are whole are they renamed, so that no reader ever sees half a file.
 #pragma once
 
 #include <filesystem>

@@ -15,7 +15,8 @@ namespace {
 /// Rows of one scheme that fit in memory with ease; a larger file is hardly what was meant.
 constexpr double maxRows = 2e7;
 
-void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme, const std::string& pointer) {
+void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme,
+                    const std::string& pointer) {
     const double h = scheme.step.value, start = scene.start.value, end = scene.end.value;
     if (scheme.tolerance) return;
     const double steps = (end - start) / h;
@@ -26,8 +27,8 @@ void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme
                          formatNumber(end) + ", the limit is " + formatNumber(scene.maxSteps),
                      "take a larger step, or raise /limits/steps");
     else if (largest + h == largest)
-        reader.error(pointer + "/step", "is too small to change t near " + formatNumber(largest) + ", got " +
-                                            formatNumber(h));
+        reader.error(pointer + "/step",
+                     "is too small to change t near " + formatNumber(largest) + ", got " + formatNumber(h));
     else if (h > (end - start) * (1 + 1e-9) + 1e-9 * h)
         reader.warning(pointer + "/step", "is longer than the run: no step is taken, got " + formatNumber(h));
 }
@@ -36,7 +37,8 @@ void checkRows(Reader& reader, const Scene& scene) {
     if (!scene.every) return;
     const double rows = (scene.end.value - scene.start.value) / scene.every->value;
     if (rows > maxRows)
-        reader.error("/output/every", "asks for " + formatNumber(rows, 3) + " rows, the limit is " + formatNumber(maxRows),
+        reader.error("/output/every",
+                     "asks for " + formatNumber(rows, 3) + " rows, the limit is " + formatNumber(maxRows),
                      "a larger interval");
 }
 
@@ -54,7 +56,8 @@ void checkStability(Reader& reader, const System& system, const Scene& scene, co
 }
 
 /// Refused and unstable pairs. False: the scheme cannot be made.
-bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties, const std::string& pointer) {
+bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
+               const std::string& pointer) {
     if (!properties.refusal.empty()) {
         reader.error(pointer, "makes no sense: " + properties.refusal,
                      properties.hint.empty() ? "another quadrature, or auto" : properties.hint);
@@ -80,7 +83,8 @@ void checkCost(Reader& reader, const System& system, const Scene& scene, const S
                const std::string& pointer) {
     constexpr double longest = 60, slowestStep = 5e-3;
     const double duration = scene.end.value - scene.start.value;
-    if (!scheme.isEnabled || (!scheme.tolerance && duration / scheme.step.value * slowestStep < longest)) return;
+    if (!scheme.isEnabled || (!scheme.tolerance && duration / scheme.step.value * slowestStep < longest))
+        return;
     const double seconds = predictSeconds(scene, system, scheme);
     if (seconds > longest)
         reader.warning(pointer, "will take about " + durationText(seconds) + " of computing",
@@ -97,7 +101,8 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
         return;
     }
     const BaselineEntry* baseline = findBaseline(scheme.baseline.type);
-    const double limit = pair ? describe(pair->space, pair->quadrature).stabilityLimit : baseline->stabilityLimit;
+    const double limit =
+        pair ? describe(pair->space, pair->quadrature).stabilityLimit : baseline->stabilityLimit;
     checkStability(reader, system, scene, scheme, limit, pointer);
     checkCost(reader, system, scene, scheme, pointer);
 }
@@ -115,7 +120,8 @@ void checkScheme(Reader& reader, const System* system, const Scene& scene, const
 
 }  // namespace
 
-void checkWhole(Reader& reader, const System* system, const Scene& scene, const std::vector<std::size_t>& places) {
+void checkWhole(Reader& reader, const System* system, const Scene& scene,
+                const std::vector<std::size_t>& places) {
     if (scene.end.value > scene.start.value) checkRows(reader, scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i)
         checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", places[i]));
@@ -123,7 +129,8 @@ void checkWhole(Reader& reader, const System* system, const Scene& scene, const 
         checkScheme(reader, system, scene, scheme, "/reference/scheme");
     if (!system || !reader.errors.empty() || scene.reference.kind != ReferenceSpec::Kind::exact) return;
     if (!system->exact || !system->exact(initialState(scene, *system)))
-        reader.error("/reference", "no exact solution of " + scene.model.type + " is known for these initial data",
+        reader.error("/reference",
+                     "no exact solution of " + scene.model.type + " is known for these initial data",
                      "take auto");
 }
 

@@ -14,10 +14,12 @@ void readHeader(Reader& reader, const Value& document, Scene& scene) {
     if (const Value* version = document.find("extremal"); !version)
         reader.error("/extremal", "is required: the version of the format", "add \"extremal\": 1");
     else if (*version != Value(1))
-        reader.error("/extremal", "must be 1, got " + describeValue(*version), "the only version of the format so far");
+        reader.error("/extremal", "must be 1, got " + describeValue(*version),
+                     "the only version of the format so far");
     if (const Value* title = document.find("title")) scene.title = reader.line(*title, "/title").value_or("");
     const auto readText = [&](const char* key, std::string& target) {
-        if (const Value* value = document.find(key)) target = reader.text(*value, std::string("/") + key).value_or("");
+        if (const Value* value = document.find(key))
+            target = reader.text(*value, std::string("/") + key).value_or("");
     };
     readText("source", scene.source);
     readText("lesson", scene.lesson);
@@ -28,7 +30,8 @@ ReadScene readDocument(const Value& document, const std::string& directory) {
     Reader reader;
     ReadScene result;
     if (!document.isObject()) {
-        result.errors.push_back({"", "must be an object {...}, got " + describeValue(document), "a scene file"});
+        result.errors.push_back(
+            {"", "must be an object {...}, got " + describeValue(document), "a scene file"});
         return result;
     }
     Scene& scene = result.scene;
@@ -50,7 +53,8 @@ ReadScene readDocument(const Value& document, const std::string& directory) {
 
 }  // namespace
 
-ReadScene readScene(const Value& document, const std::vector<Override>& overrides, const std::string& directory) {
+ReadScene readScene(const Value& document, const std::vector<Override>& overrides,
+                    const std::string& directory) {
     if (overrides.empty()) return readDocument(document, directory);
     Value changed = document;
     std::vector<Change> changes;
@@ -63,7 +67,8 @@ ReadScene readScene(const Value& document, const std::vector<Override>& override
     return result;
 }
 
-ReadScene readScene(std::string_view json, const std::vector<Override>& overrides, const std::string& directory) {
+ReadScene readScene(std::string_view json, const std::vector<Override>& overrides,
+                    const std::string& directory) {
     try {
         return readScene(parseJson(json), overrides, directory);
     } catch (const InvalidScene& e) {

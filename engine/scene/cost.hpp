@@ -6,9 +6,10 @@
 
 namespace extremal {
 
-/// CPU seconds of the scheme's steps from the start to the end of the scene, without reference and output: the mean
-/// cost of trial steps from the initial state (at most some 3 ms of them) times the number of steps. For adaptive
-/// baselines the number of steps follows from how far the trial steps came. 0 if a trial step fails.
+/// CPU seconds of the scheme's steps from the start to the end of the scene, without reference and output:
+/// the mean cost of trial steps from the initial state (at most some 3 ms of them) times the number of steps.
+/// For adaptive baselines the number of steps follows from how far the trial steps came. 0 if a trial step
+/// fails.
 double predictSeconds(const Scene& scene, const System& system, const SchemeSpec& scheme);
 
 }  // namespace extremal

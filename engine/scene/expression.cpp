@@ -62,7 +62,8 @@ private:
     struct Nesting {
         explicit Nesting(Parser& p) : parser(p) {
             if (++parser.depth_ > maxExpressionDepth)
-                throw ExpressionError("is nested deeper than " + std::to_string(maxExpressionDepth), parser.at_);
+                throw ExpressionError("is nested deeper than " + std::to_string(maxExpressionDepth),
+                                      parser.at_);
         }
         ~Nesting() { --parser.depth_; }
         Parser& parser;
@@ -81,7 +82,8 @@ private:
     ExpressionError unexpected(const std::string& wanted) const {
         if (at_ == text_.size()) return {"ends where " + wanted + " is missing", at_};
         std::size_t length = 1;  // a whole code point
-        while (at_ + length < text_.size() && (static_cast<unsigned char>(text_[at_ + length]) & 0xC0) == 0x80)
+        while (at_ + length < text_.size() &&
+               (static_cast<unsigned char>(text_[at_ + length]) & 0xC0) == 0x80)
             ++length;
         return {"has \"" + std::string(text_.substr(at_, length)) + "\" where " + wanted + " should be", at_};
     }
@@ -97,18 +99,24 @@ private:
         int left = product();
         while (true) {
             const std::size_t position = at_;
-            if (take('+')) left = binary(Operator::add, left, product(), position);
-            else if (take('-')) left = binary(Operator::subtract, left, product(), position);
-            else return left;
+            if (take('+'))
+                left = binary(Operator::add, left, product(), position);
+            else if (take('-'))
+                left = binary(Operator::subtract, left, product(), position);
+            else
+                return left;
         }
     }
     int product() {
         int left = signedFactor();
         while (true) {
             const std::size_t position = at_;
-            if (take('*')) left = binary(Operator::multiply, left, signedFactor(), position);
-            else if (take('/')) left = binary(Operator::divide, left, signedFactor(), position);
-            else return left;
+            if (take('*'))
+                left = binary(Operator::multiply, left, signedFactor(), position);
+            else if (take('/'))
+                left = binary(Operator::divide, left, signedFactor(), position);
+            else
+                return left;
         }
     }
     int signedFactor() {
@@ -162,14 +170,16 @@ private:
         skipBlanks();
         if (peek() == '(') return call(name, position);
         if (findFunction(name))
-            throw ExpressionError("needs brackets after the function " + name, position, "write " + name + "(...)");
+            throw ExpressionError("needs brackets after the function " + name, position,
+                                  "write " + name + "(...)");
         if (name == "pi") return add({Operator::number, std::numbers::pi, {}, -1, -1, position});
         return add({Operator::name, 0, name, -1, -1, position});
     }
     int call(const std::string& name, std::size_t position) {
         const Function* function = findFunction(name);
         if (!function)
-            throw ExpressionError("has no function \"" + name + "\"", position, suggestName(name, expressionFunctions()));
+            throw ExpressionError("has no function \"" + name + "\"", position,
+                                  suggestName(name, expressionFunctions()));
         const Nesting nesting(*this);
         const std::size_t bracket = at_;
         take('(');
@@ -193,18 +203,25 @@ private:
 
 double apply(const Expression::Node& node, double a, double b) {
     switch (node.kind) {
-        case Operator::negate: return -a;
-        case Operator::add: return a + b;
-        case Operator::subtract: return a - b;
-        case Operator::multiply: return a * b;
-        case Operator::divide: return a / b;
-        case Operator::power: return std::pow(a, b);
+        case Operator::negate:
+            return -a;
+        case Operator::add:
+            return a + b;
+        case Operator::subtract:
+            return a - b;
+        case Operator::multiply:
+            return a * b;
+        case Operator::divide:
+            return a / b;
+        case Operator::power:
+            return std::pow(a, b);
         case Operator::call: {
             const Function* function = findFunction(node.name);
             return function->two ? function->two(a, b) : function->one(a);
         }
         case Operator::number:
-        case Operator::name: break;
+        case Operator::name:
+            break;
     }
     return node.number;
 }
@@ -253,8 +270,10 @@ std::string caretLines(std::string_view text, std::size_t position) {
     };
     while (from > 0 && isInside(from)) --from;
     while (isInside(to)) ++to;
-    std::string shown = (from > 0 ? "..." : "") + std::string(text.substr(from, to - from)) + (to < text.size() ? "..." : "");
-    std::replace_if(shown.begin(), shown.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    std::string shown =
+        (from > 0 ? "..." : "") + std::string(text.substr(from, to - from)) + (to < text.size() ? "..." : "");
+    std::replace_if(
+        shown.begin(), shown.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
     const std::size_t column = codePoints(text.substr(from, position - from)) + (from > 0 ? 3 : 0);
     return "    " + shown + "\n    " + std::string(column, ' ') + '^';
 }

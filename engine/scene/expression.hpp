@@ -6,8 +6,9 @@
 ///     power   = atom [ "^" ("+" | "-")* power ]           right-associative, tighter than a sign before it
 ///     atom    = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
 ///
-/// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign. `pi` is a constant; names are
-/// [A-Za-z][A-Za-z0-9_]*. Parsing and meaning are apart: the tree knows nothing of which names exist.
+/// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign. `pi` is a constant;
+/// names are [A-Za-z][A-Za-z0-9_]*. Parsing and meaning are apart: the tree knows nothing of which names
+/// exist.
 #pragma once
 
 #include <functional>
@@ -29,8 +30,8 @@ enum class Operator { number, name, negate, add, subtract, multiply, divide, pow
 struct Expression {
     struct Node {
         Operator kind = Operator::number;
-        double number = 0;      ///< number
-        std::string name;       ///< name, or the function called
+        double number = 0;          ///< number
+        std::string name;           ///< name, or the function called
         int left = -1, right = -1;  ///< operands, as places in `nodes`; -1: none
         std::size_t position = 0;   ///< byte in the text
     };
@@ -53,9 +54,10 @@ public:
 /// Throws ExpressionError.
 Expression parseExpression(std::string_view text);
 
-/// The value with these values of its names; a name without a value is an ExpressionError, a value that is not
-/// finite is not.
-double evaluate(const Expression& expression, const std::function<std::optional<double>(std::string_view)>& valueOf);
+/// The value with these values of its names; a name without a value is an ExpressionError, a value that is
+/// not finite is not.
+double evaluate(const Expression& expression,
+                const std::function<std::optional<double>(std::string_view)>& valueOf);
 
 /// Two indented lines: the text (around the place if it is long), and a caret below the place.
 std::string caretLines(std::string_view text, std::size_t position);

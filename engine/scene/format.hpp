@@ -6,17 +6,18 @@
 
 namespace extremal::format {
 
-inline const std::vector<std::string> root = {"$schema", "extremal", "title",   "source", "lesson", "notes",
-                                              "model",   "initial",  "time",    "schemes", "reference", "observe",
-                                              "output",  "views",    "limits"};
+inline const std::vector<std::string> root = {"$schema",   "extremal", "title",   "source", "lesson",
+                                              "notes",     "model",    "initial", "time",   "schemes",
+                                              "reference", "observe",  "output",  "views",  "limits"};
 inline const std::vector<std::string> time = {"start", "end"};
 inline const std::vector<std::string> initial = {"q", "p", "v"};
 inline const std::vector<std::string> output = {"every", "dense"};
 inline const std::vector<std::string> limits = {"steps"};
 inline const std::vector<std::string> reference = {"type", "scheme", "path"};
 inline const std::vector<std::string> view = {"view", "x", "y"};
-inline const std::vector<std::string> scheme = {"label",    "enabled", "step",   "tolerance", "space", "quadrature",
-                                                "baseline", "scheme",  "solver", "allow_unstable"};
+inline const std::vector<std::string> scheme = {"label",  "enabled",       "step",     "tolerance",
+                                                "space",  "quadrature",    "baseline", "scheme",
+                                                "solver", "allow_unstable"};
 inline const std::vector<std::string> solver = {"method", "tolerance", "max_iterations"};
 
 }  // namespace extremal::format

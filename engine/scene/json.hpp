@@ -1,8 +1,8 @@
 /// JSON text to a Value and back.
 ///
-/// Reading is strict: one document, UTF-8, no duplicate keys, only finite numbers, at most 200 levels (refused as
-/// soon as they are met, whatever the length of the text). Writing is byte-stable: reading and writing what was
-/// written gives the same bytes.
+/// Reading is strict: one document, UTF-8, no duplicate keys, only finite numbers, at most 200 levels
+/// (refused as soon as they are met, whatever the length of the text). Writing is byte-stable: reading and
+/// writing what was written gives the same bytes.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ namespace extremal {
 /// Deepest nesting of arrays and objects that is read.
 inline constexpr int maxJsonDepth = 200;
 
-/// Throws InvalidScene: for bad syntax the message ends in "line L, column C"; for a duplicate key, a number out
-/// of range or too many levels the pointer says where.
+/// Throws InvalidScene: for bad syntax the message ends in "line L, column C"; for a duplicate key, a number
+/// out of range or too many levels the pointer says where.
 Value parseJson(std::string_view text);
 
 /// The Value as JSON, indented by two spaces, short arrays and objects on one line, ending in a newline.

@@ -20,8 +20,8 @@ std::string lineAndColumn(std::string_view text, std::size_t offset) {
            std::to_string(codePoints(before.substr(lineStart)) + 1);
 }
 
-/// The library's "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing
-/// value - unexpected ..." without what the user cannot use.
+/// The library's "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while
+/// parsing value - unexpected ..." without what the user cannot use.
 std::string plainMessage(std::string message) {
     for (const std::string_view lead : {"] ", ": ", "syntax error while parsing "})
         if (const auto at = message.find(lead); at != std::string::npos && at < 80)

@@ -15,11 +15,21 @@ void appendString(std::string& out, std::string_view s) {
     out += '"';
     for (const char c : s) {
         switch (c) {
-            case '"': out += "\\\""; break;
-            case '\\': out += "\\\\"; break;
-            case '\n': out += "\\n"; break;
-            case '\r': out += "\\r"; break;
-            case '\t': out += "\\t"; break;
+            case '"':
+                out += "\\\"";
+                break;
+            case '\\':
+                out += "\\\\";
+                break;
+            case '\n':
+                out += "\\n";
+                break;
+            case '\r':
+                out += "\\r";
+                break;
+            case '\t':
+                out += "\\t";
+                break;
             default:
                 if (const auto u = static_cast<unsigned char>(c); u < 0x20 || u == 0x7f) {
                     out += "\\u00";
@@ -40,10 +50,14 @@ std::string numberText(double d) {
 }
 
 void appendScalar(std::string& out, const Value& v) {
-    if (v.isNull()) out += "null";
-    else if (v.isBool()) out += v.asBool() ? "true" : "false";
-    else if (v.isNumber()) out += numberText(v.asNumber());
-    else appendString(out, v.asString());
+    if (v.isNull())
+        out += "null";
+    else if (v.isBool())
+        out += v.asBool() ? "true" : "false";
+    else if (v.isNumber())
+        out += numberText(v.asNumber());
+    else
+        appendString(out, v.asString());
 }
 
 void appendCompact(std::string& out, const Value& v) {
@@ -82,7 +96,8 @@ int depth(const Value& v) {
 /// Small things stay on one line: no list of objects, and nothing nested twice.
 bool staysOnOneLine(const Value& v, std::size_t column, std::string& oneLine) {
     if (depth(v) > 2) return false;
-    if (v.isArray() && std::any_of(v.asArray().begin(), v.asArray().end(), [](const Value& e) { return e.isObject(); }))
+    if (v.isArray() &&
+        std::any_of(v.asArray().begin(), v.asArray().end(), [](const Value& e) { return e.isObject(); }))
         return false;
     oneLine.clear();
     appendCompact(oneLine, v);
@@ -107,7 +122,8 @@ void appendIndented(std::string& out, const Value& v, std::size_t indent, std::s
             appendString(out, v.asObject()[i].first);
             out += ": ";
         }
-        appendIndented(out, v.isArray() ? v.asArray()[i] : v.asObject()[i].second, indent + 2, out.size() - lineStart);
+        appendIndented(out, v.isArray() ? v.asArray()[i] : v.asObject()[i].second, indent + 2,
+                       out.size() - lineStart);
     }
     if (count > 0) out += '\n' + std::string(indent, ' ');
     out += v.isArray() ? ']' : '}';

@@ -21,8 +21,10 @@ std::vector<std::string> typedKeys(const Value& object, const Entries& entries) 
     if (!type || !type->isString()) return {};
     for (const auto& entry : entries) {
         const CatalogItem* item = nullptr;
-        if constexpr (requires { entry.item; }) item = &entry.item;
-        else item = &entry;
+        if constexpr (requires { entry.item; })
+            item = &entry.item;
+        else
+            item = &entry;
         if (item->id != type->asString()) continue;
         std::vector<std::string> keys{"type"};
         for (const FieldInfo& field : item->parameters) keys.push_back(field.key);
@@ -62,7 +64,8 @@ std::vector<std::string> schemeKeys(const Value& object, const std::vector<std::
 
 class Setter {
 public:
-    Setter(Value& document, const Override& override, std::vector<Change>& changes, std::vector<Problem>& errors)
+    Setter(Value& document, const Override& override, std::vector<Change>& changes,
+           std::vector<Problem>& errors)
         : document_(document), override_(override), changes_(changes), errors_(errors) {}
 
     void descend(Value& here, std::vector<std::string> place, const std::vector<std::string>& tokens) {
@@ -74,7 +77,8 @@ public:
         } else if (here.isObject()) {
             intoObject(here, std::move(place), tokens);
         } else {
-            fail("there is no \"" + tokens[place.size()] + "\": " + joinPointer(place) + " is " + describeValue(here));
+            fail("there is no \"" + tokens[place.size()] + "\": " + joinPointer(place) + " is " +
+                 describeValue(here));
         }
     }
 
@@ -85,13 +89,16 @@ private:
     void intoArray(Value& here, std::vector<std::string> place, const std::vector<std::string>& tokens) {
         Value::Array& elements = here.asArray();
         const std::string& token = tokens[place.size()];
-        if (token == "-") elements.emplace_back(place.size() + 1 == tokens.size() ? Value() : Value(Value::Object{}));
+        if (token == "-")
+            elements.emplace_back(place.size() + 1 == tokens.size() ? Value() : Value(Value::Object{}));
         const std::size_t size = elements.size();
         const auto index = token == "-" ? std::optional(size - 1) : arrayIndex(token);
         if (token == "*" && size == 0) fail(joinPointer(place) + " is empty");
         if (token != "*" && (!index || *index >= size))
             return fail("there is no element " + describeValue(token) + ": " + joinPointer(place) + " has " +
-                            (size == 0 ? "none" : size == 1 ? "one, 0" : std::to_string(size) + ", 0 to " + std::to_string(size - 1)),
+                            (size == 0   ? "none"
+                             : size == 1 ? "one, 0"
+                                         : std::to_string(size) + ", 0 to " + std::to_string(size - 1)),
                         "- appends, * is every one");
         for (std::size_t i = 0; i < size; ++i) {
             if (token != "*" && i != *index) continue;
@@ -108,7 +115,8 @@ private:
                 return fail("unknown key " + describeValue(token), suggestName(token, known));
             const bool isLast = place.size() + 1 == tokens.size();
             const bool holdsArray = !isLast && tokens[place.size() + 1] == "-";
-            if (!isLast && !holdsArray && (arrayIndex(tokens[place.size() + 1]) || tokens[place.size() + 1] == "*"))
+            if (!isLast && !holdsArray &&
+                (arrayIndex(tokens[place.size() + 1]) || tokens[place.size() + 1] == "*"))
                 return fail("there is no " + joinPointer(place) + "/" + token, "set the whole array");
             here.set(token, isLast ? Value() : holdsArray ? Value(Value::Array{}) : Value(Value::Object{}));
         }
@@ -167,7 +175,8 @@ void applyOverride(Value& document, const Override& override, std::vector<Change
                    std::vector<Problem>& errors) {
     const auto tokens = splitPointer(override.pointer);
     if (!tokens || tokens->empty()) {
-        errors.push_back({override.pointer, "is not a JSON pointer", "for example /model/k", override.pointer});
+        errors.push_back(
+            {override.pointer, "is not a JSON pointer", "for example /model/k", override.pointer});
         return;
     }
     Setter(document, override, changes, errors).descend(document, {}, *tokens);

@@ -15,8 +15,8 @@ struct Change {
     std::string pointer;
 };
 
-/// Applies one override. "*" is every element of an array, "-" appends. A key that the format knows is created,
-/// another is an error; errors carry the override's pointer as their origin.
+/// Applies one override. "*" is every element of an array, "-" appends. A key that the format knows is
+/// created, another is an error; errors carry the override's pointer as their origin.
 void applyOverride(Value& document, const Override& override, std::vector<Change>& changes,
                    std::vector<Problem>& errors);
 

@@ -1,4 +1,5 @@
-/// JSON pointers (RFC 6901): "/schemes/1/step" names a place in a scene; "~1" stands for "/" and "~0" for "~".
+/// JSON pointers (RFC 6901): "/schemes/1/step" names a place in a scene; "~1" stands for "/" and "~0" for
+/// "~".
 #pragma once
 
 #include <optional>

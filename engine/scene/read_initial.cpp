@@ -20,7 +20,8 @@ std::string countOf(std::size_t n, const std::vector<std::string>& names) {
 }
 
 /// One number per coordinate: an array in their order, or an object by name.
-std::vector<Number> readVector(Reader& reader, const Value& value, const std::string& pointer, const System& system) {
+std::vector<Number> readVector(Reader& reader, const Value& value, const std::string& pointer,
+                               const System& system) {
     const auto names = coordinateNames(system);
     std::vector<Number> numbers(names.size());
     if (value.isArray()) {
@@ -30,7 +31,8 @@ std::vector<Number> readVector(Reader& reader, const Value& value, const std::st
             return numbers;
         }
         for (std::size_t i = 0; i < names.size(); ++i)
-            if (const auto n = reader.number(value.asArray()[i], childPointer(pointer, i), {})) numbers[i] = *n;
+            if (const auto n = reader.number(value.asArray()[i], childPointer(pointer, i), {}))
+                numbers[i] = *n;
     } else if (value.isObject()) {
         reader.checkKeys(value, pointer, names);
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -72,8 +74,10 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
     const Value* q = initial->find("q");
     const Value* p = initial->find("p");
     const Value* v = initial->find("v");
-    if (q) result.q = readVector(reader, *q, "/initial/q", system);
-    else reader.warning("/initial/q", "is missing: the model's example is taken");
+    if (q)
+        result.q = readVector(reader, *q, "/initial/q", system);
+    else
+        reader.warning("/initial/q", "is missing: the model's example is taken");
     if (p && v) reader.error("/initial", "has both p and v", "give the momentum or the velocity");
     if (q || p || v) result.pOrV.assign(system.coordinates.size(), Number{});
     if (p) result.pOrV = readVector(reader, *p, "/initial/p", system);

@@ -27,7 +27,8 @@ private:
         const auto field = std::find_if(fields_.begin(), fields_.end(),
                                         [&](const FieldInfo& f) { return f.key == name && isNumeric(f); });
         if (field == fields_.end()) return {};
-        if (const auto known = reader_.parameters.find(name); known != reader_.parameters.end()) return known->second;
+        if (const auto known = reader_.parameters.find(name); known != reader_.parameters.end())
+            return known->second;
         if (const auto open = std::find(open_.begin(), open_.end(), name); open != open_.end()) {
             reportCycle({open, open_.end()});
             return {};
@@ -61,7 +62,8 @@ private:
         names.push_back(names.front());
         std::string chain;
         for (const std::string& name : names) chain += (chain.empty() ? "" : " -> ") + name;
-        reader_.error(childPointer("/model", names.front()), "depends on itself: " + chain, "give one of them a number");
+        reader_.error(childPointer("/model", names.front()), "depends on itself: " + chain,
+                      "give one of them a number");
     }
 
     Reader& reader_;

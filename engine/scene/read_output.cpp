@@ -43,21 +43,26 @@ std::vector<std::string> columnNames(const System& system, const Scene& scene) {
     const State initial = initialState(scene, system);
     for (const std::string& id : scene.observe)
         if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
-            for (const Column& column : entry->bind({system, initial, {}}).columns) names.push_back(column.name);
+            for (const Column& column : entry->bind({system, initial, {}}).columns)
+                names.push_back(column.name);
     return names;
 }
 
-void readReferenceFile(Reader& reader, const Value& object, const std::string& directory, ReferenceSpec& reference) {
+void readReferenceFile(Reader& reader, const Value& object, const std::string& directory,
+                       ReferenceSpec& reference) {
     const Value* path = object.find("path");
-    if (!path) return reader.error("/reference/path", "is required", "a CSV file with t and the state columns");
+    if (!path)
+        return reader.error("/reference/path", "is required", "a CSV file with t and the state columns");
     const auto text = reader.text(*path, "/reference/path");
     if (!text) return;
     // Kept absolute, so that the scene means the same wherever it is saved.
     std::error_code ignored;
-    const auto full = std::filesystem::absolute(std::filesystem::path(directory) / *text, ignored).lexically_normal();
+    const auto full =
+        std::filesystem::absolute(std::filesystem::path(directory) / *text, ignored).lexically_normal();
     reference.path = full.string();
     if (!std::filesystem::is_regular_file(full, ignored) || !std::ifstream(full))
-        reader.error("/reference/path", "cannot be read: " + reference.path, "paths are relative to the scene");
+        reader.error("/reference/path", "cannot be read: " + reference.path,
+                     "paths are relative to the scene");
 }
 
 }  // namespace
@@ -84,7 +89,8 @@ void readOutput(Reader& reader, const Value& document, Scene& scene) {
     if (const Value* limits = document.find("limits"); limits && reader.isObject(*limits, "/limits")) {
         reader.checkKeys(*limits, "/limits", format::limits);
         if (const Value* steps = limits->find("steps"))
-            if (const auto n = reader.number(*steps, "/limits/steps", {1, 1e15, false, false})) scene.maxSteps = n->value;
+            if (const auto n = reader.number(*steps, "/limits/steps", {1, 1e15, false, false}))
+                scene.maxSteps = n->value;
     }
     const Value* output = document.find("output");
     if (!output || !reader.isObject(*output, "/output")) return;
@@ -139,7 +145,8 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
         if (!name) continue;
         const auto known = system ? availableObservables(*system) : idsOf(observableCatalog());
         if (system && isLacking(*system, *name))
-            reader.error(pointer, "the model " + scene.model.type + " has no " + *name, "it has " + joinNames(known));
+            reader.error(pointer, "the model " + scene.model.type + " has no " + *name,
+                         "it has " + joinNames(known));
         else if (!contains(known, *name))
             reader.unknownName(pointer, "observable", *name, known);
         else if (contains(scene.observe, *name))
@@ -184,13 +191,15 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             if (!column) continue;
             const std::string at = childPointer(pointer, key);
             *target = reader.text(*column, at).value_or("");
-            if (view.id != "phase") reader.error(at, "is only for phase portraits");
+            if (view.id != "phase")
+                reader.error(at, "is only for phase portraits");
             else if (system && column->isString() && !contains(columnNames(*system, scene), *target))
                 reader.unknownName(at, "column", *target, columnNames(*system, scene));
         }
         for (const char* id : {"energy", "momentum", "error"})
             if (view.id == id && !contains(scene.observe, id))
-                reader.warning(pointer, "shows nothing: " + view.id + " is not observed", "add it to /observe");
+                reader.warning(pointer, "shows nothing: " + view.id + " is not observed",
+                               "add it to /observe");
         scene.views.push_back(view);
     }
 }

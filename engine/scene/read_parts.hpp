@@ -17,8 +17,8 @@ std::optional<System> readModel(Reader& reader, const Value& document, Scene& sc
 /// Initial data; the model's example where the scene has none.
 void readInitial(Reader& reader, const Value& document, const System& system, Scene& scene);
 
-/// Schemes and their default labels. Those that are wrong are left out; the result says where in the document each
-/// of scene.schemes stands.
+/// Schemes and their default labels. Those that are wrong are left out; the result says where in the document
+/// each of scene.schemes stands.
 std::vector<std::size_t> readSchemes(Reader& reader, const Value& document, Scene& scene);
 std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const std::string& pointer);
 /// Gives the schemes without a label one made from their parts, unique among all.
@@ -31,8 +31,10 @@ void readOutput(Reader& reader, const Value& document, Scene& scene);
 void readObserve(Reader& reader, const Value& document, const System* system, Scene& scene);
 void readViews(Reader& reader, const Value& document, const System* system, Scene& scene);
 
-/// What needs several parts at once: numbers of steps and rows, refused and unstable pairs, stability limits, cost.
-void checkWhole(Reader& reader, const System* system, const Scene& scene, const std::vector<std::size_t>& places);
+/// What needs several parts at once: numbers of steps and rows, refused and unstable pairs, stability limits,
+/// cost.
+void checkWhole(Reader& reader, const System* system, const Scene& scene,
+                const std::vector<std::size_t>& places);
 
 Value schemeValue(const SchemeSpec& scheme);
 

@@ -19,8 +19,10 @@ template <class Entries>
 std::vector<const CatalogItem*> itemsOf(const Entries& entries) {
     std::vector<const CatalogItem*> items;
     for (const auto& entry : entries) {
-        if constexpr (requires { entry.item; }) items.push_back(&entry.item);
-        else items.push_back(&entry);
+        if constexpr (requires { entry.item; })
+            items.push_back(&entry.item);
+        else
+            items.push_back(&entry);
     }
     return items;
 }
@@ -38,13 +40,14 @@ bool isAutomatic(const Value* quadrature) {
     return type && *type == Value("auto");
 }
 
-void readSpaceAndQuadrature(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
-    const auto space =
-        readSettings(reader, *scheme.find("space"), childPointer(pointer, "space"), "space", itemsOf(spaceCatalog()));
+void readSpaceAndQuadrature(Reader& reader, const Value& scheme, const std::string& pointer,
+                            SchemeSpec& spec) {
+    const auto space = readSettings(reader, *scheme.find("space"), childPointer(pointer, "space"), "space",
+                                    itemsOf(spaceCatalog()));
     if (space) spec.space = *space;
     const Value automatic("auto"), *given = scheme.find("quadrature");
-    const auto rule = readSettings(reader, given ? *given : automatic, childPointer(pointer, "quadrature"), "quadrature",
-                                   itemsOf(quadratureCatalog()), fitToSpace, spec.space);
+    const auto rule = readSettings(reader, given ? *given : automatic, childPointer(pointer, "quadrature"),
+                                   "quadrature", itemsOf(quadratureCatalog()), fitToSpace, spec.space);
     if (rule) spec.quadrature = isAutomatic(given) ? completeQuadrature(spec.space, {}) : *rule;
 }
 
@@ -79,7 +82,8 @@ void readNamed(Reader& reader, const Value& value, const std::string& pointer, S
 }
 
 void readSolver(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
-    static const std::vector<std::string> methods = {"auto", "newton", "fixed-point", "banded", "dense", "krylov"};
+    static const std::vector<std::string> methods = {"auto",   "newton", "fixed-point",
+                                                     "banded", "dense",  "krylov"};
     spec.solver.type = "auto";
     const Value* solver = scheme.find("solver");
     if (!solver || !reader.isObject(*solver, pointer)) return;
@@ -138,20 +142,27 @@ bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, S
     return reader.errors.size() == errorsBefore;
 }
 
-void readStep(Reader& reader, const Value& scheme, const std::string& pointer, bool isAdaptive, SchemeSpec& spec) {
+void readStep(Reader& reader, const Value& scheme, const std::string& pointer, bool isAdaptive,
+              SchemeSpec& spec) {
     const char* wanted = isAdaptive ? "tolerance" : "step";
     const char* other = isAdaptive ? "step" : "tolerance";
     const std::string place = childPointer(pointer, wanted);
     if (scheme.find(other))
         reader.warning(childPointer(pointer, other),
-                       isAdaptive ? "is not used: " + spec.baseline.type + " chooses its steps by its tolerance"
-                                  : std::string("is not used: the step is fixed"));
+                       isAdaptive
+                           ? "is not used: " + spec.baseline.type + " chooses its steps by its tolerance"
+                           : std::string("is not used: the step is fixed"));
     const Value* value = scheme.find(wanted);
-    if (!value) return reader.error(place, "is required: a positive finite number", isAdaptive ? "for example 1e-9" : "");
-    const auto number = reader.number(*value, place, isAdaptive ? Limits{0, 1, true, false} : Limits::positive());
+    if (!value)
+        return reader.error(place, "is required: a positive finite number",
+                            isAdaptive ? "for example 1e-9" : "");
+    const auto number =
+        reader.number(*value, place, isAdaptive ? Limits{0, 1, true, false} : Limits::positive());
     if (!number) return;
-    if (isAdaptive) spec.tolerance = number->value;
-    else spec.step = *number;
+    if (isAdaptive)
+        spec.tolerance = number->value;
+    else
+        spec.step = *number;
 }
 
 std::string partsLabel(const SchemeSpec& scheme) {
@@ -178,7 +189,8 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
         const std::string place = childPointer(pointer, "label");
         if (const auto text = reader.line(*label, place)) {
             spec.label = *text;
-            if (text->find_first_not_of(' ') == std::string::npos) reader.error(place, "is empty", "leave it out for a default");
+            if (text->find_first_not_of(' ') == std::string::npos)
+                reader.error(place, "is empty", "leave it out for a default");
         }
     }
     const auto readFlag = [&](const char* key, bool& target) {
@@ -189,7 +201,8 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     readFlag("allow_unstable", spec.allowsUnstable);
     const bool isKindKnown = readKind(reader, value, pointer, spec);
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
-    if (isKindKnown || value.find("step")) readStep(reader, value, pointer, baseline && baseline->isAdaptive, spec);
+    if (isKindKnown || value.find("step"))
+        readStep(reader, value, pointer, baseline && baseline->isAdaptive, spec);
     readSolver(reader, value, childPointer(pointer, "solver"), spec);
     // A step that follows from a parameter whose own error is reported is unknown without a further one.
     const bool hasStep = spec.step.value > 0 || spec.tolerance;
@@ -201,8 +214,10 @@ void fillLabels(std::vector<SchemeSpec>& schemes) {
     std::map<std::string, int> uses;
     std::set<std::string> taken;
     for (const SchemeSpec& scheme : schemes) {
-        if (scheme.label.empty()) ++uses[partsLabel(scheme)];
-        else taken.insert(scheme.label);
+        if (scheme.label.empty())
+            ++uses[partsLabel(scheme)];
+        else
+            taken.insert(scheme.label);
     }
     for (SchemeSpec& scheme : schemes) {
         if (!scheme.label.empty()) continue;
@@ -211,7 +226,8 @@ void fillLabels(std::vector<SchemeSpec>& schemes) {
             label += scheme.tolerance ? ", tolerance " + formatNumber(*scheme.tolerance)
                                       : ", h " + formatNumber(scheme.step.value);
         scheme.label = label;
-        for (int n = 2; !taken.insert(scheme.label).second; ++n) scheme.label = label + " (" + std::to_string(n) + ")";
+        for (int n = 2; !taken.insert(scheme.label).second; ++n)
+            scheme.label = label + " (" + std::to_string(n) + ")";
     }
 }
 
@@ -219,21 +235,25 @@ std::vector<std::size_t> readSchemes(Reader& reader, const Value& document, Scen
     std::vector<std::size_t> places;
     const Value* schemes = document.find("schemes");
     if (!schemes) {
-        reader.error("/schemes", "is required", "for example \"schemes\": [{ \"scheme\": \"midpoint\", \"step\": 0.1 }]");
+        reader.error("/schemes", "is required",
+                     "for example \"schemes\": [{ \"scheme\": \"midpoint\", \"step\": 0.1 }]");
         return places;
     }
     if (!reader.isArray(*schemes, "/schemes", "schemes")) return places;
     if (schemes->asArray().empty())
-        reader.error("/schemes", "must have at least one scheme", "for example { \"scheme\": \"midpoint\", \"step\": 0.1 }");
+        reader.error("/schemes", "must have at least one scheme",
+                     "for example { \"scheme\": \"midpoint\", \"step\": 0.1 }");
     std::map<std::string, std::size_t> firstUse;
     for (std::size_t i = 0; i < schemes->asArray().size(); ++i) {
         const std::string pointer = childPointer("/schemes", i);
         const Value& value = schemes->asArray()[i];
-        if (const Value* label = value.find("label"); label && label->isString() && !label->asString().empty()) {
+        if (const Value* label = value.find("label");
+            label && label->isString() && !label->asString().empty()) {
             const auto [first, isNew] = firstUse.emplace(label->asString(), i);
             if (!isNew)
-                reader.error(pointer + "/label", "is the label of /schemes/" + std::to_string(first->second) +
-                                                     " already: " + describeValue(*label),
+                reader.error(pointer + "/label",
+                             "is the label of /schemes/" + std::to_string(first->second) +
+                                 " already: " + describeValue(*label),
                              "labels are unique");
         }
         if (const auto spec = readScheme(reader, value, pointer)) {
@@ -242,8 +262,10 @@ std::vector<std::size_t> readSchemes(Reader& reader, const Value& document, Scen
         }
     }
     fillLabels(scene.schemes);
-    const bool runsNothing = std::none_of(scene.schemes.begin(), scene.schemes.end(), [](const auto& s) { return s.isEnabled; });
-    if (!scene.schemes.empty() && runsNothing) reader.warning("/schemes", "has no enabled scheme: nothing will run");
+    const bool runsNothing =
+        std::none_of(scene.schemes.begin(), scene.schemes.end(), [](const auto& s) { return s.isEnabled; });
+    if (!scene.schemes.empty() && runsNothing)
+        reader.warning("/schemes", "has no enabled scheme: nothing will run");
     return places;
 }
 

@@ -23,7 +23,8 @@ std::string Limits::describe() const {
     const bool hasMin = std::isfinite(min), hasMax = std::isfinite(max);
     const std::string number = isInteger ? "integer" : "finite number";
     const std::string article = isInteger ? "an " : "a ";
-    if (hasMin && hasMax && !isMinExcluded) return article + number + " from " + formatNumber(min) + " to " + formatNumber(max);
+    if (hasMin && hasMax && !isMinExcluded)
+        return article + number + " from " + formatNumber(min) + " to " + formatNumber(max);
     if (hasMin && hasMax)
         return article + number + " above " + formatNumber(min) + " and at most " + formatNumber(max);
     if (hasMin && min == 0) return (isMinExcluded ? "a positive " : "a non-negative ") + number;
@@ -59,7 +60,8 @@ std::optional<double> Reader::evaluateText(const std::string& text, const std::s
         std::string hint = e.hint;
         const std::string message = e.what();
         if (const auto quote = message.find("unknown name \""); quote != std::string::npos)
-            hint = suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
+            hint =
+                suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
         error(pointer, "the expression " + message + "\n" + caretLines(text, e.position), hint);
     }
     return {};
@@ -122,7 +124,8 @@ bool Reader::isArray(const Value& value, const std::string& pointer, const std::
     return false;
 }
 
-void Reader::checkKeys(const Value& object, const std::string& pointer, const std::vector<std::string>& known) {
+void Reader::checkKeys(const Value& object, const std::string& pointer,
+                       const std::vector<std::string>& known) {
     for (const auto& [key, value] : object.asObject())
         if (std::find(known.begin(), known.end(), key) == known.end())
             error(childPointer(pointer, key), "unknown key " + describeValue(key), suggestName(key, known));
@@ -130,7 +133,8 @@ void Reader::checkKeys(const Value& object, const std::string& pointer, const st
 
 void Reader::unknownName(const std::string& pointer, std::string_view kind, std::string_view name,
                          const std::vector<std::string>& known) {
-    error(pointer, "unknown " + std::string(kind) + " " + describeValue(std::string(name)), suggestName(name, known));
+    error(pointer, "unknown " + std::string(kind) + " " + describeValue(std::string(name)),
+          suggestName(name, known));
 }
 
 }  // namespace extremal

@@ -1,5 +1,6 @@
-/// What reading a scene shares between its parts: the findings, and the values of the model's parameters by name.
-/// Internal to engine/scene. Every function records what is wrong and goes on, so that all errors are found.
+/// What reading a scene shares between its parts: the findings, and the values of the model's parameters by
+/// name. Internal to engine/scene. Every function records what is wrong and goes on, so that all errors are
+/// found.
 #pragma once
 
 #include <limits>
@@ -61,18 +62,21 @@ public:
     std::optional<double> evaluateText(const std::string& text, const std::string& pointer);
 };
 
-/// Defaults of keys whose descriptor has none because they follow from something else (nodes from the degree).
-using DerivedDefault = std::optional<Value> (*)(std::string_view type, std::string_view key, const Settings& context);
+/// Defaults of keys whose descriptor has none because they follow from something else (nodes from the
+/// degree).
+using DerivedDefault = std::optional<Value> (*)(std::string_view type, std::string_view key,
+                                                const Settings& context);
 
-/// Reads {"type": NAME, ...} (or just "NAME") against a catalogue's entries; every key of the entry is then present.
+/// Reads {"type": NAME, ...} (or just "NAME") against a catalogue's entries; every key of the entry is then
+/// present.
 std::optional<Settings> readSettings(Reader& reader, const Value& value, const std::string& pointer,
                                      std::string_view kind, const std::vector<const CatalogItem*>& items,
                                      DerivedDefault derived = nullptr, const Settings& context = {});
 
 /// Reads the members of an object by their descriptors alone; `ignored` are keys handled elsewhere.
-bool readFields(Reader& reader, const Value& object, const std::string& pointer, const std::vector<FieldInfo>& fields,
-                const std::vector<std::string>& ignored, Settings& settings, DerivedDefault derived = nullptr,
-                const Settings& context = {});
+bool readFields(Reader& reader, const Value& object, const std::string& pointer,
+                const std::vector<FieldInfo>& fields, const std::vector<std::string>& ignored,
+                Settings& settings, DerivedDefault derived = nullptr, const Settings& context = {});
 
 /// The settings as {"type": NAME, keys...}, with expressions as they were written.
 Value settingsValue(const Settings& settings, std::string_view typeKey = "type");

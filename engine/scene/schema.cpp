@@ -71,11 +71,20 @@ Value property(const FieldInfo& field) {
     Value v{Value::Object{}};
     switch (field.type) {
         case FieldType::number:
-        case FieldType::integer: v = numberOf(field); break;
-        case FieldType::boolean: v = typed("boolean"); break;
-        case FieldType::text: v = typed("string"); break;
-        case FieldType::choice: v = enumeration(field.choices); break;
-        case FieldType::json: break;
+        case FieldType::integer:
+            v = numberOf(field);
+            break;
+        case FieldType::boolean:
+            v = typed("boolean");
+            break;
+        case FieldType::text:
+            v = typed("string");
+            break;
+        case FieldType::choice:
+            v = enumeration(field.choices);
+            break;
+        case FieldType::json:
+            break;
     }
     const std::string& words = field.description.empty() ? field.title : field.description;
     v.set("description", field.unit.empty() ? words : words + " Unit: " + field.unit + ".");
@@ -90,8 +99,10 @@ Value typedChoice(const Entries& entries) {
     std::vector<std::string> names;
     for (const auto& entry : entries) {
         const CatalogItem* item = nullptr;
-        if constexpr (requires { entry.item; }) item = &entry.item;
-        else item = &entry;
+        if constexpr (requires { entry.item; })
+            item = &entry.item;
+        else
+            item = &entry;
         Value properties{Value::Object{}}, type{Value::Object{}};
         type.set("const", item->id);
         properties.set("type", type);
@@ -206,7 +217,8 @@ Value rootProperties() {
 }  // namespace
 
 Value sceneSchema() {
-    Value schema = object(rootProperties(), {"extremal", "model", "time", "schemes"}, "A comparison for Extremal.");
+    Value schema =
+        object(rootProperties(), {"extremal", "model", "time", "schemes"}, "A comparison for Extremal.");
     Value document{Value::Object{}};
     document.set("$schema", "https://json-schema.org/draft/2020-12/schema");
     document.set("title", "Extremal scene");

@@ -34,7 +34,8 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
             const auto text = reader.text(value, pointer);
             if (!text) return false;
             if (std::find(field.choices.begin(), field.choices.end(), *text) == field.choices.end()) {
-                reader.error(pointer, "must be one of " + joinNames(field.choices) + ", got " + describeValue(value),
+                reader.error(pointer,
+                             "must be one of " + joinNames(field.choices) + ", got " + describeValue(value),
                              suggestName(*text, field.choices));
                 return false;
             }
@@ -50,9 +51,9 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
 
 }  // namespace
 
-bool readFields(Reader& reader, const Value& object, const std::string& pointer, const std::vector<FieldInfo>& fields,
-                const std::vector<std::string>& ignored, Settings& settings, DerivedDefault derived,
-                const Settings& context) {
+bool readFields(Reader& reader, const Value& object, const std::string& pointer,
+                const std::vector<FieldInfo>& fields, const std::vector<std::string>& ignored,
+                Settings& settings, DerivedDefault derived, const Settings& context) {
     const std::size_t errorsBefore = reader.errors.size();
     bool isComplete = true;
     std::vector<std::string> known = ignored;
@@ -60,13 +61,15 @@ bool readFields(Reader& reader, const Value& object, const std::string& pointer,
     reader.checkKeys(object, pointer, known);
     for (const FieldInfo& field : fields) {
         if (const Value* value = object.find(field.key)) {
-            isComplete = readField(reader, *value, childPointer(pointer, field.key), field, settings) && isComplete;
+            isComplete =
+                readField(reader, *value, childPointer(pointer, field.key), field, settings) && isComplete;
         } else if (!field.fallback.isNull()) {
             settings.keys.emplace_back(field.key, field.fallback);
         } else if (const auto fitting = derived ? derived(settings.type, field.key, context) : std::nullopt) {
             settings.keys.emplace_back(field.key, *fitting);
         } else if (field.type == FieldType::number || field.type == FieldType::integer) {
-            reader.error(childPointer(pointer, field.key), "is required: " + Limits::of(field).describe(), field.title);
+            reader.error(childPointer(pointer, field.key), "is required: " + Limits::of(field).describe(),
+                         field.title);
         } else {
             reader.error(childPointer(pointer, field.key), "is required", field.description);
         }
@@ -89,14 +92,16 @@ std::optional<Settings> readSettings(Reader& reader, const Value& value, const s
     }
     const auto id = reader.text(*type, typePointer);
     if (!id) return {};
-    const auto item = std::find_if(items.begin(), items.end(), [&](const CatalogItem* i) { return i->id == *id; });
+    const auto item =
+        std::find_if(items.begin(), items.end(), [&](const CatalogItem* i) { return i->id == *id; });
     if (item == items.end()) {
         reader.unknownName(typePointer, kind, *id, ids);
         return {};
     }
     Settings settings;
     settings.type = *id;
-    if (!readFields(reader, object, pointer, (*item)->parameters, {"type"}, settings, derived, context)) return {};
+    if (!readFields(reader, object, pointer, (*item)->parameters, {"type"}, settings, derived, context))
+        return {};
     return settings;
 }
 

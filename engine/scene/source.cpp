@@ -18,7 +18,8 @@ std::string readAll(std::FILE* file) {
     char block[1 << 16];
     for (std::size_t n = 0; (n = std::fread(block, 1, sizeof block, file)) > 0;) {
         text.append(block, n);
-        if (text.size() > maxBytes) throw InvalidScene("", "is larger than 256 MB", "a scene has a few kilobytes");
+        if (text.size() > maxBytes)
+            throw InvalidScene("", "is larger than 256 MB", "a scene has a few kilobytes");
     }
     if (std::ferror(file)) throw InvalidScene("", std::string("cannot be read: ") + std::strerror(errno));
     return text;
@@ -29,8 +30,10 @@ std::string readFile(const std::string& path) {
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
         throw InvalidScene("", "there is no such file", "a path, preset:NAME, or - for standard input");
-    if (std::filesystem::is_directory(status)) throw InvalidScene("", "is a folder", "name the scene file in it");
-    if (!std::filesystem::is_regular_file(status)) throw InvalidScene("", "is not a regular file", "- reads standard input");
+    if (std::filesystem::is_directory(status))
+        throw InvalidScene("", "is a folder", "name the scene file in it");
+    if (!std::filesystem::is_regular_file(status))
+        throw InvalidScene("", "is not a regular file", "- reads standard input");
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     if (!file) throw InvalidScene("", std::string("cannot be opened: ") + std::strerror(errno));
     return readAll(file.get());

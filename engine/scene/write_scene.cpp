@@ -50,17 +50,22 @@ Value schemeValue(const SchemeSpec& scheme) {
     Value value{Value::Object{}};
     value.set("label", scheme.label);
     value.set("enabled", scheme.isEnabled);
-    if (scheme.tolerance) value.set("tolerance", *scheme.tolerance);
-    else value.set("step", numberValue(scheme.step));
+    if (scheme.tolerance)
+        value.set("tolerance", *scheme.tolerance);
+    else
+        value.set("step", numberValue(scheme.step));
     switch (scheme.kind) {
         case SchemeSpec::Kind::pair:
             value.set("space", settingsValue(scheme.space));
             value.set("quadrature", settingsValue(scheme.quadrature));
             break;
         case SchemeSpec::Kind::baseline:
-            value.set("baseline", scheme.baseline.keys.empty() ? Value(scheme.baseline.type) : settingsValue(scheme.baseline));
+            value.set("baseline", scheme.baseline.keys.empty() ? Value(scheme.baseline.type)
+                                                               : settingsValue(scheme.baseline));
             break;
-        case SchemeSpec::Kind::named: value.set("scheme", scheme.named); break;
+        case SchemeSpec::Kind::named:
+            value.set("scheme", scheme.named);
+            break;
     }
     value.set("solver", settingsValue(scheme.solver, "method"));
     value.set("allow_unstable", scheme.allowsUnstable);
@@ -70,17 +75,21 @@ Value schemeValue(const SchemeSpec& scheme) {
 Value toValue(const Scene& scene) {
     Value value{Value::Object{}};
     value.set("extremal", 1);
-    for (const auto& [key, text] : {std::pair{"title", &scene.title}, {"source", &scene.source},
-                                    {"lesson", &scene.lesson}, {"notes", &scene.notes}})
+    for (const auto& [key, text] : {std::pair{"title", &scene.title},
+                                    {"source", &scene.source},
+                                    {"lesson", &scene.lesson},
+                                    {"notes", &scene.notes}})
         if (!text->empty()) value.set(key, *text);
     value.set("model", settingsValue(scene.model));
     value.set("initial", initialValue(scene.initial));
-    value.set("time", Value(Value::Object{{"start", numberValue(scene.start)}, {"end", numberValue(scene.end)}}));
+    value.set("time",
+              Value(Value::Object{{"start", numberValue(scene.start)}, {"end", numberValue(scene.end)}}));
     value.set("schemes", arrayOf(scene.schemes, schemeValue));
     value.set("reference", referenceValue(scene.reference));
     value.set("observe", arrayOf(scene.observe, [](const std::string& name) { return Value(name); }));
     if (scene.every)
-        value.set("output", Value(Value::Object{{"every", numberValue(*scene.every)}, {"dense", scene.isDense}}));
+        value.set("output",
+                  Value(Value::Object{{"every", numberValue(*scene.every)}, {"dense", scene.isDense}}));
     value.set("views", arrayOf(scene.views, viewValue));
     value.set("limits", Value(Value::Object{{"steps", scene.maxSteps}}));
     return value;

@@ -24,13 +24,15 @@ Answer extremal(const QStringList& arguments, const QByteArray& input = {}, cons
     process.closeWriteChannel();
     if (!process.waitForFinished(60000)) return {};
     return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
-            QString::fromUtf8(process.readAllStandardOutput()), QString::fromUtf8(process.readAllStandardError())};
+            QString::fromUtf8(process.readAllStandardOutput()),
+            QString::fromUtf8(process.readAllStandardError())};
 }
 
 /// A short scene; `schemes` as JSON.
 QByteArray scene(const QByteArray& schemes, const QByteArray& rest = "\"time\": { \"end\": 1 }") {
-    return "{ \"extremal\": 1, \"model\": { \"type\": \"kepler\" }, \"initial\": { \"q\": [0.4, 0], \"p\": [0, 2] }, " + rest +
-           ", \"schemes\": " + schemes + " }";
+    return "{ \"extremal\": 1, \"model\": { \"type\": \"kepler\" }, \"initial\": { \"q\": [0.4, 0], \"p\": "
+           "[0, 2] }, " +
+           rest + ", \"schemes\": " + schemes + " }";
 }
 
 const QByteArray midpoint = "[{ \"label\": \"Midpoint A\", \"scheme\": \"midpoint\", \"step\": 0.1 }]";
@@ -55,7 +57,9 @@ QByteArray withoutClock(const QString& path) {
     return QString::fromUtf8(text).replace(QRegularExpression("\"cpu_seconds\": [^,]*"), "").toUtf8();
 }
 
-QStringList filesIn(const QString& folder) { return QDir(folder).entryList(QDir::Files | QDir::Hidden, QDir::Name); }
+QStringList filesIn(const QString& folder) {
+    return QDir(folder).entryList(QDir::Files | QDir::Hidden, QDir::Name);
+}
 
 }  // namespace
 
@@ -68,7 +72,8 @@ private slots:
         QCOMPARE(a.code, 0);
         QCOMPARE(a.err, QString());
         QVERIFY(a.out.contains("Midpoint A  done"));
-        QCOMPARE(filesIn(dir.filePath("out")), (QStringList{"midpoint-a.csv", "scene.json", "summary.csv", "summary.json"}));
+        QCOMPARE(filesIn(dir.filePath("out")),
+                 (QStringList{"midpoint-a.csv", "scene.json", "summary.csv", "summary.json"}));
         const QByteArrayList rows = contents(dir.filePath("out/midpoint-a.csv")).trimmed().split('\n');
         QCOMPARE(rows.size(), 12);
         QCOMPARE(rows[0], QByteArray("t,q.x,q.y,p.x,p.y,energy,energy_error,error,error.p,error.x,error.y"));
@@ -78,16 +83,22 @@ private slots:
 
     void rerunningTheResolvedSceneGivesTheSameBytes() {
         QTemporaryDir dir;
-        QCOMPARE(extremal({"run", "preset:spring-pendulum", "--set", "/time/end=1", "--quiet", "--out", dir.filePath("a")}).code, 0);
+        QCOMPARE(extremal({"run", "preset:spring-pendulum", "--set", "/time/end=1", "--quiet", "--out",
+                           dir.filePath("a")})
+                     .code,
+                 0);
         const QString resolved = dir.filePath("a/scene.json");
-        QCOMPARE(extremal({"run", resolved, "--quiet", "--threads", "1", "--out", dir.filePath("b")}).code, 0);
-        QCOMPARE(extremal({"run", resolved, "--quiet", "--threads", "7", "--out", dir.filePath("c")}).code, 0);
+        QCOMPARE(extremal({"run", resolved, "--quiet", "--threads", "1", "--out", dir.filePath("b")}).code,
+                 0);
+        QCOMPARE(extremal({"run", resolved, "--quiet", "--threads", "7", "--out", dir.filePath("c")}).code,
+                 0);
         const QStringList files = filesIn(dir.filePath("a"));
         QCOMPARE(files.size(), 8);
         for (const char* other : {"b", "c"}) {
             QCOMPARE(filesIn(dir.filePath(other)), files);
             for (const QString& file : files)
-                QVERIFY2(withoutClock(dir.filePath(QString(other) + "/" + file)) == withoutClock(dir.filePath("a/" + file)),
+                QVERIFY2(withoutClock(dir.filePath(QString(other) + "/" + file)) ==
+                             withoutClock(dir.filePath("a/" + file)),
                          qPrintable(file));
         }
     }
@@ -102,21 +113,22 @@ private slots:
         QCOMPARE(check["valid"].toBool(true), false);
         QCOMPARE(check["errors"].toArray()[0].toObject()["pointer"].toString(), QString("/schemes"));
         const QJsonObject all = QJsonDocument::fromJson(extremal({"list", "--json"}).out.toUtf8()).object();
-        for (const char* kind : {"models", "spaces", "quadratures", "schemes", "baselines", "observables", "studies", "views",
-                                 "profiles", "presets"})
+        for (const char* kind : {"models", "spaces", "quadratures", "schemes", "baselines", "observables",
+                                 "studies", "views", "profiles", "presets"})
             QVERIFY2(all[kind].isArray(), kind);
-        const QJsonArray baselines = QJsonDocument::fromJson(extremal({"list", "baselines", "--json"}).out.toUtf8()).array();
+        const QJsonArray baselines =
+            QJsonDocument::fromJson(extremal({"list", "baselines", "--json"}).out.toUtf8()).array();
         QVERIFY(baselines[0].toObject()["claims"].toObject()["order"].isDouble());
     }
 
     void aFailedSchemeLeavesTheOthersAlone() {
         QTemporaryDir dir;
-        const Answer a = extremal(
-            {"run", "-", "--out", dir.path(), "--json"},
-            scene("[{ \"label\": \"ok\", \"scheme\": \"midpoint\", \"step\": 0.1 },"
-                  "{ \"label\": \"bad\", \"baseline\": \"stormer-verlet\", \"step\": 0.1 }]",
-                  "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1 }")
-                .replace("\"q\": [0.4, 0]", "\"q\": [0, 0]"));
+        const Answer a =
+            extremal({"run", "-", "--out", dir.path(), "--json"},
+                     scene("[{ \"label\": \"ok\", \"scheme\": \"midpoint\", \"step\": 0.1 },"
+                           "{ \"label\": \"bad\", \"baseline\": \"stormer-verlet\", \"step\": 0.1 }]",
+                           "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1 }")
+                         .replace("\"q\": [0.4, 0]", "\"q\": [0, 0]"));
         QCOMPARE(a.code, 1);
         QVERIFY(a.err.contains("extremal: bad: failed at t = 0"));
         const QJsonArray schemes = QJsonDocument::fromJson(a.out.toUtf8()).object()["schemes"].toArray();
@@ -131,9 +143,8 @@ private slots:
         QTest::addColumn<QByteArray>("input");
         QTest::addColumn<QString>("error");
         const QStringList standard{"run", "-"};
-        const auto row = [](const char* what, const QStringList& arguments, const QByteArray& input, const char* error) {
-            QTest::newRow(what) << arguments << input << error;
-        };
+        const auto row = [](const char* what, const QStringList& arguments, const QByteArray& input,
+                            const char* error) { QTest::newRow(what) << arguments << input << error; };
         row("negative step", standard, scene("[{ \"scheme\": \"midpoint\", \"step\": -0.1 }]"),
             "extremal: standard input:/schemes/0/step: must be a positive finite number, got -0.1\n");
         row("override", {"run", "-", "--set", "/schemes/*/step=0"}, scene(midpoint),
@@ -144,15 +155,19 @@ private slots:
             "extremal: --set /time/end: has no value (write --set POINTER=VALUE)\n");
         row("10^12 steps", standard, scene("[{ \"scheme\": \"midpoint\", \"step\": 1e-12 }]"),
             "/schemes/0/step: needs 1e+12 steps from 0 to 1, the limit is 1e+11");
-        row("caret", standard, scene("[{ \"scheme\": \"midpoint\", \"step\": \"1/nu\" }]"), "\n    1/nu\n      ^\n");
+        row("caret", standard, scene("[{ \"scheme\": \"midpoint\", \"step\": \"1/nu\" }]"),
+            "\n    1/nu\n      ^\n");
         row("malformed", standard, "{", "extremal: standard input: is not JSON: ");
         row("a million brackets", standard, QByteArray(1000000, '['), "nested deeper than 200");
         row("missing file", {"run", "nowhere.json"}, "", "extremal: nowhere.json: there is no such file");
         row("folder", {"run", "/"}, "", "extremal: /: is a folder");
         row("device", {"run", "/dev/zero"}, "", "extremal: /dev/zero: is not a regular file");
         row("preset", {"run", "preset:keppler"}, "", "(did you mean \"kepler\"?)");
-        row("reference file", standard, scene(midpoint, "\"time\": { \"end\": 1 }, \"reference\": "
-            "{ \"type\": \"file\", \"path\": \"" EXTREMAL_SOURCE_DIR "/LICENSE\" }"), "extremal: standard input:/reference");
+        row("reference file", standard,
+            scene(midpoint,
+                  "\"time\": { \"end\": 1 }, \"reference\": "
+                  "{ \"type\": \"file\", \"path\": \"" EXTREMAL_SOURCE_DIR "/LICENSE\" }"),
+            "extremal: standard input:/reference");
         row("threads", {"run", "-", "--threads", "0"}, scene(midpoint), "--threads");
     }
     void badInputWritesNoFile() {
@@ -170,10 +185,12 @@ private slots:
     void badArgumentsAreNamed_data() {
         QTest::addColumn<QStringList>("arguments");
         QTest::addColumn<QString>("error");
-        QTest::newRow("verb") << QStringList{"rum", "preset:kepler"} << "unknown verb \"rum\" (did you mean \"run\"?)";
+        QTest::newRow("verb") << QStringList{"rum", "preset:kepler"}
+                              << "unknown verb \"rum\" (did you mean \"run\"?)";
         QTest::newRow("no out") << QStringList{"run", "preset:kepler"} << "--out";
         QTest::newRow("option") << QStringList{"check", "preset:kepler", "--ste", "/a=1"} << "--ste";
-        QTest::newRow("kind") << QStringList{"list", "model"} << "unknown kind \"model\" (did you mean \"models\"?)";
+        QTest::newRow("kind") << QStringList{"list", "model"}
+                              << "unknown kind \"model\" (did you mean \"models\"?)";
     }
     void badArgumentsAreNamed() {
         QFETCH(QStringList, arguments);
@@ -195,7 +212,8 @@ private slots:
         QVERIFY2(a.err.contains("cannot be written: Not a directory"), qPrintable(a.err));
         a = extremal({"list"}, {}, "/dev/full");
         QCOMPARE(a.code, 3);
-        QVERIFY2(a.err.contains("standard output: cannot be written: No space left on device"), qPrintable(a.err));
+        QVERIFY2(a.err.contains("standard output: cannot be written: No space left on device"),
+                 qPrintable(a.err));
         if (::geteuid() == 0) return;
         file.setPermissions({});
         a = extremal({"check", file.fileName()});
@@ -207,9 +225,10 @@ private slots:
         QTemporaryDir dir;
         QProcess process;
         process.start(QStringLiteral(EXTREMAL_BINARY), {"run", "-", "--out", dir.path()});
-        process.write(scene("[{ \"label\": \"short\", \"baseline\": \"rk4\", \"step\": 0.5 },"
-                            "{ \"label\": \"long\", \"scheme\": \"midpoint\", \"step\": 1e-7 }]",
-                            "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1000 }"));
+        process.write(
+            scene("[{ \"label\": \"short\", \"baseline\": \"rk4\", \"step\": 0.5 },"
+                  "{ \"label\": \"long\", \"scheme\": \"midpoint\", \"step\": 1e-7 }]",
+                  "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1000 }"));
         process.closeWriteChannel();
         QVERIFY(process.waitForStarted());
         QTest::qWait(700);
@@ -223,14 +242,33 @@ private slots:
         QCOMPARE(process.exitCode(), 130);
         QVERIFY(process.readAllStandardError().contains("interrupted: the results are partial"));
         const QByteArray summary = contents(dir.filePath("summary.csv"));
-        QVERIFY2(summary.contains("short,done,,") && summary.contains("long,partial,stopped,"), summary.constData());
+        QVERIFY2(summary.contains("short,done,,") && summary.contains("long,partial,stopped,"),
+                 summary.constData());
         QVERIFY(contents(dir.filePath("long.csv")).count('\n') > 2);
+    }
+
+    void aWindowWithoutADisplayNamesTheVerbsThatNeedNone() {
+        for (const char* display : {"", ":987"}) {
+            QProcess process;
+            QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+            for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
+                environment.remove(name);
+            if (*display) environment.insert("DISPLAY", display);
+            process.setProcessEnvironment(environment);
+            process.start(QStringLiteral(EXTREMAL_BINARY), {"preset:kepler"});
+            QVERIFY(process.waitForFinished(20000));
+            QCOMPARE(process.exitStatus(), QProcess::NormalExit);
+            QCOMPARE(process.exitCode(), 2);
+            const QByteArray said = process.readAllStandardError();
+            QVERIFY2(said.contains("extremal run") && said.contains("snapshot"), said.constData());
+        }
     }
 
     void helpAndVersionGoToStandardOutput() {
         QCOMPARE(extremal({"--version"}).code, 0);
         QVERIFY(extremal({"--version"}).out.startsWith("extremal "));
-        for (const QStringList& arguments : {QStringList{"--help"}, {"run", "--help"}, {"snapshot", "--help"}}) {
+        for (const QStringList& arguments :
+             {QStringList{"--help"}, {"run", "--help"}, {"snapshot", "--help"}}) {
             const Answer a = extremal(arguments);
             QCOMPARE(a.code, 0);
             QVERIFY(a.err.isEmpty() && a.out.contains("--set"));

@@ -18,7 +18,8 @@ private slots:
         for (int i = 0; i < 20000; ++i) {
             const double x = std::bit_cast<double>(static_cast<std::uint64_t>(random()));
             if (!std::isfinite(x)) continue;
-            QCOMPARE(std::bit_cast<std::uint64_t>(*parseNumber(formatNumber(x))), std::bit_cast<std::uint64_t>(x));
+            QCOMPARE(std::bit_cast<std::uint64_t>(*parseNumber(formatNumber(x))),
+                     std::bit_cast<std::uint64_t>(x));
         }
         QCOMPARE(formatNumber(0.1), std::string("0.1"));
         QCOMPARE(formatNumber(1e-12), std::string("1e-12"));

@@ -28,7 +28,8 @@ std::string contents(const fs::path& path) {
 
 std::vector<std::string> filesIn(const fs::path& folder) {
     std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : fs::directory_iterator(folder))
+        names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
 }
@@ -67,17 +68,20 @@ private slots:
         QTemporaryDir temporary;
         const fs::path folder = fs::path(temporary.path().toStdString()) / "made" / "here";
         const auto names = exportComparison(comparison(), folder);
-        QCOMPARE(names, (std::vector<std::string>{"scene.json", "rk4-h-0-1.csv", "rk4-h-0-1-2.csv", "summary-2.csv",
-                                                  "summary.csv", "summary.json"}));
+        QCOMPARE(names, (std::vector<std::string>{"scene.json", "rk4-h-0-1.csv", "rk4-h-0-1-2.csv",
+                                                  "summary-2.csv", "summary.csv", "summary.json"}));
         QCOMPARE(contents(folder / "rk4-h-0-1.csv"),
                  std::string("t,q.x\n0,0.3333333333333333\n0.1,\n0.2,0.3333333333333333\n"));
         const std::string summary = contents(folder / "summary.csv");
-        QCOMPARE(summary.substr(0, summary.find('\n')),
-                 std::string("label,status,cause,failed_at,t_end,steps,rejected,newton_iterations,evaluations,"
-                             "linear_solves,cpu_seconds,max_energy_error,energy_drift_per_unit_time,max_momentum_error,"
-                             "max_norm_error,max_error,final_error,order_claimed,order_measured"));
-        QVERIFY(summary.find("\n\"RK4, h = 0.1\",failed,not-finite,0.3,0.2,10000000000,0,0,0,0,0,,,,,,,4,\n") !=
-                std::string::npos);
+        QCOMPARE(
+            summary.substr(0, summary.find('\n')),
+            std::string(
+                "label,status,cause,failed_at,t_end,steps,rejected,newton_iterations,evaluations,"
+                "linear_solves,cpu_seconds,max_energy_error,energy_drift_per_unit_time,max_momentum_error,"
+                "max_norm_error,max_error,final_error,order_claimed,order_measured"));
+        QVERIFY(
+            summary.find("\n\"RK4, h = 0.1\",failed,not-finite,0.3,0.2,10000000000,0,0,0,0,0,,,,,,,4,\n") !=
+            std::string::npos);
         const Value document = parseJson(contents(folder / "summary.json"));
         QCOMPARE(document.find("title")->asString(), std::string("a \"title\""));
         QVERIFY(document.find("schemes")->asArray()[1].find("max_error")->isNull());

@@ -25,7 +25,9 @@ const std::string good = R"({
   ]
 })";
 
-Problem firstError(const ReadScene& read) { return read.errors.empty() ? Problem{"none", "no error", ""} : read.errors[0]; }
+Problem firstError(const ReadScene& read) {
+    return read.errors.empty() ? Problem{"none", "no error", ""} : read.errors[0];
+}
 
 std::string textOf(const std::vector<Problem>& problems) {
     std::string text;
@@ -39,11 +41,12 @@ class CodecTest : public QObject {
     Q_OBJECT
 private slots:
     void everyMistakeIsNamedWhereItStands_data() {
-        QTest::addColumn<QString>("set");      // an override that spoils the good scene
+        QTest::addColumn<QString>("set");  // an override that spoils the good scene
         QTest::addColumn<QString>("pointer");
         QTest::addColumn<QString>("message");  // parts of message and hint
         QTest::addColumn<QString>("hint");
-        const auto row = [](const char* set, const char* pointer, const char* message, const char* hint = "") {
+        const auto row = [](const char* set, const char* pointer, const char* message,
+                            const char* hint = "") {
             QTest::newRow(set) << set << pointer << message << hint;
         };
         row("/extremal=2", "/extremal", "must be 1, got 2");
@@ -74,10 +77,12 @@ private slots:
         row("/schemes/1/step=-0.1", "/schemes/1/step", "must be a positive finite number, got -0.1");
         row("/schemes/1/step=0", "/schemes/1/step", "got 0");
         row("/schemes/1/step=\"0.1\"x", "/schemes/1/step", "has \"\"\" where a number");
-        row("/schemes/1/step=1e-12", "/schemes/1/step", "needs 3e+12 steps from 0 to 3, the limit is 1e+11", "/limits/steps");
+        row("/schemes/1/step=1e-12", "/schemes/1/step", "needs 3e+12 steps from 0 to 3, the limit is 1e+11",
+            "/limits/steps");
         row("/time/start=2.9999999999999996", "/schemes/0/step", "is longer than the run");
         row("/schemes/1/stepp=1", "/schemes/1/stepp", "unknown key \"stepp\"", "step");
-        row("/schemes/1/space={\"type\":\"polynomial\",\"degree\":1}", "/schemes/1", "has space and baseline at once");
+        row("/schemes/1/space={\"type\":\"polynomial\",\"degree\":1}", "/schemes/1",
+            "has space and baseline at once");
         row("/schemes/1/quadrature=gauss", "/schemes/1/quadrature", "stands without a space");
         row("/schemes/1={\"step\":1}", "/schemes/1", "names neither a space, a baseline nor a scheme");
         row("/schemes/1/baseline=rk5", "/schemes/1/baseline", "unknown baseline \"rk5\"", "rk4");
@@ -85,13 +90,16 @@ private slots:
         row("/schemes/1/tolerance=1", "/schemes/1/tolerance", "is not used: the step is fixed");
         row("/schemes/1={\"baseline\":\"dopri5\"}", "/schemes/1/tolerance", "is required");
         row("/schemes/1={\"baseline\":\"rk4\"}", "/schemes/1/step", "is required");
-        row("/schemes/1={\"scheme\":\"galerkin-gaus-2\",\"step\":1}", "/schemes/1/scheme", "unknown scheme", "galerkin-gauss-2");
+        row("/schemes/1={\"scheme\":\"galerkin-gaus-2\",\"step\":1}", "/schemes/1/scheme", "unknown scheme",
+            "galerkin-gauss-2");
         row("/schemes/0/label=SV", "/schemes/1/label", "is the label of /schemes/0 already");
         row("/schemes/0/label=", "/schemes/0/label", "is empty");
         row("/schemes/0/label=\"a\\u001b[2J\"", "/schemes/0/label", "without control characters");
         row("/schemes/0/enabled=1", "/schemes/0/enabled", "must be true or false, got 1");
-        row("/schemes/0/space/degree=25", "/schemes/0/space/degree", "must be an integer from 1 to 24, got 25");
-        row("/schemes/0/space/degree=2.5", "/schemes/0/space/degree", "must be an integer from 1 to 24, got 2.5");
+        row("/schemes/0/space/degree=25", "/schemes/0/space/degree",
+            "must be an integer from 1 to 24, got 25");
+        row("/schemes/0/space/degree=2.5", "/schemes/0/space/degree",
+            "must be an integer from 1 to 24, got 2.5");
         row("/schemes/0/space/basis=legender", "/schemes/0/space/basis", "must be one of", "legendre");
         row("/schemes/0/space/type=polynom", "/schemes/0/space/type", "unknown space", "polynomial");
         row("/schemes/0/quadrature/nodes=0", "/schemes/0/quadrature/nodes", "must be an integer from 1");
@@ -145,14 +153,18 @@ private slots:
         QTest::newRow("comma") << QByteArray("{\"a\": 1,}") << "at line 1, column 9";
         QTest::newRow("trailing") << QByteArray("{} {}") << "is not JSON: value";
         QTest::newRow("comment") << QByteArray("{} // x") << "is not JSON";
-        QTest::newRow("twice") << QByteArray("{\"a\": {\"b\": 1, \"b\": 2}}") << "the key \"b\" appears twice";
+        QTest::newRow("twice") << QByteArray("{\"a\": {\"b\": 1, \"b\": 2}}")
+                               << "the key \"b\" appears twice";
         QTest::newRow("overflow") << QByteArray("{\"a\": [1e999]}") << "1e999 is too large";
         QTest::newRow("NaN") << QByteArray("{\"a\": NaN}") << "is not JSON";
-        QTest::newRow("not UTF-8") << QByteArray("{\"a\": \"\xff\"}") << "is not UTF-8 text: bad byte at line 1, column 8";
-        QTest::newRow("zero byte") << QByteArray("{}\0garbage", 10) << "is not UTF-8 text: bad byte at line 1, column 3";
+        QTest::newRow("not UTF-8") << QByteArray("{\"a\": \"\xff\"}")
+                                   << "is not UTF-8 text: bad byte at line 1, column 8";
+        QTest::newRow("zero byte") << QByteArray("{}\0garbage", 10)
+                                   << "is not UTF-8 text: bad byte at line 1, column 3";
         QTest::newRow("no object") << QByteArray("[1]") << "must be an object";
         QTest::newRow("a million brackets") << QByteArray(1000000, '[') << "nested deeper than 200";
-        QTest::newRow("a million braces") << QByteArray("{\"a\":").repeated(200000) << "nested deeper than 200";
+        QTest::newRow("a million braces")
+            << QByteArray("{\"a\":").repeated(200000) << "nested deeper than 200";
     }
     void badTextIsAnErrorWithItsPlace() {
         QFETCH(QByteArray, text);
@@ -165,13 +177,15 @@ private slots:
     }
 
     void pointersOfDuplicatesAndOverflowsAreKnown() {
-        QCOMPARE(firstError(readScene(std::string("{\"a\": [0, {\"b/c\": 1, \"b/c\": 2}]}"))).pointer, std::string("/a/1/b~1c"));
+        QCOMPARE(firstError(readScene(std::string("{\"a\": [0, {\"b/c\": 1, \"b/c\": 2}]}"))).pointer,
+                 std::string("/a/1/b~1c"));
         QCOMPARE(firstError(readScene(std::string("{\"a\": [0, 1e999]}"))).pointer, std::string("/a/1"));
     }
 
     void allErrorsAreReported() {
-        const ReadScene read = readScene(good, {parseOverride("/schemes/*/step=-1"), parseOverride("/model/mu=0"),
-                                                parseOverride("/modle/mu=0"), parseOverride("/time/end=x")});
+        const ReadScene read =
+            readScene(good, {parseOverride("/schemes/*/step=-1"), parseOverride("/model/mu=0"),
+                             parseOverride("/modle/mu=0"), parseOverride("/time/end=x")});
         QCOMPARE(read.errors.size(), std::size_t{5});
         QCOMPARE(read.errors[0].origin, std::string("/modle/mu"));
         QCOMPARE(std::count_if(read.errors.begin(), read.errors.end(),
@@ -181,7 +195,8 @@ private slots:
 
     void overridesApplyFromLeftToRight() {
         const ReadScene read =
-            readScene(good, {parseOverride("/title=a = b"), parseOverride("/schemes/-={\"baseline\":\"rk4\",\"step\":1}"),
+            readScene(good, {parseOverride("/title=a = b"),
+                             parseOverride("/schemes/-={\"baseline\":\"rk4\",\"step\":1}"),
                              parseOverride("/schemes/*/step=0.25"), parseOverride("/schemes/2/step=mu/8"),
                              parseOverride("/model/mu=2"), parseOverride("/output/every=0.5"),
                              parseOverride("/schemes/0/solver/method=newton")});
@@ -189,7 +204,8 @@ private slots:
         QCOMPARE(read.scene.title, std::string("a = b"));
         QCOMPARE(read.scene.schemes.size(), std::size_t{3});
         QCOMPARE(read.scene.schemes[1].step.value, 0.25);
-        QCOMPARE(read.scene.schemes[2].step.value, 0.25);  // 2/8: expressions see the parameters after all overrides
+        QCOMPARE(read.scene.schemes[2].step.value,
+                 0.25);  // 2/8: expressions see the parameters after all overrides
         QCOMPARE(read.scene.schemes[2].step.expression, std::string("mu/8"));
         QCOMPARE(read.scene.every->value, 0.5);
         QVERIFY_EXCEPTION_THROWN(parseOverride("no pointer=1"), InvalidScene);
@@ -197,10 +213,11 @@ private slots:
     }
 
     void defaultsAreFilledIn() {
-        const ReadScene read = readScene(good, {parseOverride("/schemes/-={\"space\":{\"type\":\"polynomial\",\"degree\":3},"
-                                                              "\"quadrature\":\"lobatto\",\"step\":0.1}"),
-                                                parseOverride("/schemes/-={\"space\":{\"type\":\"polynomial\",\"degree\":3},"
-                                                              "\"step\":0.1}")});
+        const ReadScene read =
+            readScene(good, {parseOverride("/schemes/-={\"space\":{\"type\":\"polynomial\",\"degree\":3},"
+                                           "\"quadrature\":\"lobatto\",\"step\":0.1}"),
+                             parseOverride("/schemes/-={\"space\":{\"type\":\"polynomial\",\"degree\":3},"
+                                           "\"step\":0.1}")});
         QVERIFY2(read.errors.empty(), textOf(read.errors).c_str());
         const auto& schemes = read.scene.schemes;
         QCOMPARE(schemes[0].quadrature.integer("nodes"), 2);
@@ -214,7 +231,8 @@ private slots:
     }
 
     void parametersMayUseEachOther() {
-        const std::string text = R"({"extremal":1,"model":{"type":"spring-pendulum","k":"m*100","m":"l+1","l":1},
+        const std::string text =
+            R"({"extremal":1,"model":{"type":"spring-pendulum","k":"m*100","m":"l+1","l":1},
             "initial":{"q":{"theta":"pi/4","a":"1/k"},"v":[0,1]},"time":{"end":1},"schemes":[{"scheme":"midpoint","step":"1/k"}]})";
         const ReadScene read = readScene(text);
         QVERIFY2(read.errors.empty(), textOf(read.errors).c_str());
@@ -241,8 +259,10 @@ private slots:
     }
 
     void jsonTextIsByteStable() {
-        for (const char* text : {"[-0.0, 0, 1e-300, 5e-324, 0.1, 123456789012345680, -1.7976931348623157e308]",
-                                 "{ \"a\\\"\\\\\\n\\u0001/\u00e9\": [[1, 2], { \"b\": null }], \"c\": {}, \"d\": [], \"e\": true }"}) {
+        for (const char* text :
+             {"[-0.0, 0, 1e-300, 5e-324, 0.1, 123456789012345680, -1.7976931348623157e308]",
+              "{ \"a\\\"\\\\\\n\\u0001/\u00e9\": [[1, 2], { \"b\": null }], \"c\": {}, \"d\": [], \"e\": "
+              "true }"}) {
             const Value value = parseJson(text);
             const std::string written = writeJson(value);
             QVERIFY(parseJson(written) == value);
@@ -253,11 +273,13 @@ private slots:
 
     void thePresetsTellWhatTheyTeach() {
         QVERIFY(presets().size() >= 9);
-        for (const char* id : {"spring-pendulum", "spring-pendulum-stiff", "harmonic-oscillator", "pendulum", "kepler"})
+        for (const char* id :
+             {"spring-pendulum", "spring-pendulum-stiff", "harmonic-oscillator", "pendulum", "kepler"})
             QVERIFY2(findPreset(id), id);
         for (const Preset& preset : presets()) {
             const Scene scene = readScene(preset.json).scene;
-            QVERIFY2(!scene.title.empty() && !scene.source.empty() && !scene.lesson.empty() && !scene.notes.empty(),
+            QVERIFY2(!scene.title.empty() && !scene.source.empty() && !scene.lesson.empty() &&
+                         !scene.notes.empty(),
                      std::string(preset.id).c_str());
             QVERIFY(codePoints(scene.lesson) <= 120);
         }

@@ -39,8 +39,8 @@ private slots:
         row("(1 + 2)*3", 9);
         row("2-3-4", -5);
         row("64/4/2", 8);
-        row("2^3^2", 512);   // to the right
-        row("-2^2", -4);     // tighter than the sign
+        row("2^3^2", 512);  // to the right
+        row("-2^2", -4);    // tighter than the sign
         row("2^-1", 0.5);
         row("2*-3", -6);
         row("--2", 2);

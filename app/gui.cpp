@@ -1,0 +1,58 @@
+#include <QString>
+#include <QtGlobal>
+
+#include <cstdlib>
+
+#include <unistd.h>
+
+#include "app/report.hpp"
+#include "app/verbs.hpp"
+#if __has_include("ui/shell/start.hpp")
+#include "ui/shell/start.hpp"
+#endif
+
+namespace extremal::app {
+namespace {
+
+int tellMissingDisplay() {
+    printProblem("window", "there is no display to open it on",
+                 "extremal run and extremal snapshot need none");
+    return unusable;
+}
+
+/// Qt ends the program when it finds no display; it shall do so with our words and exit code.
+void tellFatal(QtMsgType type, const QMessageLogContext&, const QString& text) {
+    if (type == QtFatalMsg && text.contains("platform plugin")) ::_exit(tellMissingDisplay());
+    // Before that it names the display it tried; other messages are for those who look for them.
+    const bool isAboutDisplay =
+        text.contains("could not connect to display") || text.contains("platform plugin");
+    if (!isAboutDisplay && (type == QtFatalMsg || std::getenv("EXTREMAL_DEBUG")))
+        printProblem("window", text.toStdString());
+}
+
+bool hasDisplay() {
+    for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
+        if (const char* value = std::getenv(name); value && *value) return true;
+    return false;
+}
+
+}  // namespace
+
+int guiVerb([[maybe_unused]] int argc, [[maybe_unused]] char** argv,
+            [[maybe_unused]] const std::string& scene, const CommonOptions& options) {
+    if (!options.overrides.empty()) {
+        printProblem("arguments", "--set changes the scene of a verb, not of the window",
+                     "extremal run SCENE --set ...");
+        return unusable;
+    }
+    if (!hasDisplay()) return tellMissingDisplay();
+    qInstallMessageHandler(tellFatal);
+#if __has_include("ui/shell/start.hpp")
+    return runWindow(argc, argv, scene);
+#else
+    printProblem("window", "this build has none", "extremal run and extremal snapshot");
+    return unusable;
+#endif
+}
+
+}  // namespace extremal::app
