@@ -1,0 +1,58 @@
+/// The registry of everything the window can do: the menus, the command palette and the key list come from it.
+#pragma once
+
+#include <QAction>
+#include <QKeySequence>
+#include <QList>
+#include <QObject>
+#include <functional>
+
+class QMenuBar;
+class QWidget;
+
+namespace extremal {
+
+class Actions : public QObject {
+    Q_OBJECT
+public:
+    explicit Actions(QWidget& window);
+
+    /// Adds an action to a menu ("File", "Edit", ...); menus stand in the order of their first action. The action
+    /// belongs to the window, so that its keys work everywhere in it.
+    QAction* add(const QString& id, const QString& menu, const QString& text, const QList<QKeySequence>& keys,
+                 std::function<void()> act, const QString& tip = {});
+    /// A line between the actions of a menu.
+    void addSeparator(const QString& menu);
+    /// A submenu filled by someone else, such as the recent files.
+    void addSubmenu(const QString& menu, QMenu* submenu);
+
+    QAction* find(const QString& id) const;
+    const QList<QAction*>& all() const { return all_; }
+    static QString menuOf(const QAction* action);
+
+    void fill(QMenuBar& bar) const;
+    /// The keys of all actions, by menu, as Markdown.
+    QString keyList() const;
+
+private:
+    struct Item {
+        QString menu;
+        QAction* action = nullptr;  ///< null: a separator or a submenu
+        QMenu* submenu = nullptr;
+    };
+    QWidget& window_;
+    QList<QAction*> all_;
+    QList<Item> items_;
+    QStringList menus_;
+};
+
+/// Keeps single keys for the widget that has the focus where it needs them: text fields get letters, buttons get
+/// Space, lists get arrows. Install on the application.
+class KeyGuard : public QObject {
+    Q_OBJECT
+public:
+    using QObject::QObject;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+};
+
+}  // namespace extremal

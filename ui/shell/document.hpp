@@ -1,0 +1,28 @@
+/// Edits of a scene as a tree: places are JSON pointers ("/schemes/1/step"), values are Values.
+///
+/// Nothing here knows the format: a changed tree becomes a scene only through readScene().
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/value.hpp"
+
+namespace extremal {
+
+/// One change: a new value, or the removal of what is there.
+struct Edit {
+    std::string pointer;  ///< "/schemes/-" appends
+    std::optional<Value> value;
+};
+
+/// What stands at a place, or null.
+const Value* valueAt(const Value& root, std::string_view pointer);
+
+/// The tree with the edits made, from the first to the last. Objects on the way are created; an edit whose place
+/// cannot exist (an index beyond the end, a member of a number) changes nothing.
+Value withEdits(Value root, const std::vector<Edit>& edits);
+
+}  // namespace extremal

@@ -1,0 +1,80 @@
+/// The run of the current scene: starts by itself after an edit, cancels what has become stale, and keeps the
+/// latest results. Nothing of the engine's work happens on this thread; results are fetched by a timer.
+#pragma once
+
+#include <QObject>
+#include <QTimer>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/run/comparison.hpp"
+#include "engine/run/run.hpp"
+
+namespace extremal {
+
+class Notices;
+class Workspace;
+
+/// Expected seconds of a scene, from what its schemes cost per step so far; schemes not seen yet use an estimate.
+class CostModel {
+public:
+    void learn(const Comparison& comparison);
+    double predict(const Scene& scene) const;
+
+private:
+    struct Known {
+        SchemeSpec spec;
+        Settings model;
+        double secondsPerStep;
+    };
+    std::vector<Known> known_;
+};
+
+class RunControl : public QObject {
+    Q_OBJECT
+public:
+    enum class State { idle, scheduled, offered, running, finished };
+
+    RunControl(Workspace& workspace, Notices& notices, QObject* parent = nullptr);
+    ~RunControl() override;
+
+    State state() const { return state_; }
+    bool isRunning() const { return state_ == State::running; }
+    /// What was computed last, possibly of an earlier version of the scene; null before the first results.
+    std::shared_ptr<const Comparison> results() const { return results_; }
+    /// The results belong to an earlier version of the scene.
+    bool isStale() const { return isStale_; }
+    double fraction() const;
+
+    void start();
+    void stop();
+
+    /// Above this prediction a run waits for the user.
+    static constexpr double askAboveSeconds = 3;
+
+signals:
+    void resultsChanged();
+    void stateChanged();
+    void finished();  ///< a run came to its end, all results are there
+
+private:
+    void sceneChanged();
+    void poll();
+    void retire();
+    void offer(double seconds);
+    void setState(State state);
+
+    Workspace& workspace_;
+    Notices& notices_;
+    State state_ = State::idle;
+    std::unique_ptr<Run> run_;
+    std::vector<std::unique_ptr<Run>> stopping_;  ///< stopped, not yet ended: their destructor would wait
+    std::shared_ptr<const Comparison> results_;
+    std::optional<Scene> lastScene_;
+    bool isStale_ = false;
+    CostModel cost_;
+    QTimer debounce_, pollTimer_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,222 @@
+#include "ui/shell/workspace.hpp"
+
+#include <QFileInfo>
+#include <QSaveFile>
+#include <algorithm>
+
+#include "engine/scene/codec.hpp"
+#include "ui/shell/notices.hpp"
+
+namespace extremal {
+
+namespace {
+
+bool isAtOrBelow(std::string_view pointer, std::string_view place) {
+    return pointer.starts_with(place) && (pointer.size() == place.size() || pointer[place.size()] == '/');
+}
+
+std::string directoryOf(const QString& path) {
+    return path.isEmpty() ? "." : QFileInfo(path).absolutePath().toStdString();
+}
+
+}  // namespace
+
+Workspace::Workspace(Notices& notices, QObject* parent) : QObject(parent), notices_(notices) {}
+
+bool Workspace::accept(const Value& candidate, const std::vector<Edit>& edits) {
+    ReadScene read = readScene(candidate, {}, directoryOf(path_));
+    if (!read.errors.empty()) {
+        for (const Edit& e : edits)
+            std::erase_if(problems_, [&](const Problem& p) { return isAtOrBelow(p.pointer, e.pointer); });
+        problems_.insert(problems_.end(), read.errors.begin(), read.errors.end());
+        return false;
+    }
+    Value resolved = toValue(read.scene);
+    setDocument(std::move(resolved), std::move(read.scene), std::move(read.warnings));
+    return true;
+}
+
+bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const QString& mergeKey) {
+    if (!hasScene_) return false;
+    const Value before = document_;
+    const auto keep = [&] {
+        if (!(before == document_)) history_.push(before, what, mergeKey);
+        emit draftsChanged();
+        emit sceneChanged();
+        emit fileChanged();
+        return true;
+    };
+    std::vector<Edit> all;
+    for (const auto& [pointer, value] : drafts_)
+        if (std::none_of(edits.begin(), edits.end(), [&](const Edit& e) { return isAtOrBelow(pointer, e.pointer); }))
+            all.push_back({pointer, value});
+    const bool hasOtherDrafts = !all.empty();
+    all.insert(all.end(), edits.begin(), edits.end());
+
+    problems_.clear();
+    if (accept(withEdits(document_, all), all)) {
+        drafts_.clear();
+        problems_.clear();
+        return keep();
+    }
+    const std::vector<Problem> together = problems_;
+    if (hasOtherDrafts && accept(withEdits(document_, edits), edits)) {
+        for (const Edit& e : edits)
+            std::erase_if(drafts_, [&](const auto& d) { return isAtOrBelow(d.first, e.pointer); });
+        problems_ = together;
+        return keep();
+    }
+    problems_ = together;
+    for (const Edit& e : edits)
+        if (e.value) drafts_[e.pointer] = *e.value;
+    emit draftsChanged();
+    return false;
+}
+
+std::vector<Problem> Workspace::problemsAt(std::string_view pointer) const {
+    std::vector<Problem> found;
+    for (const Problem& p : problems_)
+        if (isAtOrBelow(p.pointer, pointer)) found.push_back(p);
+    return found;
+}
+
+const Value* Workspace::draftAt(const std::string& pointer) const {
+    const auto found = drafts_.find(pointer);
+    return found == drafts_.end() ? nullptr : &found->second;
+}
+
+void Workspace::dropDraft(const std::string& pointer) {
+    if (!drafts_.erase(pointer)) return;
+    std::erase_if(problems_, [&](const Problem& p) { return isAtOrBelow(p.pointer, pointer); });
+    if (drafts_.empty()) problems_.clear();
+    emit draftsChanged();
+}
+
+void Workspace::setDocument(Value document, Scene scene, std::vector<Problem> warnings) {
+    document_ = std::move(document);
+    scene_ = std::move(scene);
+    warnings_ = std::move(warnings);
+    hasScene_ = true;
+    if (selected_ >= static_cast<int>(scene_.schemes.size())) selectScheme(static_cast<int>(scene_.schemes.size()) - 1);
+}
+
+void Workspace::restore(const Value& document) {
+    drafts_.clear();
+    problems_.clear();
+    accept(document, {});
+    emit draftsChanged();
+    emit sceneChanged();
+    emit fileChanged();
+}
+
+void Workspace::undo() {
+    if (history_.canUndo()) restore(history_.undo(document_));
+}
+
+void Workspace::redo() {
+    if (history_.canRedo()) restore(history_.redo(document_));
+}
+
+void Workspace::report(const QString& name, const std::vector<Problem>& problems) {
+    QStringList lines, hints;
+    for (const Problem& p : problems) {
+        const QString where = p.pointer.empty() ? QString() : QString::fromStdString(p.pointer) + ": ";
+        if (lines.size() < 3) lines << where + QString::fromStdString(p.message);
+        if (!p.hint.empty() && hints.isEmpty()) hints << QString::fromStdString(p.hint);
+        notices_.addToLog(name + ": " + where + QString::fromStdString(p.message));
+    }
+    if (problems.size() > 3) lines << tr("and %1 more (see the log)").arg(problems.size() - 3);
+    notices_.post({Notice::Kind::error, "open", tr("%1 cannot be used: %2").arg(name, lines.join("; ")),
+                   hints.join("; "), {}});
+}
+
+bool Workspace::open(const QString& name) {
+    std::string text;
+    try {
+        text = loadSceneText(name.toStdString());
+    } catch (const InvalidScene& error) {
+        report(name, error.problems());
+        return false;
+    }
+    const bool isPreset = name.startsWith("preset:");
+    const QString path = isPreset || name == "-" ? QString() : QFileInfo(name).absoluteFilePath();
+    ReadScene read = readScene(std::string_view(text), {}, directoryOf(path));
+    if (!read.errors.empty()) {
+        report(isPreset ? name : QFileInfo(name).fileName(), read.errors);
+        return false;
+    }
+    notices_.dismiss("open");
+    path_ = path;
+    origin_ = isPreset ? name : path;
+    drafts_.clear();
+    problems_.clear();
+    history_.clear();
+    selected_ = -1;
+    Value document = toValue(read.scene);
+    saved_ = document;
+    setDocument(std::move(document), std::move(read.scene), std::move(read.warnings));
+    selectScheme(scene_.schemes.empty() ? -1 : 0);
+    emit opened();
+    emit draftsChanged();
+    emit sceneChanged();
+    emit fileChanged();
+    return true;
+}
+
+bool Workspace::adopt(const Value& document, const QString& path) {
+    ReadScene read = readScene(document, {}, directoryOf(path));
+    if (!read.errors.empty()) {
+        report(tr("The scene"), read.errors);
+        return false;
+    }
+    path_ = path;
+    origin_ = path;
+    drafts_.clear();
+    problems_.clear();
+    history_.clear();
+    saved_ = Value();
+    Value resolved = toValue(read.scene);
+    setDocument(std::move(resolved), std::move(read.scene), std::move(read.warnings));
+    selectScheme(scene_.schemes.empty() ? -1 : 0);
+    emit opened();
+    emit draftsChanged();
+    emit sceneChanged();
+    emit fileChanged();
+    return true;
+}
+
+bool Workspace::save() { return !path_.isEmpty() && saveAs(path_); }
+
+bool Workspace::saveAs(const QString& path) {
+    const std::string text = writeScene(scene_);
+    QSaveFile file(path);
+    const bool isWritten = file.open(QIODevice::WriteOnly) &&
+                           file.write(text.data(), static_cast<qint64>(text.size())) ==
+                               static_cast<qint64>(text.size()) &&
+                           file.commit();
+    if (!isWritten) {
+        notices_.post({Notice::Kind::error, "save", tr("%1 was not saved: %2").arg(path, file.errorString()),
+                       tr("choose another folder with Save As (Ctrl+Shift+S)"), {}});
+        return false;
+    }
+    notices_.dismiss("save");
+    path_ = QFileInfo(path).absoluteFilePath();
+    origin_ = path_;
+    saved_ = document_;
+    emit fileChanged();
+    return true;
+}
+
+QString Workspace::fileName() const {
+    if (!path_.isEmpty()) return QFileInfo(path_).fileName();
+    if (origin_.startsWith("preset:")) return origin_.mid(7) + ".json";
+    return tr("unsaved");
+}
+
+void Workspace::selectScheme(int index) {
+    if (index == selected_) return;
+    selected_ = index;
+    emit selectionChanged();
+}
+
+}  // namespace extremal

@@ -1,0 +1,85 @@
+/// The scene being worked on: a value, its history, its file.
+///
+/// The document is always valid and complete: an edit goes through readScene(), and one that is refused leaves the
+/// document alone and is kept as a draft with its problem, for the form to show in place. A later edit takes the
+/// drafts along, so that two fields that are only valid together can be changed one after the other.
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/scene/scene.hpp"
+#include "ui/shell/document.hpp"
+#include "ui/shell/history.hpp"
+
+namespace extremal {
+
+class Notices;
+
+class Workspace : public QObject {
+    Q_OBJECT
+public:
+    explicit Workspace(Notices& notices, QObject* parent = nullptr);
+
+    bool hasScene() const { return hasScene_; }
+    const Scene& scene() const { return scene_; }
+    const Value& document() const { return document_; }
+    const std::vector<Problem>& warnings() const { return warnings_; }
+
+    /// Makes the edits, or refuses them: then problemsAt() says why. `what` names the change for Undo.
+    bool edit(const std::vector<Edit>& edits, const QString& what, const QString& mergeKey = {});
+    /// The problems of the last refused edits at this place or below it.
+    std::vector<Problem> problemsAt(std::string_view pointer) const;
+    /// What the user typed at this place and was refused, or null.
+    const Value* draftAt(const std::string& pointer) const;
+    /// Drops what was typed and refused at this place.
+    void dropDraft(const std::string& pointer);
+    bool hasDrafts() const { return !drafts_.empty(); }
+
+    const History& history() const { return history_; }
+    void undo();
+    void redo();
+
+    /// Opens a path or "preset:NAME". False, with a notice, if that cannot be done.
+    bool open(const QString& name);
+    /// Takes a whole document, as for a new scene or a recovered one; it counts as unsaved.
+    bool adopt(const Value& document, const QString& path = {});
+    bool save();                      ///< false, with a notice, if it cannot be written or has no file yet
+    bool saveAs(const QString& path);
+    QString path() const { return path_; }       ///< empty: not saved yet
+    QString origin() const { return origin_; }   ///< SCENE as on the command line: a path or "preset:NAME"
+    QString fileName() const;                    ///< for titles: "spring-pendulum.json"
+    bool isDirty() const { return hasScene_ && !(document_ == saved_); }
+
+    int selectedScheme() const { return selected_; }  ///< -1: none
+    void selectScheme(int index);
+
+signals:
+    void sceneChanged();      ///< document() is another value
+    void draftsChanged();
+    void fileChanged();       ///< path or dirty state
+    void opened();            ///< another scene altogether
+    void selectionChanged();
+
+private:
+    bool accept(const Value& candidate, const std::vector<Edit>& edits);
+    void setDocument(Value document, Scene scene, std::vector<Problem> warnings);
+    void restore(const Value& document);
+    void report(const QString& name, const std::vector<Problem>& problems);
+
+    Notices& notices_;
+    bool hasScene_ = false;
+    Scene scene_;
+    Value document_, saved_;
+    std::vector<Problem> warnings_, problems_;
+    std::map<std::string, Value> drafts_;
+    History history_;
+    QString path_, origin_;
+    int selected_ = -1;
+};
+
+}  // namespace extremal
