@@ -1,0 +1,99 @@
+#include "ui/panels/card.hpp"
+
+#include <QLabel>
+#include <QMenu>
+#include <QPainter>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/shell/theme.hpp"
+
+namespace extremal {
+
+namespace {
+
+/// QLabel has no ellipsis of its own.
+class ElidedLabel : public QLabel {
+public:
+    using QLabel::QLabel;
+    QSize minimumSizeHint() const override { return {0, QLabel::minimumSizeHint().height()}; }
+
+protected:
+    void paintEvent(QPaintEvent*) override {
+        QPainter painter(this);
+        painter.setFont(font());
+        painter.setPen(palette().color(foregroundRole()));
+        const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
+        if (shown != text() && toolTip().isEmpty()) setToolTip(text());
+        painter.drawText(rect(), Qt::AlignVCenter | static_cast<int>(alignment() & Qt::AlignHorizontal_Mask), shown);
+    }
+};
+
+}  // namespace
+
+QLabel* makeLabel(const QString& text, const char* role, QWidget* parent) {
+    auto* label = new QLabel(text, parent);
+    label->setProperty("role", role);
+    return label;
+}
+
+QLabel* makeElidedLabel(const QString& text, const char* role, QWidget* parent) {
+    auto* label = new ElidedLabel(text, parent);
+    label->setProperty("role", role);
+    label->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
+    return label;
+}
+
+Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
+    setProperty("card", true);
+    setAccessibleName(title);
+    body_ = new QVBoxLayout(this);
+    body_->setContentsMargins(12, 9, 12, 11);
+    body_->setSpacing(6);
+    header_ = new QHBoxLayout;
+    header_->setSpacing(6);
+    title_ = makeLabel(title, "title");
+    subtitle_ = makeElidedLabel({}, "caption");
+    subtitle_->hide();
+    header_->addWidget(title_);
+    header_->addWidget(subtitle_, 1);
+    header_->addStretch();
+    title_->setVisible(!title.isEmpty());
+    body_->addLayout(header_);
+}
+
+void Card::setTitle(const QString& title) {
+    title_->setText(title);
+    title_->setVisible(!title.isEmpty());
+    setAccessibleName(title);
+}
+
+void Card::setSubtitle(const QString& subtitle) {
+    subtitle_->setToolTip({});
+    subtitle_->setText(subtitle);
+    subtitle_->setVisible(!subtitle.isEmpty());
+}
+
+void Card::setSelected(bool isSelected) {
+    if (property("selected").toBool() == isSelected) return;
+    setProperty("selected", isSelected);
+    repolish(*this);
+}
+
+QMenu* Card::menu() {
+    if (!dots_) {
+        dots_ = new QToolButton;
+        dots_->setText(QStringLiteral("⋯"));
+        dots_->setPopupMode(QToolButton::InstantPopup);
+        dots_->setMenu(new QMenu(dots_));
+        dots_->setAccessibleName(tr("More"));
+        dots_->setToolTip(tr("More"));
+        dots_->setFocusPolicy(Qt::TabFocus);
+        dots_->setFixedSize(26, 20);
+        dots_->setStyleSheet(QStringLiteral("QToolButton { padding: 0; }"));
+        header_->addWidget(dots_);
+    }
+    return dots_->menu();
+}
+
+}  // namespace extremal

@@ -1,0 +1,186 @@
+#include "ui/panels/discretizer.hpp"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QRegularExpression>
+#include <QVBoxLayout>
+#include <array>
+#include <cmath>
+
+#include "engine/integrator/scheme.hpp"
+#include "ui/panels/format.hpp"
+#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/theme.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+namespace {
+
+struct RuleColumn {
+    const char *id, *heading, *letter;
+};
+constexpr std::array<RuleColumn, 6> columns = {{{"midpoint", "mid", "M"},
+                                                {"trapezoid", "trap", "T"},
+                                                {"gauss", "Gauss", "G"},
+                                                {"lobatto", "Lob", "L"},
+                                                {"radau", "Rad", "R"},
+                                                {"clenshaw-curtis", "C–C", "C"}}};
+constexpr std::array<int, 6> degrees = {1, 2, 3, 4, 6, 8};
+
+/// Cells are small: well-known names have well-known abbreviations.
+QString abbreviation(const QString& knownAs) {
+    if (knownAs.contains("midpoint", Qt::CaseInsensitive)) return QStringLiteral("mid");
+    if (knownAs.contains("Verlet", Qt::CaseInsensitive)) return QStringLiteral("SV");
+    if (knownAs.contains("trapez", Qt::CaseInsensitive)) return QStringLiteral("trap");
+    return {};
+}
+
+QString letterOf(const std::string& rule) {
+    for (const RuleColumn& c : columns)
+        if (rule == c.id) return QString::fromUtf8(c.letter);
+    return {};
+}
+
+}  // namespace
+
+DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* parent)
+    : QAbstractButton(parent), space_(std::move(space)), quadrature_(std::move(quadrature)) {
+    const PairProperties known = describe(space_, quadrature_);
+    setEnabled(known.refusal.empty());
+    const QString order = QString::number(known.claims.order);
+    name_ = abbreviation(QString::fromStdString(known.knownAs));
+    if (name_.isEmpty())
+        name_ = letterOf(quadrature_.type) + order;
+    else
+        order_ = order;
+    setObjectName(QString("cell.%1.%2").arg(space_.integer("degree")).arg(QString::fromStdString(quadrature_.type)));
+    setAccessibleName(tr("Degree %1, %2").arg(space_.integer("degree")).arg(ruleTitle(quadrature_.type)));
+    setToolTip(tooltip(known));
+    setAccessibleDescription(toolTip().remove(QRegularExpression("<[^>]*>")));
+    setFocusPolicy(Qt::TabFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setCursor(known.refusal.empty() ? Qt::PointingHandCursor : Qt::ArrowCursor);
+}
+
+QString DiscretizerCell::tooltip(const PairProperties& known) const {
+    const QString pair = tr("polynomials of degree %1 × %2").arg(space_.integer("degree")).arg(ruleTitle(quadrature_.type));
+    if (!known.refusal.empty()) return tr("<b>%1</b><br>No scheme: %2").arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
+    QString text = "<b>" + (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) + "</b>";
+    if (!known.knownAs.empty()) text += "<br>" + pair;
+    QStringList badges{tr("order %1").arg(known.claims.order)};
+    if (known.claims.isSymplectic) badges << tr("symplectic");
+    if (known.claims.isSymmetric) badges << tr("symmetric");
+    badges << (known.isExplicit ? tr("explicit where the model is separable") : tr("implicit"));
+    text += "<br>" + badges.join(" · ");
+    if (!known.claims.conserves.empty()) {
+        QStringList kept;
+        for (const std::string& c : known.claims.conserves) kept << QString::fromStdString(c);
+        text += "<br>" + tr("conserves %1").arg(kept.join(", "));
+    }
+    if (std::isinf(known.stabilityLimit))
+        text += "<br>" + tr("stable at every step on the harmonic oscillator");
+    else if (known.stabilityLimit > 0)
+        text += "<br>" + tr("stable on the harmonic oscillator for h ω below %1").arg(shortNumber(known.stabilityLimit, 3));
+    return text + "<br><i>" + tr("Click to add it to the comparison.") + "</i>";
+}
+
+void DiscretizerCell::setTheme(const Theme& theme) {
+    theme_ = &theme;
+    update();
+}
+
+void DiscretizerCell::setPresent(bool isPresent) {
+    if (isPresent_ == isPresent) return;
+    isPresent_ = isPresent;
+    update();
+}
+
+void DiscretizerCell::paintEvent(QPaintEvent*) {
+    if (!theme_) return;
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const QRectF box = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
+    QColor ground = isPresent_ ? theme_->accent : theme_->field;
+    if (!isEnabled()) ground = Qt::transparent;
+    if (isEnabled() && underMouse() && !isPresent_) ground = theme_->selection;
+    painter.setPen(hasFocus() ? QPen(theme_->accent, 1) : QPen(Qt::NoPen));
+    painter.setBrush(ground);
+    painter.drawRoundedRect(box, 4, 4);
+    if (!isEnabled()) {
+        painter.setPen(QPen(theme_->line, 1));
+        painter.drawLine(QPointF(box.center().x() - 3, box.center().y()), QPointF(box.center().x() + 3, box.center().y()));
+        return;
+    }
+    QFont font = theme_->strong();
+    font.setPixelSize(font.pixelSize() - 1);
+    QFont small = theme_->caption();
+    small.setPixelSize(small.pixelSize() - 3);
+    const QFontMetricsF metrics(font), smallMetrics(small);
+    const double orderWidth = order_.isEmpty() ? 0 : smallMetrics.horizontalAdvance(order_) + 1;
+    const double left = (width() - metrics.horizontalAdvance(name_) - orderWidth) / 2;
+    const double baseline = (height() + metrics.capHeight()) / 2;
+    painter.setPen(isPresent_ ? theme_->onAccent : theme_->text);
+    painter.setFont(font);
+    painter.drawText(QPointF(left, baseline), name_);
+    painter.setFont(small);
+    painter.drawText(QPointF(left + metrics.horizontalAdvance(name_) + 1, baseline - 4), order_);
+}
+
+Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
+    : Card(tr("Discretizer"), parent), workspace_(workspace) {
+    setSubtitle(tr("space × quadrature"));
+    auto* grid = new QGridLayout;
+    grid->setHorizontalSpacing(3);
+    grid->setVerticalSpacing(3);
+    int column = 1;
+    for (const RuleColumn& rule : columns) {
+        QLabel* heading = makeLabel(QString::fromUtf8(rule.heading), "caption");
+        heading->setAlignment(Qt::AlignHCenter);
+        heading->setToolTip(ruleTitle(rule.id));
+        grid->addWidget(heading, 0, column);
+        grid->setColumnStretch(column, 1);
+        int row = 1;
+        for (const int degree : degrees) {
+            auto* cell = new DiscretizerCell(polynomialSpace(degree), ruleFor(rule.id, degree));
+            connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
+            cells_.push_back(cell);
+            grid->addWidget(cell, row++, column);
+        }
+        ++column;
+    }
+    int row = 1;
+    for (const int degree : degrees) {
+        QLabel* name = makeLabel(tr("poly %1").arg(degree), "caption");
+        name->setToolTip(tr("Polynomials of degree %1 on each step").arg(degree));
+        grid->addWidget(name, row++, 0);
+    }
+    body()->addLayout(grid);
+    connect(&workspace_, &Workspace::sceneChanged, this, &Discretizer::refresh);
+}
+
+void Discretizer::setTheme(const Theme& theme) {
+    for (DiscretizerCell* cell : cells_) cell->setTheme(theme);
+}
+
+DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
+    return findChild<DiscretizerCell*>(QString("cell.%1.%2").arg(degree).arg(rule));
+}
+
+void Discretizer::refresh() {
+    for (DiscretizerCell* cell : cells_)
+        cell->setPresent(findPair(workspace_.scene(), cell->space(), cell->quadrature()) >= 0);
+}
+
+void Discretizer::choose(const DiscretizerCell& cell) {
+    const Scene& scene = workspace_.scene();
+    if (const int there = findPair(scene, cell.space(), cell.quadrature()); there >= 0)
+        return workspace_.selectScheme(there);
+    const Value scheme = newPair(scene, cell.space(), cell.quadrature());
+    const QString label = QString::fromStdString(scheme.find("label")->asString());
+    if (workspace_.edit(editsForAdding(scheme), tr("Add %1").arg(label)))
+        workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);
+}
+
+}  // namespace extremal

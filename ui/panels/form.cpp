@@ -1,0 +1,82 @@
+#include "ui/panels/form.hpp"
+
+#include <QGridLayout>
+#include <QLabel>
+
+#include "ui/panels/card.hpp"
+#include "ui/panels/value_edit.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+Form::Form(Workspace& workspace, QWidget* parent) : QWidget(parent), workspace_(workspace) {
+    grid_ = new QGridLayout(this);
+    grid_->setContentsMargins(0, 0, 0, 0);
+    grid_->setHorizontalSpacing(8);
+    grid_->setVerticalSpacing(5);
+    grid_->setColumnStretch(1, 1);
+    connect(&workspace_, &Workspace::sceneChanged, this, &Form::refresh);
+    connect(&workspace_, &Workspace::draftsChanged, this, &Form::refresh);
+}
+
+void Form::setFields(std::vector<FormField> fields) {
+    rows_.clear();
+    while (QLayoutItem* item = grid_->takeAt(0)) {
+        if (item->widget()) item->widget()->deleteLater();
+        delete item;
+    }
+    for (FormField& field : fields) addRow(std::move(field));
+    refresh();
+}
+
+void Form::addRow(FormField field) {
+    const FieldInfo& info = field.info;
+    QString label = field.label;
+    if (label.isEmpty()) {
+        label = QString::fromStdString(info.title).toHtmlEscaped();
+        if (!info.symbol.empty() && info.symbol != info.title) label += " " + QString::fromStdString(info.symbol).toHtmlEscaped();
+    }
+    const int row = 2 * static_cast<int>(rows_.size());
+    auto* name = new QLabel(label);
+    name->setMinimumWidth(64);
+    auto* edit = new ValueEdit(info);
+    name->setBuddy(edit);
+    auto* unit = makeLabel(QString::fromStdString(info.unit), "caption");
+    auto* problem = makeLabel({}, "caption");
+    problem->setObjectName("problem." + QString::fromStdString(info.key));
+    problem->setProperty("problem", true);
+    problem->setWordWrap(true);
+    problem->hide();
+    grid_->addWidget(name, row, 0);
+    grid_->addWidget(edit, row, 1);
+    grid_->addWidget(unit, row, 2);
+    grid_->addWidget(problem, row + 1, 0, 1, 3);
+
+    const QString what = tr("Change %1").arg(QString::fromStdString(info.title));
+    connect(edit, &ValueEdit::edited, this, [this, field, what](const Value& value) {
+        const Value* now = valueAt(workspace_.document(), field.pointer);
+        if (now && *now == value) return workspace_.dropDraft(field.pointer);
+        workspace_.edit(field.edits ? field.edits(value) : std::vector<Edit>{{field.pointer, value}}, what,
+                        QString::fromStdString(field.pointer));
+    });
+    rows_.push_back({std::move(field), edit, problem});
+}
+
+void Form::refresh() {
+    if (!workspace_.hasScene()) return;
+    for (const Row& row : rows_) {
+        const Value* draft = workspace_.draftAt(row.field.pointer);
+        const Value* value = draft ? draft : valueAt(workspace_.document(), row.field.pointer);
+        row.edit->show(value ? *value : row.field.info.fallback);
+        const std::vector<Problem> problems = workspace_.problemsAt(row.field.pointer);
+        const bool isWrong = !problems.empty() && draft;
+        row.edit->setInvalid(isWrong);
+        row.problem->setVisible(isWrong);
+        if (!isWrong) continue;
+        QString text = QString::fromStdString(problems.front().message);
+        if (!problems.front().hint.empty()) text += " (" + QString::fromStdString(problems.front().hint) + ")";
+        row.problem->setText(text);
+    }
+}
+
+}  // namespace extremal

@@ -1,0 +1,80 @@
+#include "ui/panels/format.hpp"
+
+#include <cmath>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/text.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/scene/json.hpp"
+
+namespace extremal {
+
+QString shortNumber(double value, int digits) {
+    if (!std::isfinite(value)) return QStringLiteral("–");
+    if (value == 0) return QStringLiteral("0");
+    const double size = std::abs(value);
+    if (size >= 1e-3 && size < 1e5) return QString::fromStdString(formatNumber(value, std::max(digits, 3)));
+    QString text = QString::number(value, 'e', digits - 1);
+    text.replace(QStringLiteral("e-0"), QStringLiteral("e-"));
+    text.replace(QStringLiteral("e+0"), QStringLiteral("e"));
+    text.replace(QStringLiteral("e+"), QStringLiteral("e"));
+    text.replace(QStringLiteral(".0e"), QStringLiteral("e"));
+    return text;
+}
+
+QString shortTime(double seconds) {
+    const auto with = [](double value, const char* unit) {
+        return QString::number(value, 'f', value < 9.95 ? 1 : 0) + QString::fromUtf8(unit);
+    };
+    if (!std::isfinite(seconds)) return QStringLiteral("–");
+    if (seconds < 1e-3) return with(seconds * 1e6, " µs");
+    if (seconds < 1) return with(seconds * 1e3, " ms");
+    if (seconds < 120) return with(seconds, " s");
+    return with(seconds / 60, " min");
+}
+
+QString numberText(const Number& number) {
+    return QString::fromStdString(number.expression.empty() ? formatNumber(number.value) : number.expression);
+}
+
+QString ruleTitle(const std::string& id) {
+    for (const CatalogItem& item : quadratureCatalog())
+        if (item.id == id) return QString::fromStdString(item.title);
+    return QString::fromStdString(id);
+}
+
+QString schemeText(const SchemeSpec& spec) {
+    if (spec.kind == SchemeSpec::Kind::baseline) {
+        const BaselineEntry* entry = findBaseline(spec.baseline.type);
+        return QStringLiteral("baseline: ") + QString::fromStdString(entry ? entry->item.title : spec.baseline.type);
+    }
+    if (spec.kind == SchemeSpec::Kind::named)
+        return QStringLiteral("scheme ") + QString::fromStdString(spec.named);
+    QString text = QString::fromStdString(spec.space.type);
+    if (spec.space.find("degree")) text += QString(" %1").arg(spec.space.integer("degree"));
+    text += QStringLiteral(" × ") + ruleTitle(spec.quadrature.type);
+    if (spec.quadrature.find("nodes")) text += QString(" %1").arg(spec.quadrature.integer("nodes"));
+    if (spec.quadrature.integer("panels") > 1) text += QString(" %1").arg(spec.quadrature.integer("panels"));
+    return text;
+}
+
+QString stepText(const SchemeSpec& spec) {
+    if (spec.tolerance) return QStringLiteral("tol ") + shortNumber(*spec.tolerance);
+    return QStringLiteral("h = ") + numberText(spec.step);
+}
+
+QString fieldText(const Value& value) {
+    if (value.isNull()) return {};
+    if (value.isNumber()) return QString::fromStdString(formatNumber(value.asNumber()));
+    if (value.isString()) return QString::fromStdString(value.asString());
+    return QString::fromStdString(writeCompactJson(value));
+}
+
+Value numberOrExpression(const QString& text) {
+    const std::string trimmed = text.trimmed().toStdString();
+    if (trimmed.empty()) return {};
+    if (const auto number = parseNumber(trimmed); number && std::isfinite(*number)) return *number;
+    return trimmed;
+}
+
+}  // namespace extremal

@@ -1,0 +1,28 @@
+/// Numbers and names as people read them in the window; files never use these.
+#pragma once
+
+#include <QString>
+
+#include "engine/run/comparison.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace extremal {
+
+/// "1.2e-7", "0.25", "-" for what is not known.
+QString shortNumber(double value, int digits = 2);
+/// "1.3 ms", "12 µs", "4.2 s".
+QString shortTime(double seconds);
+/// "0.25", or the text the user wrote.
+QString numberText(const Number& number);
+/// "polynomial 2 × Gauss 2", "baseline", "named scheme".
+QString schemeText(const SchemeSpec& spec);
+/// "h = 0.25" or "tolerance 1e-9".
+QString stepText(const SchemeSpec& spec);
+/// A value of a scene as it stands in a field.
+QString fieldText(const Value& value);
+/// The opposite: a number if it is one, else an expression; null if empty.
+Value numberOrExpression(const QString& text);
+/// "Gauss" for "gauss".
+QString ruleTitle(const std::string& id);
+
+}  // namespace extremal

@@ -1,0 +1,120 @@
+#include "ui/panels/scene_panel.hpp"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QMenu>
+#include <QVBoxLayout>
+
+#include "engine/model/system.hpp"
+#include "ui/panels/form.hpp"
+#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+namespace {
+
+FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback, std::string description) {
+    FieldInfo f;
+    f.key = std::move(key);
+    f.title = std::move(title);
+    f.unit = std::move(unit);
+    f.fallback = fallback;
+    f.description = std::move(description);
+    return f;
+}
+
+std::vector<FormField> parameterFields(const ModelEntry& entry) {
+    std::vector<FormField> fields;
+    for (const FieldInfo& info : entry.item.parameters) fields.push_back({info, "/model/" + info.key, {}, {}});
+    return fields;
+}
+
+/// q(0), then p(0) or v(0), one row per coordinate.
+std::vector<FormField> initialFields(const Workspace& workspace, const System& system) {
+    std::vector<FormField> fields;
+    const auto add = [&](const char* key, const QString& letter, bool isMomentum) {
+        for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
+            const Coordinate& c = system.coordinates[i];
+            const QString symbol = QString::fromStdString(c.symbol.empty() ? c.name : c.symbol).toHtmlEscaped();
+            const std::string unit = isMomentum ? c.momentumUnit : c.unit;
+            FieldInfo info = numberField(std::string(key) + "." + c.name, c.title + (isMomentum ? " momentum" : ""),
+                                         unit, 0, "Value at the start.");
+            const QString label =
+                letter.isEmpty() ? symbol + "(0)" : QString("%1<sub>%2</sub>(0)").arg(letter, symbol);
+            fields.push_back({std::move(info), "/initial/" + std::string(key) + "/" + std::to_string(i), label, {}});
+        }
+    };
+    add("q", {}, false);
+    const bool isVelocity = workspace.scene().initial.second == Initial::Second::velocity;
+    if (valueAt(workspace.document(), isVelocity ? "/initial/v" : "/initial/p"))
+        add(isVelocity ? "v" : "p", isVelocity ? "v" : "p", !isVelocity);
+    return fields;
+}
+
+QLabel* sectionLabel(const QString& text) {
+    QLabel* label = makeLabel(text, "strong");
+    label->setContentsMargins(0, 4, 0, 0);
+    return label;
+}
+
+}  // namespace
+
+ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
+    : Card(tr("Scene"), parent), workspace_(workspace) {
+    model_ = new QComboBox;
+    model_->setObjectName("model");
+    model_->setAccessibleName(tr("Model"));
+    for (const ModelEntry& entry : modelCatalog()) {
+        model_->addItem(QString::fromStdString(entry.item.title), QString::fromStdString(entry.item.id));
+        model_->setItemData(model_->count() - 1, QString::fromStdString(entry.item.description), Qt::ToolTipRole);
+    }
+    model_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    connect(model_, &QComboBox::activated, this, &ScenePanel::changeModel);
+    parameters_ = new Form(workspace);
+    initial_ = new Form(workspace);
+    time_ = new Form(workspace);
+    body()->addWidget(model_);
+    body()->addWidget(parameters_);
+    body()->addWidget(sectionLabel(tr("Initial data")));
+    body()->addWidget(initial_);
+    body()->addWidget(sectionLabel(tr("Time")));
+    body()->addWidget(time_);
+    menu()->addAction(tr("Reset parameters"), this, [this] {
+        if (const ModelEntry* entry = findModel(workspace_.scene().model.type)) {
+            Value model(Value::Object{{"type", entry->item.id}});
+            workspace_.edit({{"/model", model}}, tr("Reset parameters"));
+        }
+    });
+    menu()->addAction(tr("Reset initial data"), this,
+                      [this] { workspace_.edit({{"/initial", std::nullopt}}, tr("Reset initial data")); });
+    connect(&workspace_, &Workspace::sceneChanged, this, &ScenePanel::rebuild);
+    connect(&workspace_, &Workspace::opened, this, [this] { shownModel_.clear(); });
+}
+
+void ScenePanel::rebuild() {
+    const Scene& scene = workspace_.scene();
+    const int second = static_cast<int>(scene.initial.second);
+    if (scene.model.type == shownModel_ && second == shownSecond_) return;
+    const ModelEntry* entry = findModel(scene.model.type);
+    if (!entry) return;
+    shownModel_ = scene.model.type;
+    shownSecond_ = second;
+    model_->setCurrentIndex(model_->findData(QString::fromStdString(shownModel_)));
+    model_->setToolTip(QString::fromStdString(entry->item.description));
+    const System system = entry->make(scene.model);
+    parameters_->setFields(parameterFields(*entry));
+    initial_->setFields(initialFields(workspace_, system));
+    time_->setFields({{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
+}
+
+void ScenePanel::changeModel(int index) {
+    const std::string id = model_->itemData(index).toString().toStdString();
+    const ModelEntry* entry = findModel(id);
+    if (!entry || id == workspace_.scene().model.type) return;
+    if (!workspace_.edit(editsForModel(workspace_.scene(), *entry), tr("Change model"))) {
+        model_->setCurrentIndex(model_->findData(QString::fromStdString(workspace_.scene().model.type)));
+    }
+}
+
+}  // namespace extremal

@@ -1,0 +1,30 @@
+/// The scene's card: the model, its parameters, the initial data and the end of time, as forms from descriptors.
+#pragma once
+
+#include "ui/panels/card.hpp"
+#include "engine/core/settings.hpp"
+
+class QComboBox;
+
+namespace extremal {
+
+class Form;
+class Workspace;
+
+class ScenePanel : public Card {
+    Q_OBJECT
+public:
+    explicit ScenePanel(Workspace& workspace, QWidget* parent = nullptr);
+
+private:
+    void rebuild();
+    void changeModel(int index);
+
+    Workspace& workspace_;
+    QComboBox* model_;
+    Form *parameters_, *initial_, *time_;
+    std::string shownModel_;
+    int shownSecond_ = -1;
+};
+
+}  // namespace extremal

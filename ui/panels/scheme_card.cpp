@@ -1,0 +1,227 @@
+#include "ui/panels/scheme_card.hpp"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QProgressBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+#include <cmath>
+
+#include "ui/panels/card.hpp"
+#include "ui/panels/format.hpp"
+#include "ui/panels/line_sample.hpp"
+#include "ui/panels/scheme_editor.hpp"
+#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/theme.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWidget* parent)
+    : QFrame(parent), workspace_(workspace), index_(index), theme_(&theme) {
+    setProperty("card", true);
+    setObjectName(QString("scheme.%1").arg(index));
+    layout_ = new QVBoxLayout(this);
+    layout_->setContentsMargins(11, 8, 11, 9);
+    layout_->setSpacing(3);
+    makeHeader();
+    parts_ = makeElidedLabel({}, "caption");
+    layout_->addWidget(parts_);
+    makeFigures();
+    failure_ = makeLabel({}, "strong");
+    advice_ = makeLabel({}, "caption");
+    for (QLabel* label : {failure_, advice_}) {
+        label->setWordWrap(true);
+        label->hide();
+        layout_->addWidget(label);
+    }
+    progress_ = new QProgressBar;
+    progress_->setRange(0, 1000);
+    progress_->setTextVisible(false);
+    progress_->hide();
+    layout_->addWidget(progress_);
+    showSpec();
+}
+
+const SchemeSpec& SchemeCard::spec() const { return workspace_.scene().schemes[static_cast<std::size_t>(index_)]; }
+
+void SchemeCard::makeHeader() {
+    auto* row = new QHBoxLayout;
+    row->setSpacing(4);
+    line_ = new LineSample;
+    line_->setObjectName("toggle");
+    connect(line_, &QAbstractButton::clicked, this, [this] {
+        workspace_.edit(editsForToggle(workspace_.scene(), index_), tr("Switch %1").arg(QString::fromStdString(spec().label)));
+    });
+    name_ = makeElidedLabel({}, "strong");
+    nameEdit_ = new QLineEdit;
+    nameEdit_->setObjectName("name");
+    nameEdit_->setAccessibleName(tr("Name of the scheme"));
+    nameEdit_->hide();
+    connect(nameEdit_, &QLineEdit::editingFinished, this, &SchemeCard::finishName);
+    step_ = makeLabel({}, "strong");
+    auto* dots = new QToolButton;
+    dots->setText(QStringLiteral("⋯"));
+    dots->setFixedSize(22, 20);
+    dots->setStyleSheet(QStringLiteral("QToolButton { padding: 0; }"));
+    dots->setPopupMode(QToolButton::InstantPopup);
+    dots->setToolTip(tr("Edit, duplicate, remove, ..."));
+    dots->setAccessibleName(dots->toolTip());
+    dots->setFocusPolicy(Qt::TabFocus);
+    makeMenu(*dots);
+    row->addWidget(line_);
+    row->addWidget(name_, 1);
+    row->addWidget(nameEdit_, 1);
+    row->addWidget(step_);
+    row->addWidget(dots);
+    layout_->addLayout(row);
+}
+
+void SchemeCard::makeMenu(QToolButton& dots) {
+    auto* menu = new QMenu(&dots);
+    dots.setMenu(menu);
+    menu->addAction(tr("Edit"), this, [this] { setEditing(!isEditing()); });
+    menu->addAction(tr("Rename"), this, [this] { editName(); });
+    menu->addAction(tr("On or off"), line_, [this] { line_->click(); });
+    menu->addAction(tr("Duplicate"), this, [this] {
+        workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index_), tr("Duplicate scheme"));
+    });
+    menu->addAction(tr("Move up"), this, [this] { emit moveRequested(index_, -1); });
+    menu->addAction(tr("Move down"), this, [this] { emit moveRequested(index_, 1); });
+    menu->addSeparator();
+    menu->addAction(tr("Remove"), this, [this] { workspace_.edit(editsForRemoval(index_), tr("Remove scheme")); });
+}
+
+void SchemeCard::makeFigures() {
+    figures_ = new QWidget;
+    auto* grid = new QGridLayout(figures_);
+    grid->setContentsMargins(0, 2, 0, 0);
+    grid->setSpacing(1);
+    int column = 0;
+    const auto add = [&](const QString& caption, const QString& tip) {
+        Figure figure{makeLabel(caption, "caption"), makeLabel({}, "strong")};
+        figure.caption->setToolTip(tip);
+        figure.value->setToolTip(tip);
+        figure.value->setObjectName(caption);
+        grid->addWidget(figure.caption, 0, column);
+        grid->addWidget(figure.value, 1, column);
+        grid->setColumnStretch(column++, 1);
+        return figure;
+    };
+    cost_ = add(tr("cost"), tr("CPU time of the scheme's steps"));
+    error_ = add(tr("error"), tr("Largest distance from the reference over the run"));
+    order_ = add(tr("order"), tr("Order: claimed, and ✓ where the measured one agrees"));
+    steps_ = add(tr("steps"), tr("Steps taken"));
+    layout_->addWidget(figures_);
+}
+
+void SchemeCard::setTheme(const Theme& theme) {
+    theme_ = &theme;
+    line_->show(theme, index_, spec().isEnabled);
+}
+
+void SchemeCard::showSpec() {
+    const SchemeSpec& s = spec();
+    const QString label = QString::fromStdString(s.label);
+    setAccessibleName(tr("Scheme %1").arg(label));
+    name_->setToolTip({});
+    name_->setText(label);
+    name_->setEnabled(s.isEnabled);
+    step_->setText(stepText(s));
+    step_->setEnabled(s.isEnabled);
+    parts_->setToolTip({});
+    parts_->setText(s.isEnabled ? schemeText(s) : schemeText(s) + tr(" · off"));
+    line_->show(*theme_, index_, s.isEnabled);
+    line_->setToolTip(tr("Switch this scheme on or off (key %1)").arg(index_ + 1));
+    line_->setAccessibleName(line_->toolTip());
+    if (!s.isEnabled) showResult(nullptr, false);
+}
+
+void SchemeCard::showFailure(const Summary& summary) {
+    const bool hasFailed = summary.status == RunStatus::failed;
+    const QVariant banner = hasFailed ? QVariant("warning") : QVariant();
+    if (property("banner") != banner) {
+        setProperty("banner", banner);
+        setProperty("card", !hasFailed);
+        repolish(*this);
+    }
+    failure_->setVisible(hasFailed);
+    advice_->setVisible(hasFailed && !summary.advice.empty());
+    if (!hasFailed) return;
+    const std::string_view cause = name(summary.cause);
+    QString text = QString::fromUtf8(cause.data(), static_cast<qsizetype>(cause.size())).replace('-', ' ');
+    if (std::isfinite(summary.failedAt)) text += tr(" at t = %1").arg(shortNumber(summary.failedAt, 3));
+    failure_->setText(text);
+    advice_->setText(QString::fromStdString(summary.advice));
+}
+
+void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
+    static const Summary nothing;
+    const Summary& summary = result ? result->summary : nothing;
+    const bool isRunning = result && (summary.status == RunStatus::running || summary.status == RunStatus::waiting);
+    figures_->setVisible(result != nullptr);
+    progress_->setVisible(isRunning && !isStale);
+    if (result) progress_->setValue(static_cast<int>(1000 * result->fraction));
+    cost_.value->setText(summary.cpuSeconds > 0 ? shortTime(summary.cpuSeconds) : QStringLiteral("–"));
+    error_.value->setText(shortNumber(summary.maxError));
+    QString order = summary.orderClaimed > 0 ? QString::number(summary.orderClaimed) : QStringLiteral("–");
+    QString orderTip = summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claim");
+    if (std::isfinite(summary.orderMeasured)) {
+        const bool agrees = std::abs(summary.orderMeasured - summary.orderClaimed) < 0.3;
+        order = QString::number(summary.orderMeasured, 'f', 1) + (agrees ? QStringLiteral(" ✓") : QStringLiteral(" ≠"));
+        orderTip += tr(", measured: %1").arg(summary.orderMeasured, 0, 'f', 2);
+    }
+    order_.value->setText(order);
+    order_.value->setToolTip(orderTip);
+    steps_.value->setText(summary.steps > 0 ? QString::number(summary.steps) : QStringLiteral("–"));
+    for (QLabel* label : {cost_.value, error_.value, order_.value, steps_.value}) label->setEnabled(!isStale);
+    showFailure(summary);
+}
+
+void SchemeCard::setSelected(bool isSelected) {
+    if (property("selected").toBool() == isSelected) return;
+    setProperty("selected", isSelected);
+    repolish(*this);
+}
+
+void SchemeCard::editName() {
+    nameEdit_->setText(name_->text());
+    name_->hide();
+    nameEdit_->show();
+    nameEdit_->selectAll();
+    nameEdit_->setFocus();
+}
+
+void SchemeCard::finishName() {
+    if (nameEdit_->isHidden()) return;
+    nameEdit_->hide();
+    name_->show();
+    const std::string text = nameEdit_->text().trimmed().toStdString();
+    if (text.empty() || text == spec().label) return;
+    workspace_.edit({{"/schemes/" + std::to_string(index_) + "/label", uniqueLabel(workspace_.scene(), text)}},
+                    tr("Rename scheme"));
+}
+
+void SchemeCard::setEditing(bool isOpen) {
+    if (isOpen == isEditing()) return;
+    if (!isOpen) {
+        editor_->deleteLater();
+        editor_ = nullptr;
+        return;
+    }
+    editor_ = new SchemeEditor(workspace_, index_);
+    connect(editor_, &SchemeEditor::closed, this, [this] { setEditing(false); });
+    layout_->insertWidget(2, editor_);
+}
+
+void SchemeCard::mousePressEvent(QMouseEvent* event) {
+    workspace_.selectScheme(index_);
+    QFrame::mousePressEvent(event);
+}
+
+void SchemeCard::mouseDoubleClickEvent(QMouseEvent*) { setEditing(!isEditing()); }
+
+}  // namespace extremal

@@ -1,0 +1,69 @@
+/// A scheme of the comparison: its line, name, step, what it cost and how wrong it was. After a failure the card is
+/// amber and says what happened, when, and what to try.
+#pragma once
+
+#include <QFrame>
+#include <memory>
+
+#include "engine/run/comparison.hpp"
+
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QToolButton;
+class QVBoxLayout;
+
+namespace extremal {
+
+class LineSample;
+class SchemeEditor;
+struct Theme;
+class Workspace;
+
+class SchemeCard : public QFrame {
+    Q_OBJECT
+public:
+    SchemeCard(Workspace& workspace, int index, const Theme& theme, QWidget* parent = nullptr);
+
+    void setTheme(const Theme& theme);
+    /// Shows the scheme as it stands in the scene.
+    void showSpec();
+    /// Shows results, null if there are none; stale ones are dimmed.
+    void showResult(const SchemeResult* result, bool isStale);
+    void setSelected(bool isSelected);
+    void editName();
+    void setEditing(bool isOpen);
+    bool isEditing() const { return editor_ != nullptr; }
+
+signals:
+    void moveRequested(int index, int by);
+
+protected:
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+
+private:
+    struct Figure {
+        QLabel *caption, *value;
+    };
+    void makeHeader();
+    void makeFigures();
+    void makeMenu(QToolButton& dots);
+    void showFailure(const Summary& summary);
+    void finishName();
+    const SchemeSpec& spec() const;
+
+    Workspace& workspace_;
+    int index_;
+    const Theme* theme_;
+    QVBoxLayout* layout_;
+    LineSample* line_;
+    QLabel *name_, *step_, *parts_, *failure_, *advice_;
+    QLineEdit* nameEdit_;
+    QWidget* figures_;
+    Figure cost_, error_, order_, steps_;
+    QProgressBar* progress_;
+    SchemeEditor* editor_ = nullptr;
+};
+
+}  // namespace extremal

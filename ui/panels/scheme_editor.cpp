@@ -1,0 +1,193 @@
+#include "ui/panels/scheme_editor.hpp"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/space/catalog.hpp"
+#include "ui/panels/form.hpp"
+#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+namespace {
+
+FieldInfo field(std::string key, std::string title, std::string symbol, Value fallback, std::string description) {
+    FieldInfo f;
+    f.key = std::move(key);
+    f.title = std::move(title);
+    f.symbol = std::move(symbol);
+    f.fallback = std::move(fallback);
+    f.description = std::move(description);
+    return f;
+}
+
+void addFields(std::vector<FormField>& fields, const std::vector<FieldInfo>& infos, const std::string& place) {
+    for (const FieldInfo& info : infos) fields.push_back({info, place + "/" + info.key, {}, {}});
+}
+
+const CatalogItem* find(const std::vector<CatalogItem>& items, const std::string& id) {
+    const auto found = std::find_if(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == id; });
+    return found == items.end() ? nullptr : &*found;
+}
+
+void fill(QComboBox& box, const std::vector<CatalogItem>& items) {
+    box.clear();
+    for (const CatalogItem& item : items) {
+        box.addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
+        box.setItemData(box.count() - 1, QString::fromStdString(item.description), Qt::ToolTipRole);
+    }
+}
+
+std::vector<CatalogItem> namedItems() {
+    std::vector<CatalogItem> items;
+    for (const SchemeEntry& entry : schemeCatalog()) {
+        if (entry.maxDegree == 0) items.push_back(entry.item);
+        const std::string stem = entry.item.id.substr(0, entry.item.id.rfind('-'));
+        for (int s = entry.minDegree; s <= entry.maxDegree && entry.maxDegree > 0; ++s) {
+            CatalogItem item = entry.item;
+            item.id = item.title = stem + "-" + std::to_string(s);
+            items.push_back(item);
+        }
+    }
+    return items;
+}
+
+std::vector<CatalogItem> baselineItems() {
+    std::vector<CatalogItem> items;
+    for (const BaselineEntry& entry : baselineCatalog()) items.push_back(entry.item);
+    return items;
+}
+
+void choose(QComboBox& box, const std::string& id) { box.setCurrentIndex(box.findData(QString::fromStdString(id))); }
+
+std::string chosen(const QComboBox& box) { return box.currentData().toString().toStdString(); }
+
+}  // namespace
+
+SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
+    : QWidget(parent), workspace_(workspace), index_(index) {
+    layout_ = new QVBoxLayout(this);
+    layout_->setContentsMargins(0, 4, 0, 4);
+    layout_->setSpacing(5);
+    kind_ = addChoice(tr("kind"), "kind");
+    kind_->addItems({tr("space × quadrature"), tr("baseline"), tr("named scheme")});
+    connect(kind_, &QComboBox::activated, this, &SchemeEditor::changeKind);
+    first_ = addChoice(tr("choice"), "choice");
+    connect(first_, &QComboBox::activated, this, [this] {
+        const Scene& scene = workspace_.scene();
+        if (spec().kind == SchemeSpec::Kind::pair) return change(newPair(scene, polynomialSpace(2), ruleFor("gauss", 2)));
+        change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_)) : newNamed(scene, chosen(*first_)));
+    });
+    rule_ = addChoice(tr("rule"), "rule");
+    for (const CatalogItem& item : quadratureCatalog())
+        if (item.id != "auto") rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
+    ruleRow_ = rule_->parentWidget();
+    connect(rule_, &QComboBox::activated, this, [this] {
+        const Settings rule = ruleFor(chosen(*rule_), spec().space.integer("degree"));
+        Value tree(Value::Object{{"type", rule.type}});
+        workspace_.edit({{place() + "/quadrature", tree}}, tr("Change quadrature"));
+    });
+    form_ = new Form(workspace);
+    layout_->addWidget(form_);
+    auto* close = new QPushButton(tr("Done"));
+    close->setObjectName("done");
+    connect(close, &QPushButton::clicked, this, &SchemeEditor::closed);
+    layout_->addWidget(close, 0, Qt::AlignRight);
+    connect(&workspace_, &Workspace::sceneChanged, this, &SchemeEditor::refresh);
+    rebuild();
+}
+
+QComboBox* SchemeEditor::addChoice(const QString& title, const QString& name) {
+    auto* row = new QWidget;
+    auto* line = new QHBoxLayout(row);
+    line->setContentsMargins(0, 0, 0, 0);
+    auto* label = new QLabel(title);
+    label->setMinimumWidth(64);
+    auto* box = new QComboBox;
+    box->setObjectName(name);
+    box->setAccessibleName(title);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(8);
+    label->setBuddy(box);
+    line->addWidget(label);
+    line->addWidget(box, 1);
+    layout_->addWidget(row);
+    return box;
+}
+
+const SchemeSpec& SchemeEditor::spec() const {
+    return workspace_.scene().schemes[static_cast<std::size_t>(index_)];
+}
+
+/// Changes when other fields are needed.
+std::string SchemeEditor::signature() const {
+    const SchemeSpec& s = spec();
+    return std::to_string(static_cast<int>(s.kind)) + s.space.type + "/" + s.quadrature.type + "/" + s.baseline.type + "/" + s.named;
+}
+
+void SchemeEditor::refresh() {
+    if (index_ >= static_cast<int>(workspace_.scene().schemes.size())) return;
+    if (signature() != shown_) rebuild();
+}
+
+void SchemeEditor::rebuild() {
+    shown_ = signature();
+    const SchemeSpec& s = spec();
+    kind_->setCurrentIndex(static_cast<int>(s.kind));
+    ruleRow_->setVisible(s.kind == SchemeSpec::Kind::pair);
+    std::vector<FormField> fields;
+    if (s.kind == SchemeSpec::Kind::pair) {
+        fill(*first_, spaceCatalog());
+        choose(*first_, s.space.type);
+        choose(*rule_, s.quadrature.type);
+        if (const CatalogItem* space = find(spaceCatalog(), s.space.type)) addFields(fields, space->parameters, place() + "/space");
+        if (const CatalogItem* rule = find(quadratureCatalog(), s.quadrature.type))
+            addFields(fields, rule->parameters, place() + "/quadrature");
+    } else if (s.kind == SchemeSpec::Kind::baseline) {
+        fill(*first_, baselineItems());
+        choose(*first_, s.baseline.type);
+        if (const BaselineEntry* entry = findBaseline(s.baseline.type))
+            addFields(fields, entry->item.parameters, place() + "/baseline");
+    } else {
+        fill(*first_, namedItems());
+        choose(*first_, s.named);
+    }
+    if (s.tolerance)
+        fields.push_back({field("tolerance", "tolerance", "", 1e-9, "Wanted local error of the adaptive code."), place() + "/tolerance", {}, {}});
+    else
+        fields.push_back({field("step", "step", "h", 0.01, "Time step."), place() + "/step", {}, {}});
+    if (s.kind != SchemeSpec::Kind::baseline) {
+        FieldInfo method = field("method", "solver", "", "auto", "How the equations of a step are solved.");
+        method.type = FieldType::choice;
+        method.choices = {"auto", "newton", "fixed-point"};
+        fields.push_back({method, place() + "/solver/method", {}, {}});
+    }
+    form_->setFields(std::move(fields));
+}
+
+void SchemeEditor::changeKind(int kind) {
+    const Scene& scene = workspace_.scene();
+    if (kind == static_cast<int>(spec().kind)) return;
+    if (kind == 0) return change(newPair(scene, polynomialSpace(2), ruleFor("gauss", 2)));
+    if (kind == 1) return change(newBaseline(scene, "stormer-verlet"));
+    change(newNamed(scene, "midpoint"));
+}
+
+/// Replaces the scheme, keeping its step where both have one.
+void SchemeEditor::change(const Value& scheme) {
+    Value next = scheme;
+    const Value* step = valueAt(workspace_.document(), place() + "/step");
+    if (step && next.find("step")) next.set("step", *step);
+    next.set("enabled", spec().isEnabled);
+    workspace_.edit({{place(), next}}, tr("Change scheme"));
+}
+
+}  // namespace extremal

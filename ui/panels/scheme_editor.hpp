@@ -1,0 +1,47 @@
+/// The form of one scheme, unfolded inside its card: what it is, its parameters, its step, its solver. All from
+/// descriptors.
+#pragma once
+
+#include <QWidget>
+#include <string>
+
+#include "engine/core/catalog.hpp"
+#include "engine/core/settings.hpp"
+
+class QComboBox;
+class QVBoxLayout;
+
+namespace extremal {
+
+class Form;
+class Workspace;
+struct SchemeSpec;
+
+class SchemeEditor : public QWidget {
+    Q_OBJECT
+public:
+    SchemeEditor(Workspace& workspace, int index, QWidget* parent = nullptr);
+
+signals:
+    void closed();
+
+private:
+    void refresh();
+    void rebuild();
+    void changeKind(int kind);
+    void change(const Value& scheme);
+    QComboBox* addChoice(const QString& title, const QString& name);
+    std::string signature() const;
+    const SchemeSpec& spec() const;
+    std::string place() const { return "/schemes/" + std::to_string(index_); }
+
+    Workspace& workspace_;
+    int index_;
+    QComboBox *kind_, *first_, *rule_;
+    QWidget* ruleRow_ = nullptr;
+    Form* form_;
+    QVBoxLayout* layout_;
+    std::string shown_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,180 @@
+#include "ui/panels/scheme_list.hpp"
+
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "ui/panels/card.hpp"
+#include "ui/panels/format.hpp"
+#include "ui/panels/scheme_card.hpp"
+#include "ui/shell/run_control.hpp"
+#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme, QWidget* parent)
+    : QWidget(parent), workspace_(workspace), run_(run), theme_(&theme) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(8);
+    auto* header = new QHBoxLayout;
+    addButton_ = new QPushButton(tr("+ Add"));
+    addButton_->setObjectName("add");
+    addMenu_ = new QMenu(this);
+    fillAddMenu();
+    connect(addButton_, &QPushButton::clicked, this, &SchemeList::openAddMenu);
+    header->addWidget(makeLabel(tr("Schemes"), "title"));
+    header->addStretch();
+    header->addWidget(addButton_);
+    layout->addLayout(header);
+
+    auto* scroll = new QScrollArea;
+    scroll->setWidgetResizable(true);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scroll->setFrameShape(QFrame::NoFrame);
+    auto* inside = new QWidget;
+    inside->setProperty("ground", "window");
+    cardsLayout_ = new QVBoxLayout(inside);
+    cardsLayout_->setContentsMargins(0, 0, 4, 0);
+    cardsLayout_->setSpacing(9);
+    cardsLayout_->addStretch();
+    scroll->setWidget(inside);
+    layout->addWidget(scroll, 1);
+
+    connect(&workspace_, &Workspace::sceneChanged, this, &SchemeList::rebuild);
+    connect(&workspace_, &Workspace::selectionChanged, this, &SchemeList::showSelection);
+    connect(&run_, &RunControl::resultsChanged, this, &SchemeList::showResults);
+}
+
+void SchemeList::fillAddMenu() {
+    QMenu* pairs = addMenu_->addMenu(tr("Space × quadrature"));
+    for (const char* rule : {"gauss", "lobatto", "radau", "clenshaw-curtis"}) {
+        QMenu* sub = pairs->addMenu(ruleTitle(rule));
+        for (int degree = 1; degree <= 8; ++degree) {
+            const Settings space = polynomialSpace(degree), quadrature = ruleFor(rule, degree);
+            const PairProperties known = describe(space, quadrature);
+            if (!known.refusal.empty()) continue;
+            QString text = tr("degree %1, order %2").arg(degree).arg(known.claims.order);
+            if (!known.knownAs.empty()) text += QStringLiteral(" – ") + QString::fromStdString(known.knownAs);
+            sub->addAction(text, this, [=, this] { add(newPair(workspace_.scene(), space, quadrature)); });
+        }
+    }
+    QMenu* named = addMenu_->addMenu(tr("Named scheme"));
+    for (const SchemeEntry& entry : schemeCatalog()) {
+        if (entry.maxDegree == 0) {
+            const std::string id = entry.item.id;
+            named->addAction(QString::fromStdString(entry.item.title), this, [=, this] { add(newNamed(workspace_.scene(), id)); });
+            continue;
+        }
+        QMenu* sub = named->addMenu(QString::fromStdString(entry.item.title));
+        const std::string stem = entry.item.id.substr(0, entry.item.id.rfind('-'));
+        for (int s = entry.minDegree; s <= entry.maxDegree; ++s) {
+            const std::string id = stem + "-" + std::to_string(s);
+            sub->addAction(QString::fromStdString(id), this, [=, this] { add(newNamed(workspace_.scene(), id)); });
+        }
+    }
+    QMenu* baselines = addMenu_->addMenu(tr("Baseline"));
+    for (const BaselineEntry& entry : baselineCatalog()) {
+        const std::string id = entry.item.id;
+        QAction* action = baselines->addAction(QString::fromStdString(entry.item.title), this,
+                                               [=, this] { add(newBaseline(workspace_.scene(), id)); });
+        action->setToolTip(QString::fromStdString(entry.item.description));
+    }
+    baselines->setToolTipsVisible(true);
+}
+
+void SchemeList::add(const Value& scheme) {
+    const QString label = QString::fromStdString(scheme.find("label")->asString());
+    if (workspace_.edit(editsForAdding(scheme), tr("Add %1").arg(label)))
+        workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);
+}
+
+void SchemeList::openAddMenu() {
+    addMenu_->popup(addButton_->mapToGlobal(QPoint(0, addButton_->height() + 2)));
+}
+
+SchemeCard* SchemeList::card(int index) const {
+    return index >= 0 && index < static_cast<int>(cards_.size()) ? cards_[static_cast<std::size_t>(index)] : nullptr;
+}
+
+void SchemeList::setTheme(const Theme& theme) {
+    theme_ = &theme;
+    for (SchemeCard* card : cards_) card->setTheme(theme);
+}
+
+void SchemeList::rebuild() {
+    const std::size_t wanted = workspace_.scene().schemes.size();
+    while (cards_.size() > wanted) {
+        cards_.back()->hide();
+        cards_.back()->deleteLater();
+        cards_.pop_back();
+    }
+    for (SchemeCard* card : cards_) card->showSpec();
+    while (cards_.size() < wanted) {
+        auto* card = new SchemeCard(workspace_, static_cast<int>(cards_.size()), *theme_);
+        connect(card, &SchemeCard::moveRequested, this, [this](int index, int by) {
+            workspace_.selectScheme(index);
+            moveSelected(by);
+        });
+        cardsLayout_->insertWidget(static_cast<int>(cards_.size()), card);
+        cards_.push_back(card);
+    }
+    showResults();
+    showSelection();
+}
+
+void SchemeList::showResults() {
+    const auto results = run_.results();
+    const Scene& scene = workspace_.scene();
+    for (std::size_t i = 0; i < cards_.size() && i < scene.schemes.size(); ++i) {
+        const SchemeResult* found = nullptr;
+        if (results)
+            for (const auto& result : results->schemes)
+                if (result->spec.label == scene.schemes[i].label) found = result.get();
+        cards_[i]->showResult(scene.schemes[i].isEnabled ? found : nullptr, run_.isStale());
+    }
+}
+
+void SchemeList::showSelection() {
+    for (std::size_t i = 0; i < cards_.size(); ++i)
+        cards_[i]->setSelected(static_cast<int>(i) == workspace_.selectedScheme());
+}
+
+void SchemeList::editSelected() {
+    if (SchemeCard* there = card(workspace_.selectedScheme())) there->setEditing(!there->isEditing());
+}
+
+void SchemeList::renameSelected() {
+    if (SchemeCard* there = card(workspace_.selectedScheme())) there->editName();
+}
+
+void SchemeList::duplicateSelected() {
+    const int index = workspace_.selectedScheme();
+    if (!card(index)) return;
+    if (workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index), tr("Duplicate scheme")))
+        workspace_.selectScheme(index + 1);
+}
+
+void SchemeList::removeSelected() {
+    const int index = workspace_.selectedScheme();
+    if (card(index)) workspace_.edit(editsForRemoval(index), tr("Remove scheme"));
+}
+
+void SchemeList::moveSelected(int by) {
+    const int index = workspace_.selectedScheme();
+    if (!card(index)) return;
+    const std::vector<Edit> edits = editsForMove(workspace_.document(), index, by);
+    if (!edits.empty() && workspace_.edit(edits, tr("Move scheme"))) workspace_.selectScheme(index + by);
+}
+
+void SchemeList::toggle(int index) {
+    if (card(index)) workspace_.edit(editsForToggle(workspace_.scene(), index), tr("Switch scheme"));
+}
+
+}  // namespace extremal

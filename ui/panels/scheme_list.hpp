@@ -1,0 +1,51 @@
+/// The right column: all schemes of the comparison, and the menu to add more.
+#pragma once
+
+#include <QWidget>
+#include <vector>
+
+#include "engine/core/value.hpp"
+
+class QMenu;
+class QPushButton;
+class QVBoxLayout;
+
+namespace extremal {
+
+class RunControl;
+class SchemeCard;
+struct Theme;
+class Workspace;
+
+class SchemeList : public QWidget {
+    Q_OBJECT
+public:
+    SchemeList(Workspace& workspace, RunControl& run, const Theme& theme, QWidget* parent = nullptr);
+    void setTheme(const Theme& theme);
+    SchemeCard* card(int index) const;
+
+    void openAddMenu();
+    void editSelected();
+    void renameSelected();
+    void duplicateSelected();
+    void removeSelected();
+    void moveSelected(int by);
+    void toggle(int index);
+
+private:
+    void rebuild();
+    void showResults();
+    void showSelection();
+    void fillAddMenu();
+    void add(const Value& scheme);
+
+    Workspace& workspace_;
+    RunControl& run_;
+    const Theme* theme_;
+    QPushButton* addButton_;
+    QMenu* addMenu_;
+    QVBoxLayout* cardsLayout_;
+    std::vector<SchemeCard*> cards_;
+};
+
+}  // namespace extremal

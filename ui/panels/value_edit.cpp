@@ -1,0 +1,134 @@
+#include "ui/panels/value_edit.hpp"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QSpinBox>
+#include <QTimer>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/scene/json.hpp"
+#include "ui/panels/format.hpp"
+#include "ui/shell/theme.hpp"
+
+namespace extremal {
+
+namespace {
+
+int asInt(double limit, int otherwise) {
+    return std::isfinite(limit) && std::abs(limit) < 1e9 ? static_cast<int>(limit) : otherwise;
+}
+
+}  // namespace
+
+ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), info_(info) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    QWidget* input = nullptr;
+    if (info.type == FieldType::boolean) {
+        input = check_ = new QCheckBox;
+        connect(check_, &QCheckBox::toggled, this, [this](bool on) { emit edited(Value(on)); });
+    } else if (info.type == FieldType::choice) {
+        input = choice_ = new QComboBox;
+        for (const std::string& choice : info.choices) choice_->addItem(QString::fromStdString(choice));
+        choice_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+        choice_->setMinimumContentsLength(6);
+        connect(choice_, &QComboBox::activated, this,
+                [this](int i) { emit edited(Value(info_.choices[static_cast<std::size_t>(i)])); });
+    } else if (info.type == FieldType::integer) {
+        input = spin_ = new QSpinBox;
+        spin_->setRange(asInt(info.min, -1000000000), asInt(info.max, 1000000000));
+        spin_->setKeyboardTracking(false);
+        spin_->setAlignment(Qt::AlignRight);
+        connect(spin_, &QSpinBox::valueChanged, this, [this](int i) { emit edited(Value(i)); });
+    } else {
+        makeText();
+        input = text_;
+    }
+    QString tip = QString::fromStdString(info.description);
+    if (info.type == FieldType::number) tip += tr("\nA number, or an expression in the model's parameters. Up and Down change it.");
+    input->setToolTip(tip.trimmed());
+    input->setAccessibleName(QString::fromStdString(info.title));
+    input->setObjectName("field." + QString::fromStdString(info.key));
+    setFocusProxy(input);
+    row->addWidget(input);
+}
+
+void ValueEdit::makeText() {
+    text_ = new QLineEdit;
+    if (info_.type == FieldType::number) text_->setAlignment(Qt::AlignRight);
+    text_->setMinimumWidth(40);
+    text_->installEventFilter(this);
+    connect(text_, &QLineEdit::editingFinished, this, &ValueEdit::submitText);
+}
+
+void ValueEdit::submitText() {
+    if (text_->text() == shown_) return;
+    shown_ = text_->text();
+    if (info_.type == FieldType::text) {
+        emit edited(Value(shown_.toStdString()));
+    } else if (info_.type == FieldType::json) {
+        try {
+            emit edited(parseJson(shown_.toStdString()));
+        } catch (const InvalidScene&) {
+            emit edited(Value(shown_.toStdString()));  // the scene's own check says what is wrong with it
+        }
+    } else {
+        Value value = numberOrExpression(shown_);
+        emit edited(value.isNull() ? info_.fallback : value);
+    }
+}
+
+/// One notch is one unit of the leading digit's tenth: 9.81 -> 9.91, 1e4 -> 11000.
+void ValueEdit::scaleBy(int notches) {
+    const auto number = parseNumber(text_->text().trimmed().toStdString());
+    if (!number || !std::isfinite(*number)) return;
+    const double size = std::abs(*number);
+    const double unit = size > 0 ? std::pow(10, std::floor(std::log10(size)) - 1) : 0.1;
+    const double next = std::round(*number / unit + notches) * unit;
+    text_->setText(QString::fromStdString(formatNumber(next, 12)));
+    submitText();
+}
+
+bool ValueEdit::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::KeyPress && info_.type == FieldType::number) {
+        const int key = static_cast<QKeyEvent*>(event)->key();
+        if (key == Qt::Key_Up || key == Qt::Key_Down) {
+            scaleBy(key == Qt::Key_Up ? 1 : -1);
+            return true;
+        }
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void ValueEdit::show(const Value& value) {
+    const QSignalBlocker b1(check_), b2(spin_), b3(choice_);
+    if (check_) check_->setChecked(value.isBool() && value.asBool());
+    if (spin_ && value.isNumber()) spin_->setValue(static_cast<int>(value.asNumber()));
+    if (choice_ && value.isString()) choice_->setCurrentText(QString::fromStdString(value.asString()));
+    if (!text_) return;
+    const QString text = fieldText(value);
+    const bool isTyping = text_->hasFocus() && text_->text() != shown_;
+    if (isTyping || text == text_->text()) {
+        if (!isTyping) shown_ = text;
+        return;
+    }
+    shown_ = text;
+    text_->setText(text);
+    text_->setCursorPosition(0);
+}
+
+void ValueEdit::setInvalid(bool isInvalid) {
+    QWidget* input = text_ ? static_cast<QWidget*>(text_) : spin_;
+    if (!input || input->property("invalid").toBool() == isInvalid) return;
+    input->setProperty("invalid", isInvalid);
+    repolish(*input);
+}
+
+}  // namespace extremal

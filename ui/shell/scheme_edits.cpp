@@ -1,0 +1,193 @@
+#include "ui/shell/scheme_edits.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/space/catalog.hpp"
+
+namespace extremal {
+
+namespace {
+
+/// One, two or five times a power of ten, not above x.
+double roundStep(double x) {
+    const double power = std::pow(10, std::floor(std::log10(x)));
+    const double lead = x / power;
+    const double digit = lead >= 5 ? 5 : lead >= 2 ? 2 : 1;
+    const int exponent = static_cast<int>(std::lround(std::log10(power)));
+    return exponent >= 0 ? digit * power : digit / std::pow(10, -exponent);
+}
+
+Settings withDefaults(const CatalogItem& item) {
+    Settings settings;
+    settings.type = item.id;
+    for (const FieldInfo& f : item.parameters) settings.keys.emplace_back(f.key, f.fallback);
+    return settings;
+}
+
+void setKey(Settings& settings, const std::string& key, Value value) {
+    for (auto& member : settings.keys)
+        if (member.first == key) member.second = value;
+}
+
+const CatalogItem* itemOf(const std::vector<CatalogItem>& items, std::string_view id) {
+    const auto found = std::find_if(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == id; });
+    return found == items.end() ? nullptr : &*found;
+}
+
+Value settingsTree(const Settings& settings) {
+    Value tree(Value::Object{{"type", settings.type}});
+    for (const auto& [key, value] : settings.keys)
+        if (!value.isNull()) tree.set(key, value);
+    return tree;
+}
+
+std::string pairLabel(const Settings& space, const Settings& quadrature) {
+    const PairProperties known = describe(space, quadrature);
+    if (!known.knownAs.empty()) return known.knownAs;
+    const CatalogItem* rule = itemOf(quadratureCatalog(), quadrature.type);
+    return (rule ? rule->title : quadrature.type) + " " + std::to_string(known.claims.order);
+}
+
+std::string place(int index) { return "/schemes/" + std::to_string(index); }
+
+}  // namespace
+
+double sensibleStep(const Scene& scene, int order, double stabilityLimit) {
+    const ModelEntry* entry = findModel(scene.model.type);
+    double step = entry ? entry->exampleStep : (scene.end.value - scene.start.value) / 200;
+    for (const SchemeSpec& spec : scene.schemes)
+        if (spec.kind == SchemeSpec::Kind::pair && spec.step.value > 0 &&
+            describe(spec.space, spec.quadrature).claims.order == order)
+            return spec.step.value;
+    if (std::isfinite(stabilityLimit) && stabilityLimit > 0) step /= 2;
+    if (order > 4) step *= order / 4.0;
+    return roundStep(step * 1.0001);
+}
+
+std::string uniqueLabel(const Scene& scene, const std::string& wish) {
+    const auto isTaken = [&](const std::string& label) {
+        return std::any_of(scene.schemes.begin(), scene.schemes.end(),
+                           [&](const SchemeSpec& s) { return s.label == label; });
+    };
+    std::string label = wish;
+    for (int n = 2; isTaken(label); ++n) label = wish + " (" + std::to_string(n) + ")";
+    return label;
+}
+
+Value newPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
+    const PairProperties known = describe(space, quadrature);
+    Value scheme{Value::Object{}};
+    scheme.set("label", uniqueLabel(scene, pairLabel(space, quadrature)));
+    scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
+    scheme.set("space", settingsTree(space));
+    scheme.set("quadrature", settingsTree(quadrature));
+    return scheme;
+}
+
+Value newBaseline(const Scene& scene, const std::string& id) {
+    const BaselineEntry* entry = findBaseline(id);
+    Value scheme{Value::Object{}};
+    scheme.set("label", uniqueLabel(scene, entry ? entry->item.title : id));
+    if (entry && entry->isAdaptive)
+        scheme.set("tolerance", 1e-9);
+    else
+        scheme.set("step", sensibleStep(scene, entry && entry->item.claims ? entry->item.claims->order : 2,
+                                        entry ? entry->stabilityLimit : 0));
+    scheme.set("baseline", id);
+    return scheme;
+}
+
+Value newNamed(const Scene& scene, const std::string& id) {
+    Value scheme{Value::Object{}};
+    const auto pair = namedScheme(id);
+    const PairProperties known = pair ? describe(pair->space, pair->quadrature) : PairProperties{};
+    scheme.set("label", uniqueLabel(scene, id));
+    scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
+    scheme.set("scheme", id);
+    return scheme;
+}
+
+std::vector<Edit> editsForAdding(const Value& scheme) { return {{"/schemes/-", scheme}}; }
+
+std::vector<Edit> editsForDuplicate(const Value& document, const Scene& scene, int index) {
+    const Value* original = valueAt(document, place(index));
+    if (!original) return {};
+    Value copy = *original;
+    copy.set("label", uniqueLabel(scene, scene.schemes[static_cast<std::size_t>(index)].label));
+    Value schemes = *valueAt(document, "/schemes");
+    schemes.asArray().insert(schemes.asArray().begin() + index + 1, std::move(copy));
+    return {{"/schemes", std::move(schemes)}};
+}
+
+std::vector<Edit> editsForRemoval(int index) { return {{place(index), std::nullopt}}; }
+
+std::vector<Edit> editsForMove(const Value& document, int index, int by) {
+    Value schemes = *valueAt(document, "/schemes");
+    auto& array = schemes.asArray();
+    const int other = index + by;
+    if (other < 0 || other >= static_cast<int>(array.size())) return {};
+    std::swap(array[static_cast<std::size_t>(index)], array[static_cast<std::size_t>(other)]);
+    return {{"/schemes", std::move(schemes)}};
+}
+
+std::vector<Edit> editsForToggle(const Scene& scene, int index) {
+    return {{place(index) + "/enabled", !scene.schemes[static_cast<std::size_t>(index)].isEnabled}};
+}
+
+std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
+    const ModelEntry* old = findModel(scene.model.type);
+    const double scale = old && old->exampleStep > 0 ? entry.exampleStep / old->exampleStep : 1;
+    std::vector<Edit> edits = {{"/model", Value(Value::Object{{"type", entry.item.id}})},
+                               {"/initial", std::nullopt},
+                               {"/views", std::nullopt},
+                               {"/observe", std::nullopt},
+                               {"/output", std::nullopt},
+                               {"/title", entry.item.title},
+                               {"/source", std::nullopt},
+                               {"/lesson", std::nullopt},
+                               {"/notes", std::nullopt},
+                               {"/time", Value(Value::Object{{"start", 0}, {"end", entry.exampleEnd}})}};
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+        if (scene.schemes[i].step.value > 0)
+            edits.push_back({place(static_cast<int>(i)) + "/step", roundStep(scene.schemes[i].step.value * scale * 1.0001)});
+    return edits;
+}
+
+std::pair<Settings, Settings> pairOf(const SchemeSpec& spec) {
+    if (spec.kind == SchemeSpec::Kind::pair) return {spec.space, spec.quadrature};
+    if (spec.kind == SchemeSpec::Kind::named)
+        if (const auto pair = namedScheme(spec.named)) return {pair->space, pair->quadrature};
+    return {};
+}
+
+int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        const auto [s, q] = pairOf(scene.schemes[i]);
+        if (s.type == space.type && s.integer("degree") == space.integer("degree") && q.type == quadrature.type &&
+            q.integer("nodes") == quadrature.integer("nodes") &&
+            std::max(1, q.integer("panels")) == std::max(1, quadrature.integer("panels")))
+            return static_cast<int>(i);
+    }
+    return -1;
+}
+
+Settings polynomialSpace(int degree) {
+    const CatalogItem* item = itemOf(spaceCatalog(), "polynomial");
+    Settings space = item ? withDefaults(*item) : Settings{};
+    setKey(space, "degree", degree);
+    return space;
+}
+
+Settings ruleFor(const std::string& id, int degree) {
+    const CatalogItem* item = itemOf(quadratureCatalog(), id);
+    Settings rule = item ? withDefaults(*item) : Settings{};
+    const bool hasBothEnds = id == "lobatto" || id == "clenshaw-curtis";
+    setKey(rule, "nodes", degree + (hasBothEnds ? 1 : 0));
+    return rule;
+}
+
+}  // namespace extremal

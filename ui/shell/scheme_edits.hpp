@@ -1,0 +1,41 @@
+/// What the window does with schemes, as edits of the document: add, duplicate, remove, move, switch on and off.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/system.hpp"
+#include "engine/scene/scene.hpp"
+#include "ui/shell/document.hpp"
+
+namespace extremal {
+
+/// A step to begin with: that of a similar scheme of the scene, else the model's example, scaled by the order.
+double sensibleStep(const Scene& scene, int order, double stabilityLimit);
+
+/// A label no other scheme has: the wish, or the wish with "(2)", "(3)", ...
+std::string uniqueLabel(const Scene& scene, const std::string& wish);
+
+/// A complete scheme for "/schemes/-".
+Value newPair(const Scene& scene, const Settings& space, const Settings& quadrature);
+Value newBaseline(const Scene& scene, const std::string& id);
+Value newNamed(const Scene& scene, const std::string& id);
+
+std::vector<Edit> editsForAdding(const Value& scheme);
+std::vector<Edit> editsForDuplicate(const Value& document, const Scene& scene, int index);
+std::vector<Edit> editsForRemoval(int index);
+std::vector<Edit> editsForMove(const Value& document, int index, int by);
+std::vector<Edit> editsForToggle(const Scene& scene, int index);
+/// Another model: its example data and views, and a step that suits it for every scheme.
+std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
+
+/// The scheme that is this pair (same space and rule), or -1.
+int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
+/// The space and rule of a scheme, also of a named one; types empty for baselines.
+std::pair<Settings, Settings> pairOf(const SchemeSpec& spec);
+
+/// The settings of a pair of the discretizer, with every default filled in.
+Settings polynomialSpace(int degree);
+Settings ruleFor(const std::string& id, int degree);
+
+}  // namespace extremal
