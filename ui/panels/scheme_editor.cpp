@@ -33,7 +33,7 @@ void addFields(std::vector<FormField>& fields, const std::vector<FieldInfo>& inf
     for (const FieldInfo& info : infos) fields.push_back({info, place + "/" + info.key, {}, {}});
 }
 
-const CatalogItem* find(const std::vector<CatalogItem>& items, const std::string& id) {
+const CatalogItem* itemNamed(const std::vector<CatalogItem>& items, const std::string& id) {
     const auto found = std::find_if(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == id; });
     return found == items.end() ? nullptr : &*found;
 }
@@ -148,8 +148,8 @@ void SchemeEditor::rebuild() {
         fill(*first_, spaceCatalog());
         choose(*first_, s.space.type);
         choose(*rule_, s.quadrature.type);
-        if (const CatalogItem* space = find(spaceCatalog(), s.space.type)) addFields(fields, space->parameters, place() + "/space");
-        if (const CatalogItem* rule = find(quadratureCatalog(), s.quadrature.type))
+        if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type)) addFields(fields, space->parameters, place() + "/space");
+        if (const CatalogItem* rule = itemNamed(quadratureCatalog(), s.quadrature.type))
             addFields(fields, rule->parameters, place() + "/quadrature");
     } else if (s.kind == SchemeSpec::Kind::baseline) {
         fill(*first_, baselineItems());

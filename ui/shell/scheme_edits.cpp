@@ -95,8 +95,7 @@ Value newBaseline(const Scene& scene, const std::string& id) {
     if (entry && entry->isAdaptive)
         scheme.set("tolerance", 1e-9);
     else
-        scheme.set("step", sensibleStep(scene, entry && entry->item.claims ? entry->item.claims->order : 2,
-                                        entry ? entry->stabilityLimit : 0));
+        scheme.set("step", sensibleStep(scene, entry && entry->item.claims ? entry->item.claims->order : 2, 0));
     scheme.set("baseline", id);
     return scheme;
 }
