@@ -7,9 +7,7 @@
 
 #include "app/report.hpp"
 #include "app/verbs.hpp"
-#if __has_include("ui/shell/start.hpp")
 #include "ui/shell/start.hpp"
-#endif
 
 namespace extremal::app {
 namespace {
@@ -38,8 +36,7 @@ bool hasDisplay() {
 
 }  // namespace
 
-int guiVerb([[maybe_unused]] int argc, [[maybe_unused]] char** argv,
-            [[maybe_unused]] const std::string& scene, const CommonOptions& options) {
+int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions& options) {
     if (!options.overrides.empty()) {
         printProblem("arguments", "--set changes the scene of a verb, not of the window",
                      "extremal run SCENE --set ...");
@@ -47,12 +44,7 @@ int guiVerb([[maybe_unused]] int argc, [[maybe_unused]] char** argv,
     }
     if (!hasDisplay()) return tellMissingDisplay();
     qInstallMessageHandler(tellFatal);
-#if __has_include("ui/shell/start.hpp")
     return runWindow(argc, argv, scene);
-#else
-    printProblem("window", "this build has none", "extremal run and extremal snapshot");
-    return unusable;
-#endif
 }
 
 }  // namespace extremal::app

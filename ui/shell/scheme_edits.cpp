@@ -5,6 +5,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/integrator/scheme.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/catalog.hpp"
 
@@ -156,16 +157,11 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
     return edits;
 }
 
-std::pair<Settings, Settings> pairOf(const SchemeSpec& spec) {
-    if (spec.kind == SchemeSpec::Kind::pair) return {spec.space, spec.quadrature};
-    if (spec.kind == SchemeSpec::Kind::named)
-        if (const auto pair = namedScheme(spec.named)) return {pair->space, pair->quadrature};
-    return {};
-}
-
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
-        const auto [s, q] = pairOf(scene.schemes[i]);
+        const auto pair = pairOf(scene.schemes[i]);
+        if (!pair) continue;
+        const Settings &s = pair->space, &q = pair->quadrature;
         if (s.type == space.type && s.integer("degree") == space.integer("degree") && q.type == quadrature.type &&
             q.integer("nodes") == quadrature.integer("nodes") &&
             std::max(1, q.integer("panels")) == std::max(1, quadrature.integer("panels")))

@@ -31,8 +31,6 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 
 /// The scheme that is this pair (same space and rule), or -1.
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
-/// The space and rule of a scheme, also of a named one; types empty for baselines.
-std::pair<Settings, Settings> pairOf(const SchemeSpec& spec);
 
 /// The settings of a pair of the discretizer, with every default filled in.
 Settings polynomialSpace(int degree);

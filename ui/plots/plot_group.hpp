@@ -1,0 +1,33 @@
+/// Plots that belong together: one time axis, one cursor, aligned left margins in each column.
+#pragma once
+
+#include <QList>
+#include <QObject>
+
+#include <optional>
+
+namespace extremal {
+
+class PlotWidget;
+
+class PlotGroup : public QObject {
+    Q_OBJECT
+public:
+    using QObject::QObject;
+    void add(PlotWidget* plot);  ///< a plot that is deleted leaves by itself
+    void remove(PlotWidget* plot);
+    void setCursor(std::optional<double> t);
+    void fitAll();
+    const QList<PlotWidget*>& plots() const { return plots_; }
+
+signals:
+    void cursorMoved(double t);
+    void pointClicked(int style);
+    void saveFailed(const QString& reason);
+
+private:
+    QList<PlotWidget*> plots_;
+    std::optional<double> cursor_, pinned_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,338 @@
+#include "ui/plots/plot_widget.hpp"
+
+#include <qcustomplot.h>
+
+#include <QApplication>
+#include <QClipboard>
+#include <QContextMenuEvent>
+#include <QFileDialog>
+#include <QMenu>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "ui/plots/figure_plot.hpp"
+#include "ui/plots/plot_renderer.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr double hoverReach = 14, dragThreshold = 4;
+
+double valueAtPixel(const PixelMap& map, PlotAxis axis, QPointF pixel) {
+    const bool isX = axis == PlotAxis::x;
+    const PlotRange r = isX ? map.x : map.y;
+    const double f = isX ? (pixel.x() - map.rect.left()) / map.rect.width()
+                         : (map.rect.bottom() - pixel.y()) / map.rect.height();
+    const bool isLog = isX ? map.isXLog : map.isYLog;
+    return isLog ? r.low * std::pow(r.high / r.low, f) : r.low + f * (r.high - r.low);
+}
+
+/// Rows of all series one below the other: label, x, y; full precision.
+QByteArray csvOf(const Figure& figure, std::optional<PlotRange> xRange) {
+    std::string text = "label,x,y\n";
+    for (const Series& s : figure.series) {
+        std::string label = "\"";
+        for (const char c : s.label) label += c == '"' ? std::string("\"\"") : std::string(1, c);
+        label += '"';
+        for (std::size_t i = 0; i < s.x.size(); ++i) {
+            if (xRange && !(s.x[i] >= xRange->low && s.x[i] <= xRange->high)) continue;
+            text += label + ',' + (std::isfinite(s.x[i]) ? formatNumber(s.x[i]) : "") + ',' +
+                    (std::isfinite(s.y[i]) ? formatNumber(s.y[i]) : "") + '\n';
+        }
+    }
+    return QByteArray::fromStdString(text);
+}
+
+}  // namespace
+
+struct PlotWidget::Impl {
+    QCustomPlot* plot;
+    std::unique_ptr<FigurePlot> content;
+    Theme theme;
+    QPushButton* chip;
+    enum class Drag { none, maybe, pan, box, cursor } drag = Drag::none;
+    QPointF press, last;
+    int leftMargin = 0;
+
+    explicit Impl(const Theme& t) : theme(t) {}
+    void replot() { plot->replot(QCustomPlot::rpQueuedReplot); }
+    void replotCursor() { plot->layer("cursor")->replot(); }
+    bool isTime() const { return content->figure().x.isTime; }
+    /// Whether a pixel lies on the x axis, the y axis, or (neither) in the plot.
+    std::pair<bool, bool> axesAt(QPointF p) const {
+        const QRectF r = plot->axisRect()->rect();
+        if (p.y() > r.bottom()) return {true, false};
+        if (p.x() < r.left()) return {false, true};
+        return {true, true};
+    }
+};
+
+PlotWidget::PlotWidget(const Theme& theme, QWidget* parent) : QWidget(parent), impl_(new Impl(theme)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    impl_->plot = new QCustomPlot(this);
+    impl_->plot->setMouseTracking(true);
+    impl_->plot->setFocusPolicy(Qt::NoFocus);
+    impl_->content = std::make_unique<FigurePlot>(*impl_->plot, impl_->theme);
+    layout->addWidget(impl_->plot);
+    connect(impl_->plot, &QCustomPlot::beforeReplot, this, [this] { impl_->content->prepare(impl_->plot->size()); });
+    impl_->chip = new QPushButton(tr("auto"), this);
+    impl_->chip->setToolTip(tr("Fit the view to the data again, and keep it fitted (double click)"));
+    impl_->chip->setAccessibleName(tr("Fit the view"));
+    impl_->chip->setFocusPolicy(Qt::NoFocus);
+    impl_->chip->hide();
+    connect(impl_->chip, &QPushButton::clicked, this, &PlotWidget::fit);
+    setFocusPolicy(Qt::ClickFocus);
+    impl_->plot->installEventFilter(this);
+}
+
+PlotWidget::~PlotWidget() { impl_->plot->removeEventFilter(this); }
+
+void PlotWidget::setFigure(const Figure& figure) {
+    impl_->content->setFigure(figure);
+    setAccessibleName(QString::fromStdString(figure.title));
+    setAccessibleDescription(QString::fromStdString(figure.summary));
+    impl_->chip->setVisible(isUserZoomed());
+    impl_->replot();
+}
+
+void PlotWidget::setStale(bool isStale) {
+    impl_->content->setStale(isStale);
+    impl_->replot();
+}
+
+void PlotWidget::setTheme(const Theme& theme) {
+    impl_->theme = theme;
+    impl_->content->setTheme(theme);
+    impl_->replot();
+}
+
+void PlotWidget::setCursor(std::optional<double> t) {
+    impl_->content->cursors().time = t;
+    impl_->replotCursor();
+}
+
+void PlotWidget::setPinned(std::optional<double> t) {
+    impl_->content->cursors().pinned = t;
+    impl_->replotCursor();
+}
+
+void PlotWidget::setHighlighted(const QString& label) {
+    impl_->content->setHighlighted(label);
+    impl_->replot();
+}
+
+void PlotWidget::fit() {
+    impl_->content->view().remember();
+    impl_->content->view().fit();
+    impl_->chip->hide();
+    if (impl_->isTime()) emit timeRangeChanged(std::nullopt);
+    impl_->replot();
+}
+
+void PlotWidget::back() {
+    if (!impl_->content->view().back()) return;
+    impl_->chip->setVisible(isUserZoomed());
+    if (impl_->isTime())
+        emit timeRangeChanged(impl_->content->view().isUserChosen(PlotAxis::x)
+                                  ? std::optional(impl_->content->view().range(PlotAxis::x))
+                                  : std::nullopt);
+    impl_->replot();
+}
+
+const Figure& PlotWidget::figure() const { return impl_->content->figure(); }
+bool PlotWidget::isUserZoomed() const { return impl_->content->view().isUserChosen(); }
+PlotRange PlotWidget::visibleRange(PlotAxis axis) const { return impl_->content->view().range(axis); }
+
+void PlotWidget::setTimeRange(std::optional<PlotRange> range) {
+    if (!impl_->isTime()) return;
+    if (range)
+        impl_->content->view().choose(PlotAxis::x, *range);
+    else
+        impl_->content->view().fit(PlotAxis::x);
+    impl_->chip->setVisible(isUserZoomed());
+    impl_->replot();
+}
+
+int PlotWidget::leftMargin() const { return impl_->plot->axisRect()->margins().left(); }
+
+void PlotWidget::setLeftMargin(int pixels) {
+    if (impl_->leftMargin == pixels) return;
+    impl_->leftMargin = pixels;
+    impl_->plot->axisRect()->setMinimumMargins(QMargins(std::max(8, pixels), 8, 16, 0));
+    impl_->replot();
+}
+
+void PlotWidget::copyImage() {
+    QApplication::clipboard()->setImage(renderFigure(figure(), size(), Theme::light(), 2));
+}
+
+bool PlotWidget::save(const QString& path, double scale, QString* error) {
+    QString problem;
+    if (path.endsWith(".csv", Qt::CaseInsensitive)) {
+        QSaveFile file(path);
+        if (!file.open(QIODevice::WriteOnly) || file.write(csvOf(figure(), std::nullopt)) < 0 || !file.commit())
+            problem = file.errorString();
+    } else {
+        problem = saveFigure(path, figure(), size().expandedTo(QSize(480, 320)), Theme::light(), scale);
+    }
+    if (error) *error = problem;
+    return problem.isEmpty();
+}
+
+void PlotWidget::saveDialog() {
+    const QString path = QFileDialog::getSaveFileName(
+        this, tr("Save plot"), QString::fromStdString(figure().view) + ".png",
+        tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg);;Data (*.csv)"));
+    QString error;
+    if (!path.isEmpty() && !save(path, 2, &error)) emit saveFailed(tr("%1: %2").arg(path, error));
+}
+
+void PlotWidget::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    impl_->chip->adjustSize();
+    impl_->chip->move(width() - impl_->chip->width() - 14, 2);
+}
+
+void PlotWidget::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Backspace)
+        back();
+    else if (event->matches(QKeySequence::Copy))
+        copyImage();
+    else
+        QWidget::keyPressEvent(event);
+}
+
+bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
+    if (watched != impl_->plot) return QWidget::eventFilter(watched, event);
+    Impl& s = *impl_;
+    ViewState& view = s.content->view();
+    const auto afterZoom = [&] {
+        s.chip->setVisible(true);
+        if (s.isTime() && view.isUserChosen(PlotAxis::x)) emit timeRangeChanged(view.range(PlotAxis::x));
+        s.replot();
+    };
+    const auto clearHover = [&] {
+        if (s.content->cursors().hoverText.isEmpty()) return;
+        s.content->cursors().hoverText.clear();
+        s.replotCursor();
+    };
+    switch (event->type()) {
+        case QEvent::Wheel: {
+            auto* wheel = static_cast<QWheelEvent*>(event);
+            const QPointF at = wheel->position();
+            const auto [onX, onY] = s.axesAt(at);
+            const double factor = std::pow(0.85, wheel->angleDelta().y() / 120.0);
+            const PixelMap map = s.content->pixelMap();
+            view.remember();
+            if (onX) view.zoom(PlotAxis::x, factor, valueAtPixel(map, PlotAxis::x, at));
+            if (onY) view.zoom(PlotAxis::y, factor, valueAtPixel(map, PlotAxis::y, at));
+            afterZoom();
+            return true;
+        }
+        case QEvent::MouseButtonPress: {
+            auto* mouse = static_cast<QMouseEvent*>(event);
+            setFocus(Qt::MouseFocusReason);
+            if (mouse->button() != Qt::LeftButton) return false;
+            s.press = s.last = mouse->position();
+            s.drag = mouse->modifiers() & Qt::ControlModifier ? Impl::Drag::box : Impl::Drag::maybe;
+            clearHover();
+            return true;
+        }
+        case QEvent::MouseMove: {
+            auto* mouse = static_cast<QMouseEvent*>(event);
+            const QPointF at = mouse->position();
+            const PixelMap map = s.content->pixelMap();
+            if (s.drag == Impl::Drag::maybe && QLineF(s.press, at).length() > dragThreshold) {
+                view.remember();
+                s.drag = Impl::Drag::pan;
+                s.plot->setCursor(Qt::ClosedHandCursor);
+            }
+            if (s.drag == Impl::Drag::pan) {
+                const auto [onX, onY] = s.axesAt(s.press);
+                if (onX) view.pan(PlotAxis::x, valueAtPixel(map, PlotAxis::x, s.last), valueAtPixel(map, PlotAxis::x, at));
+                if (onY) view.pan(PlotAxis::y, valueAtPixel(map, PlotAxis::y, s.last), valueAtPixel(map, PlotAxis::y, at));
+                s.last = at;
+                afterZoom();
+            } else if (s.drag == Impl::Drag::box) {
+                s.content->cursors().box = QRectF(s.press, at).normalized();
+                s.replotCursor();
+            } else if (s.drag == Impl::Drag::none) {
+                const auto hit = s.content->hit(at, hoverReach);
+                PlotCursors& c = s.content->cursors();
+                if (!hit) {
+                    clearHover();
+                    return true;
+                }
+                const Series& series = figure().series[hit->series];
+                c.hoverText = QStringLiteral("%1\n%2, %3")
+                                  .arg(QString::fromStdString(series.label))
+                                  .arg(series.x[hit->row], 0, 'g', 6)
+                                  .arg(series.y[hit->row], 0, 'g', 6);
+                c.hoverPoint = hit->at;
+                c.hoverColor = s.theme.series(series.style).color;
+                s.replotCursor();
+            }
+            return true;
+        }
+        case QEvent::MouseButtonRelease: {
+            auto* mouse = static_cast<QMouseEvent*>(event);
+            if (mouse->button() != Qt::LeftButton) return false;
+            const PixelMap map = s.content->pixelMap();
+            const Impl::Drag was = s.drag;
+            s.drag = Impl::Drag::none;
+            s.plot->unsetCursor();
+            if (was == Impl::Drag::box) {
+                const QRectF box = s.content->cursors().box.value_or(QRectF()).intersected(map.rect);
+                s.content->cursors().box.reset();
+                if (box.width() > dragThreshold && box.height() > dragThreshold) {
+                    view.remember();
+                    view.choose(PlotAxis::x, {valueAtPixel(map, PlotAxis::x, box.topLeft()),
+                                              valueAtPixel(map, PlotAxis::x, box.bottomRight())});
+                    view.choose(PlotAxis::y, {valueAtPixel(map, PlotAxis::y, box.bottomRight()),
+                                              valueAtPixel(map, PlotAxis::y, box.topLeft())});
+                    afterZoom();
+                } else {
+                    s.replotCursor();
+                }
+            } else if (was == Impl::Drag::maybe) {
+                if (const auto hit = s.content->hit(mouse->position(), hoverReach))
+                    emit pointClicked(figure().series[hit->series].style);
+                if (s.isTime() && map.rect.contains(mouse->position()))
+                    emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));
+            }
+            return true;
+        }
+        case QEvent::MouseButtonDblClick: fit(); return true;
+        case QEvent::Leave: clearHover(); return false;
+        case QEvent::ContextMenu: {
+            auto* context = static_cast<QContextMenuEvent*>(event);
+            const double t = valueAtPixel(s.content->pixelMap(), PlotAxis::x, context->pos());
+            QMenu menu(this);
+            menu.addAction(tr("Fit"), this, &PlotWidget::fit);
+            menu.addAction(tr("Previous view"), this, &PlotWidget::back);
+            menu.addSeparator();
+            if (s.isTime()) {
+                menu.addAction(tr("Pin a second cursor here"), this, [this, t] { emit pinRequested(t); });
+                if (s.content->cursors().pinned)
+                    menu.addAction(tr("Remove the second cursor"), this, [this] { emit pinRequested(std::nullopt); });
+                menu.addSeparator();
+            }
+            menu.addAction(tr("Copy picture"), this, &PlotWidget::copyImage);
+            menu.addAction(tr("Copy visible data"), this, [this] {
+                QApplication::clipboard()->setText(
+                    QString::fromUtf8(csvOf(figure(), visibleRange(PlotAxis::x))));
+            });
+            menu.addAction(tr("Save as..."), this, &PlotWidget::saveDialog);
+            menu.exec(context->globalPos());
+            return true;
+        }
+        default: return QWidget::eventFilter(watched, event);
+    }
+}
+
+}  // namespace extremal

@@ -1,0 +1,68 @@
+/// A figure on the screen, to look into: the same drawing as in snapshots, with zoom, cursors and saving.
+///
+/// Wheel: zoom at the pointer, on an axis only that axis; drag: pan; Ctrl+drag: zoom into a box; double click: fit;
+/// Backspace: previous view; right click: menu. Once the user has zoomed, new data do not move the view; the "auto" chip
+/// gives that back. The cursor is a time, shared with other plots through PlotGroup.
+#pragma once
+
+#include <QWidget>
+
+#include <memory>
+#include <optional>
+
+#include "engine/figure/figure.hpp"
+#include "ui/plots/view_state.hpp"
+
+namespace extremal {
+
+struct Theme;
+
+class PlotWidget : public QWidget {
+    Q_OBJECT
+public:
+    explicit PlotWidget(const Theme& theme, QWidget* parent = nullptr);
+    ~PlotWidget() override;
+
+    void setFigure(const Figure& figure);
+    void setStale(bool isStale);
+    void setTheme(const Theme& theme);
+    /// A time to mark; none removes the line.
+    void setCursor(std::optional<double> t);
+    void setPinned(std::optional<double> t);
+    void setHighlighted(const QString& label);
+    void fit();
+    void back();
+    void copyImage();
+    void saveDialog();
+    /// PNG, PDF, SVG or CSV by the ending. False, with the reason, if it cannot be written.
+    bool save(const QString& path, double scale = 1, QString* error = nullptr);
+    const Figure& figure() const;
+    bool isUserZoomed() const;
+    PlotRange visibleRange(PlotAxis axis) const;
+    /// Follows another plot's time axis; an empty range fits.
+    void setTimeRange(std::optional<PlotRange> range);
+    /// The room that the axis on the left needs, and is given, for plots above each other to align.
+    int leftMargin() const;
+    void setLeftMargin(int pixels);
+
+    QSize sizeHint() const override { return {360, 240}; }
+    QSize minimumSizeHint() const override { return {140, 110}; }
+
+signals:
+    void cursorMoved(double t);
+    void pointClicked(int style);
+    void pinRequested(std::optional<double> t);
+    void timeRangeChanged(std::optional<PlotRange> range);
+    void saveFailed(const QString& reason);
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,53 @@
+#include "ui/shell/banners.hpp"
+
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+
+#include "ui/panels/card.hpp"
+#include "ui/shell/notices.hpp"
+
+namespace extremal {
+
+Banners::Banners(Notices& notices, QWidget* parent) : QWidget(parent), notices_(notices), layout_(new QVBoxLayout(this)) {
+    layout_->setContentsMargins(0, 0, 0, 0);
+    layout_->setSpacing(6);
+    connect(&notices_, &Notices::changed, this, &Banners::rebuild);
+    rebuild();
+}
+
+void Banners::rebuild() {
+    while (QLayoutItem* item = layout_->takeAt(0)) {
+        if (item->widget()) item->widget()->deleteLater();
+        delete item;
+    }
+    for (const Notice& notice : notices_.all()) {
+        auto* banner = new QFrame(this);
+        banner->setProperty("banner", notice.kind == Notice::Kind::error ? "error" : "warning");
+        auto* row = new QHBoxLayout(banner);
+        row->setContentsMargins(12, 6, 8, 6);
+        auto* text = makeLabel(notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint, "",
+                               banner);
+        text->setWordWrap(true);
+        text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        row->addWidget(text, 1);
+        const QString key = notice.key;
+        for (const Notice::Choice& choice : notice.choices) {
+            auto* button = new QPushButton(choice.text, banner);
+            connect(button, &QPushButton::clicked, this, [this, act = choice.act, key] {
+                notices_.dismiss(key);
+                if (act) act();
+            });
+            row->addWidget(button);
+        }
+        auto* close = new QPushButton(tr("Dismiss"), banner);
+        close->setProperty("kind", "flat");
+        connect(close, &QPushButton::clicked, this, [this, key] { notices_.dismiss(key); });
+        row->addWidget(close);
+        layout_->addWidget(banner);
+    }
+    setVisible(!notices_.all().empty());
+}
+
+}  // namespace extremal

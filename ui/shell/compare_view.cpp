@@ -1,0 +1,185 @@
+#include "ui/shell/compare_view.hpp"
+
+#include <QGridLayout>
+#include <QMenu>
+#include <QScrollArea>
+#include <QTimer>
+
+#include <algorithm>
+
+#include "engine/figure/figure.hpp"
+#include "engine/scene/bind.hpp"
+#include "ui/panels/card.hpp"
+#include "ui/plots/plot_group.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/playback.hpp"
+#include "ui/shell/run_control.hpp"
+#include "ui/shell/workspace.hpp"
+#include "ui/stage/stage_widget.hpp"
+
+namespace extremal {
+
+CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme, QWidget* parent)
+    : QWidget(parent), workspace_(workspace), run_(run), playback_(playback), theme_(&theme), group_(new PlotGroup(this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    auto* scroll = new QScrollArea;
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    inside_ = new QWidget;
+    inside_->setProperty("ground", "window");
+    grid_ = new QGridLayout(inside_);
+    grid_->setContentsMargins(0, 0, 2, 0);
+    grid_->setSpacing(10);
+    scroll->setWidget(inside_);
+    layout->addWidget(scroll);
+
+    stageCard_ = new Card(tr("Stage"), inside_);
+    stage_ = new StageWidget;
+    stage_->setTheme(theme);
+    stage_->setAccessibleName(tr("Stage"));
+    stageCard_->body()->addWidget(stage_, 1);
+    stageCard_->menu()->addAction(tr("Fit"), stage_, &StageWidget::fit);
+
+    connect(&workspace_, &Workspace::sceneChanged, this, &CompareView::rebuild);
+    connect(&workspace_, &Workspace::selectionChanged, this, [this] {
+        const int i = workspace_.selectedScheme();
+        const auto& schemes = workspace_.scene().schemes;
+        const QString label = i >= 0 && i < static_cast<int>(schemes.size())
+                                  ? QString::fromStdString(schemes[static_cast<std::size_t>(i)].label)
+                                  : QString();
+        for (const Slot& s : slots_) s.plot->setHighlighted(label);
+    });
+    connect(&run_, &RunControl::resultsChanged, this, &CompareView::refresh);
+    connect(&run_, &RunControl::stateChanged, this, [this] {
+        for (const Slot& s : slots_) s.plot->setStale(run_.isStale());
+    });
+    connect(&playback_, &Playback::timeChanged, this, [this](double t) {
+        stage_->setTime(t);
+        group_->setCursor(t);
+    });
+    connect(group_, &PlotGroup::cursorMoved, &playback_, &Playback::setTime);
+    connect(group_, &PlotGroup::pointClicked, &workspace_, &Workspace::selectScheme);
+    connect(group_, &PlotGroup::saveFailed, this, &CompareView::saveFailed);
+}
+
+void CompareView::setTheme(const Theme& theme) {
+    theme_ = &theme;
+    stage_->setTheme(theme);
+    for (const Slot& s : slots_) s.plot->setTheme(theme);
+}
+
+void CompareView::rebuild() {
+    if (!workspace_.hasScene()) return;
+    std::vector<View> views{{"work-precision", "", ""}};
+    for (View& v : plotViews(workspace_.scene()))
+        if (v.id != "work-precision") views.push_back(std::move(v));
+    if (views == shownViews_) return refresh();
+    shownViews_ = views;
+    for (const Slot& s : slots_) delete s.card;
+    slots_.clear();
+    for (const View& view : views) {
+        auto* card = new Card({}, inside_);
+        auto* plot = new PlotWidget(*theme_);
+        card->body()->addWidget(plot, 1);
+        QMenu* menu = card->menu();
+        menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
+        menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
+        menu->addSeparator();
+        menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
+        menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
+        group_->add(plot);
+        slots_.push_back({view, card, plot});
+    }
+    columns_ = 0;
+    arrange();
+    refresh();
+}
+
+void CompareView::arrange() {
+    const int columns = width() >= 640 ? 2 : 1;
+    if (columns == columns_) return;
+    columns_ = columns;
+    while (QLayoutItem* item = grid_->takeAt(0)) delete item;
+    // Six half-columns: the stage is a little wider than what stands beside it.
+    const int plotHeight = 205;
+    stageCard_->setMinimumHeight(columns == 2 ? 250 : 240);
+    int row = 0;
+    if (columns == 2) {
+        grid_->addWidget(stageCard_, 0, 0, 1, 7);
+        if (!slots_.empty()) grid_->addWidget(slots_[0].card, 0, 7, 1, 5);
+    } else {
+        grid_->addWidget(stageCard_, 0, 0, 1, 12);
+        if (!slots_.empty()) grid_->addWidget(slots_[0].card, ++row, 0, 1, 12);
+    }
+    grid_->setRowStretch(0, 6);
+    for (std::size_t i = 1; i < slots_.size(); ++i) {
+        const bool isLastAlone = columns == 2 && i + 1 == slots_.size() && i % 2 == 1;
+        if (columns == 1 || i % 2 == 1) ++row;
+        if (columns == 1 || isLastAlone)
+            grid_->addWidget(slots_[i].card, row, 0, 1, 12);
+        else
+            grid_->addWidget(slots_[i].card, row, i % 2 == 1 ? 0 : 6, 1, 6);
+        grid_->setRowStretch(row, 5);
+    }
+    for (const Slot& s : slots_) s.card->setMinimumHeight(plotHeight);
+    for (int c = 0; c < 12; ++c) {
+        grid_->setColumnStretch(c, 1);
+        grid_->setColumnMinimumWidth(c, 1);
+    }
+}
+
+void CompareView::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    arrange();
+}
+
+void CompareView::refresh() {
+    const auto results = run_.results();
+    stage_->setComparison(results);
+    stage_->setTime(playback_.time());
+    if (!results) return;
+    if (!(systemModel_ == results->scene.model) || system_.id.empty()) {
+        system_ = makeSystem(results->scene);
+        systemModel_ = results->scene.model;
+    }
+    for (const Slot& s : slots_) {
+        const Figure figure = makeFigure(*results, s.view, &system_);
+        s.card->setTitle(QString::fromStdString(figure.title));
+        s.card->setSubtitle(QString::fromStdString(figure.subtitle));
+        s.plot->setFigure(figure);
+        s.plot->setStale(run_.isStale());
+    }
+    QTimer::singleShot(0, this, &CompareView::alignMargins);
+}
+
+void CompareView::alignMargins() {
+    // Plots above each other share their left edge: the widest margin of each column.
+    for (const int parity : {0, 1}) {
+        int widest = 0;
+        for (std::size_t i = 1; i < slots_.size(); ++i)
+            if (columns_ == 1 || static_cast<int>(i % 2) == parity) widest = std::max(widest, slots_[i].plot->leftMargin());
+        for (std::size_t i = 1; i < slots_.size(); ++i)
+            if (columns_ == 1 || static_cast<int>(i % 2) == parity) slots_[i].plot->setLeftMargin(std::min(widest, 90));
+    }
+}
+
+void CompareView::fitAll() {
+    group_->fitAll();
+    stage_->fit();
+}
+
+PlotWidget* CompareView::currentPlot() const {
+    for (const Slot& s : slots_)
+        if (s.plot->hasFocus()) return s.plot;
+    return slots_.size() > 1 ? slots_[1].plot : slots_.empty() ? nullptr : slots_[0].plot;
+}
+
+std::vector<PlotWidget*> CompareView::plots() const {
+    std::vector<PlotWidget*> all;
+    for (const Slot& s : slots_) all.push_back(s.plot);
+    return all;
+}
+
+}  // namespace extremal

@@ -1,0 +1,68 @@
+/// The Compare page: the stage, speed against accuracy, and the linked plots of the scene's views, each in a card.
+#pragma once
+
+#include <QWidget>
+
+#include <vector>
+
+#include "engine/model/system.hpp"
+#include "engine/scene/scene.hpp"
+
+class QGridLayout;
+
+namespace extremal {
+
+class Card;
+class Playback;
+class PlotGroup;
+class PlotWidget;
+class RunControl;
+class StageWidget;
+struct Theme;
+class Workspace;
+
+class CompareView : public QWidget {
+    Q_OBJECT
+public:
+    CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme, QWidget* parent = nullptr);
+    void setTheme(const Theme& theme);
+    void fitAll();
+    /// The plot that was last clicked, else the first one; null if there is none.
+    PlotWidget* currentPlot() const;
+    StageWidget* stage() const { return stage_; }
+    std::vector<PlotWidget*> plots() const;
+
+signals:
+    void saveFailed(const QString& reason);
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    struct Slot {
+        View view;
+        Card* card;
+        PlotWidget* plot;
+    };
+    void rebuild();   ///< another set of views
+    void arrange();   ///< the same cards, another width
+    void refresh();   ///< new results
+    void alignMargins();
+
+    Workspace& workspace_;
+    RunControl& run_;
+    Playback& playback_;
+    const Theme* theme_;
+    PlotGroup* group_;
+    QWidget* inside_;
+    QGridLayout* grid_;
+    Card* stageCard_;
+    StageWidget* stage_;
+    std::vector<Slot> slots_;
+    std::vector<View> shownViews_;
+    Settings systemModel_;
+    System system_;
+    int columns_ = 0;
+};
+
+}  // namespace extremal

@@ -1,0 +1,265 @@
+#include "ui/shell/main_window.hpp"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QScrollArea>
+#include <QSettings>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QTabBar>
+#include <QTextBrowser>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "engine/scene/bind.hpp"
+#include "ui/panels/card.hpp"
+#include "ui/panels/discretizer.hpp"
+#include "ui/panels/format.hpp"
+#include "ui/panels/scene_panel.hpp"
+#include "ui/panels/scheme_list.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/autosave.hpp"
+#include "ui/shell/banners.hpp"
+#include "ui/shell/compare_view.hpp"
+#include "ui/shell/header_bar.hpp"
+#include "ui/shell/notices.hpp"
+#include "ui/shell/playback.hpp"
+#include "ui/shell/run_control.hpp"
+#include "ui/shell/start_page.hpp"
+#include "ui/shell/timeline.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), isRemembered_(isRemembered) {
+    setAcceptDrops(true);
+    setMinimumSize(760, 520);
+    resize(1600, 1000);
+    notices_ = new Notices(this);
+    workspace_ = new Workspace(*notices_, this);
+    run_ = new RunControl(*workspace_, *notices_, this);
+    playback_ = new Playback(this);
+    actions_ = new Actions(*this);
+    makePages();
+    makeActions();
+    actions_->fill(*menuBar());
+    connectState();
+    if (isRemembered_) {
+        const QSettings settings;
+        restoreGeometry(settings.value("window/geometry").toByteArray());
+        autosave_ = new Autosave(*workspace_, *notices_, Autosave::defaultDirectory(), this);
+        autosave_->offerRecovery();
+    }
+    showScene();
+    showStatus();
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::makePages() {
+    auto* whole = new QWidget;
+    auto* column = new QVBoxLayout(whole);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(0);
+    auto* header = new HeaderBar(*workspace_, *run_);
+    connect(header, &HeaderBar::runRequested, run_, &RunControl::start);
+    connect(header, &HeaderBar::stopRequested, run_, &RunControl::stop);
+    connect(header, &HeaderBar::stepRequested, this, [this] { playback_->stepBy(1, rowStep()); });
+    connect(header, &HeaderBar::exportRequested, this, &MainWindow::exportDialog);
+    connect(header, &HeaderBar::paletteRequested, this, &MainWindow::showPalette);
+    column->addWidget(header);
+
+    auto* left = new QScrollArea;
+    left->setWidgetResizable(true);
+    left->setFrameShape(QFrame::NoFrame);
+    left->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    auto* leftInside = new QWidget;
+    leftInside->setProperty("ground", "window");
+    auto* leftColumn = new QVBoxLayout(leftInside);
+    leftColumn->setContentsMargins(0, 0, 2, 0);
+    leftColumn->setSpacing(12);
+    discretizer_ = new Discretizer(*workspace_);
+    discretizer_->setTheme(theme_);
+    leftColumn->addWidget(new ScenePanel(*workspace_));
+    leftColumn->addWidget(discretizer_);
+    leftColumn->addStretch();
+    left->setWidget(leftInside);
+
+    auto* centre = new QWidget;
+    auto* centreColumn = new QVBoxLayout(centre);
+    centreColumn->setContentsMargins(0, 0, 0, 0);
+    centreColumn->setSpacing(8);
+    tabs_ = new QTabBar;
+    tabs_->setExpanding(false);
+    tabs_->setDrawBase(false);
+    tabs_->addTab(tr("Compare"));
+    tabs_->addTab(tr("Notes"));
+    centreColumn->addWidget(tabs_);
+    centreColumn->addWidget(new Banners(*notices_));
+    pages_ = new QStackedWidget;
+    compare_ = new CompareView(*workspace_, *run_, *playback_, theme_);
+    notes_ = new QTextBrowser;
+    notes_->setOpenExternalLinks(true);
+    notes_->setAccessibleName(tr("Notes"));
+    pages_->addWidget(compare_);
+    pages_->addWidget(notes_);
+    centreColumn->addWidget(pages_, 1);
+    timeline_ = new Timeline(*playback_);
+    centreColumn->addWidget(timeline_);
+    connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
+    connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
+        notices_->post({Notice::Kind::error, "save", tr("The plot could not be saved: %1").arg(reason), {}, {}});
+    });
+
+    schemes_ = new SchemeList(*workspace_, *run_, theme_);
+    splitter_ = new QSplitter;
+    splitter_->setChildrenCollapsible(false);
+    splitter_->setHandleWidth(12);
+    splitter_->addWidget(left);
+    splitter_->addWidget(centre);
+    splitter_->addWidget(schemes_);
+    splitter_->setStretchFactor(1, 1);
+    left->setMinimumWidth(208);
+    schemes_->setMinimumWidth(208);
+    auto* work = new QWidget;
+    auto* workRow = new QVBoxLayout(work);
+    workRow->setContentsMargins(12, 12, 12, 4);
+    workRow->addWidget(splitter_);
+
+    startPage_ = new StartPage(theme_);
+    connect(startPage_, &StartPage::presetChosen, this, [this](const QString& name) { open("preset:" + name); });
+    connect(startPage_, &StartPage::openRequested, this, &MainWindow::openDialog);
+    stack_ = new QStackedWidget;
+    stack_->addWidget(startPage_);
+    stack_->addWidget(work);
+    column->addWidget(stack_, 1);
+    setCentralWidget(whole);
+    status_ = makeLabel({}, "caption", this);
+    statusBar()->addWidget(status_, 1);
+    statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::connectState() {
+    connect(workspace_, &Workspace::sceneChanged, this, &MainWindow::showScene);
+    connect(workspace_, &Workspace::fileChanged, this, &MainWindow::showScene);
+    connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);
+    connect(run_, &RunControl::resultsChanged, this, [this] {
+        double computed = workspace_->scene().start.value;
+        if (const auto results = run_->results())
+            for (const auto& s : results->schemes)
+                if (std::isfinite(s->summary.tEnd)) computed = std::max(computed, s->summary.tEnd);
+        playback_->setComputedEnd(computed);
+        showStatus();
+    });
+}
+
+bool MainWindow::open(const QString& scene) {
+    const bool isOpen = workspace_->open(scene);
+    stack_->setCurrentIndex(workspace_->hasScene() ? 1 : 0);
+    return isOpen;
+}
+
+void MainWindow::setTheme(const Theme& theme) {
+    theme_ = theme;
+    applyTheme(*qApp, theme_);
+    discretizer_->setTheme(theme_);
+    schemes_->setTheme(theme_);
+    compare_->setTheme(theme_);
+    startPage_->setTheme(theme_);
+    if (isRemembered_) {
+        QSettings settings;
+        settings.setValue("window/dark", theme_.isDark);
+        settings.setValue("window/fontScale", theme_.fontScale);
+    }
+}
+
+void MainWindow::showScene() {
+    stack_->setCurrentIndex(workspace_->hasScene() ? 1 : 0);
+    if (!workspace_->hasScene()) {
+        setWindowTitle(tr("Extremal"));
+        return;
+    }
+    const Scene& scene = workspace_->scene();
+    setWindowTitle(tr("%1[*] - Extremal").arg(workspace_->fileName()));
+    setWindowModified(workspace_->isDirty());
+    if (playback_->start() != scene.start.value || playback_->end() != scene.end.value)
+        playback_->setRange(scene.start.value, scene.end.value);
+    timeline_->setUnit(QString::fromStdString(makeSystem(scene).timeUnit));
+    QString notes = QString::fromStdString("# " + scene.title + "\n\n");
+    if (!scene.lesson.empty()) notes += "*" + QString::fromStdString(scene.lesson) + "*\n\n";
+    notes += QString::fromStdString(scene.notes);
+    if (!scene.source.empty()) notes += tr("\n\nSource: %1").arg(QString::fromStdString(scene.source));
+    notes_->setMarkdown(notes);
+}
+
+void MainWindow::showStatus() {
+    QStringList parts;
+    if (const auto results = run_->results()) {
+        int done = 0;
+        double cpu = 0;
+        for (const auto& s : results->schemes) {
+            done += s->summary.status == RunStatus::done;
+            cpu += s->summary.cpuSeconds;
+        }
+        parts << tr("%1 of %2 done").arg(done).arg(results->schemes.size()) << tr("%1 CPU").arg(shortTime(cpu));
+        parts << tr("%n cores", nullptr, static_cast<int>(std::thread::hardware_concurrency()));
+        if (results->reference.type != "none")
+            parts << tr("reference: %1").arg(QString::fromStdString(results->reference.description));
+    }
+    switch (run_->state()) {
+        case RunControl::State::running: parts << tr("running, %1 %").arg(std::lround(100 * run_->fraction())); break;
+        case RunControl::State::offered: parts << tr("waiting for Run: this takes a while"); break;
+        default: break;
+    }
+    status_->setText(parts.join(QStringLiteral("   ·   ")));
+}
+
+double MainWindow::rowStep() const {
+    if (const auto results = run_->results())
+        for (const auto& s : results->schemes)
+            if (const auto t = s->trajectory["t"]; t.size() > 1) return t[1] - t[0];
+    return (playback_->end() - playback_->start()) / 1000;
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (isRemembered_ && workspace_->isDirty()) {
+        const auto answer = QMessageBox::question(
+            this, tr("Extremal"), tr("%1 has changes that are not saved.").arg(workspace_->fileName()),
+            QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+        if (answer == QMessageBox::Save) save(false);
+        if (answer == QMessageBox::Cancel || (answer == QMessageBox::Save && workspace_->isDirty())) {
+            event->ignore();
+            return;
+        }
+    }
+    run_->stop();
+    if (isRemembered_) QSettings().setValue("window/geometry", saveGeometry());
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    if (event->mimeData()->hasUrls()) open(event->mimeData()->urls().first().toLocalFile());
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+    QMainWindow::resizeEvent(event);
+    if (splitter_->count() < 3) return;
+    const int side = std::clamp(width() * 18 / 100, 208, 300);
+    const int right = std::clamp(width() * 19 / 100, 208, 310);
+    splitter_->setSizes({side, width() - side - right - 48, right});
+}
+
+}  // namespace extremal

@@ -1,0 +1,93 @@
+/// The main window: it only arranges. State lives in Workspace, RunControl and Playback; panels and pages show it.
+#pragma once
+
+#include <QMainWindow>
+
+#include "ui/shell/theme.hpp"
+
+class QLabel;
+class QSplitter;
+class QStackedWidget;
+class QTabBar;
+class QTextBrowser;
+
+namespace extremal {
+
+class Actions;
+class Autosave;
+class CompareView;
+class Discretizer;
+class HelpWindow;
+class Notices;
+class Playback;
+class RunControl;
+class SchemeList;
+class StartPage;
+class Timeline;
+class Workspace;
+
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+public:
+    /// `isRemembered`: layout, theme and unsaved scenes are kept between starts; not for tests and screenshots.
+    explicit MainWindow(const Theme& theme, bool isRemembered = true);
+    ~MainWindow() override;
+
+    bool open(const QString& scene);  ///< a path or "preset:NAME"
+    void setTheme(const Theme& theme);
+    /// Everything into a folder: files as `extremal run`, the figures, and the command that makes them again.
+    bool exportEverything(const QString& folder);
+
+    Workspace& workspace() { return *workspace_; }
+    RunControl& runControl() { return *run_; }
+    Playback& playback() { return *playback_; }
+    Actions& actions() { return *actions_; }
+    CompareView& compareView() { return *compare_; }
+    Discretizer& discretizer() { return *discretizer_; }
+    Notices& notices() { return *notices_; }
+
+protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void makePages();
+    void makeActions();
+    void connectState();
+    void addFileActions();
+    void addEditActions();
+    void addViewActions();
+    void addRunActions();
+    void showScene();
+    void showStatus();
+    void openDialog();
+    void save(bool asksName);
+    void exportDialog();
+    void showPalette();
+    double rowStep() const;
+
+    Theme theme_;
+    bool isRemembered_;
+    Notices* notices_;
+    Workspace* workspace_;
+    RunControl* run_;
+    Playback* playback_;
+    Autosave* autosave_ = nullptr;
+    Actions* actions_;
+    CompareView* compare_;
+    Discretizer* discretizer_;
+    SchemeList* schemes_;
+    StartPage* startPage_;
+    Timeline* timeline_;
+    HelpWindow* help_ = nullptr;
+    QStackedWidget* stack_;   ///< start page or work page
+    QStackedWidget* pages_;   ///< Compare, Notes
+    QTabBar* tabs_;
+    QSplitter* splitter_;
+    QTextBrowser* notes_;
+    QLabel* status_;
+};
+
+}  // namespace extremal

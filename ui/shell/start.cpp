@@ -1,0 +1,73 @@
+#include "ui/shell/start.hpp"
+
+#include <QApplication>
+#include <QPixmap>
+#include <QSettings>
+#include <QTimer>
+
+#include <algorithm>
+
+#include "ui/shell/actions.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/playback.hpp"
+#include "ui/shell/run_control.hpp"
+
+namespace extremal {
+namespace {
+
+Theme rememberedTheme() {
+    const QSettings settings;
+    Theme theme = settings.value("window/dark").toBool() ? Theme::dark() : Theme::light();
+    theme.fontScale = std::clamp(settings.value("window/fontScale", 1.0).toDouble(), 0.7, 2.0);
+    return theme;
+}
+
+int takePicture(QApplication& application, const QString& file, const std::string& scene) {
+    const Theme theme = qEnvironmentVariable("EXTREMAL_SHOT_THEME") == "dark" ? Theme::dark() : Theme::light();
+    applyTheme(application, theme);
+    MainWindow window(theme, false);
+    const QStringList size = qEnvironmentVariable("EXTREMAL_SHOT_SIZE", "1600x1000").split('x');
+    if (size.size() == 2) window.resize(size[0].toInt(), size[1].toInt());
+    if (!scene.empty()) window.open(QString::fromStdString(scene));
+    window.show();
+    int code = 1;
+    const auto grab = [&] {
+        QTimer::singleShot(900, &window, [&] {
+            code = window.grab().save(file) ? 0 : 3;
+            application.quit();
+        });
+    };
+    if (scene.empty()) {
+        QTimer::singleShot(4000, &window, grab);
+    } else {
+        QObject::connect(&window.runControl(), &RunControl::finished, &window, [&] {
+            Playback& p = window.playback();
+            p.setTime(p.start() + 0.62 * (p.end() - p.start()));
+            grab();
+        });
+        QTimer::singleShot(60000, &window, grab);
+    }
+    application.exec();
+    return code;
+}
+
+}  // namespace
+
+int runWindow(int& argc, char** argv, const std::string& scene) {
+    QApplication application(argc, argv);
+    QApplication::setApplicationName("Extremal");
+    QApplication::setOrganizationName("Extremal");
+    loadFonts();
+    KeyGuard guard;
+    application.installEventFilter(&guard);
+    if (const QString shot = qEnvironmentVariable("EXTREMAL_SHOT"); !shot.isEmpty())
+        return takePicture(application, shot, scene);
+    const Theme theme = rememberedTheme();
+    applyTheme(application, theme);
+    MainWindow window(theme);
+    if (!scene.empty()) window.open(QString::fromStdString(scene));
+    window.show();
+    return application.exec();
+}
+
+}  // namespace extremal

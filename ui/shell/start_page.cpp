@@ -1,0 +1,177 @@
+#include "ui/shell/start_page.hpp"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QMouseEvent>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <functional>
+
+#include "engine/figure/figure.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
+#include "ui/panels/card.hpp"
+#include "ui/plots/plot_renderer.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr QSize pictureSize(300, 170);
+
+/// A card that is one big button.
+class PresetCard : public Card {
+public:
+    PresetCard(const QString& title, std::function<void()> act, QWidget* parent)
+        : Card(title, parent), act_(std::move(act)) {
+        setFocusPolicy(Qt::StrongFocus);
+        setCursor(Qt::PointingHandCursor);
+        setAccessibleName(title);
+    }
+
+protected:
+    void mouseReleaseEvent(QMouseEvent* event) override {
+        if (event->button() == Qt::LeftButton && rect().contains(event->pos())) act_();
+    }
+    void keyPressEvent(QKeyEvent* event) override {
+        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space)
+            act_();
+        else
+            Card::keyPressEvent(event);
+    }
+    void enterEvent(QEnterEvent*) override { setSelected(true); }
+    void leaveEvent(QEvent*) override { setSelected(hasFocus()); }
+    void focusInEvent(QFocusEvent*) override { setSelected(true); }
+    void focusOutEvent(QFocusEvent*) override { setSelected(false); }
+
+private:
+    std::function<void()> act_;
+};
+
+}  // namespace
+
+struct StartPage::Entry {
+    Scene scene;
+    PresetCard* card;
+    QLabel* picture;
+    Comparison result;
+};
+
+StartPage::StartPage(const Theme& theme, QWidget* parent) : QWidget(parent), theme_(&theme), timer_(new QTimer(this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    auto* scroll = new QScrollArea;
+    scroll->setWidgetResizable(true);
+    scroll->setFrameShape(QFrame::NoFrame);
+    inside_ = new QWidget;
+    inside_->setProperty("ground", "window");
+    auto* column = new QVBoxLayout(inside_);
+    column->setContentsMargins(24, 20, 24, 20);
+    column->setSpacing(14);
+    auto* head = new QHBoxLayout;
+    auto* words = new QVBoxLayout;
+    words->setSpacing(3);
+    words->addWidget(makeLabel(tr("Choose a comparison"), "heading"));
+    words->addWidget(makeLabel(tr("Pick a function space and a quadrature rule: the stationarity of the discrete action is the "
+                                  "integrator. Each card is a finished comparison; change anything in it."),
+                               "caption"));
+    head->addLayout(words, 1);
+    auto* open = new QPushButton(tr("Open a scene..."));
+    connect(open, &QPushButton::clicked, this, &StartPage::openRequested);
+    head->addWidget(open);
+    column->addLayout(head);
+    grid_ = new QGridLayout;
+    grid_->setSpacing(12);
+    column->addLayout(grid_);
+    column->addStretch();
+    scroll->setWidget(inside_);
+    layout->addWidget(scroll);
+
+    // The headline first, then the others by name.
+    std::vector<const Preset*> order;
+    for (const Preset& p : presets()) order.push_back(&p);
+    std::stable_partition(order.begin(), order.end(), [](const Preset* p) { return p->id == "spring-pendulum"; });
+    for (const Preset* p : order) {
+        ReadScene read = readScene(p->json);
+        if (!read.errors.empty()) continue;
+        const QString id = QString::fromUtf8(p->id.data(), static_cast<qsizetype>(p->id.size()));
+        auto entry = std::make_unique<Entry>();
+        entry->scene = std::move(read.scene);
+        entry->card = new PresetCard(QString::fromStdString(entry->scene.title), [this, id] { emit presetChosen(id); }, inside_);
+        entry->picture = new QLabel(entry->card);
+        entry->picture->setFixedHeight(pictureSize.height());
+        entry->picture->setAlignment(Qt::AlignCenter);
+        entry->card->body()->addWidget(entry->picture);
+        auto* lesson = makeLabel(QString::fromStdString(entry->scene.lesson), "caption", entry->card);
+        lesson->setWordWrap(true);
+        lesson->setMinimumHeight(34);
+        lesson->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+        entry->card->body()->addWidget(lesson);
+        waiting_.push_back(entries_.size());
+        entries_.push_back(std::move(entry));
+    }
+    timer_->setInterval(25);
+    connect(timer_, &QTimer::timeout, this, &StartPage::work);
+}
+
+StartPage::~StartPage() = default;
+
+void StartPage::setTheme(const Theme& theme) {
+    theme_ = &theme;
+    waiting_.clear();
+    for (std::size_t i = 0; i < entries_.size(); ++i) waiting_.push_back(i);
+    if (isVisible()) timer_->start();
+}
+
+void StartPage::showEvent(QShowEvent* event) {
+    QWidget::showEvent(event);
+    timer_->start();
+}
+
+void StartPage::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    arrange();
+}
+
+void StartPage::arrange() {
+    const int columns = std::max(1, (width() - 40) / (pictureSize.width() + 44));
+    if (columns == columns_) return;
+    columns_ = columns;
+    while (QLayoutItem* item = grid_->takeAt(0)) delete item;
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        grid_->addWidget(entries_[i]->card, static_cast<int>(i) / columns, static_cast<int>(i) % columns);
+}
+
+void StartPage::work() {
+    if (!isVisible() || waiting_.empty()) {
+        timer_->stop();
+        run_.reset();
+        return;
+    }
+    Entry& entry = *entries_[waiting_.front()];
+    if (entry.result.schemes.empty()) {
+        if (!run_) {
+            run_ = std::make_unique<Run>(entry.scene, RunOptions{1});
+            run_->start();
+        }
+        if (!run_->isFinished()) return;
+        entry.result = run_->latest();
+        run_.reset();
+    }
+    const std::vector<View> views = plotViews(entry.scene);
+    if (!views.empty()) {
+        const Figure figure = makeFigure(entry.result, views.front());
+        PlotOptions options;
+        options.hasHeader = options.hasLegend = false;
+        const double ratio = devicePixelRatioF();
+        QImage image = renderFigure(figure, pictureSize, *theme_, ratio, options);
+        image.setDevicePixelRatio(ratio);
+        entry.picture->setPixmap(QPixmap::fromImage(image));
+    }
+    waiting_.pop_front();
+}
+
+}  // namespace extremal
