@@ -98,13 +98,13 @@ void CompareView::rebuild() {
 }
 
 void CompareView::arrange() {
-    const int columns = width() >= 640 ? 2 : 1;
+    const int columns = width() >= 500 ? 2 : 1;
     if (columns == columns_) return;
     columns_ = columns;
     while (QLayoutItem* item = grid_->takeAt(0)) delete item;
     // Six half-columns: the stage is a little wider than what stands beside it.
-    const int plotHeight = 205;
-    stageCard_->setMinimumHeight(columns == 2 ? 250 : 240);
+    const int plotHeight = 168;
+    stageCard_->setMinimumHeight(columns == 2 ? 225 : 240);
     int row = 0;
     if (columns == 2) {
         grid_->addWidget(stageCard_, 0, 0, 1, 7);

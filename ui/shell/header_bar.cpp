@@ -31,9 +31,9 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(18, 9, 14, 9);
     row->setSpacing(8);
-    title_ = makeElidedLabel({}, "heading", this);
+    title_ = makeLabel({}, "heading", this);
     file_ = makeLabel({}, "caption", this);
-    row->addWidget(title_, 3);
+    row->addWidget(title_);
     row->addSpacing(6);
     row->addWidget(file_);
     row->addStretch(1);

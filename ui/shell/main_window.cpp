@@ -128,7 +128,7 @@ void MainWindow::makePages() {
     splitter_->addWidget(centre);
     splitter_->addWidget(schemes_);
     splitter_->setStretchFactor(1, 1);
-    left->setMinimumWidth(208);
+    left->setMinimumWidth(250);  // the discretizer's six columns
     schemes_->setMinimumWidth(208);
     auto* work = new QWidget;
     auto* workRow = new QVBoxLayout(work);
@@ -257,7 +257,7 @@ void MainWindow::dropEvent(QDropEvent* event) {
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
     if (splitter_->count() < 3) return;
-    const int side = std::clamp(width() * 18 / 100, 208, 300);
+    const int side = std::clamp(width() * 18 / 100, 250, 300);
     const int right = std::clamp(width() * 19 / 100, 208, 310);
     splitter_->setSizes({side, width() - side - right - 48, right});
 }
