@@ -1,5 +1,6 @@
 #include "engine/run/advice.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
@@ -10,11 +11,12 @@
 namespace extremal {
 
 std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system,
-                      const State& state) {
+                      const State& initial, const State& state) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an earlier end.";
-    const double w = highestFrequency(system, state);
+    // A state that has blown up says nothing of frequencies: the start counts as well.
+    const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
     double limit = 0;
     if (const auto pair = pairOf(scheme))
         limit = describe(pair->space, pair->quadrature).stabilityLimit;

@@ -81,7 +81,7 @@ struct SchemeRun::Pass {
     RowSampler sampler;
     std::vector<Bound> observers;
     SchemeResult result;
-    State state;
+    State initialNode, state;
     bool isLastNodeRow = false;
     StepReport lastReport;
     std::vector<double> values;
@@ -96,6 +96,7 @@ struct SchemeRun::Pass {
           step(step_),
           isAdaptiveScheme(isAdaptive(spec_)),
           sampler(initial.t, scene_.every ? std::optional<double>(scene_.every->value) : std::nullopt, stride),
+          initialNode(initial),
           state(initial) {
         if (!isAdaptiveScheme) steps = stepCount(scene.start.value, scene.end.value, step);
         result.spec = spec;
@@ -156,7 +157,7 @@ struct SchemeRun::Pass {
             s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
-            s.advice = adviceFor(outcome, spec, step, system, state);
+            s.advice = adviceFor(outcome, spec, step, system, initialNode, state);
         }
         const Column* energy = result.trajectory.find("energy_error");
         if (energy) s.energyDrift = slope(result.trajectory.columns[0].values, energy->values);

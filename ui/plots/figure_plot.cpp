@@ -44,6 +44,31 @@ PlotRange toPlotRange(const std::optional<std::pair<double, double>>& range) {
     return range ? PlotRange{range->first, range->second} : PlotRange{};
 }
 
+/// One unit as long on both axes: the axis with the longer units keeps its range, the other one is widened.
+void makeScalesEqual(ViewState& view, QSize pixels) {
+    PlotRange x = view.range(PlotAxis::x), y = view.range(PlotAxis::y);
+    const double unit = std::max((x.high - x.low) / pixels.width(), (y.high - y.low) / pixels.height());
+    const auto widen = [&](PlotAxis axis, PlotRange r, double length) {
+        const double middle = (r.low + r.high) / 2, half = unit * length / 2;
+        if (r.high - r.low >= 2 * half * (1 - 1e-9)) return;
+        if (view.isUserChosen(axis)) view.choose(axis, {middle - half, middle + half});
+        else view.setFitted(axis, {middle - half, middle + half});
+    };
+    widen(PlotAxis::x, x, pixels.width());
+    widen(PlotAxis::y, y, pixels.height());
+}
+
+/// The marks of failures stand above the curves: the fitted range leaves them up to a third of the height.
+void makeRoomForMarks(FigurePlot::Shared& s, int height) {
+    const auto count = static_cast<double>(s.figure.failures.size());
+    if (count == 0 || !s.figure.x.isTime || height <= 0) return;
+    const double share = std::min(0.33, 22 * count / height);
+    const PlotRange r = toPlotRange(s.figure.y.range);
+    const double stretch = 1 / (1 - share);
+    const double high = s.figure.y.isLog ? r.low * std::pow(r.high / r.low, stretch) : r.low + (r.high - r.low) * stretch;
+    s.view.setFitted(PlotAxis::y, {r.low, high});
+}
+
 }  // namespace
 
 FigurePlot::FigurePlot(QCustomPlot& plot, const Theme& theme) : shared_(new Shared{plot, theme, {}, {}, {}, {}, {}}) {
@@ -120,18 +145,8 @@ void FigurePlot::prepare(QSize size) {
     };
     apply(size.width() - 80, size.height() - 50);  // a guess, only to measure the margins
     const QRect rect = s.plot.axisRect()->rect();
-    if (s.figure.hasEqualScales && rect.width() > 0 && rect.height() > 0 && !s.view.isUserChosen()) {
-        PlotRange rx = toPlotRange(s.figure.x.range), ry = toPlotRange(s.figure.y.range);
-        const double unit = std::max((rx.high - rx.low) / rect.width(), (ry.high - ry.low) / rect.height());
-        const auto widen = [unit](PlotRange& r, double pixels) {
-            const double middle = (r.low + r.high) / 2;
-            r = {middle - unit * pixels / 2, middle + unit * pixels / 2};
-        };
-        widen(rx, rect.width());
-        widen(ry, rect.height());
-        s.view.setFitted(PlotAxis::x, rx);
-        s.view.setFitted(PlotAxis::y, ry);
-    }
+    if (s.figure.hasEqualScales && rect.width() > 0 && rect.height() > 0) makeScalesEqual(s.view, rect.size());
+    makeRoomForMarks(s, rect.height());
     apply(rect.width(), rect.height());
     s.plot.setViewport(before);
 }
@@ -147,12 +162,8 @@ struct Rows {
 
 Rows rowsNear(const Series& s, const PixelMap& map, double pixel, double reach) {
     if (s.isCurve || s.hasMarkers) return {0, s.x.size(), std::max<std::size_t>(1, s.x.size() / 50000)};
-    const auto valueAt = [&](double px) {
-        const double f = (px - map.rect.left()) / map.rect.width();
-        return map.isXLog ? map.x.low * std::pow(map.x.high / map.x.low, f) : map.x.low + f * (map.x.high - map.x.low);
-    };
-    const auto low = std::lower_bound(s.x.begin(), s.x.end(), valueAt(pixel - reach));
-    const auto high = std::upper_bound(low, s.x.end(), valueAt(pixel + reach));
+    const auto low = std::lower_bound(s.x.begin(), s.x.end(), map.xAt(pixel - reach));
+    const auto high = std::upper_bound(low, s.x.end(), map.xAt(pixel + reach));
     const auto from = static_cast<std::size_t>(low - s.x.begin()), to = static_cast<std::size_t>(high - s.x.begin());
     return {from > 0 ? from - 1 : 0, std::min(to + 1, s.x.size()), std::max<std::size_t>(1, (to - from) / 20000)};
 }

@@ -27,6 +27,7 @@ struct PlotCursors {
     QPointF hoverPoint;      ///< pixels
     QColor hoverColor;
     std::optional<QRectF> box;  ///< the zoom box being drawn
+    bool hasFocus = false;      ///< reached with the keyboard
 };
 
 class FigurePlot {

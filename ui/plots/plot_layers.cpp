@@ -70,6 +70,11 @@ QRectF drawPill(QCPPainter& painter, QPointF topLeft, const QString& text, const
     return box;
 }
 
+void drawCross(QCPPainter& painter, QPointF at) {
+    painter.drawLine(at + QPointF(-4, -4), at + QPointF(4, 4));
+    painter.drawLine(at + QPointF(-4, 4), at + QPointF(4, -4));
+}
+
 }  // namespace
 
 void CurvesLayer::draw(QCPPainter* painter) {
@@ -133,6 +138,16 @@ void MarksLayer::draw(QCPPainter* painter) {
                       QString::fromStdString(shared_.figure.message));
 }
 
+/// The last point of a scheme's curve that is inside the plot.
+std::optional<QPointF> MarksLayer::endOfCurve(const std::string& label, const PixelMap& map) const {
+    for (const Series& s : shared_.figure.series) {
+        if (s.label != label || !s.isCurve) continue;
+        for (std::size_t i = s.x.size(); i-- > 0;)
+            if (const QPointF p = map(s.x[i], s.y[i]); map.rect.contains(p)) return p;
+    }
+    return {};
+}
+
 void MarksLayer::drawFailures(QCPPainter& painter, const PixelMap& map) const {
     const Theme& theme = shared_.theme;
     const QFont font = small(theme);
@@ -141,6 +156,11 @@ void MarksLayer::drawFailures(QCPPainter& painter, const PixelMap& map) const {
         const QString label = QString::fromStdString(f.label);
         if (shared_.hidden.contains(label)) continue;
         QPointF cross(map.rect.left() + 8, top + 9);
+        if (const auto end = endOfCurve(f.label, map); end) {
+            painter.setPen(QPen(shared_.colorOf(f.style), 2));
+            drawCross(painter, *end);
+            continue;  // the plots over time say the rest
+        }
         if (shared_.figure.x.isTime) {
             if (f.x < map.x.low || f.x > map.x.high) continue;
             cross.setX(map(f.x, map.y.low).x());
@@ -148,8 +168,7 @@ void MarksLayer::drawFailures(QCPPainter& painter, const PixelMap& map) const {
             painter.drawLine(QPointF(cross.x(), top + 15), QPointF(cross.x(), map.rect.bottom()));
         }
         painter.setPen(QPen(shared_.colorOf(f.style), 2));
-        painter.drawLine(cross + QPointF(-4, -4), cross + QPointF(4, 4));
-        painter.drawLine(cross + QPointF(-4, 4), cross + QPointF(4, -4));
+        drawCross(painter, cross);
 
         const double right = map.rect.right() - cross.x() - 12, left = cross.x() - 12 - map.rect.left();
         const double room = std::max(right, left) - 14;
@@ -177,6 +196,10 @@ void CursorLayer::draw(QCPPainter* painter) {
         painter->setBrush(Qt::NoBrush);
     }
     if (!c.hoverText.isEmpty()) drawHover(*painter);
+    if (c.hasFocus) {
+        painter->setPen(QPen(shared_.theme.accent, 1, Qt::DotLine));
+        painter->drawRect(map.rect.adjusted(-3.5, -3.5, 3.5, 3.5));
+    }
 }
 
 void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t, bool isPinned) const {

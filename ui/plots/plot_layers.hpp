@@ -51,6 +51,7 @@ protected:
 
 private:
     void drawFailures(QCPPainter& painter, const PixelMap& map) const;
+    std::optional<QPointF> endOfCurve(const std::string& label, const PixelMap& map) const;
     const FigurePlot::Shared& shared_;
 };
 

@@ -12,6 +12,11 @@ double fraction(double value, PlotRange range, bool isLog) {
     return std::log(value / range.low) / std::log(range.high / range.low);
 }
 
+double valueAt(double f, PlotRange range, bool isLog) {
+    if (!isLog) return range.low + f * (range.high - range.low);
+    return range.low * std::pow(range.high / range.low, f);
+}
+
 constexpr double farAway = 1e9;  // pixels; beyond, only the direction matters
 
 /// The part of the segment a-b inside the rectangle (Liang and Barsky 1984): parameters in [0, 1], or none.
@@ -131,6 +136,14 @@ QPointF PixelMap::operator()(double xValue, double yValue) const {
     const double fx = fraction(xValue, x, isXLog), fy = fraction(yValue, y, isYLog);
     return {std::clamp(rect.left() + fx * rect.width(), -farAway, farAway),
             std::clamp(rect.bottom() - fy * rect.height(), -farAway, farAway)};
+}
+
+double PixelMap::xAt(double pixel) const {
+    return valueAt((pixel - rect.left()) / rect.width(), x, isXLog);
+}
+
+double PixelMap::yAt(double pixel) const {
+    return valueAt((rect.bottom() - pixel) / rect.height(), y, isYLog);
 }
 
 std::vector<QPolygonF> visiblePolylines(std::span<const double> x, std::span<const double> y, const PixelMap& map,

@@ -21,6 +21,8 @@ struct PixelMap {
     bool isXLog = false, isYLog = false;
     QRectF rect;
     QPointF operator()(double xValue, double yValue) const;
+    double xAt(double pixel) const;
+    double yAt(double pixel) const;
 };
 
 /// `density`: points per pixel that can be told apart (1 on a plain screen, more for print).

@@ -38,6 +38,9 @@ QPushButton[kind="primary"]:disabled { background: @line; border-color: @line; c
 QPushButton[kind="flat"] { background: transparent; border-color: transparent; color: @muted; padding: 3px 6px; }
 QPushButton[kind="flat"]:hover { background: @field; color: @text; }
 QPushButton[kind="flat"]:focus { border-color: @accent; }
+QPushButton[kind="chip"] { background: @selection; color: @text; border: none; border-radius: 8px; padding: 1px 8px;
+    font-size: @11px; }
+QPushButton[kind="chip"]:hover, QPushButton[kind="chip"]:focus { background: @accent; color: @onAccent; }
 QToolButton { background: transparent; color: @text; border: 1px solid transparent; border-radius: 6px; padding: 4px 8px; }
 QToolButton:hover { background: @field; }
 QToolButton:pressed, QToolButton:checked { background: @selection; }

@@ -9,7 +9,7 @@
 ///     QFrame   card = true               panel ground, hairline, rounded corners;  selected = true: accent line
 ///     QFrame   banner = "warning"|"error"
 ///     QLabel   role = "heading" | "title" | "strong" | "caption"      (no role: body text)
-///     QPushButton kind = "primary" | "flat"                           (no kind: outlined)
+///     QPushButton kind = "primary" | "flat" | "chip"                  (no kind: outlined)
 ///     QWidget  ground = "window" | "panel"                            plain grounds
 /// After changing a property of a visible widget call repolish(widget).
 #pragma once

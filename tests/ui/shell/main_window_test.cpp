@@ -1,0 +1,157 @@
+/// The window as a user drives it, on the offscreen platform.
+#include <QLineEdit>
+#include <QSet>
+#include <QSignalSpy>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <algorithm>
+
+#include "ui/panels/discretizer.hpp"
+#include "ui/panels/value_edit.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/compare_view.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/notices.hpp"
+#include "ui/shell/playback.hpp"
+#include "ui/shell/run_control.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+class MainWindowTest : public QObject {
+    Q_OBJECT
+
+    static bool waitForResults(MainWindow& window) {
+        return QTest::qWaitFor(
+            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
+    }
+
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void aPresetOpensAndRunsByItself() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        QVERIFY(window.open("preset:kepler"));
+        QVERIFY(waitForResults(window));
+        const auto results = window.runControl().results();
+        QVERIFY(results && results->isFinished);
+        for (const auto& s : results->schemes) QVERIFY(s->summary.status == RunStatus::done);
+        QVERIFY(window.compareView().plots().size() >= 5);
+        for (const PlotWidget* plot : window.compareView().plots()) QVERIFY(!plot->figure().series.empty());
+    }
+    void aClickInTheDiscretizerAddsAScheme() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        const std::size_t before = window.workspace().scene().schemes.size();
+        DiscretizerCell* cell = window.discretizer().cell(3, "lobatto");
+        QVERIFY(cell);
+        QTest::mouseClick(cell, Qt::LeftButton);
+        QCOMPARE(window.workspace().scene().schemes.size(), before + 1);
+        QVERIFY(waitForResults(window));
+        QCOMPARE(window.runControl().results()->schemes.size(), before + 1);
+        window.actions().find("undo")->trigger();
+        QCOMPARE(window.workspace().scene().schemes.size(), before);
+        window.actions().find("redo")->trigger();
+        QCOMPARE(window.workspace().scene().schemes.size(), before + 1);
+    }
+    void everythingIsExportedAsRunDoes() {
+        QTemporaryDir folder;
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:harmonic-oscillator");
+        QVERIFY(waitForResults(window));
+        QVERIFY(window.exportEverything(folder.path()));
+        for (const char* name : {"scene.json", "summary.csv", "summary.json", "command.txt", "stage.png"})
+            QVERIFY2(QFile::exists(folder.filePath(name)), name);
+        const QStringList pictures = QDir(folder.path()).entryList({"*.svg"});
+        QCOMPARE(static_cast<std::size_t>(pictures.size()), window.compareView().plots().size());
+        QVERIFY(!window.exportEverything("/proc/nowhere"));
+        QVERIFY(!window.notices().all().empty());  // a banner, not a box
+    }
+    void aRefusedEditKeepsTheScene() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:spring-pendulum");
+        const Scene before = window.workspace().scene();
+        QVERIFY(!window.workspace().edit({{"/model/k", Value(-1.0)}}, "stiffness"));
+        QVERIFY(window.workspace().scene() == before);
+        QVERIFY(!window.workspace().problemsAt("/model/k").empty());
+        QVERIFY(window.workspace().edit({{"/model/k", Value(2e4)}}, "stiffness"));
+        QVERIFY(window.workspace().problemsAt("/model/k").empty());
+    }
+    void rapidEditsLeaveOneRun() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:spring-pendulum");
+        for (int i = 0; i < 20; ++i) {
+            QVERIFY(window.workspace().edit({{"/model/k", Value(1e4 + 100.0 * i)}}, "stiffness", "k"));
+            QTest::qWait(10);
+        }
+        QVERIFY(waitForResults(window));
+        QVERIFY(window.runControl().results()->scene == window.workspace().scene());
+    }
+    void closingWhileRunningIsClean() {
+        QElapsedTimer timer;
+        {
+            MainWindow window(Theme::light(), false);
+            window.show();
+            window.open("preset:kepler");
+            QVERIFY(window.workspace().edit({{"/time/end", Value(2e6)}}, "end"));
+            window.runControl().start();
+            QTest::qWait(100);
+            QVERIFY(window.runControl().isRunning());
+            timer.start();
+            window.close();
+        }
+        QVERIFY(timer.elapsed() < 1000);  // measured: some 20 ms; every scheme stops within 50 ms
+    }
+    void everyActionHasItsOwnKey() {
+        MainWindow window(Theme::light(), false);
+        QSet<QString> keys;
+        for (const QAction* action : window.actions().all()) {
+            QVERIFY2(!action->shortcuts().isEmpty(), qPrintable(action->text()));
+            for (const QKeySequence& key : action->shortcuts()) {
+                QVERIFY2(!keys.contains(key.toString()), qPrintable(action->text() + ' ' + key.toString()));
+                keys.insert(key.toString());
+            }
+        }
+    }
+    void keysMoveTheTimeButNotInATextField() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:harmonic-oscillator");
+        QVERIFY(waitForResults(window));
+        window.actions().find("home")->trigger();
+        QCOMPARE(window.playback().time(), 0.0);
+        window.actions().find("stepForward")->trigger();
+        QVERIFY(window.playback().time() > 0);
+    }
+    void aZoomStaysWhenNewDataArrive() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        const auto plots = window.compareView().plots();
+        PlotWidget* plot = plots[1];
+        QVERIFY(plot->figure().x.isTime);
+        plot->setTimeRange(PlotRange{1, 2});
+        const PlotRange before = plot->visibleRange(PlotAxis::x);
+        window.runControl().start();
+        QVERIFY(waitForResults(window));
+        QVERIFY(plot->visibleRange(PlotAxis::x) == before);
+        plot->fit();
+        QVERIFY(!plot->isUserZoomed());
+    }
+};
+
+}  // namespace extremal
+
+QTEST_MAIN(extremal::MainWindowTest)
+#include "main_window_test.moc"
