@@ -1,4 +1,5 @@
-/// A mass in a quartic well: L = m x_t^2 / 2 - c x^4 / 4. The harder it is pushed, the faster it swings.
+/// A mass in a quartic well: L = m x_t^2 / 2 - c x^4 / 4.
+/// The harder it is pushed, the faster it swings.
 #include <array>
 
 #include "engine/model/bind.hpp"
@@ -8,9 +9,9 @@
 namespace extremal::systems {
 namespace {
 
-/// The physics: parameters, masses and a potential, written once and generic in the number S, so that forces and
-/// Hessians follow by automatic differentiation. A Lagrangian that is not separable defines
-/// `S lagrangian(t, q, v)` in place of masses and potential.
+/// The physics: parameters, masses and a potential, written once and generic in the number S,
+/// so that forces and Hessians follow by automatic differentiation. A Lagrangian that is not
+/// separable defines `S lagrangian(t, q, v)` in place of masses and potential.
 struct QuarticOscillator {
     static constexpr int dimension = 1;
     double m = 1, c = 1;
@@ -25,7 +26,7 @@ struct QuarticOscillator {
     }
 };
 
-/// The keys of "model", with units, defaults and ranges: forms, checks and lists come from here.
+/// The keys of "model", with units, defaults and ranges: forms, checks and lists use them.
 const std::vector<Field<QuarticOscillator>>& fields() {
     static const std::vector<Field<QuarticOscillator>> all = {
         {&QuarticOscillator::m, positive("m", "mass", "kg", 1, "Mass in the well.")},
@@ -56,7 +57,8 @@ System make(const Settings& settings) {
 
 ModelEntry quartic_oscillator() {
     ModelEntry e;
-    e.item = {"quartic-oscillator", "quartic oscillator", "A mass in a quartic well.", infos(fields()), {}, ""};
+    e.item = {"quartic-oscillator", "quartic oscillator", "A mass in a quartic well.",
+              infos(fields()), {}, ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 20;

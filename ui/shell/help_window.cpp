@@ -7,6 +7,8 @@
 #include <QTextBrowser>
 #include <QUrl>
 
+#include "ui/shell/typeset.hpp"
+
 namespace extremal {
 
 HelpWindow::HelpWindow(const QString& keys, QWidget* parent) : QWidget(parent, Qt::Window), keys_(keys) {
@@ -35,7 +37,9 @@ HelpWindow::HelpWindow(const QString& keys, QWidget* parent) : QWidget(parent, Q
         if (!now) return;
         const QString page = now->data(Qt::UserRole).toString();
         QFile file(QStringLiteral(":/handbook/%1.md").arg(page));
-        text_->setMarkdown(page == "#keys" ? keys_ : file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString());
+        showMarkdown(*text_, page == "#keys"                  ? keys_
+                             : file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll())
+                                                              : QString());
     });
     connect(text_, &QTextBrowser::anchorClicked, this, [this](const QUrl& url) {
         if (url.isRelative())

@@ -36,6 +36,7 @@
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/timeline.hpp"
+#include "ui/shell/typeset.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
@@ -198,7 +199,7 @@ void MainWindow::showScene() {
     if (!scene.lesson.empty()) notes += "*" + QString::fromStdString(scene.lesson) + "*\n\n";
     notes += QString::fromStdString(scene.notes);
     if (!scene.source.empty()) notes += tr("\n\nSource: %1").arg(QString::fromStdString(scene.source));
-    notes_->setMarkdown(notes);
+    showMarkdown(*notes_, notes);
 }
 
 void MainWindow::showStatus() {

@@ -1,0 +1,79 @@
+#include "ui/shell/typeset.hpp"
+
+#include <QScrollBar>
+#include <QTextBlock>
+#include <QTextBrowser>
+#include <QTextDocument>
+#include <QTextTable>
+
+namespace extremal {
+namespace {
+
+bool isCode(const QTextBlock& block) {
+    return block.isValid() && (block.blockFormat().hasProperty(QTextFormat::BlockCodeFence) ||
+                               block.blockFormat().hasProperty(QTextFormat::BlockCodeLanguage));
+}
+
+QTextBlockFormat formatOf(const QTextBlock& block) {
+    QTextBlockFormat format = block.blockFormat();
+    format.setTopMargin(0);
+    format.setBottomMargin(9);
+    format.setLineHeight(125, QTextBlockFormat::ProportionalHeight);
+    if (const int level = format.headingLevel(); level > 0) {
+        format.setTopMargin(level == 1 ? 4 : level == 2 ? 18 : 12);
+        format.setBottomMargin(level == 1 ? 12 : 7);
+    } else if (isCode(block)) {
+        format.setBottomMargin(isCode(block.next()) ? 0 : 12);
+        format.setLeftMargin(18);
+    } else if (block.textList()) {
+        format.setBottomMargin(4);
+    } else if (QTextCursor(block).currentTable()) {
+        format.setBottomMargin(0);
+        format.setAlignment(Qt::AlignLeft);
+    }
+    return format;
+}
+
+void typesetTable(QTextTable& table, const QPalette& palette) {
+    QTextTableFormat format = table.format();
+    format.setCellSpacing(0);
+    format.setCellPadding(5);
+    format.setBorder(0);
+    format.setBorderCollapse(true);
+    format.setTopMargin(2);
+    format.setBottomMargin(14);
+    table.setFormat(format);
+    for (int row = 0; row < table.rows(); ++row)
+        for (int column = 0; column < table.columns(); ++column) {
+            QTextTableCell cell = table.cellAt(row, column);
+            QTextTableCellFormat line = cell.format().toTableCellFormat();
+            line.setBottomBorder(1);
+            line.setBottomBorderStyle(QTextFrameFormat::BorderStyle_Solid);
+            line.setBottomBorderBrush(row == 0 ? palette.mid() : palette.alternateBase());
+            cell.setFormat(line);
+            if (row > 0) continue;
+            QTextCursor text = cell.firstCursorPosition();
+            // The reader leaves an empty paragraph here when the table follows code.
+            if (text.block().length() == 1 && text.block() != cell.lastCursorPosition().block()) text.deleteChar();
+            text.setPosition(cell.lastCursorPosition().position(), QTextCursor::KeepAnchor);
+            QTextCharFormat bold;
+            bold.setFontWeight(QFont::DemiBold);
+            text.mergeCharFormat(bold);
+        }
+}
+
+}  // namespace
+
+void showMarkdown(QTextBrowser& browser, const QString& markdown) {
+    browser.setMarkdown(markdown);
+    QTextDocument& document = *browser.document();
+    document.setDocumentMargin(18);
+    const QPalette palette = browser.palette();
+    for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
+        QTextCursor(block).setBlockFormat(formatOf(block));
+    for (QTextFrame* frame : document.rootFrame()->childFrames())
+        if (auto* table = qobject_cast<QTextTable*>(frame)) typesetTable(*table, palette);
+    browser.verticalScrollBar()->setValue(0);
+}
+
+}  // namespace extremal

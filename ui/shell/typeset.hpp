@@ -1,0 +1,13 @@
+/// Makes a Markdown page look like a page: space between paragraphs, code set off, tables with hairlines.
+/// Qt's Markdown reader sets structure only.
+#pragma once
+
+class QTextBrowser;
+class QString;
+
+namespace extremal {
+
+/// Shows the text in the colours of the browser's palette.
+void showMarkdown(QTextBrowser& browser, const QString& markdown);
+
+}  // namespace extremal
