@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-#include "engine/core/text.hpp"
+#include "engine/figure/sample.hpp"
 #include "ui/plots/figure_plot.hpp"
 #include "ui/plots/plot_renderer.hpp"
 
@@ -29,22 +29,6 @@ double valueAtPixel(const PixelMap& map, PlotAxis axis, QPointF pixel) {
                          : (map.rect.bottom() - pixel.y()) / map.rect.height();
     const bool isLog = isX ? map.isXLog : map.isYLog;
     return isLog ? r.low * std::pow(r.high / r.low, f) : r.low + f * (r.high - r.low);
-}
-
-/// Rows of all series one below the other: label, x, y; full precision.
-QByteArray csvOf(const Figure& figure, std::optional<PlotRange> xRange) {
-    std::string text = "label,x,y\n";
-    for (const Series& s : figure.series) {
-        std::string label = "\"";
-        for (const char c : s.label) label += c == '"' ? std::string("\"\"") : std::string(1, c);
-        label += '"';
-        for (std::size_t i = 0; i < s.x.size(); ++i) {
-            if (xRange && !(s.x[i] >= xRange->low && s.x[i] <= xRange->high)) continue;
-            text += label + ',' + (std::isfinite(s.x[i]) ? formatNumber(s.x[i]) : "") + ',' +
-                    (std::isfinite(s.y[i]) ? formatNumber(s.y[i]) : "") + '\n';
-        }
-    }
-    return QByteArray::fromStdString(text);
 }
 
 }  // namespace
@@ -175,7 +159,7 @@ bool PlotWidget::save(const QString& path, double scale, QString* error) {
     QString problem;
     if (path.endsWith(".csv", Qt::CaseInsensitive)) {
         QSaveFile file(path);
-        if (!file.open(QIODevice::WriteOnly) || file.write(csvOf(figure(), std::nullopt)) < 0 || !file.commit())
+        if (!file.open(QIODevice::WriteOnly) || file.write(QByteArray::fromStdString(figureCsv(figure(), false))) < 0 || !file.commit())
             problem = file.errorString();
     } else {
         problem = saveFigure(path, figure(), size().expandedTo(QSize(480, 320)), Theme::light(), scale);
@@ -324,8 +308,11 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             }
             menu.addAction(tr("Copy picture"), this, &PlotWidget::copyImage);
             menu.addAction(tr("Copy visible data"), this, [this] {
-                QApplication::clipboard()->setText(
-                    QString::fromUtf8(csvOf(figure(), visibleRange(PlotAxis::x))));
+                Figure visible = figure();
+                const PlotRange x = visibleRange(PlotAxis::x), y = visibleRange(PlotAxis::y);
+                visible.x.range = {x.low, x.high};
+                visible.y.range = {y.low, y.high};
+                QApplication::clipboard()->setText(QString::fromStdString(figureCsv(visible, true)));
             });
             menu.addAction(tr("Save as..."), this, &PlotWidget::saveDialog);
             menu.exec(context->globalPos());

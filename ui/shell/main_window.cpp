@@ -26,6 +26,8 @@
 #include "ui/panels/format.hpp"
 #include "ui/panels/scene_panel.hpp"
 #include "ui/panels/scheme_list.hpp"
+#include "ui/panels/values_table.hpp"
+#include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/autosave.hpp"
 #include "ui/shell/banners.hpp"
@@ -116,6 +118,9 @@ void MainWindow::makePages() {
     centreColumn->addWidget(pages_, 1);
     timeline_ = new Timeline(*playback_);
     centreColumn->addWidget(timeline_);
+    values_ = new ValuesTable;
+    values_->hide();
+    centreColumn->addWidget(values_);
     connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
     connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
         notices_->post({Notice::Kind::error, "save", tr("The plot could not be saved: %1").arg(reason), {}, {}});
@@ -153,6 +158,7 @@ void MainWindow::connectState() {
     connect(workspace_, &Workspace::sceneChanged, this, &MainWindow::showScene);
     connect(workspace_, &Workspace::fileChanged, this, &MainWindow::showScene);
     connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);
+    connect(playback_, &Playback::timeChanged, this, &MainWindow::showValues);
     connect(run_, &RunControl::resultsChanged, this, [this] {
         double computed = workspace_->scene().start.value;
         if (const auto results = run_->results())
@@ -160,6 +166,7 @@ void MainWindow::connectState() {
                 if (std::isfinite(s->summary.tEnd)) computed = std::max(computed, s->summary.tEnd);
         playback_->setComputedEnd(computed);
         showStatus();
+        showValues();
     });
 }
 
@@ -222,6 +229,13 @@ void MainWindow::showStatus() {
         default: break;
     }
     status_->setText(parts.join(QStringLiteral("   ·   ")));
+}
+
+void MainWindow::showValues() {
+    if (values_->isHidden()) return;
+    std::vector<const Figure*> figures;
+    for (const PlotWidget* plot : compare_->plots()) figures.push_back(&plot->figure());
+    values_->show(figures, playback_->time(), theme_);
 }
 
 double MainWindow::rowStep() const {

@@ -24,6 +24,7 @@ class RunControl;
 class SchemeList;
 class StartPage;
 class Timeline;
+class ValuesTable;
 class Workspace;
 
 class MainWindow : public QMainWindow {
@@ -62,6 +63,7 @@ private:
     void addRunActions();
     void showScene();
     void showStatus();
+    void showValues();
     void openDialog();
     void save(bool asksName);
     void exportDialog();
@@ -81,6 +83,7 @@ private:
     SchemeList* schemes_;
     StartPage* startPage_;
     Timeline* timeline_;
+    ValuesTable* values_;
     HelpWindow* help_ = nullptr;
     QStackedWidget* stack_;   ///< start page or work page
     QStackedWidget* pages_;   ///< Compare, Notes

@@ -77,6 +77,11 @@ void PaletteDialog::filter(const QString& text) {
         item->setData(Qt::UserRole, f.data);
         if (!f.isEnabled) item->setFlags(item->flags() & ~Qt::ItemIsEnabled);
     }
+    if (found.empty()) {
+        auto* item = new QListWidgetItem(tr("Nothing is called that"), list_);
+        item->setFlags(Qt::NoItemFlags);
+        return;
+    }
     list_->setCurrentRow(0);
 }
 

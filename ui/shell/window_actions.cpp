@@ -6,6 +6,7 @@
 #include "engine/run/export.hpp"
 #include "engine/core/text.hpp"
 #include "ui/panels/scheme_list.hpp"
+#include "ui/panels/values_table.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/compare_view.hpp"
@@ -86,6 +87,10 @@ void MainWindow::addViewActions() {
     const QString menu = tr("View");
     actions_->add("palette", menu, tr("Find an action..."), {QKeySequence(Qt::CTRL | Qt::Key_K)}, [this] { showPalette(); });
     actions_->add("fit", menu, tr("Fit all"), {QKeySequence(Qt::Key_A)}, [this] { compare_->fitAll(); });
+    actions_->add("values", menu, tr("Values at the cursor"), {QKeySequence(Qt::Key_V)}, [this] {
+        values_->setVisible(values_->isHidden());
+        showValues();
+    });
     actions_->add("theme", menu, tr("Light or dark"), {QKeySequence(Qt::CTRL | Qt::Key_T)}, [this] {
         Theme theme = theme_.isDark ? Theme::light() : Theme::dark();
         theme.fontScale = theme_.fontScale;
