@@ -1,6 +1,7 @@
 #include "engine/baseline/partitioned.hpp"
 
 #include <limits>
+#include <utility>
 
 #include "engine/baseline/flow_method.hpp"
 
@@ -95,6 +96,16 @@ private:
 std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, const Clock& clock,
                                             const std::vector<PartitionedStage>& stages) {
     return makeFlowMethod<Partitioned>(mechanics, clock, stages);
+}
+
+BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages) {
+    BaselineEntry e;
+    e.item = std::move(item);
+    e.stabilityLimit = 2;
+    e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
+        return makePartitioned(system.mechanics, options.clock, stages);
+    };
+    return e;
 }
 
 }  // namespace extremal

@@ -1,22 +1,19 @@
 /// Störmer-Verlet, drift-kick-drift (position form).
-#include "engine/baseline/catalog.hpp"
 #include "engine/baseline/partitioned.hpp"
 
 namespace extremal::baselines {
 
 BaselineEntry stormer_verlet_position() {
-    static const std::vector<PartitionedStage> stages = {{HalfMap::driftImplicit, 0.5},
-                                                        {HalfMap::kickExplicit, 0.5},
-                                                        {HalfMap::kickImplicit, 0.5},
-                                                        {HalfMap::driftExplicit, 0.5}};
-    BaselineEntry e;
-    e.item = {"stormer-verlet-position", "Störmer-Verlet (drift first)", "Drift, kick, drift: order 2, explicit for separable systems.", {},
-              Claims{2, true, true, {"momentum"}}, ""};
-    e.stabilityLimit = 2;
-    e.make = [](const System& system, const BaselineOptions& options) {
-        return makePartitioned(system.mechanics, options.clock, stages);
-    };
-    return e;
+    return partitionedBaseline({"stormer-verlet-position",
+                                "Störmer-Verlet (drift first)",
+                                "Drift, kick, drift: order 2, explicit for separable systems.",
+                                {},
+                                Claims{2, true, true, {"momentum"}},
+                                ""},
+                               {{HalfMap::driftImplicit, 0.5},
+                                {HalfMap::kickExplicit, 0.5},
+                                {HalfMap::kickImplicit, 0.5},
+                                {HalfMap::driftExplicit, 0.5}});
 }
 
 }  // namespace extremal::baselines
