@@ -42,10 +42,21 @@ struct Orbit {
     double px = 1, py = 0, qx = 0, qy = 1;
     double warm = 0, warmMean = 0;  ///< eccentric anomaly of the previous call and its mean anomaly
 
+    double sinE = 0, cosE = 1;  ///< of warm
+    int sinceFresh = 0;         ///< calls since they were last computed afresh
+
     void operator()(double t, std::span<double> x) {
         const double mean = meanAnomaly + n * (t - start);
-        const double E = isElliptic ? solveElliptic(mean) : solveHyperbolic(mean);
-        const double c = isElliptic ? std::cos(E) : std::cosh(E), s = isElliptic ? std::sin(E) : std::sinh(E);
+        double c, s;
+        if (isElliptic) {
+            if (!stepElliptic(mean)) solveElliptic(mean);
+            c = cosE;
+            s = sinE;
+        } else {
+            const double E = solveHyperbolic(mean);
+            c = std::cosh(E);
+            s = std::sinh(E);
+        }
         const double sign = isElliptic ? 1 : -1;
         const double rate = n / (sign * (1 - e * c));  // dE/dt
         const double u = sign * a * (c - e), v = b * s;
@@ -55,9 +66,9 @@ struct Orbit {
         x[2] = ut * px + vt * qx;
         x[3] = ut * py + vt * qy;
     }
-    /// E - e sin E = M by Newton with Halley's correction, from the previous call where that is near.
-    double solveElliptic(double mean) {
-        double E = mean + (mean - warmMean < 1 && warmMean - mean < 1 ? warm - warmMean : e * std::sin(mean));
+    /// E - e sin E = M from scratch, by Newton with Halley's correction.
+    void solveElliptic(double mean) {
+        double E = mean + e * std::sin(mean);
         for (int i = 0; i < 60; ++i) {
             const double s = e * std::sin(E), slope = 1 - e * std::cos(E);
             const double f = E - s - mean;
@@ -67,7 +78,36 @@ struct Orbit {
         }
         warm = E;
         warmMean = mean;
-        return E;
+        sinE = std::sin(E);
+        cosE = std::cos(E);
+        sinceFresh = 0;
+    }
+    /// The same close to the previous call: E turns by a small d, found by Halley's iteration on the addition theorems
+    /// with Taylor polynomials of sin d and cos d. Much cheaper, as runs ask for one node after the other; every 64th
+    /// call starts afresh, so that round-off cannot add up. False where d is not small.
+    bool stepElliptic(double mean) {
+        const double advance = mean - warmMean;
+        double slope = 1 - e * cosE;
+        double d = advance / slope;
+        if (++sinceFresh > 64 || !(std::abs(d) < 0.02)) return false;
+        d -= 0.5 * e * sinE / slope * d * d;
+        double s = sinE, c = cosE;
+        for (int i = 0; i < 2; ++i) {
+            const double d2 = d * d;
+            const double sd = d * (1 - d2 / 6 * (1 - d2 / 20 * (1 - d2 / 42)));
+            const double cd = d2 / 2 * (1 - d2 / 12 * (1 - d2 / 30));  // 1 - cos d
+            s = sinE + (cosE * sd - sinE * cd);
+            c = cosE - (sinE * sd + cosE * cd);
+            if (i == 1) break;
+            const double f = d - e * (s - sinE) - advance;
+            slope = 1 - e * c;
+            d -= f / (slope - 0.5 * f * e * s / slope);
+        }
+        warm += d;
+        warmMean = mean;
+        sinE = s;
+        cosE = c;
+        return true;
     }
     /// e sinh E - E = M.
     double solveHyperbolic(double mean) const {
@@ -113,7 +153,7 @@ ExactSolution exactSolution(double mu, const State& initial) {
         const double E = std::asinh(v / o.b);
         o.meanAnomaly = o.e * std::sinh(E) - E;
     }
-    o.warm = o.warmMean = o.meanAnomaly - 10;  // no warm start yet
+    if (o.isElliptic) o.solveElliptic(o.meanAnomaly);
     return o;
 }
 
