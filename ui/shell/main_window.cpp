@@ -150,6 +150,7 @@ void MainWindow::makePages() {
     column->addWidget(stack_, 1);
     setCentralWidget(whole);
     status_ = makeLabel({}, "caption", this);
+    status_->setContentsMargins(14, 0, 0, 0);
     statusBar()->addWidget(status_, 1);
     statusBar()->setSizeGripEnabled(false);
 }
