@@ -4,11 +4,11 @@
 /// so that advance() allocates nothing. Trouble is an Outcome in the report; the state is then left as it was.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <stop_token>
 
-#include "engine/core/outcome.hpp"
-#include "engine/core/state.hpp"
+#include "engine/core/node_block.hpp"
 
 namespace extremal {
 
@@ -18,6 +18,18 @@ public:
 
     /// Takes one step: state.x, state.t and state.node move to the next node.
     virtual StepReport advance(State& state) = 0;
+
+    /// Takes steps until `nodes` is full, or `count` of them, or to the first trouble; each node reached is appended.
+    /// Overridden where a step is so cheap that this boundary would be felt.
+    virtual StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count) {
+        StepReport report;
+        for (std::size_t i = 0; i < count && nodes.size() < nodes.capacity(); ++i) {
+            report = advance(state);
+            if (report.outcome != Outcome::converged) break;
+            nodes.push(state, report);
+        }
+        return report;
+    }
 
     /// The scheme's own curve inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in State.
     /// Only valid after a converged advance().

@@ -3,7 +3,8 @@
 /// A model is a struct with a compile-time `dimension` d and one of
 ///   * `S lagrangian(t, q, v)`, generic in the number S (double, Dual, Jet): any Lagrangian; optionally
 ///     `void velocity(t, q, p, v)`, the inverse Legendre transform in closed form;
-///   * `S potential(t, q)` and `std::array<T, d> masses<T>()`: L = 1/2 sum_i m_i v_i^2 - V(t, q), separable.
+///   * `S potential(t, q)` and `std::array<T, d> masses<T>()`: L = 1/2 sum_i m_i v_i^2 - V(t, q), separable;
+///     optionally `void force(t, q, f)`, -dV/dq in closed form where the derivative of `potential` is slower.
 /// q and v are std::array<S, d>.
 #pragma once
 
@@ -85,11 +86,15 @@ struct Calls {
     static void force(const void* p, const T& t, const T* q, T* f)
         requires SeparableModel<M>
     {
-        using S = Dual<T, d>;
-        std::array<S, n> Q;
-        for (int i = 0; i < d; ++i) Q[static_cast<std::size_t>(i)] = S::variable(q[i], i);
-        const S U = self(p).model.potential(t, Q);
-        for (std::size_t i = 0; i < n; ++i) f[i] = -U.g[i];
+        if constexpr (requires(const M& m) { m.force(t, q, f); }) {
+            self(p).model.force(t, q, f);
+        } else {
+            using S = Dual<T, d>;
+            std::array<S, n> Q;
+            for (int i = 0; i < d; ++i) Q[static_cast<std::size_t>(i)] = S::variable(q[i], i);
+            const S U = self(p).model.potential(t, Q);
+            for (std::size_t i = 0; i < n; ++i) f[i] = -U.g[i];
+        }
     }
     static bool velocity(const void* p, const T& t, const T* q, const T* momentum, T* v) {
         if constexpr (SeparableModel<M>) {

@@ -13,6 +13,7 @@
 #include "engine/core/catalog.hpp"
 #include "engine/core/state.hpp"
 #include "engine/model/drawing.hpp"
+#include "engine/model/exact_solution.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/core/settings.hpp"
 
@@ -34,10 +35,6 @@ struct MomentumMap {
     std::string unit;
     std::function<double(const double* q, const double* p)> value;
 };
-
-/// An exact solution from given initial data: fills x (q, then p) at time t. It may keep a warm start between
-/// calls, so each thread makes its own.
-using ExactSolution = std::function<void(double t, std::span<double> x)>;
 
 struct System {
     std::string id;

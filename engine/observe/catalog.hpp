@@ -10,6 +10,7 @@
 #include "engine/core/outcome.hpp"
 #include "engine/core/state.hpp"
 #include "engine/model/system.hpp"
+#include "engine/observe/evaluation.hpp"
 #include "engine/trajectory/trajectory.hpp"
 
 namespace extremal {
@@ -25,8 +26,8 @@ struct ObserveContext {
 /// An observable bound to one run: its columns, and a pure function from a node to their values.
 struct Observer {
     std::vector<Column> columns;  ///< names, symbols, units; values empty
-    /// Fills one value per column. `report` is that of the step that ended at this node (empty at the first node).
-    std::function<void(const State& state, const StepReport& report, double* values)> evaluate;
+    /// Fills one value per column.
+    Evaluation evaluate;
     /// Column whose size goes into the summary as a maximum over every node ("energy_error", ...); -1 if none.
     int extreme = -1;
 };

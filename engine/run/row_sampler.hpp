@@ -19,11 +19,15 @@ public:
         return m;
     }
     RowSampler(double start, std::optional<double> every, long long stride)
-        : start_(start), every_(every.value_or(0)), stride_(stride) {}
+        : start_(start), every_(every.value_or(0)), stride_(stride), nextNode_(stride) {}
 
     /// Whether this node, not the first, is a row. Call it once per node, in order.
     bool isRow(long long node, double t, double step) {
-        if (every_ <= 0) return node % stride_ == 0;
+        if (every_ <= 0) {
+            if (node < nextNode_) return false;
+            nextNode_ += stride_;
+            return true;
+        }
         const double k = (t - start_) / every_ + 1e-9 * step / every_;
         if (k < next_) return false;
         next_ = std::floor(k) + 1;
@@ -33,7 +37,8 @@ public:
 private:
     double start_, every_;
     long long stride_;
-    double next_ = 1;  ///< the next multiple; node 0 is always a row
+    long long nextNode_;  ///< the next row without `every`
+    double next_ = 1;     ///< the next multiple with it; node 0 is always a row
 };
 
 }  // namespace extremal

@@ -51,12 +51,8 @@ std::vector<Column> stateColumns(const System& system) {
     return columns;
 }
 
-bool isFinite(const std::vector<double>& x) {
-    return std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
-}
-
 void growTo(double& extreme, double value) {
-    if (std::isfinite(value) && !(std::abs(value) <= extreme)) extreme = std::abs(value);
+    if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
 }
 
 }  // namespace
@@ -125,24 +121,38 @@ struct SchemeRun::Pass {
             for (const Column& c : b.observer.columns) result.trajectory.columns.push_back(c);
             observers.push_back(std::move(b));
         }
-        values.resize(result.trajectory.columns.size());
     }
 
-    /// Evaluates everything at one node; keeps it if it is a row.
-    void look(const State& at, const StepReport& report, bool isRow, bool isNode) {
-        for (Bound& b : observers) {
-            b.observer.evaluate(at, report, values.data() + b.firstColumn);
-            if (!isNode || !b.extreme) continue;
-            const double v = values[b.firstColumn + static_cast<std::size_t>(b.observer.extreme)];
-            growTo(result.summary.*(b.extreme), v);
-            if (b.extreme == &Summary::maxError) result.summary.finalError = v;
-        }
-        if (isRow) keep(at);
+    /// Evaluates every observer at the nodes of a block; row i of `values` belongs to node i.
+    void look(const NodeBlock& nodes) {
+        const std::size_t width = result.trajectory.columns.size();
+        if (values.size() < width * nodes.capacity()) values.resize(width * nodes.capacity());
+        for (Bound& b : observers) b.observer.evaluate(nodes, values.data() + b.firstColumn, width);
     }
-    void keep(const State& at) {
-        values[0] = at.t;
-        std::copy(at.x.begin(), at.x.end(), values.begin() + 1);
-        for (std::size_t c = 0; c < values.size(); ++c) result.trajectory.columns[c].values.push_back(values[c]);
+    /// The running extremes, over the block last looked at.
+    void measure(const NodeBlock& nodes) {
+        const std::size_t width = result.trajectory.columns.size();
+        for (const Bound& b : observers) {
+            if (!b.extreme) continue;
+            const double* v = values.data() + b.firstColumn + static_cast<std::size_t>(b.observer.extreme);
+            double& extreme = result.summary.*(b.extreme);
+            for (std::size_t i = 0; i < nodes.size(); ++i) growTo(extreme, v[i * width]);
+            if (b.extreme == &Summary::maxError) result.summary.finalError = v[(nodes.size() - 1) * width];
+        }
+    }
+    /// Makes node i of the block last looked at a row.
+    void keep(const NodeBlock& nodes, std::size_t i) {
+        const std::size_t width = result.trajectory.columns.size();
+        double* row = values.data() + i * width;
+        row[0] = nodes.t(i);
+        std::copy_n(nodes.x(i), nodes.width(), row + 1);
+        for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
+    }
+    /// A row off the nodes, or at the last of them.
+    void keepAlone(const State& at, const StepReport& report) {
+        const NodeBlock one(at, report);
+        look(one);
+        keep(one, 0);
     }
     bool isDone() const {
         return isAdaptiveScheme ? state.t >= scene.end.value : state.node >= steps;
@@ -185,7 +195,7 @@ struct SchemeRun::Pass {
             if (std::abs(t - state.t) > 1e-12 * (state.t - before))
                 integrator->curve((t - before) / (state.t - before), at.x);
             at.t = t;
-            look(at, report, true, false);
+            keepAlone(at, report);
             isLastNodeRow = t >= state.t - 1e-12 * (state.t - before);
         }
     }
@@ -193,46 +203,52 @@ struct SchemeRun::Pass {
     /// Integrates to the end or the first trouble; `publish` is called between blocks.
     template <class Publish>
     Outcome integrate(Publish&& publish) {
-        look(state, {}, true, true);
-        isLastNodeRow = true;
+        // Long enough to be worth the clock, short enough for the cache and for a stop.
         const bool isDense = scene.isDense && scene.every;
-        const std::size_t width = state.x.size();
-        const std::size_t blockMax = isDense ? 1 : 1024;
-        std::vector<State> block(blockMax, state);
-        std::vector<StepReport> reports(blockMax);
+        const std::size_t blockMax = isDense ? 1 : std::clamp<std::size_t>(16384 / state.x.size(), 1, 512);
+        NodeBlock nodes(state.x.size(), blockMax);
+        nodes.push(state, {});
+        look(nodes);
+        measure(nodes);
+        keep(nodes, 0);
+        isLastNodeRow = true;
         std::size_t blockSize = 1;
+        State start = state;  // of the block at hand
         long long nextMultiple = 1;
         Outcome outcome = Outcome::converged;
         StepReport report;
         while (!isDone() && outcome == Outcome::converged) {
             if (stop.stop_requested()) return Outcome::stopped;
-            const double before = state.t;
+            start = state;
             const double cpu = threadSeconds();
-            std::size_t taken = 0;
-            while (taken < blockSize && !isDone()) {
-                report = integrator->advance(state);
-                if (report.outcome != Outcome::converged) break;
-                block[taken].t = state.t;
-                block[taken].node = state.node;
-                std::copy_n(state.x.begin(), width, block[taken].x.begin());
-                reports[taken++] = report;
+            nodes.clear();
+            while (outcome == Outcome::converged && nodes.size() < blockSize && !isDone()) {
+                const std::size_t left = blockSize - nodes.size();
+                report = integrator->advanceBlock(
+                    state, nodes,
+                    isAdaptiveScheme ? 1 : std::min(left, static_cast<std::size_t>(steps - state.node)));
+                outcome = report.outcome;
             }
             const double used = threadSeconds() - cpu;
             result.summary.cpuSeconds += used;
             if (used < 5e-4) blockSize = std::min(blockMax, 2 * blockSize);
             if (used > 5e-3) blockSize = std::max<std::size_t>(1, blockSize / 2);
-            outcome = report.outcome;
             if (outcome != Outcome::converged) count(report);
-            for (std::size_t i = 0; i < taken; ++i) {
-                count(reports[i]);
-                if (!isFinite(block[i].x)) {
-                    state = i > 0 ? block[i - 1] : state;
-                    return Outcome::notFinite;
+            if (const std::size_t finite = nodes.finiteNodes(); finite < nodes.size()) {
+                outcome = Outcome::notFinite;
+                nodes.truncate(finite);
+                state = finite > 0 ? nodes.state(finite - 1) : start;
+            }
+            if (nodes.size() > 0) {
+                look(nodes);
+                measure(nodes);
+                for (std::size_t i = 0; i < nodes.size(); ++i) {
+                    count(nodes.report(i));
+                    isLastNodeRow = !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
+                    if (isLastNodeRow) keep(nodes, i);
                 }
-                lastReport = reports[i];
-                isLastNodeRow = !isDense && sampler.isRow(block[i].node, block[i].t, reports[i].step);
-                look(block[i], reports[i], isLastNodeRow, true);
-                if (isDense) lookDense(before, reports[i], nextMultiple);
+                lastReport = nodes.report(nodes.size() - 1);
+                if (isDense) lookDense(start.t, lastReport, nextMultiple);
             }
             if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows) hasOverflown = true;
             if (hasOverflown) {
@@ -250,10 +266,7 @@ struct SchemeRun::Pass {
     template <class Publish>
     void run(Publish&& publish) {
         const Outcome outcome = integrate(publish);
-        if (!isLastNodeRow) {
-            for (Bound& b : observers) b.observer.evaluate(state, lastReport, values.data() + b.firstColumn);
-            keep(state);
-        }
+        if (!isLastNodeRow) keepAlone(state, lastReport);
         finish(outcome);
     }
 };

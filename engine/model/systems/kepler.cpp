@@ -4,6 +4,7 @@
 /// parabolic orbits have none here (the reference is then computed).
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
@@ -25,6 +26,13 @@ struct Kepler {
         using std::sqrt;
         return T(-mu) / sqrt(square(q[0]) + square(q[1]));
     }
+    template <class T>
+    void force(const T&, const T* q, T* f) const {
+        using std::sqrt;
+        const T r2 = q[0] * q[0] + q[1] * q[1], w = T(-mu) / (r2 * sqrt(r2));
+        // As one store: the caller reads f as a vector, and two narrow stores would make it wait for the cache.
+        Eigen::Map<Eigen::Array<T, 2, 1>>{f} = w * Eigen::Map<const Eigen::Array<T, 2, 1>>{q};
+    }
 };
 
 const std::vector<Field<Kepler>>& fields() {
@@ -40,25 +48,10 @@ struct Orbit {
     bool isElliptic = true;
     double a = 1, e = 0, b = 1, n = 1, start = 0, meanAnomaly = 0;
     double px = 1, py = 0, qx = 0, qy = 1;
-    double warm = 0, warmMean = 0;  ///< eccentric anomaly of the previous call and its mean anomaly
 
-    double sinE = 0, cosE = 1;  ///< of warm
-    int sinceFresh = 0;         ///< calls since they were last computed afresh
-
-    void operator()(double t, std::span<double> x) {
-        const double mean = meanAnomaly + n * (t - start);
-        double c, s;
-        if (isElliptic) {
-            if (!stepElliptic(mean)) solveElliptic(mean);
-            c = cosE;
-            s = sinE;
-        } else {
-            const double E = solveHyperbolic(mean);
-            c = std::cosh(E);
-            s = std::sinh(E);
-        }
-        const double sign = isElliptic ? 1 : -1;
-        const double rate = n / (sign * (1 - e * c));  // dE/dt
+    /// Position and velocity where cos, sin (hyperbolas: cosh, sinh) of the anomaly are c and s, and dE/dM = r.
+    void place(double c, double s, double r, double* x) const {
+        const double sign = isElliptic ? 1 : -1, rate = n * r;
         const double u = sign * a * (c - e), v = b * s;
         const double ut = -a * s * rate, vt = b * c * rate;
         x[0] = u * px + v * qx;
@@ -66,8 +59,77 @@ struct Orbit {
         x[2] = ut * px + vt * qx;
         x[3] = ut * py + vt * qy;
     }
-    /// E - e sin E = M from scratch, by Newton with Halley's correction.
-    void solveElliptic(double mean) {
+    void operator()(std::span<const double> t, double* x) const {
+        constexpr std::size_t width = 4;
+        std::size_t done = 0;
+        if (isElliptic && t.size() >= 4 * lanes) {
+            march(t, x);
+            done = t.size() / lanes * lanes;
+        }
+        for (; done < t.size(); ++done) {
+            const double mean = meanAnomaly + n * (t[done] - start);
+            const double E = isElliptic ? solveElliptic(mean) : solveHyperbolic(mean);
+            const double c = isElliptic ? std::cos(E) : std::cosh(E), s = isElliptic ? std::sin(E) : std::sinh(E);
+            place(c, s, 1 / (isElliptic ? 1 - e * c : e * c - 1), x + done * width);
+        }
+    }
+
+private:
+    static constexpr std::size_t lanes = 8;
+
+    /// Many times in a row, as runs ask for them: they are cut into `lanes` stretches that march together. From one time
+    /// to the next E turns by a small d: the Taylor polynomial of E(M) of degree 3, the addition theorems with Taylor
+    /// polynomials of sin d and cos d, and one Newton step. Where d is too large for that, from scratch; so is the first
+    /// of each stretch, so that round-off cannot add up.
+    void march(std::span<const double> t, double* x) const {
+        constexpr std::size_t width = 4;
+        const std::size_t length = t.size() / lanes;
+        std::array<double, lanes> s, c, r, last, f, d, turnS, turnC;
+        for (std::size_t k = 0; k < length; ++k) {
+            double worst = 1;
+            if (k > 0) {
+                worst = 0;
+                for (std::size_t l = 0; l < lanes; ++l) f[l] = n * (t[l * length + k] - last[l]);
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    const double es = e * s[l], ec = e * c[l], w = f[l] * r[l];
+                    d[l] = w * (1 + w * r[l] * (-0.5 * es + w * (3 * es * es * r[l] - ec) * (1.0 / 6)));
+                }
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    const double d2 = d[l] * d[l];
+                    const double sd = d[l] * (1 - d2 * (1.0 / 6) * (1 - d2 * (1.0 / 20) * (1 - d2 * (1.0 / 42))));
+                    const double cd = d2 * 0.5 * (1 - d2 * (1.0 / 12) * (1 - d2 * (1.0 / 30)));  // 1 - cos d
+                    const double ds = c[l] * sd - s[l] * cd;
+                    turnS[l] = s[l] + ds;
+                    turnC[l] = c[l] - (s[l] * sd + c[l] * cd);
+                    r[l] = 1 / (1 - e * turnC[l]);
+                    f[l] = (f[l] + e * ds - d[l]) * r[l];  // the Newton correction
+                }
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    const double size = std::abs(f[l]), turn = 5e-7 * std::abs(d[l]);
+                    worst = size > worst ? size : worst;
+                    worst = turn > worst ? turn : worst;
+                    s[l] = turnS[l] + turnC[l] * f[l];
+                    c[l] = turnC[l] - turnS[l] * f[l];
+                    r[l] *= 1 - r[l] * e * turnS[l] * f[l];
+                }
+            }
+            // Squares of the correction are then below round-off; |d| < 0.02 for the truncated series.
+            if (!(worst < 1e-8)) {
+                for (std::size_t l = 0; l < lanes; ++l) {
+                    const double E = solveElliptic(meanAnomaly + n * (t[l * length + k] - start));
+                    s[l] = std::sin(E);
+                    c[l] = std::cos(E);
+                    r[l] = 1 / (1 - e * c[l]);
+                }
+            }
+            for (std::size_t l = 0; l < lanes; ++l) {
+                last[l] = t[l * length + k];
+                place(c[l], s[l], r[l], x + (l * length + k) * width);
+            }
+        }
+    }
+    /// E - e sin E = M, by Newton with Halley's correction.
+    double solveElliptic(double mean) const {
         double E = mean + e * std::sin(mean);
         for (int i = 0; i < 60; ++i) {
             const double s = e * std::sin(E), slope = 1 - e * std::cos(E);
@@ -76,38 +138,7 @@ struct Orbit {
             E -= step;
             if (std::abs(step) < 1e-8 * (1 + std::abs(E)) || !std::isfinite(E)) break;  // converges cubically
         }
-        warm = E;
-        warmMean = mean;
-        sinE = std::sin(E);
-        cosE = std::cos(E);
-        sinceFresh = 0;
-    }
-    /// The same close to the previous call: E turns by a small d, found by Halley's iteration on the addition theorems
-    /// with Taylor polynomials of sin d and cos d. Much cheaper, as runs ask for one node after the other; every 64th
-    /// call starts afresh, so that round-off cannot add up. False where d is not small.
-    bool stepElliptic(double mean) {
-        const double advance = mean - warmMean;
-        double slope = 1 - e * cosE;
-        double d = advance / slope;
-        if (++sinceFresh > 64 || !(std::abs(d) < 0.02)) return false;
-        d -= 0.5 * e * sinE / slope * d * d;
-        double s = sinE, c = cosE;
-        for (int i = 0; i < 2; ++i) {
-            const double d2 = d * d;
-            const double sd = d * (1 - d2 / 6 * (1 - d2 / 20 * (1 - d2 / 42)));
-            const double cd = d2 / 2 * (1 - d2 / 12 * (1 - d2 / 30));  // 1 - cos d
-            s = sinE + (cosE * sd - sinE * cd);
-            c = cosE - (sinE * sd + cosE * cd);
-            if (i == 1) break;
-            const double f = d - e * (s - sinE) - advance;
-            slope = 1 - e * c;
-            d -= f / (slope - 0.5 * f * e * s / slope);
-        }
-        warm += d;
-        warmMean = mean;
-        sinE = s;
-        cosE = c;
-        return true;
+        return E;
     }
     /// e sinh E - E = M.
     double solveHyperbolic(double mean) const {
@@ -153,7 +184,6 @@ ExactSolution exactSolution(double mu, const State& initial) {
         const double E = std::asinh(v / o.b);
         o.meanAnomaly = o.e * std::sinh(E) - E;
     }
-    if (o.isElliptic) o.solveElliptic(o.meanAnomaly);
     return o;
 }
 

@@ -14,9 +14,11 @@ ObservableEntry energy() {
         const Mechanics<double> m = context.system.mechanics;
         const double* x = context.initial.x.data();
         const double start = m.energy(m.model.get(), context.initial.t, x, x + m.dimension);
-        o.evaluate = [m, start](const State& state, const StepReport&, double* values) {
-            values[0] = m.energy(m.model.get(), state.t, state.x.data(), state.x.data() + m.dimension);
-            values[1] = values[0] - start;
+        o.evaluate = [m, start](const NodeBlock& nodes, double* values, std::size_t stride) {
+            for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
+                values[0] = m.energy(m.model.get(), nodes.t(i), nodes.x(i), nodes.x(i) + m.dimension);
+                values[1] = values[0] - start;
+            }
         };
         return o;
     };

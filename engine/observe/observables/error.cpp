@@ -22,18 +22,23 @@ ObservableEntry error() {
         for (const Coordinate& c : coordinates)
             o.columns.push_back({"error." + c.name, c.symbol + " - " + c.symbol + "_ref", c.unit, {}});
         o.extreme = 0;
-        o.evaluate = [reference = context.reference, d, exact = std::vector<double>(2 * d)](
-                         const State& state, const StepReport&, double* values) mutable {
-            reference(state.t, exact);
-            double q = 0, p = 0;
-            for (std::size_t i = 0; i < d; ++i) {
-                const double dq = state.x[i] - exact[i], dp = state.x[d + i] - exact[d + i];
-                values[2 + i] = dq;
-                q += dq * dq;
-                p += dp * dp;
+        o.evaluate = [reference = context.reference, d, exact = std::vector<double>()](
+                         const NodeBlock& nodes, double* values, std::size_t stride) mutable {
+            exact.resize(2 * d * nodes.size());
+            reference(nodes.times(), exact.data(), 2 * d);
+            const double* y = exact.data();
+            for (std::size_t node = 0; node < nodes.size(); ++node, values += stride, y += 2 * d) {
+                const double* x = nodes.x(node);
+                double q = 0, p = 0;
+                for (std::size_t i = 0; i < d; ++i) {
+                    const double dq = x[i] - y[i], dp = x[d + i] - y[d + i];
+                    values[2 + i] = dq;
+                    q += dq * dq;
+                    p += dp * dp;
+                }
+                values[0] = std::sqrt(q);
+                values[1] = std::sqrt(p);
             }
-            values[0] = std::sqrt(q);
-            values[1] = std::sqrt(p);
         };
         return o;
     };

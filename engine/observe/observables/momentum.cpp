@@ -23,14 +23,16 @@ ObservableEntry momentum() {
                                                                    : "change of momentum",
                              momenta.empty() ? "" : momenta[0].unit, {}});
         o.extreme = static_cast<int>(momenta.size());
-        o.evaluate = [momenta, start, d](const State& state, const StepReport&, double* values) {
-            double sum = 0;
-            for (std::size_t i = 0; i < momenta.size(); ++i) {
-                values[i] = momenta[i].value(state.x.data(), state.x.data() + d);
-                const double change = values[i] - start[i];
-                sum += change * change;
+        o.evaluate = [momenta, start, d](const NodeBlock& nodes, double* values, std::size_t stride) {
+            for (std::size_t node = 0; node < nodes.size(); ++node, values += stride) {
+                double sum = 0;
+                for (std::size_t i = 0; i < momenta.size(); ++i) {
+                    values[i] = momenta[i].value(nodes.x(node), nodes.x(node) + d);
+                    const double change = values[i] - start[i];
+                    sum += change * change;
+                }
+                values[momenta.size()] = std::sqrt(sum);
             }
-            values[momenta.size()] = std::sqrt(sum);
         };
         return o;
     };

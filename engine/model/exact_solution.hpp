@@ -1,0 +1,43 @@
+/// An exact solution from given initial data: fills x (q, then p) at given times.
+///
+/// Made from a callable `(double t, std::span<double> x)`, or, where many times at once are cheaper, from a callable
+/// `(std::span<const double> t, double* x)` with the state of time i at x + i * width. It may keep a warm start between
+/// calls, so each thread makes its own. Empty where there is none.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <utility>
+
+namespace extremal {
+
+class ExactSolution {
+public:
+    ExactSolution() = default;
+
+    template <class F>
+        requires std::invocable<F&, double, std::span<double>>
+    ExactSolution(F each) {
+        many_ = [each = std::move(each)](std::span<const double> t, double* x, std::size_t width) mutable {
+            for (std::size_t i = 0; i < t.size(); ++i) each(t[i], std::span<double>(x + i * width, width));
+        };
+    }
+    template <class F>
+        requires std::invocable<F&, std::span<const double>, double*>
+    ExactSolution(F many) {
+        many_ = [many = std::move(many)](std::span<const double> t, double* x, std::size_t) mutable { many(t, x); };
+    }
+
+    explicit operator bool() const { return static_cast<bool>(many_); }
+
+    void operator()(double t, std::span<double> x) const { many_({&t, 1}, x.data(), x.size()); }
+    /// The states at all t, `width` apart.
+    void operator()(std::span<const double> t, double* x, std::size_t width) const { many_(t, x, width); }
+
+private:
+    std::function<void(std::span<const double> t, double* x, std::size_t width)> many_;
+};
+
+}  // namespace extremal
