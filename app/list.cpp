@@ -58,6 +58,8 @@ std::string typeName(FieldType type) {
     switch (type) {
         case FieldType::number:
             return "number";
+        case FieldType::numbers:
+            return "numbers";
         case FieldType::integer:
             return "integer";
         case FieldType::boolean:

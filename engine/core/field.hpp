@@ -10,7 +10,7 @@
 
 namespace extremal {
 
-enum class FieldType { number, integer, boolean, text, choice, json };
+enum class FieldType { number, numbers, integer, boolean, text, choice, json };
 
 /// What is known about one parameter, independent of the type that owns it.
 struct FieldInfo {
@@ -24,6 +24,8 @@ struct FieldInfo {
     double max = std::numeric_limits<double>::infinity();
     bool isMinExcluded = false;        ///< true: the value must be greater than min
     std::vector<std::string> choices;  ///< for FieldType::choice
+    std::vector<std::string> components;  ///< for FieldType::numbers: what each number is called; gives their count
+    bool isOptional = false;           ///< a key without a default that may be left out
     std::string description;           ///< one line
 };
 
@@ -52,6 +54,21 @@ inline FieldInfo positive(std::string key, std::string title, std::string unit, 
 inline FieldInfo notNegative(std::string key, std::string title, std::string unit, double fallback, std::string description) {
     FieldInfo f = positive(std::move(key), std::move(title), std::move(unit), fallback, std::move(description));
     f.isMinExcluded = false;
+    return f;
+}
+
+/// Descriptor of a few numbers in an array, one per component; every one within min and max.
+inline FieldInfo numbers(std::string key, std::string title, std::string unit, std::vector<std::string> components,
+                         Value fallback, std::string description) {
+    FieldInfo f;
+    f.symbol = key;
+    f.key = std::move(key);
+    f.title = std::move(title);
+    f.unit = std::move(unit);
+    f.type = FieldType::numbers;
+    f.components = std::move(components);
+    f.fallback = std::move(fallback);
+    f.description = std::move(description);
     return f;
 }
 

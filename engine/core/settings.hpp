@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/core/value.hpp"
 
@@ -23,6 +24,14 @@ struct Settings {
     double number(std::string_view key) const {
         const Value* v = find(key);
         return v && v->isNumber() ? v->asNumber() : 0;
+    }
+    /// The numbers of an array; empty if the key is not there.
+    std::vector<double> numbers(std::string_view key) const {
+        std::vector<double> all;
+        if (const Value* v = find(key); v && v->isArray())
+            for (const Value& entry : v->asArray())
+                if (entry.isNumber()) all.push_back(entry.asNumber());
+        return all;
     }
     int integer(std::string_view key) const { return static_cast<int>(number(key)); }
     std::string text(std::string_view key) const {

@@ -37,10 +37,8 @@ ColumnInfo columnInfo(const FigureContext& context, std::string_view column) {
         if (const Column* c = scheme->trajectory.find(column)) return {c->symbol.empty() ? c->name : c->symbol, c->unit};
     if (column == "t") return {"t", context.system ? context.system->timeUnit : ""};
     if (context.system) {
-        for (const Coordinate& c : context.system->coordinates) {
-            if (column == "q." + c.name) return {c.symbol, c.unit};
-            if (column == "p." + c.name) return {"p " + c.symbol, c.momentumUnit};
-        }
+        for (const Quantity& c : stateColumns(*context.system))
+            if (column == c.name) return {c.symbol, c.unit};
     }
     return {std::string(column), ""};
 }

@@ -51,6 +51,15 @@ std::vector<View> defaultViews(const Scene& scene) {
     return result;
 }
 
+/// Columns plotted against time each, where no plane holds the trajectory and there are not too many.
+std::vector<std::string> timePlots(const System& system) {
+    if (!system.timePlots.empty()) return system.timePlots;
+    std::vector<std::string> columns;
+    if (system.hasPlanarTrajectory || system.dimension() < 2 || system.dimension() > 3) return columns;
+    for (const Coordinate& c : system.coordinates) columns.push_back("q." + c.name);
+    return columns;
+}
+
 }  // namespace
 
 std::vector<View> plotViews(const Scene& scene) {
@@ -60,13 +69,12 @@ std::vector<View> plotViews(const Scene& scene) {
     for (const View& view : scene.views.empty() ? defaultViews(scene) : scene.views) {
         const ViewEntry* entry = findView(view.id);
         if (!entry || !entry->make) continue;
-        const bool isOneForEach = view.id == "trajectory" && view.x.empty() && view.y.empty() &&
-                                  !system.hasPlanarTrajectory && system.dimension() > 1 && system.dimension() <= 3;
-        if (!isOneForEach) {
+        const std::vector<std::string> columns = timePlots(system);
+        if (view.id != "trajectory" || !view.x.empty() || !view.y.empty() || columns.empty()) {
             result.push_back(view);
             continue;
         }
-        for (const Coordinate& c : system.coordinates) result.push_back({view.id, "t", "q." + c.name});
+        for (const std::string& column : columns) result.push_back({view.id, "t", column});
     }
     return result;
 }

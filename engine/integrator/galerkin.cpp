@@ -51,6 +51,9 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 }  // namespace
 
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+    if (!system.hasMechanics())
+        throw InvalidScene("/space/type", "polynomials need coordinates, and " + system.id + " has none",
+                           "another space: extremal list spaces");
     Table<double> table = makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature));
     const SolverPolicy policy = solverPolicy(pair.solver, system);
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {

@@ -52,7 +52,12 @@ std::optional<Discretization> namedScheme(std::string_view id);
 /// Makes the integrator of a pair for a system. Throws InvalidScene (pointer relative to the scheme).
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock);
 
-/// Highest frequency of the system linearised at a state: the largest root w of det(-L_qq - w^2 L_vv) = 0, or 0.
+/// The pair that references are computed with, and its name for people.
+Discretization trustedPair(const System& system);
+std::string trustedName(const System& system);
+
+/// Highest frequency of the system at a state: its own, or, linearised there, the largest root w of
+/// det(-L_qq - w^2 L_vv) = 0, or 0.
 double highestFrequency(const System& system, const State& state);
 
 }  // namespace extremal

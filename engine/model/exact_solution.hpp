@@ -1,4 +1,4 @@
-/// An exact solution from given initial data: fills x (q, then p) at given times.
+/// An exact solution from given initial data: fills the state x at given times.
 ///
 /// Made from a callable `(double t, std::span<double> x)`, or, where many times at once are cheaper, from a callable
 /// `(std::span<const double> t, double* x)` with the state of time i at x + i * width. It may keep a warm start between

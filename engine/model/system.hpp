@@ -1,9 +1,13 @@
 /// A system with its parameters in place: what a scene's "model" turns into.
 ///
-/// Everything a system can say is a field here; a field that is empty is something the system does not have
-/// (no exact solution, no conserved momentum, nothing to draw). One file of model/systems makes one entry.
+/// A System is a bag of optional capabilities: a field that is empty is something the system does not have (no exact
+/// solution, no conserved momentum, nothing to draw) or says in the usual way of its kind. A system with coordinates
+/// has the state x = (q, p) and says nearly everything through its mechanics; one whose state is something else (a body
+/// with an attitude, a wave function) names its columns and gives energy, error and start itself. Ask through the
+/// functions below the struct, which know the usual ways. One file of model/systems makes one entry.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <span>
@@ -28,20 +32,53 @@ struct Coordinate {
     std::string momentumUnit;
 };
 
+/// A number that is written into every row.
+struct Quantity {
+    std::string name;    ///< in files: "attitude.w"
+    std::string title;   ///< "attitude w"; may be empty
+    std::string symbol;  ///< in plots
+    std::string unit;    ///< empty if dimensionless
+};
+
 /// A momentum that Noether's theorem conserves, as a function of the state.
 struct MomentumMap {
     std::string name;    ///< column "momentum.<name>"
     std::string symbol;
     std::string unit;
+    /// p = x + d; of a system without coordinates both are x.
     std::function<double(const double* q, const double* p)> value;
 };
 
+/// How far a state is from the reference at the same time.
+struct ErrorMeasure {
+    std::vector<Quantity> columns;  ///< "error", the size that counts, then its parts
+    double scale = 1;               ///< size of what is compared: round-off is relative to it
+    /// One value per column.
+    std::function<void(const double* x, const double* reference, double* values)> evaluate;
+};
+
+/// The energy at (t, x).
+using EnergyFunction = std::function<double(double t, const double* x)>;
+
 struct System {
     std::string id;
-    std::vector<Coordinate> coordinates;
     std::string timeUnit;    ///< "s", or empty if dimensionless
     std::string energyUnit;
+
+    // Systems with coordinates: x = (q, p).
+    std::vector<Coordinate> coordinates;
     Mechanics<double> mechanics;
+
+    // Systems with another state.
+    std::vector<Quantity> columns;  ///< what the first entries of x are: the state columns of every row
+    EnergyFunction energy;
+    ErrorMeasure error;             ///< evaluate empty: the usual one of coordinates
+    std::function<bool(double t, const double* x, double* dx)> rate;  ///< xdot, to draw what is between rows
+    std::function<double(double t, const double* x)> frequency;       ///< of the fastest motion, rad per unit of time
+    /// x at the start, from the checked keys of /initial (ModelEntry::initial). Throws InvalidScene, with pointers
+    /// relative to /initial.
+    std::function<std::vector<double>(const Settings& initial)> start;
+
     std::vector<MomentumMap> momenta;
     /// Makes the exact solution through the initial state (t, x), or returns an empty function where there is none.
     std::function<ExactSolution(const State& initial)> exact;
@@ -50,14 +87,41 @@ struct System {
     /// The default phase portrait and trajectory: names of state columns.
     std::string phaseX, phaseY, trajectoryX, trajectoryY;
     bool hasPlanarTrajectory = false;  ///< the two trajectory columns are lengths in one plane
+    /// Columns worth a plot against time each, where no plane holds the trajectory. Empty: up to three coordinates.
+    std::vector<std::string> timePlots;
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
+    bool hasMechanics() const { return mechanics.dimension > 0; }
 };
+
+/// Names of the first entries of the state: the system's own, else q.<name>, then p.<name>.
+std::vector<Quantity> stateColumns(const System& system);
+/// The energy, of the system itself or of its mechanics. It keeps what it needs.
+EnergyFunction energyOf(const System& system);
+/// The usual measure of d coordinates: |q - q_ref|, |p - p_ref| and each q_i - q_ref,i.
+inline void coordinateError(std::size_t d, const double* x, const double* reference, double* values) {
+    double q = 0, p = 0;
+    for (std::size_t i = 0; i < d; ++i) {
+        const double dq = x[i] - reference[i], dp = x[d + i] - reference[d + i];
+        values[2 + i] = dq;
+        q += dq * dq;
+        p += dp * dp;
+    }
+    values[0] = std::sqrt(q);
+    values[1] = std::sqrt(p);
+}
+/// The system's own measure, else the usual one.
+ErrorMeasure errorMeasure(const System& system, const State& initial);
+/// xdot at (t, x); false where it is not known.
+bool rateOf(const System& system, double t, const double* x, double* dx);
 
 struct ModelEntry {
     CatalogItem item;
     /// Initial data to start from when a user picks this model: q, then p, one per coordinate.
     std::vector<double> exampleQ, exampleP;
+    /// Keys of the initial data of a model without coordinates, and the example.
+    std::vector<FieldInfo> initial;
+    Value::Object exampleInitial;
     double exampleEnd = 10, exampleStep = 0.05;
     std::function<System(const Settings& settings)> make;  ///< keys are checked and complete
 };
@@ -66,5 +130,11 @@ struct ModelEntry {
 const std::vector<ModelEntry>& modelCatalog();
 /// The entry with this id, or null.
 const ModelEntry* findModel(std::string_view id);
+
+/// Whether a baseline, space or observable can be used on a system: its own rule, else every system with coordinates.
+template <class Entry>
+bool appliesTo(const Entry& entry, const System& system) {
+    return entry.applies ? entry.applies(system) : system.hasMechanics();
+}
 
 }  // namespace extremal

@@ -61,29 +61,25 @@ std::function<ExactSolution()> marching(std::function<std::unique_ptr<Integrator
     };
 }
 
-/// Largest |q - q'| of two solutions at times spread over the run; infinity where one is not known.
-double distance(const ExactSolution& a, const ExactSolution& b, const Scene& scene, std::size_t d,
-                const std::stop_token& stop) {
+/// Largest distance of two solutions at times spread over the run; infinity where one is not known.
+double distance(const ExactSolution& a, const ExactSolution& b, const Scene& scene, const ErrorMeasure& measure,
+                std::size_t size, const std::stop_token& stop) {
     constexpr int samples = 997;  // a prime: not in step with the nodes of either
-    std::vector<double> x(2 * d), y(2 * d);
+    std::vector<double> x(size), y(size), values(measure.columns.size());
     double worst = 0;
     for (int i = 1; i <= samples && !stop.stop_requested(); ++i) {
         const double t = scene.start.value + (scene.end.value - scene.start.value) * i / samples;
         a(t, x);
         b(t, y);
-        double sum = 0;
-        for (std::size_t k = 0; k < d; ++k) sum += (x[k] - y[k]) * (x[k] - y[k]);
-        worst = std::max(worst, std::isfinite(sum) ? std::sqrt(sum) : std::numeric_limits<double>::infinity());
+        measure.evaluate(x.data(), y.data(), values.data());
+        worst = std::max(worst, std::isfinite(values[0]) ? values[0] : std::numeric_limits<double>::infinity());
     }
     return worst;
 }
 
 Reference computed(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
-    constexpr double degree = 12;
     constexpr double maxSteps = 2e6;
-    Discretization pair;
-    pair.space = {"polynomial", {{"degree", degree}, {"basis", "lobatto"}}, {}};
-    pair.quadrature = {"gauss", {{"nodes", degree}}, {}};
+    const Discretization pair = trustedPair(system);
     auto solution = [&](double step) {
         return marching(
             [system, pair, step, start = initial.t, stop] {
@@ -97,24 +93,23 @@ Reference computed(const Scene& scene, const System& system, const State& initia
     const double w = highestFrequency(system, initial);
     double step = std::min(length / 20, w > 0 ? 2 / w : length / 200);
     step = std::max(step, length / maxSteps);
-    double scale = 0;
-    for (int k = 0; k < system.dimension(); ++k) scale = std::max(scale, std::abs(initial.x[static_cast<std::size_t>(k)]));
+    const ErrorMeasure measure = errorMeasure(system, initial);
 
     Reference best;
     double last = std::numeric_limits<double>::infinity();
     for (int refinement = 0; refinement < 8 && !stop.stop_requested(); ++refinement, step /= 2) {
         if (length / step > maxSteps) break;
         auto coarse = solution(step), fine = solution(step / 2);
-        const double error = distance(coarse(), fine(), scene, system.coordinates.size(), stop);
+        const double error = distance(coarse(), fine(), scene, measure, initial.x.size(), stop);
         if (error < last || refinement == 0) {
-            best.info = {"computed", error, "Gauss collocation of degree 12, h = " + formatNumber(step / 2, 3)};
+            best.info = {"computed", error, trustedName(system) + ", h = " + formatNumber(step / 2, 3)};
             best.make = std::move(fine);
         }
-        if (error <= 2e-13 * std::max(scale, 1.0) || error > last / 4) break;
+        if (error <= 2e-13 * std::max(measure.scale, 1.0) || error > last / 4) break;
         last = error;
     }
     if (stop.stop_requested() || !std::isfinite(best.info.estimatedError)) return {};
-    best.info.estimatedError = std::max(best.info.estimatedError, 1e-15 * scale);
+    best.info.estimatedError = std::max(best.info.estimatedError, 1e-15 * measure.scale);
     return best;
 }
 
@@ -135,7 +130,7 @@ Reference fromScheme(const Scene& scene, const System& system, const State& init
     if (!isAdaptive(spec)) {
         const auto coarse = marching(make(2 * spec.step.value), initial);
         reference.info.estimatedError =
-            distance(reference.make(), coarse(), scene, system.coordinates.size(), stop);
+            distance(reference.make(), coarse(), scene, errorMeasure(system, initial), initial.x.size(), stop);
     }
     return reference;
 }
@@ -161,8 +156,7 @@ Reference fromFile(const Scene& scene, const System& system) {
         return static_cast<std::size_t>(it - header.begin());
     };
     std::vector<std::size_t> wanted{find("t")};
-    for (const Coordinate& c : system.coordinates) wanted.push_back(find("q." + c.name));
-    for (const Coordinate& c : system.coordinates) wanted.push_back(find("p." + c.name));
+    for (const Quantity& c : stateColumns(system)) wanted.push_back(find(c.name));
     auto rows = std::make_shared<std::map<double, std::vector<double>>>();
     while (std::getline(in, line)) {
         std::vector<double> values;

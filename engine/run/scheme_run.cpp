@@ -43,11 +43,10 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
     return sxx > 0 ? sxy / sxx : Summary::unknown;
 }
 
-std::vector<Column> stateColumns(const System& system) {
+/// t and the state; observables follow.
+std::vector<Column> leadingColumns(const System& system) {
     std::vector<Column> columns{{"t", "t", system.timeUnit, {}, {}}};
-    for (const Coordinate& c : system.coordinates) columns.push_back({"q." + c.name, c.symbol, c.unit, {}, {}});
-    for (const Coordinate& c : system.coordinates)
-        columns.push_back({"p." + c.name, "p_" + c.symbol, c.momentumUnit, {}, {}});
+    for (const Quantity& c : stateColumns(system)) columns.push_back({c.name, c.symbol, c.unit, {}, {}});
     return columns;
 }
 
@@ -81,6 +80,7 @@ struct SchemeRun::Pass {
     bool isLastNodeRow = false;
     StepReport lastReport;
     std::vector<double> values;
+    std::size_t stateWidth = 0;  ///< entries of the state that every row holds
 
     Pass(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
          const Reference& reference, const std::vector<std::string>& observe, double step_, long long stride, int style,
@@ -100,7 +100,8 @@ struct SchemeRun::Pass {
         result.summary.label = spec.label;
         result.summary.status = RunStatus::running;
         result.summary.orderClaimed = claimsOf(spec).order;
-        result.trajectory.columns = stateColumns(system);
+        result.trajectory.columns = leadingColumns(system);
+        stateWidth = result.trajectory.columns.size() - 1;
         integrator = makeScheme(system, spec, step, initial.t, scene.end.value);
         integrator->setStop(stop);
         bindObservers(reference, observe, initial);
@@ -145,7 +146,7 @@ struct SchemeRun::Pass {
         const std::size_t width = result.trajectory.columns.size();
         double* row = values.data() + i * width;
         row[0] = nodes.t(i);
-        std::copy_n(nodes.x(i), nodes.width(), row + 1);
+        std::copy_n(nodes.x(i), stateWidth, row + 1);
         for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
     }
     /// A row off the nodes, or at the last of them.

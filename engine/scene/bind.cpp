@@ -4,6 +4,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
 
 namespace extremal {
 
@@ -14,9 +15,13 @@ System makeSystem(const Scene& scene) {
 }
 
 State initialState(const Scene& scene, const System& system) {
-    const auto d = static_cast<std::size_t>(system.dimension());
     State state;
     state.t = scene.start.value;
+    if (system.start) {
+        state.x = system.start(scene.initial.given);
+        return state;
+    }
+    const auto d = static_cast<std::size_t>(system.dimension());
     state.x.assign(2 * d, 0);
     for (std::size_t i = 0; i < d; ++i) {
         state.x[i] = scene.initial.q[i].value;
@@ -59,6 +64,13 @@ std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& s
     if (const auto pair = pairOf(scheme)) return makeIntegrator(system, *pair, clock);
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
     if (!entry) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
+    if (!appliesTo(*entry, system)) {
+        std::vector<std::string> fitting;
+        for (const BaselineEntry& e : baselineCatalog())
+            if (appliesTo(e, system)) fitting.push_back(e.item.id);
+        throw InvalidScene("/baseline", entry->item.id + " cannot integrate " + system.id,
+                           fitting.empty() ? "take a pair" : "it has " + joinNames(fitting));
+    }
     BaselineOptions options;
     options.clock = clock;
     options.end = end;

@@ -62,6 +62,17 @@ std::vector<std::string> schemeKeys(const Value& object, const std::vector<std::
     return inScheme[0] == "solver" ? format::solver : std::vector<std::string>{};
 }
 
+/// The keys of the initial data, which depend on the model.
+std::vector<std::string> initialKeys(const Value& document) {
+    const Value* model = document.find("model");
+    const Value* type = model && model->isObject() ? model->find("type") : model;
+    const ModelEntry* entry = type && type->isString() ? findModel(type->asString()) : nullptr;
+    if (!entry || entry->initial.empty()) return format::initial;
+    std::vector<std::string> keys;
+    for (const FieldInfo& field : entry->initial) keys.push_back(field.key);
+    return keys;
+}
+
 class Setter {
 public:
     Setter(Value& document, const Override& override, std::vector<Change>& changes,
@@ -145,7 +156,7 @@ std::vector<std::string> knownKeys(const Value& document, const std::vector<std:
     if (place.size() > 1) return {};
     if (first == "model") return object ? typedKeys(*object, modelCatalog()) : std::vector<std::string>{};
     if (first == "time") return format::time;
-    if (first == "initial") return format::initial;
+    if (first == "initial") return initialKeys(document);
     if (first == "output") return format::output;
     if (first == "limits") return format::limits;
     if (first == "reference") return format::reference;

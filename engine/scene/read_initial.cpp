@@ -56,12 +56,29 @@ std::vector<Number> literals(const std::vector<double>& values) {
     return numbers;
 }
 
+/// Keys of the model's own; the system says what is wrong with them together.
+void readGiven(Reader& reader, const Value* initial, const System& system, const ModelEntry& entry, Initial& result) {
+    Reader quiet;
+    readFields(quiet, entry.exampleInitial, "/initial", entry.initial, {}, result.given);
+    if (!initial) return reader.warning("/initial", "is missing: the run starts from the model's example");
+    if (!reader.isObject(*initial, "/initial")) return;
+    Settings given;
+    if (!readFields(reader, *initial, "/initial", entry.initial, {}, given)) return;
+    try {
+        system.start(given);
+        result.given = std::move(given);
+    } catch (const InvalidScene& e) {
+        for (const Problem& p : e.problems()) reader.error("/initial" + p.pointer, p.message, p.hint);
+    }
+}
+
 }  // namespace
 
 void readInitial(Reader& reader, const Value& document, const System& system, Scene& scene) {
     const ModelEntry* entry = findModel(scene.model.type);
     const Value* initial = document.find("initial");
     Initial& result = scene.initial;
+    if (system.start) return readGiven(reader, initial, system, *entry, result);
     result.q = literals(entry->exampleQ);
     result.second = Initial::Second::momentum;
     result.pOrV = literals(entry->exampleP);

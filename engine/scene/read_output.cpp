@@ -38,8 +38,7 @@ std::vector<std::string> availableObservables(const System& system) {
 /// The columns of a CSV of this scene: what a phase portrait can show.
 std::vector<std::string> columnNames(const System& system, const Scene& scene) {
     std::vector<std::string> names{"t"};
-    for (const char* letter : {"q.", "p."})
-        for (const Coordinate& c : system.coordinates) names.push_back(letter + c.name);
+    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
     const State initial = initialState(scene, system);
     for (const std::string& id : scene.observe)
         if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)

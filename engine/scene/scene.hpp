@@ -37,13 +37,13 @@ struct SchemeSpec {
     bool operator==(const SchemeSpec&) const = default;
 };
 
-/// Initial data of models with coordinates; other models keep theirs in `keys`.
+/// Initial data: q and p or v of models with coordinates; other models have keys of their own.
 struct Initial {
     enum class Second { none, momentum, velocity };
     std::vector<Number> q;
     Second second = Second::none;
     std::vector<Number> pOrV;
-    Value::Object keys;
+    Settings given;  ///< the keys of ModelEntry::initial; type empty
     bool operator==(const Initial&) const = default;
 };
 

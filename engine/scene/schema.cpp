@@ -74,6 +74,12 @@ Value property(const FieldInfo& field) {
         case FieldType::integer:
             v = numberOf(field);
             break;
+        case FieldType::numbers:
+            v = typed("array");
+            v.set("items", numberOf(field));
+            v.set("minItems", static_cast<double>(field.components.size()));
+            v.set("maxItems", static_cast<double>(field.components.size()));
+            break;
         case FieldType::boolean:
             v = typed("boolean");
             break;
@@ -157,7 +163,10 @@ Value initialData() {
     p.set("q", vector);
     p.set("p", vector);
     p.set("v", vector);
-    return object(p, {}, "Coordinates, and momenta or velocities.");
+    for (const ModelEntry& entry : modelCatalog())
+        for (const FieldInfo& field : entry.initial)
+            if (!p.find(field.key)) p.set(field.key, property(field));
+    return object(p, {}, "Coordinates, and momenta or velocities; or the keys of the model.");
 }
 
 Value referenceChoice() {

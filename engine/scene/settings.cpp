@@ -8,6 +8,30 @@
 namespace extremal {
 namespace {
 
+/// An array with one number per component; what the user wrote is kept where one of them is an expression.
+bool readNumbers(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
+                 Settings& settings) {
+    const std::size_t n = field.components.size();
+    const std::string wanted = std::to_string(n) + " numbers (" + joinNames(field.components) + ")";
+    if (!reader.isArray(value, pointer, wanted)) return false;
+    if (value.asArray().size() != n) {
+        reader.error(pointer, "must have " + wanted + ", got " + std::to_string(value.asArray().size()));
+        return false;
+    }
+    Value::Array evaluated;
+    bool hasExpression = false;
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto number = reader.number(value.asArray()[i], childPointer(pointer, i), Limits::of(field));
+        if (!number) continue;
+        evaluated.emplace_back(number->value);
+        hasExpression = hasExpression || !number->expression.empty();
+    }
+    if (evaluated.size() < n) return false;
+    settings.keys.emplace_back(field.key, std::move(evaluated));
+    if (hasExpression) settings.expressions.emplace_back(field.key, value);
+    return true;
+}
+
 /// Stores one member after checking it against its descriptor.
 bool readField(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
                Settings& settings) {
@@ -20,6 +44,8 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
             if (!number->expression.empty()) settings.expressions.emplace_back(field.key, number->expression);
             return true;
         }
+        case FieldType::numbers:
+            return readNumbers(reader, value, pointer, field, settings);
         case FieldType::boolean: {
             const auto flag = reader.flag(value, pointer);
             if (flag) settings.keys.emplace_back(field.key, *flag);
@@ -67,6 +93,8 @@ bool readFields(Reader& reader, const Value& object, const std::string& pointer,
             settings.keys.emplace_back(field.key, field.fallback);
         } else if (const auto fitting = derived ? derived(settings.type, field.key, context) : std::nullopt) {
             settings.keys.emplace_back(field.key, *fitting);
+        } else if (field.isOptional) {
+            continue;
         } else if (field.type == FieldType::number || field.type == FieldType::integer) {
             reader.error(childPointer(pointer, field.key), "is required: " + Limits::of(field).describe(),
                          field.title);

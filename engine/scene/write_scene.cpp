@@ -14,10 +14,13 @@ Value numbersValue(const std::vector<Number>& numbers) {
 
 Value initialValue(const Initial& initial) {
     Value value{Value::Object{}};
+    const Value given = settingsValue(initial.given);
+    for (const auto& [key, member] : given.asObject())
+        if (key != "type") value.set(key, member);
+    if (!initial.given.keys.empty()) return value;
     if (!initial.q.empty()) value.set("q", numbersValue(initial.q));
     if (initial.second == Initial::Second::momentum) value.set("p", numbersValue(initial.pOrV));
     if (initial.second == Initial::Second::velocity) value.set("v", numbersValue(initial.pOrV));
-    for (const auto& [key, member] : initial.keys) value.set(key, member);
     return value;
 }
 

@@ -1,5 +1,8 @@
 #include "ui/panels/format.hpp"
 
+#include <QStringList>
+
+#include <algorithm>
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
@@ -67,7 +70,19 @@ QString fieldText(const Value& value) {
     if (value.isNull()) return {};
     if (value.isNumber()) return QString::fromStdString(formatNumber(value.asNumber()));
     if (value.isString()) return QString::fromStdString(value.asString());
+    const auto isPlain = [](const Value& v) { return v.isNumber() || v.isString(); };
+    if (value.isArray() && std::all_of(value.asArray().begin(), value.asArray().end(), isPlain)) {
+        QStringList entries;
+        for (const Value& entry : value.asArray()) entries << fieldText(entry);
+        return entries.join(QStringLiteral(", "));
+    }
     return QString::fromStdString(writeCompactJson(value));
+}
+
+Value numbersOrExpressions(const QString& text) {
+    Value::Array entries;
+    for (const QString& entry : text.split(',')) entries.push_back(numberOrExpression(entry));
+    return entries;
 }
 
 Value numberOrExpression(const QString& text) {

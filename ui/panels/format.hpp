@@ -22,6 +22,8 @@ QString stepText(const SchemeSpec& spec);
 QString fieldText(const Value& value);
 /// The opposite: a number if it is one, else an expression; null if empty.
 Value numberOrExpression(const QString& text);
+/// An array of them from a text with commas.
+Value numbersOrExpressions(const QString& text);
 /// "Gauss" for "gauss".
 QString ruleTitle(const std::string& id);
 

@@ -33,6 +33,10 @@ std::vector<FormField> parameterFields(const ModelEntry& entry) {
 /// q(0), then p(0) or v(0), one row per coordinate.
 std::vector<FormField> initialFields(const Workspace& workspace, const System& system) {
     std::vector<FormField> fields;
+    if (const ModelEntry* entry = findModel(workspace.scene().model.type))
+        for (const FieldInfo& info : entry->initial)
+            if (valueAt(workspace.document(), "/initial/" + info.key))
+                fields.push_back({info, "/initial/" + info.key, {}, {}});
     const auto add = [&](const char* key, const QString& letter, bool isMomentum) {
         for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
             const Coordinate& c = system.coordinates[i];
@@ -94,12 +98,13 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
 
 void ScenePanel::rebuild() {
     const Scene& scene = workspace_.scene();
-    const int second = static_cast<int>(scene.initial.second);
-    if (scene.model.type == shownModel_ && second == shownSecond_) return;
+    std::string keys = std::to_string(static_cast<int>(scene.initial.second));
+    for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
+    if (scene.model.type == shownModel_ && keys == shownInitial_) return;
     const ModelEntry* entry = findModel(scene.model.type);
     if (!entry) return;
     shownModel_ = scene.model.type;
-    shownSecond_ = second;
+    shownInitial_ = keys;
     model_->setCurrentIndex(model_->findData(QString::fromStdString(shownModel_)));
     model_->setToolTip(QString::fromStdString(entry->item.description));
     const System system = entry->make(scene.model);

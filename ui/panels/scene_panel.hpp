@@ -24,7 +24,7 @@ private:
     QComboBox* model_;
     Form *parameters_, *initial_, *time_;
     std::string shownModel_;
-    int shownSecond_ = -1;
+    std::string shownInitial_;  ///< which keys of the initial data are shown
 };
 
 }  // namespace extremal

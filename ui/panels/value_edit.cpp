@@ -53,6 +53,11 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
     }
     QString tip = QString::fromStdString(info.description);
     if (info.type == FieldType::number) tip += tr("\nA number, or an expression in the model's parameters. Up and Down change it.");
+    if (info.type == FieldType::numbers) {
+        QStringList names;
+        for (const std::string& component : info.components) names << QString::fromStdString(component);
+        tip += tr("\nNumbers or expressions, separated by commas: %1.").arg(names.join(", "));
+    }
     input->setToolTip(tip.trimmed());
     input->setAccessibleName(QString::fromStdString(info.title));
     input->setObjectName("field." + QString::fromStdString(info.key));
@@ -73,6 +78,8 @@ void ValueEdit::submitText() {
     shown_ = text_->text();
     if (info_.type == FieldType::text) {
         emit edited(Value(shown_.toStdString()));
+    } else if (info_.type == FieldType::numbers) {
+        emit edited(numbersOrExpressions(shown_));
     } else if (info_.type == FieldType::json) {
         try {
             emit edited(parseJson(shown_.toStdString()));

@@ -112,7 +112,7 @@ void StagePlayer::prepare() {
 void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
     if (!result) return;
     const auto& columns = result->trajectory.columns;
-    const std::size_t width = 2 * system_.coordinates.size();
+    const std::size_t width = stateColumns(system_).size();
     if (columns.size() < 1 + width) return;
     std::size_t rows = result->trajectory.rows();
     for (std::size_t c = 0; c <= width; ++c) {
@@ -190,16 +190,15 @@ double StagePlayer::end() const {
 
 /// The cubic Hermite interpolant between row and row + 1. False if the slopes are not to be had.
 bool StagePlayer::stateBetween(const Track& track, std::size_t row, double t, std::vector<double>& x) const {
-    const std::size_t d = system_.coordinates.size();
+    const std::size_t n = track.state.size();
     const double h = track.t[row + 1] - track.t[row], s = h > 0 ? (t - track.t[row]) / h : 0;
-    std::vector<double> x0, x1, v0(2 * d), v1(2 * d);
+    std::vector<double> x0, x1, v0(n), v1(n);
     rowState(track, row, x0);
     rowState(track, row + 1, x1);
-    const Mechanics<double>& m = system_.mechanics;
-    if (!m.flow || !m.flow(m.model.get(), track.t[row], x0.data(), x0.data() + d, v0.data(), v0.data() + d) ||
-        !m.flow(m.model.get(), track.t[row + 1], x1.data(), x1.data() + d, v1.data(), v1.data() + d))
+    if (!rateOf(system_, track.t[row], x0.data(), v0.data()) ||
+        !rateOf(system_, track.t[row + 1], x1.data(), v1.data()))
         return false;
-    x.resize(2 * d);
+    x.resize(n);
     for (std::size_t i = 0; i < x.size(); ++i)
         x[i] = (1 + 2 * s) * (1 - s) * (1 - s) * x0[i] + s * (1 - s) * (1 - s) * h * v0[i] +
                s * s * (3 - 2 * s) * x1[i] + s * s * (s - 1) * h * v1[i];

@@ -42,7 +42,7 @@ private:
     struct Track {
         std::shared_ptr<const SchemeResult> result;
         std::span<const double> t;
-        std::vector<std::span<const double>> state;  ///< q, then p
+        std::vector<std::span<const double>> state;  ///< one per state column
         bool hasFailed = false;
     };
 

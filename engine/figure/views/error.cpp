@@ -7,6 +7,7 @@ namespace extremal::views {
 namespace {
 
 std::string symbolOf(const FigureContext& context) {
+    if (context.system && context.system->error.evaluate) return context.system->error.columns.front().symbol;
     const bool isSingle = context.system && context.system->dimension() == 1;
     const std::string q = isSingle ? context.system->coordinates.front().symbol : "q";
     return isSingle ? "|" + q + " − " + q + " ref|" : "‖q − q ref‖";
@@ -28,7 +29,8 @@ Figure make(const FigureContext& context) {
 
     const ReferenceInfo& reference = context.comparison.reference;
     figure.subtitle = referenceText(reference);
-    const double scale = initialNorm(context.comparison, "q.");
+    const bool hasOwnMeasure = context.system && context.system->error.evaluate;
+    const double scale = hasOwnMeasure ? context.system->error.scale : initialNorm(context.comparison, "q.");
     if (scale > 0) figure.floor = 0x1p-52 * scale;
     if (reference.estimatedError > 0 && std::isfinite(reference.estimatedError)) {
         figure.floor = std::max(figure.floor.value_or(0), reference.estimatedError);

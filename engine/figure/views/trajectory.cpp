@@ -6,8 +6,8 @@ namespace {
 
 std::string titleOf(const FigureContext& context, const std::string& column) {
     if (context.system)
-        for (const Coordinate& c : context.system->coordinates)
-            if (column == "q." + c.name && !c.title.empty()) {
+        for (const Quantity& c : stateColumns(*context.system))
+            if (column == c.name && !c.title.empty()) {
                 std::string title = c.title;
                 title[0] = static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
                 return title;
@@ -16,7 +16,8 @@ std::string titleOf(const FigureContext& context, const std::string& column) {
 }
 
 std::string firstCoordinate(const FigureContext& context) {
-    if (context.system && !context.system->coordinates.empty()) return std::string("q.").append(context.system->coordinates.front().name);
+    if (context.system)
+        if (const auto columns = stateColumns(*context.system); !columns.empty()) return columns.front().name;
     for (const auto& scheme : context.comparison.schemes)
         for (const Column& c : scheme->trajectory.columns)
             if (c.name.starts_with("q.")) return c.name;

@@ -15,6 +15,9 @@ struct Metric {
 Metric metricOf(const FigureContext& context) {
     for (const auto& scheme : context.comparison.schemes)
         if (std::isfinite(scheme->summary.maxError)) {
+            if (context.system && context.system->error.evaluate)
+                return {&Summary::maxError, axisTitle("max " + context.system->error.columns.front().symbol,
+                                                      columnInfo(context, "error").unit)};
             const std::string q = context.system && context.system->dimension() == 1
                                       ? context.system->coordinates.front().symbol : "q";
             return {&Summary::maxError, axisTitle("max error in " + q, columnInfo(context, "error").unit)};

@@ -12,14 +12,22 @@ ObservableEntry energy() {
                      {"energy_error", "H - H(0)", context.system.energyUnit, {}, {}}};
         o.extreme = 1;
         const Mechanics<double> m = context.system.mechanics;
-        const double* x = context.initial.x.data();
-        const double start = m.energy(m.model.get(), context.initial.t, x, x + m.dimension);
-        o.evaluate = [m, start](const NodeBlock& nodes, double* values, std::size_t stride) {
-            for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
-                values[0] = m.energy(m.model.get(), nodes.t(i), nodes.x(i), nodes.x(i) + m.dimension);
-                values[1] = values[0] - start;
-            }
-        };
+        const EnergyFunction energy = energyOf(context.system);
+        const double start = energy(context.initial.t, context.initial.x.data());
+        if (context.system.energy)
+            o.evaluate = [energy, start](const NodeBlock& nodes, double* values, std::size_t stride) {
+                for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
+                    values[0] = energy(nodes.t(i), nodes.x(i));
+                    values[1] = values[0] - start;
+                }
+            };
+        else
+            o.evaluate = [m, start](const NodeBlock& nodes, double* values, std::size_t stride) {
+                for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
+                    values[0] = m.energy(m.model.get(), nodes.t(i), nodes.x(i), nodes.x(i) + m.dimension);
+                    values[1] = values[0] - start;
+                }
+            };
         return o;
     };
     return e;

@@ -1,4 +1,6 @@
-/// The momenta that Noether's theorem conserves, and the Euclidean norm of their change.
+/// The momenta that Noether's theorem conserves, and the Euclidean norm of their change. A momentum that is a column of
+/// the state already is not written twice.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/observe/catalog.hpp"
@@ -14,24 +16,29 @@ ObservableEntry momentum() {
         Observer o;
         const auto& momenta = context.system.momenta;
         const auto d = static_cast<std::size_t>(context.system.dimension());
+        const auto state = stateColumns(context.system);
         std::vector<double> start;
+        std::vector<bool> isWritten;
         for (const MomentumMap& map : momenta) {
-            o.columns.push_back({"momentum." + map.name, map.symbol, map.unit, {}});
+            const std::string name = "momentum." + map.name;
             start.push_back(map.value(context.initial.x.data(), context.initial.x.data() + d));
+            isWritten.push_back(std::none_of(state.begin(), state.end(), [&](const Quantity& q) { return q.name == name; }));
+            if (isWritten.back()) o.columns.push_back({name, map.symbol, map.unit, {}, {}});
         }
+        o.extreme = static_cast<int>(o.columns.size());
         o.columns.push_back({"momentum_error", momenta.size() == 1 ? momenta[0].symbol + " - " + momenta[0].symbol + "(0)"
                                                                    : "change of momentum",
-                             momenta.empty() ? "" : momenta[0].unit, {}});
-        o.extreme = static_cast<int>(momenta.size());
-        o.evaluate = [momenta, start, d](const NodeBlock& nodes, double* values, std::size_t stride) {
+                             momenta.empty() ? "" : momenta[0].unit, {}, {}});
+        o.evaluate = [momenta, start, isWritten, d](const NodeBlock& nodes, double* values, std::size_t stride) {
             for (std::size_t node = 0; node < nodes.size(); ++node, values += stride) {
                 double sum = 0;
+                std::size_t column = 0;
                 for (std::size_t i = 0; i < momenta.size(); ++i) {
-                    values[i] = momenta[i].value(nodes.x(node), nodes.x(node) + d);
-                    const double change = values[i] - start[i];
-                    sum += change * change;
+                    const double now = momenta[i].value(nodes.x(node), nodes.x(node) + d);
+                    if (isWritten[i]) values[column++] = now;
+                    sum += (now - start[i]) * (now - start[i]);
                 }
-                values[momenta.size()] = std::sqrt(sum);
+                values[column] = std::sqrt(sum);
             }
         };
         return o;

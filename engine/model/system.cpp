@@ -1,0 +1,48 @@
+#include "engine/model/system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace extremal {
+
+std::vector<Quantity> stateColumns(const System& system) {
+    if (!system.columns.empty()) return system.columns;
+    std::vector<Quantity> columns;
+    for (const Coordinate& c : system.coordinates) columns.push_back({"q." + c.name, c.title, c.symbol, c.unit});
+    for (const Coordinate& c : system.coordinates)
+        columns.push_back({"p." + c.name, c.title + " momentum", "p_" + c.symbol, c.momentumUnit});
+    return columns;
+}
+
+EnergyFunction energyOf(const System& system) {
+    if (system.energy) return system.energy;
+    const Mechanics<double> m = system.mechanics;
+    return [m](double t, const double* x) { return m.energy(m.model.get(), t, x, x + m.dimension); };
+}
+
+ErrorMeasure errorMeasure(const System& system, const State& initial) {
+    if (system.error.evaluate) return system.error;
+    const auto& coordinates = system.coordinates;
+    const std::size_t d = coordinates.size();
+    const bool sameUnit = std::all_of(coordinates.begin(), coordinates.end(),
+                                      [&](const Coordinate& c) { return c.unit == coordinates[0].unit; });
+    ErrorMeasure m;
+    m.columns.push_back({"error", "", "|q - q_ref|", sameUnit ? coordinates[0].unit : ""});
+    m.columns.push_back({"error.p", "", "|p - p_ref|", sameUnit ? coordinates[0].momentumUnit : ""});
+    for (const Coordinate& c : coordinates)
+        m.columns.push_back({"error." + c.name, "", c.symbol + " - " + c.symbol + "_ref", c.unit});
+    m.scale = 0;
+    for (std::size_t i = 0; i < d; ++i) m.scale = std::max(m.scale, std::abs(initial.x[i]));
+    m.evaluate = [d](const double* x, const double* reference, double* values) {
+        coordinateError(d, x, reference, values);
+    };
+    return m;
+}
+
+bool rateOf(const System& system, double t, const double* x, double* dx) {
+    if (system.rate) return system.rate(t, x, dx);
+    const Mechanics<double>& m = system.mechanics;
+    return m.flow && m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
+}
+
+}  // namespace extremal
