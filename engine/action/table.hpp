@@ -49,4 +49,9 @@ struct Table {
 template <class T>
 Table<T> makeTable(const Space<T>& space, const Rule<T>& rule);
 
+/// Weights b_i(tau) of the integral from 0 to tau of the polynomial through values at the nodes: those of the rule itself at
+/// tau = 1. A composite rule has no such polynomial; there a node counts when it is passed.
+template <class T>
+std::vector<T> weightsUpTo(const Table<T>& table, const T& tau);
+
 }  // namespace extremal

@@ -107,4 +107,28 @@ Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
     return t;
 }
 
+template <class T>
+std::vector<T> weightsUpTo(const Table<T>& table, const T& tau) {
+    const int n = table.nodes();
+    std::vector<T> weights(static_cast<std::size_t>(n));
+    const Rule<T> inner = gauss<T>(n / 2 + 1);
+    for (int i = 0; i < n; ++i) {
+        T& w = weights[static_cast<std::size_t>(i)];
+        if (!table.rule.isInterpolatory) {
+            w = table.node(i) <= tau ? table.weight(i) : T(0);
+            continue;
+        }
+        w = T(0);
+        for (int j = 0; j < inner.size(); ++j) {
+            T cardinal(1);
+            for (int k = 0; k < n; ++k)
+                if (k != i)
+                    cardinal *= (inner.c[static_cast<std::size_t>(j)] * tau - table.node(k)) /
+                                (table.node(i) - table.node(k));
+            w += tau * inner.b[static_cast<std::size_t>(j)] * cardinal;
+        }
+    }
+    return weights;
+}
+
 }  // namespace extremal

@@ -6,6 +6,7 @@
 #include "engine/core/dimension.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/lie.hpp"
 #include "engine/integrator/scheme.hpp"
 
 namespace extremal {
@@ -38,7 +39,7 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
     if (solver.type == "newton") policy.method = SolverMethod::newton;
     if (solver.type == "fixed-point") {
         policy.method = SolverMethod::fixedPoint;
-        if (!system.mechanics.isSeparable)
+        if (system.hasMechanics() && !system.mechanics.isSeparable)
             throw InvalidScene("/solver/method",
                                "fixed-point iteration needs a separable Lagrangian, and that of " + system.id + " is not",
                                "use newton or auto");
@@ -51,11 +52,12 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 }  // namespace
 
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
-    if (!system.hasMechanics())
-        throw InvalidScene("/space/type", "polynomials need coordinates, and " + system.id + " has none",
-                           "another space: extremal list spaces");
-    Table<double> table = makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature));
     const SolverPolicy policy = solverPolicy(pair.solver, system);
+    if (pair.space.type == "lie-polynomial") return makeLieIntegrator(system, pair, clock, policy);
+    if (!system.hasMechanics())
+        throw InvalidScene("/space/type", pair.space.type + " needs coordinates, and " + system.id + " has none",
+                           system.hasBody() ? "take lie-polynomial" : "another space: extremal list spaces");
+    Table<double> table = makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature));
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(table), clock, policy);
     });

@@ -11,6 +11,7 @@
 #include "engine/action/table.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/scheme.hpp"
+#include "engine/space/catalog.hpp"
 
 namespace extremal {
 namespace {
@@ -91,11 +92,20 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
     p.claims.isSymmetric = rule.isSymmetric;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"momentum"};
-    nameOf(space, quadrature, rule.size(), p);
+    const bool isLie = space.type == "lie-polynomial";
+    if (isLie) {
+        // The chart at the start of the step is seen from one side; but a curve of degree 1 has the same charts at both ends.
+        p.claims.isSymmetric = rule.isSymmetric && (space.flag("symmetric") || space.integer("degree") == 1);
+        p.shortName = ordinal("Lie", p.claims.order);
+    } else {
+        nameOf(space, quadrature, rule.size(), p);
+    }
     if (p.knownAs == "Gauss collocation" || p.knownAs == "implicit midpoint")
         p.claims.conserves.push_back("quadratic invariants");
     try {
         p.stabilityLimit = firstInstability(makeTable(makeSpace(space), rule));
+        // A limit of the oscillator says nothing of a turning body.
+        if (isLie && p.stabilityLimit > 0) p.stabilityLimit = std::numeric_limits<double>::infinity();
     } catch (const InvalidScene& e) {
         p.refusal = e.problems().front().message;
         p.hint = e.problems().front().hint;
@@ -110,6 +120,7 @@ std::string keyOf(const Settings& s) {
         key += '|' + name + '=';
         if (value.isNumber()) key += std::to_string(value.asNumber());
         if (value.isString()) key += value.asString();
+        if (value.isBool()) key += value.asBool() ? "true" : "false";
     }
     return key;
 }
@@ -172,15 +183,28 @@ std::optional<Discretization> namedScheme(std::string_view id) {
     return std::nullopt;
 }
 
-Discretization trustedPair(const System&) {
-    constexpr double degree = 12;
+bool isPairFor(const Discretization& pair, const System& system) {
+    for (const SpaceEntry& e : spaceEntries())
+        if (e.item.id == pair.space.type) return appliesTo(e, system);
+    return false;
+}
+
+Discretization trustedPair(const System& system) {
     Discretization pair;
+    if (system.hasBody()) {
+        pair.space = {"lie-polynomial", {{"degree", 8.0}, {"symmetric", false}, {"reduced", true}}, {}};
+        pair.quadrature = {"gauss", {{"nodes", 8.0}}, {}};
+        return pair;
+    }
+    constexpr double degree = 12;
     pair.space = {"polynomial", {{"degree", degree}, {"basis", "lobatto"}}, {}};
     pair.quadrature = {"gauss", {{"nodes", degree}}, {}};
     return pair;
 }
 
-std::string trustedName(const System&) { return "Gauss collocation of degree 12"; }
+std::string trustedName(const System& system) {
+    return system.hasBody() ? "Lie group Gauss of degree 8" : "Gauss collocation of degree 12";
+}
 
 double highestFrequency(const System& system, const State& state) {
     if (system.frequency) return system.frequency(state.t, state.x.data());

@@ -49,6 +49,9 @@ const std::vector<SchemeEntry>& schemeCatalog();
 /// Finds "midpoint" or "galerkin-gauss-3"; empty if there is none.
 std::optional<Discretization> namedScheme(std::string_view id);
 
+/// Whether the pair's space can be used on the system.
+bool isPairFor(const Discretization& pair, const System& system);
+
 /// Makes the integrator of a pair for a system. Throws InvalidScene (pointer relative to the scheme).
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock);
 

@@ -16,6 +16,7 @@
 
 #include "engine/core/catalog.hpp"
 #include "engine/core/state.hpp"
+#include "engine/model/body.hpp"
 #include "engine/model/drawing.hpp"
 #include "engine/model/exact_solution.hpp"
 #include "engine/model/mechanics.hpp"
@@ -69,9 +70,13 @@ struct System {
     std::vector<Coordinate> coordinates;
     Mechanics<double> mechanics;
 
+    /// Rigid bodies.
+    BodyMechanics<double> body;
+
     // Systems with another state.
     std::vector<Quantity> columns;  ///< what the first entries of x are: the state columns of every row
     EnergyFunction energy;
+    EnergyFunction casimir;         ///< of the bracket; kept by exact solutions
     ErrorMeasure error;             ///< evaluate empty: the usual one of coordinates
     std::function<bool(double t, const double* x, double* dx)> rate;  ///< xdot, to draw what is between rows
     std::function<double(double t, const double* x)> frequency;       ///< of the fastest motion, rad per unit of time
@@ -92,6 +97,7 @@ struct System {
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
     bool hasMechanics() const { return mechanics.dimension > 0; }
+    bool hasBody() const { return body.dimension > 0; }
 };
 
 /// Names of the first entries of the state: the system's own, else q.<name>, then p.<name>.

@@ -32,13 +32,14 @@ struct Case {
     bool isPair = false;
 };
 
-/// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline.
-inline std::vector<Case> everyScheme(int maxDegree) {
+/// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline, that fit the system.
+inline std::vector<Case> everyScheme(int maxDegree, const System& system = systemNamed("kepler")) {
     std::vector<Case> cases;
     for (const SchemeEntry& e : schemeCatalog()) {
         const int low = e.maxDegree == 0 ? 0 : e.minDegree, high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
         for (int degree = low; degree <= high; ++degree) {
             const Discretization pair = e.make(degree);
+            if (!isPairFor(pair, system)) continue;
             std::string name = e.item.id;
             if (const auto at = name.find('<'); at != std::string::npos) name = name.substr(0, at) + std::to_string(degree);
             cases.push_back({name, describe(pair.space, pair.quadrature).claims,
@@ -46,7 +47,7 @@ inline std::vector<Case> everyScheme(int maxDegree) {
         }
     }
     for (const BaselineEntry& e : baselineCatalog())
-        if (!e.isAdaptive)
+        if (!e.isAdaptive && appliesTo(e, system))
             cases.push_back({e.item.id, *e.item.claims,
                              [make = e.make](const System& s, const Clock& c) { return make(s, {c, 0, 0, {}}); }});
     return cases;

@@ -10,6 +10,7 @@
 
 #include "engine/integrator/scheme.hpp"
 #include "ui/panels/format.hpp"
+#include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
@@ -65,7 +66,10 @@ DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* p
 }
 
 QString DiscretizerCell::tooltip(const PairProperties& known) const {
-    const QString pair = tr("polynomials of degree %1 × %2").arg(space_.integer("degree")).arg(ruleTitle(quadrature_.type));
+    const bool isLie = space_.type == "lie-polynomial";
+    const QString pair = (isLie ? tr("polynomials of degree %1 in the algebra × %2") : tr("polynomials of degree %1 × %2"))
+                             .arg(space_.integer("degree"))
+                             .arg(ruleTitle(quadrature_.type));
     if (!known.refusal.empty()) return tr("<b>%1</b><br>No scheme: %2").arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
     QString text = "<b>" + (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) + "</b>";
     if (!known.knownAs.empty()) text += "<br>" + pair;
@@ -131,7 +135,18 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
 Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     : Card(tr("Discretizer"), parent), workspace_(workspace) {
     setSubtitle(tr("space × quadrature"));
-    auto* grid = new QGridLayout;
+    fill("polynomial");
+    connect(&workspace_, &Workspace::sceneChanged, this, &Discretizer::refresh);
+}
+
+/// One row per degree of the space, one column per rule.
+void Discretizer::fill(const std::string& space) {
+    space_ = space;
+    cells_.clear();
+    delete grid_;
+    grid_ = new QWidget;
+    auto* grid = new QGridLayout(grid_);
+    grid->setContentsMargins(0, 0, 0, 0);
     grid->setHorizontalSpacing(3);
     grid->setVerticalSpacing(3);
     int column = 1;
@@ -143,7 +158,8 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
         grid->setColumnStretch(column, 1);
         int row = 1;
         for (const int degree : degrees) {
-            auto* cell = new DiscretizerCell(polynomialSpace(degree), ruleFor(rule.id, degree));
+            auto* cell = new DiscretizerCell(spaceOf(space, degree), ruleFor(rule.id, degree));
+            if (theme_) cell->setTheme(*theme_);
             connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
             cells_.push_back(cell);
             grid->addWidget(cell, row++, column);
@@ -152,15 +168,18 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     }
     int row = 1;
     for (const int degree : degrees) {
-        QLabel* name = makeLabel(tr("poly %1").arg(degree), "caption");
-        name->setToolTip(tr("Polynomials of degree %1 on each step").arg(degree));
+        const bool isLie = space == "lie-polynomial";
+        QLabel* name = makeLabel((isLie ? tr("Lie %1") : tr("poly %1")).arg(degree), "caption");
+        name->setToolTip((isLie ? tr("Polynomials of degree %1 in the Lie algebra, on each step")
+                                : tr("Polynomials of degree %1 on each step"))
+                             .arg(degree));
         grid->addWidget(name, row++, 0);
     }
-    body()->addLayout(grid);
-    connect(&workspace_, &Workspace::sceneChanged, this, &Discretizer::refresh);
+    body()->addWidget(grid_);
 }
 
 void Discretizer::setTheme(const Theme& theme) {
+    theme_ = &theme;
     for (DiscretizerCell* cell : cells_) cell->setTheme(theme);
 }
 
@@ -169,6 +188,7 @@ DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
 }
 
 void Discretizer::refresh() {
+    if (const std::string space = pairSpace(workspace_.scene()); space != space_) fill(space);
     for (DiscretizerCell* cell : cells_)
         cell->setPresent(findPair(workspace_.scene(), cell->space(), cell->quadrature()) >= 0);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QAbstractButton>
+#include <string>
 #include <vector>
 
 #include "engine/core/settings.hpp"
@@ -47,11 +48,15 @@ public:
     DiscretizerCell* cell(int degree, const QString& rule) const;
 
 private:
+    void fill(const std::string& space);
     void refresh();
     void choose(const DiscretizerCell& cell);
 
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;
+    std::string space_;  ///< of the cells
+    QWidget* grid_ = nullptr;
+    const Theme* theme_ = nullptr;
 };
 
 }  // namespace extremal

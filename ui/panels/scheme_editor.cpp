@@ -12,6 +12,7 @@
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/catalog.hpp"
 #include "ui/panels/form.hpp"
+#include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -46,9 +47,10 @@ void fill(QComboBox& box, const std::vector<CatalogItem>& items) {
     }
 }
 
-std::vector<CatalogItem> namedItems() {
+std::vector<CatalogItem> namedItems(const Scene& scene) {
     std::vector<CatalogItem> items;
-    for (const SchemeEntry& entry : schemeCatalog()) {
+    for (const SchemeEntry* fitting : fittingSchemes(scene)) {
+        const SchemeEntry& entry = *fitting;
         if (entry.maxDegree == 0) items.push_back(entry.item);
         const std::string stem = entry.item.id.substr(0, entry.item.id.rfind('-'));
         for (int s = entry.minDegree; s <= entry.maxDegree && entry.maxDegree > 0; ++s) {
@@ -60,9 +62,9 @@ std::vector<CatalogItem> namedItems() {
     return items;
 }
 
-std::vector<CatalogItem> baselineItems() {
+std::vector<CatalogItem> baselineItems(const Scene& scene) {
     std::vector<CatalogItem> items;
-    for (const BaselineEntry& entry : baselineCatalog()) items.push_back(entry.item);
+    for (const BaselineEntry* entry : fittingBaselines(scene)) items.push_back(entry->item);
     return items;
 }
 
@@ -83,7 +85,7 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
     first_ = addChoice(tr("choice"), "choice");
     connect(first_, &QComboBox::activated, this, [this] {
         const Scene& scene = workspace_.scene();
-        if (spec().kind == SchemeSpec::Kind::pair) return change(newPair(scene, polynomialSpace(2), ruleFor("gauss", 2)));
+        if (spec().kind == SchemeSpec::Kind::pair) return change(newPair(scene, spaceOf(chosen(*first_), 2), ruleFor("gauss", 2)));
         change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_)) : newNamed(scene, chosen(*first_)));
     });
     rule_ = addChoice(tr("rule"), "rule");
@@ -145,19 +147,19 @@ void SchemeEditor::rebuild() {
     ruleRow_->setVisible(s.kind == SchemeSpec::Kind::pair);
     std::vector<FormField> fields;
     if (s.kind == SchemeSpec::Kind::pair) {
-        fill(*first_, spaceCatalog());
+        fill(*first_, fittingSpaces(workspace_.scene()));
         choose(*first_, s.space.type);
         choose(*rule_, s.quadrature.type);
         if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type)) addFields(fields, space->parameters, place() + "/space");
         if (const CatalogItem* rule = itemNamed(quadratureCatalog(), s.quadrature.type))
             addFields(fields, rule->parameters, place() + "/quadrature");
     } else if (s.kind == SchemeSpec::Kind::baseline) {
-        fill(*first_, baselineItems());
+        fill(*first_, baselineItems(workspace_.scene()));
         choose(*first_, s.baseline.type);
         if (const BaselineEntry* entry = findBaseline(s.baseline.type))
             addFields(fields, entry->item.parameters, place() + "/baseline");
     } else {
-        fill(*first_, namedItems());
+        fill(*first_, namedItems(workspace_.scene()));
         choose(*first_, s.named);
     }
     if (s.tolerance)
@@ -176,9 +178,13 @@ void SchemeEditor::rebuild() {
 void SchemeEditor::changeKind(int kind) {
     const Scene& scene = workspace_.scene();
     if (kind == static_cast<int>(spec().kind)) return;
-    if (kind == 0) return change(newPair(scene, polynomialSpace(2), ruleFor("gauss", 2)));
-    if (kind == 1) return change(newBaseline(scene, "stormer-verlet"));
-    change(newNamed(scene, "midpoint"));
+    if (kind == 0) return change(newPair(scene, spaceOf(pairSpace(scene), 2), ruleFor("gauss", 2)));
+    const auto firstOf = [](const std::vector<CatalogItem>& items, const char* wish) {
+        const bool hasWish = std::any_of(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == wish; });
+        return hasWish || items.empty() ? std::string(wish) : items.front().id;
+    };
+    if (kind == 1) return change(newBaseline(scene, firstOf(baselineItems(scene), "stormer-verlet")));
+    change(newNamed(scene, firstOf(namedItems(scene), "midpoint")));
 }
 
 /// Replaces the scheme, keeping its step where both have one.

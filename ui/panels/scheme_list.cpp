@@ -12,6 +12,7 @@
 #include "ui/panels/card.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/scheme_card.hpp"
+#include "ui/shell/fitting.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
@@ -27,7 +28,6 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
     addButton_ = new QPushButton(tr("+ Add"));
     addButton_->setObjectName("add");
     addMenu_ = new QMenu(this);
-    fillAddMenu();
     connect(addButton_, &QPushButton::clicked, this, &SchemeList::openAddMenu);
     header->addWidget(makeLabel(tr("Schemes"), "title"));
     header->addStretch();
@@ -53,11 +53,13 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
 }
 
 void SchemeList::fillAddMenu() {
+    addMenu_->clear();
+    const std::string spaceId = pairSpace(workspace_.scene());
     QMenu* pairs = addMenu_->addMenu(tr("Space × quadrature"));
     for (const char* rule : {"gauss", "lobatto", "radau", "clenshaw-curtis"}) {
         QMenu* sub = pairs->addMenu(ruleTitle(rule));
         for (int degree = 1; degree <= 8; ++degree) {
-            const Settings space = polynomialSpace(degree), quadrature = ruleFor(rule, degree);
+            const Settings space = spaceOf(spaceId, degree), quadrature = ruleFor(rule, degree);
             const PairProperties known = describe(space, quadrature);
             if (!known.refusal.empty()) continue;
             QString text = tr("degree %1, order %2").arg(degree).arg(known.claims.order);
@@ -66,7 +68,8 @@ void SchemeList::fillAddMenu() {
         }
     }
     QMenu* named = addMenu_->addMenu(tr("Named scheme"));
-    for (const SchemeEntry& entry : schemeCatalog()) {
+    for (const SchemeEntry* fitting : fittingSchemes(workspace_.scene())) {
+        const SchemeEntry& entry = *fitting;
         if (entry.maxDegree == 0) {
             const std::string id = entry.item.id;
             named->addAction(QString::fromStdString(entry.item.title), this, [=, this] { add(newNamed(workspace_.scene(), id)); });
@@ -80,7 +83,8 @@ void SchemeList::fillAddMenu() {
         }
     }
     QMenu* baselines = addMenu_->addMenu(tr("Baseline"));
-    for (const BaselineEntry& entry : baselineCatalog()) {
+    for (const BaselineEntry* fitting : fittingBaselines(workspace_.scene())) {
+        const BaselineEntry& entry = *fitting;
         const std::string id = entry.item.id;
         QAction* action = baselines->addAction(QString::fromStdString(entry.item.title), this,
                                                [=, this] { add(newBaseline(workspace_.scene(), id)); });
@@ -96,6 +100,7 @@ void SchemeList::add(const Value& scheme) {
 }
 
 void SchemeList::openAddMenu() {
+    fillAddMenu();
     addMenu_->popup(addButton_->mapToGlobal(QPoint(0, addButton_->height() + 2)));
 }
 

@@ -7,7 +7,9 @@
 #include "engine/integrator/scheme.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/scene/codec.hpp"
 #include "engine/space/catalog.hpp"
+#include "ui/shell/fitting.hpp"
 
 namespace extremal {
 
@@ -50,7 +52,8 @@ std::string pairLabel(const Settings& space, const Settings& quadrature) {
     const PairProperties known = describe(space, quadrature);
     if (!known.knownAs.empty()) return known.knownAs;
     const CatalogItem* rule = itemOf(quadratureCatalog(), quadrature.type);
-    return (rule ? rule->title : quadrature.type) + " " + std::to_string(known.claims.order);
+    const std::string prefix = space.type == "lie-polynomial" ? "Lie " : "";
+    return prefix + (rule ? rule->title : quadrature.type) + " " + std::to_string(known.claims.order);
 }
 
 std::string place(int index) { return "/schemes/" + std::to_string(index); }
@@ -151,9 +154,33 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
                                {"/lesson", std::nullopt},
                                {"/notes", std::nullopt},
                                {"/time", Value(Value::Object{{"start", 0}, {"end", entry.exampleEnd}})}};
-    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
-        if (scene.schemes[i].step.value > 0)
-            edits.push_back({place(static_cast<int>(i)) + "/step", roundStep(scene.schemes[i].step.value * scale * 1.0001)});
+    Scene next;
+    next.model.type = entry.item.id;
+    for (const FieldInfo& f : entry.item.parameters) next.model.keys.emplace_back(f.key, f.fallback);
+    const System system = entry.make(next.model);
+    next.end.value = entry.exampleEnd;
+    Value::Array schemes;
+    const Value document = toValue(scene);
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        const SchemeSpec& spec = scene.schemes[i];
+        const auto pair = pairOf(spec);
+        const BaselineEntry* baseline = findBaseline(spec.baseline.type);
+        const bool fits = pair ? isPairFor(*pair, system) : baseline && appliesTo(*baseline, system);
+        if (!fits && !pair) continue;
+        Value scheme = fits ? document.find("schemes")->asArray()[i] : Value();
+        if (!fits) {
+            const std::string space = pairSpace(next);
+            const int degree = std::min(pair->space.integer("degree"), 8);
+            scheme = newPair(next, spaceOf(space, degree), ruleFor(pair->quadrature.type, degree));
+        }
+        if (spec.step.value > 0) scheme.set("step", roundStep(spec.step.value * scale * 1.0001));
+        scheme.set("enabled", spec.isEnabled);
+        next.schemes.emplace_back();
+        next.schemes.back().label = scheme.find("label")->asString();
+        schemes.push_back(std::move(scheme));
+    }
+    if (schemes.empty()) schemes.push_back(newPair(next, spaceOf(pairSpace(next), 2), ruleFor("gauss", 2)));
+    edits.push_back({"/schemes", std::move(schemes)});
     return edits;
 }
 
@@ -170,8 +197,8 @@ int findPair(const Scene& scene, const Settings& space, const Settings& quadratu
     return -1;
 }
 
-Settings polynomialSpace(int degree) {
-    const CatalogItem* item = itemOf(spaceCatalog(), "polynomial");
+Settings spaceOf(const std::string& id, int degree) {
+    const CatalogItem* item = itemOf(spaceCatalog(), id);
     Settings space = item ? withDefaults(*item) : Settings{};
     setKey(space, "degree", degree);
     return space;

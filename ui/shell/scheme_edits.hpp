@@ -26,14 +26,15 @@ std::vector<Edit> editsForDuplicate(const Value& document, const Scene& scene, i
 std::vector<Edit> editsForRemoval(int index);
 std::vector<Edit> editsForMove(const Value& document, int index, int by);
 std::vector<Edit> editsForToggle(const Scene& scene, int index);
-/// Another model: its example data and views, and a step that suits it for every scheme.
+/// Another model: its example data and views, and a step that suits it for every scheme. Schemes that the model has no
+/// use for turn into pairs of the same order, or go.
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 
 /// The scheme that is this pair (same space and rule), or -1.
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 
 /// The settings of a pair of the discretizer, with every default filled in.
-Settings polynomialSpace(int degree);
+Settings spaceOf(const std::string& id, int degree);
 Settings ruleFor(const std::string& id, int degree);
 
 }  // namespace extremal

@@ -1,4 +1,6 @@
 /// Norm of the change of the conserved momenta, on a logarithmic axis.
+#include <algorithm>
+
 #include "engine/figure/build.hpp"
 
 namespace extremal::views {
@@ -22,6 +24,10 @@ Figure make(const FigureContext& context) {
     for (const Series& s : figure.series) conserved += maxMagnitude(s.y) <= 1e-10 * (scale > 0 ? scale : 1);
     if (!figure.series.empty())
         figure.subtitle = "conserved: " + std::to_string(conserved) + " of " + std::to_string(figure.series.size());
+    const bool isExact = !figure.series.empty() && std::all_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
+        return s.y.size() > 1 && maxMagnitude(s.y) == 0;
+    });
+    if (isExact) figure.message = "Kept to the last bit by every scheme";
     if (context.system && context.system->momenta.empty()) figure.message = "This model has no conserved momentum";
     finishFigure(figure, context, "Momentum error against time, " +
                                       (figure.subtitle.empty() ? std::string("not measured") : figure.subtitle));

@@ -1,0 +1,128 @@
+/// What LieStep needs of its group beyond the chart: poses with momenta, and how they move along a chart.
+///
+/// A pose holds the attitude as a quaternion of length 1 and the angular momentum about the centre of mass in space axes;
+/// on SE(3) the position and the linear momentum, in space axes too. Momenta in space, and not in the body, are what
+/// is carried from step to step: those of a free body are then never touched by round-off.
+/// A chart goes from a foot g to a tip g exp(xi). Where a potential has taken the impulse W on the way (a momentum at
+/// the foot, in its axes), the momenta at the ends satisfy mu_tip = Ad_exp(xi)^T (mu_foot - W); in space
+///     p_tip = p_foot - R W_p,   pi_tip = pi_foot - R W_pi - (x_tip - x_foot) x p_tip,   R: attitude of the foot.
+#pragma once
+
+#include "engine/group/se3.hpp"
+#include "engine/group/so3.hpp"
+
+namespace extremal {
+
+template <class T>
+struct Pose {
+    so3::Quaternion<T> attitude = {T(1), T(0), T(0), T(0)};
+    so3::Vector<T> momentum = so3::Vector<T>::Zero();
+    so3::Vector<T> position = so3::Vector<T>::Zero(), linear = so3::Vector<T>::Zero();
+};
+
+/// SO(3).
+template <class T>
+struct RotationGroup {
+    static constexpr int n = 3;
+    using Vector = so3::Vector<T>;
+    using Matrix = so3::Matrix<T>;
+    using Element = so3::Matrix<T>;
+    template <int K>
+    using Chart = so3::Exponential<T, K>;
+
+    /// From and to the state of a run (model/body.hpp).
+    static Pose<T> read(const T* x) {
+        Pose<T> p;
+        p.attitude << x[0], x[1], x[2], x[3];
+        p.momentum << x[7], x[8], x[9];
+        return p;
+    }
+    static void write(const Pose<T>& p, T* x) {
+        const Vector body = so3::matrix(p.attitude).transpose() * p.momentum;
+        for (int i = 0; i < 4; ++i) x[i] = p.attitude(i);
+        for (int i = 0; i < 3; ++i) x[4 + i] = body(i);
+        for (int i = 0; i < 3; ++i) x[7 + i] = p.momentum(i);
+    }
+    static Element element(const Pose<T>& p) { return so3::matrix(p.attitude); }
+    static const T* rotation(const Element& g) { return g.data(); }
+    static const T* position(const Element&) { return nullptr; }
+    template <int K>
+    static Element times(const Element& g, const Chart<K>& at) {
+        return g * at.rotation();
+    }
+    static Vector bodyMomentum(const Element& g, const Pose<T>& p) { return g.transpose() * p.momentum; }
+    static Vector bracket(const Vector& u, const Vector& v) { return so3::bracket(u, v); }
+    static Vector precession(const Vector& m, const Vector& u) { return so3::precession(m, u); }
+    static Matrix precessionMatrix(const Vector& m) { return so3::precessionMatrix(m); }
+
+    /// The place p exp(xi), with the momenta of p.
+    static Pose<T> place(const Pose<T>& p, const Element&, const Vector& xi) {
+        Pose<T> r = p;
+        r.attitude = so3::normalised(so3::product(p.attitude, so3::quaternionExp(xi)));
+        return r;
+    }
+    /// Gives the tip, placed already, its momentum; or the foot.
+    static void carry(const Pose<T>& foot, const Element& g, const Vector& W, Pose<T>& tip) {
+        tip.momentum = foot.momentum - g * W;
+    }
+    static void fetch(Pose<T>& foot, const Element& g, const Vector& W, const Pose<T>& tip) {
+        foot.momentum = tip.momentum + g * W;
+    }
+};
+
+/// SE(3).
+template <class T>
+struct MotionGroup {
+    static constexpr int n = 6;
+    using Three = so3::Vector<T>;
+    using Vector = se3::Vector<T>;
+    using Matrix = se3::Matrix<T>;
+    using Element = se3::Motion<T>;
+    template <int K>
+    using Chart = se3::Exponential<T, K>;
+
+    static Pose<T> read(const T* x) {
+        Pose<T> p = RotationGroup<T>::read(x);
+        p.position << x[10], x[11], x[12];
+        p.linear << x[13], x[14], x[15];
+        return p;
+    }
+    static void write(const Pose<T>& p, T* x) {
+        RotationGroup<T>::write(p, x);
+        for (int i = 0; i < 3; ++i) x[10 + i] = p.position(i);
+        for (int i = 0; i < 3; ++i) x[13 + i] = p.linear(i);
+    }
+    static Element element(const Pose<T>& p) { return {so3::matrix(p.attitude), p.position}; }
+    static const T* rotation(const Element& g) { return g.rotation.data(); }
+    static const T* position(const Element& g) { return g.position.data(); }
+    template <int K>
+    static Element times(const Element& g, const Chart<K>& at) {
+        return se3::product(g, at.motion());
+    }
+    static Vector bodyMomentum(const Element& g, const Pose<T>& p) {
+        Vector m;
+        m << g.rotation.transpose() * p.momentum, g.rotation.transpose() * p.linear;
+        return m;
+    }
+    static Vector bracket(const Vector& u, const Vector& v) { return se3::bracket(u, v); }
+    static Vector precession(const Vector& m, const Vector& u) { return se3::precession(m, u); }
+    static Matrix precessionMatrix(const Vector& m) { return se3::precessionMatrix(m); }
+
+    static Pose<T> place(const Pose<T>& p, const Element& g, const Vector& xi) {
+        Pose<T> r = RotationGroup<T>::place(p, g.rotation, xi.template head<3>());
+        r.position = times(g, Chart<0>(xi)).position;
+        return r;
+    }
+    static void carry(const Pose<T>& foot, const Element& g, const Vector& W, Pose<T>& tip) {
+        tip.linear = foot.linear - g.rotation * W.template tail<3>();
+        tip.momentum = foot.momentum - g.rotation * W.template head<3>() -
+                       so3::cross(Three(tip.position - foot.position), tip.linear);
+    }
+    static void fetch(Pose<T>& foot, const Element& g, const Vector& W, const Pose<T>& tip) {
+        foot.linear = tip.linear + g.rotation * W.template tail<3>();
+        foot.momentum = tip.momentum + g.rotation * W.template head<3>() +
+                        so3::cross(Three(tip.position - foot.position), tip.linear);
+    }
+};
+
+}  // namespace extremal

@@ -1,0 +1,36 @@
+/// What all rigid bodies have in common as systems: their state's columns, initial data, energy, error, rate and picture.
+/// Included by the .cpp files of the bodies in model/systems.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+/// Fills in what follows from system.body, which must be set (state: model/body.hpp). The error is the angle of
+/// R_ref^T R in rad; error.p the norm of the difference of the momenta in the body; on SE(3) error.position.
+void describeBody(System& system);
+
+/// Keys of /initial: attitude, and exactly one of momentum and omega, in body axes; on SE(3) position, and at most one
+/// of velocity and linear_momentum, in space axes.
+std::vector<FieldInfo> bodyInitialFields(bool movesInSpace);
+
+/// The key "inertia": three principal moments.
+FieldInfo inertiaField(std::array<double, 3> fallback);
+
+/// U of the body at a state; 0 where it is free.
+double bodyPotential(const BodyMechanics<double>& body, const double* x);
+
+/// Half the edges of the homogeneous box with these moments of inertia, the longest 1. Moments that no body has (one
+/// larger than the sum of the others) and thin rods and plates are given a visible thickness.
+std::array<double, 3> boxOf(const BodyMechanics<double>& body);
+
+/// A space vector as the stage shows it: z up, x to the right, y away from the viewer.
+inline Point onStage(double x, double y, double z) { return {x, z, -y}; }
+
+/// Adds the box around `centre` (space axes), turned by the attitude of x, and the body's axes through it.
+void drawBox(const std::array<double, 3>& half, const std::array<double, 3>& centre, const double* x, Drawing& drawing);
+
+}  // namespace extremal
