@@ -11,12 +11,13 @@
 #include "engine/action/table.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/scheme.hpp"
+#include "engine/integrator/stability.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal {
 namespace {
 
-/// Half the trace of the step's map on L = (v^2 - z^2 q^2)/2 with h = 1: stable where its size is at most 1.
+/// Half the trace of the step's map on L = (v^2 - z^2 q^2)/2 with h = 1.
 double halfTrace(const Table<double>& t, double z) {
     const int m = t.unknowns();
     const Eigen::MatrixXd weighted = t.weight.asDiagonal() * t.testValue;
@@ -30,27 +31,6 @@ double halfTrace(const Table<double>& t, double z) {
     const double q = 1 + Y(m - 1, 0);
     const double p = 1 - z * z * t.weight.dot(t.value * Y.col(1));
     return (q + p) / 2;
-}
-
-/// First z at which the step's map on the oscillator has an eigenvalue outside the unit circle.
-double firstInstability(const Table<double>& table) {
-    constexpr double slack = 1e-9, end = 60;
-    auto isUnstable = [&](double z) { return !(std::abs(halfTrace(table, z)) <= 1 + slack * (1 + z * z)); };
-    double low = 0;
-    for (double z = 0.01; z < end; z += z < 12 ? 0.004 : 0.02) {
-        if (!isUnstable(z)) {
-            low = z;
-            continue;
-        }
-        double high = z;
-        if (low == 0) return 0;
-        for (int i = 0; i < 50; ++i) {
-            const double middle = (low + high) / 2;
-            (isUnstable(middle) ? high : low) = middle;
-        }
-        return low;
-    }
-    return std::numeric_limits<double>::infinity();
 }
 
 std::string ordinal(const char* prefix, int order) { return prefix + std::to_string(order); }
@@ -103,7 +83,8 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
     if (p.knownAs == "Gauss collocation" || p.knownAs == "implicit midpoint")
         p.claims.conserves.push_back("quadratic invariants");
     try {
-        p.stabilityLimit = firstInstability(makeTable(makeSpace(space), rule));
+        const Table<double> table = makeTable(makeSpace(space), rule);
+        p.stabilityLimit = firstInstability([&](double z) { return halfTrace(table, z); });
         // A limit of the oscillator says nothing of a turning body.
         if (isLie && p.stabilityLimit > 0) p.stabilityLimit = std::numeric_limits<double>::infinity();
     } catch (const InvalidScene& e) {

@@ -68,7 +68,8 @@ std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& s
         std::vector<std::string> fitting;
         for (const BaselineEntry& e : baselineCatalog())
             if (appliesTo(e, system)) fitting.push_back(e.item.id);
-        throw InvalidScene("/baseline", entry->item.id + " cannot integrate " + system.id,
+        const std::string reason = entry->item.needs.empty() ? "" : ": it needs " + entry->item.needs;
+        throw InvalidScene("/baseline", entry->item.id + " cannot integrate " + system.id + reason,
                            fitting.empty() ? "take a pair" : "it has " + joinNames(fitting));
     }
     BaselineOptions options;

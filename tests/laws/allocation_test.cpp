@@ -27,7 +27,7 @@ private slots:
         for (const char* id : {"kepler", "spring-pendulum"}) {
             const System s = systemNamed(id);
             const State start = s.id == "kepler" ? keplerStart : State{0, 0, {0.01, 1, 0, 0}};
-            for (const Case& c : everyScheme(8)) {
+            for (const Case& c : everyScheme(8, s)) {
                 const auto integrator = c.make(s, {0, 0.005});
                 State state = start;
                 for (int i = 0; i < 3; ++i) (void)integrator->advance(state);

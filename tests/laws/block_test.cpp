@@ -14,7 +14,7 @@ private slots:
         for (const char* id : {"kepler", "spring-pendulum"}) {
             const System s = systemNamed(id);
             const State start = s.id == "kepler" ? keplerStart : State{0, 0, {0.01, 1, 0, 0}};
-            for (const Case& c : everyScheme(4)) {
+            for (const Case& c : everyScheme(4, s)) {
                 const auto one = c.make(s, {0, 0.005}), many = c.make(s, {0, 0.005});
                 State a = start, b = start;
                 for (const std::size_t size : {1UL, 2UL, 37UL, 5UL}) {

@@ -32,6 +32,14 @@ struct Case {
     bool isPair = false;
 };
 
+/// The keys of a baseline with their defaults.
+inline Settings defaultsOf(const CatalogItem& item) {
+    Settings settings;
+    settings.type = item.id;
+    for (const FieldInfo& f : item.parameters) settings.keys.emplace_back(f.key, f.fallback);
+    return settings;
+}
+
 /// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline, that fit the system.
 inline std::vector<Case> everyScheme(int maxDegree, const System& system = systemNamed("kepler")) {
     std::vector<Case> cases;
@@ -49,7 +57,9 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
     for (const BaselineEntry& e : baselineCatalog())
         if (!e.isAdaptive && appliesTo(e, system))
             cases.push_back({e.item.id, *e.item.claims,
-                             [make = e.make](const System& s, const Clock& c) { return make(s, {c, 0, 0, {}}); }});
+                             [make = e.make, keys = defaultsOf(e.item)](const System& s, const Clock& c) {
+                                 return make(s, {c, 0, 0, keys});
+                             }});
     return cases;
 }
 

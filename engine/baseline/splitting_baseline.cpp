@@ -1,0 +1,40 @@
+#include <memory>
+#include <utility>
+
+#include "engine/baseline/partitioned.hpp"
+#include "engine/integrator/stability.hpp"
+
+namespace extremal {
+
+std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSeparable) {
+    std::vector<PartitionedStage> stages;
+    if (isSeparable) {
+        for (const SplittingStage& s : splitting.stages)
+            stages.push_back({s.isKick ? HalfMap::kickExplicit : HalfMap::driftExplicit, s.fraction});
+        return stages;
+    }
+    double c = 0;
+    bool isEuler = true;
+    for (std::size_t i = 0; i + 1 < splitting.stages.size(); ++i, isEuler = !isEuler) {
+        c = splitting.stages[i].fraction - c;
+        stages.push_back({isEuler ? HalfMap::kickImplicit : HalfMap::driftImplicit, c});
+        stages.push_back({isEuler ? HalfMap::driftExplicit : HalfMap::kickExplicit, c});
+    }
+    return stages;
+}
+
+BaselineEntry splittingBaseline(std::string id, std::string title, std::string description, const Splitting& splitting) {
+    BaselineEntry e;
+    e.item = {std::move(id), std::move(title), std::move(description), {},
+              Claims{splitting.order, true, true, {"momentum"}}, splitting.isNystrom ? "a separable Lagrangian" : ""};
+    if (splitting.isNystrom) e.applies = [](const System& system) { return system.mechanics.isSeparable; };
+    // At z = pi these products come near -1 and leave the unit circle in intervals as short as 0.001.
+    e.stabilityLimit = firstInstability([&](double z) { return halfTrace(splitting.stages, z); }, 0.0005);
+    e.make = [splitting](const System& system, const BaselineOptions& options) {
+        return makePartitioned(system.mechanics, options.clock,
+                               partitionedStages(splitting, system.mechanics.isSeparable));
+    };
+    return e;
+}
+
+}  // namespace extremal

@@ -1,0 +1,83 @@
+#include "engine/baseline/splitting_table.hpp"
+
+#include <numeric>
+
+namespace extremal {
+namespace {
+
+/// A palindrome of `count` coefficients with sum 1 from its first ones: the one or two in the middle follow.
+std::vector<double> palindrome(std::vector<double> first, std::size_t count) {
+    const double rest = 1 - 2 * std::accumulate(first.begin(), first.end(), 0.0);
+    std::vector<double> all = first;
+    if (count % 2 == 0)
+        all.insert(all.end(), 2, rest / 2);
+    else
+        all.push_back(rest);
+    all.insert(all.end(), first.rbegin(), first.rend());
+    return all;
+}
+
+/// outer[0] inner[0] outer[1] ...; the outer ones are kicks or drifts.
+Splitting alternating(int order, bool isNystrom, bool isKickFirst, const std::vector<double>& outer,
+                      const std::vector<double>& inner) {
+    Splitting s{order, isNystrom, {}};
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+        s.stages.push_back({isKickFirst, outer[i]});
+        if (i < inner.size()) s.stages.push_back({!isKickFirst, inner[i]});
+    }
+    return s;
+}
+
+}  // namespace
+
+Splitting blanesMoanS6() {
+    return alternating(4, false, true,
+                       palindrome({0.0792036964311957, 0.353172906049774, -0.0420650803577195}, 7),
+                       palindrome({0.209515106613362, -0.143851773179818}, 6));
+}
+
+Splitting blanesMoanS10() {
+    return alternating(
+        6, false, true,
+        palindrome({0.0502627644003922, 0.413514300428344, 0.0450798897943977, -0.188054853819569, 0.541960678450780}, 11),
+        palindrome({0.148816447901042, -0.132385865767784, 0.067307604692185, 0.432666402578175}, 10));
+}
+
+Splitting srkn6b() {
+    return alternating(4, true, true, palindrome({0.0829844064174052, 0.396309801498368, -0.0390563049223486}, 7),
+                       palindrome({0.245298957184271, 0.604872665711080}, 6));
+}
+
+Splitting srkn11b() {
+    return alternating(
+        6, true, true,
+        palindrome({0.0414649985182624, 0.198128671918067, -0.0400061921041533, 0.0752539843015807, -0.0115113874206879},
+                   12),
+        palindrome({0.123229775946271, 0.290553797799558, -0.127049212625417, -0.246331761062075, 0.357208872795928},
+                   11));
+}
+
+Splitting srkn14a() {
+    return alternating(6, true, false,
+                       palindrome({0.0378593198406116, 0.102635633102435, -0.0258678882665587, 0.314241403071447,
+                                   -0.130144459517415, 0.106417700369543, -0.00879424312851058},
+                                  15),
+                       palindrome({0.09171915262446165, 0.183983170005006, -0.05653436583288827, 0.004914688774712854,
+                                   0.143761127168358, 0.328567693746804},
+                                  14));
+}
+
+double halfTrace(const std::vector<SplittingStage>& stages, double z) {
+    // Columns: the images of (q, p) = (1, 0) and (0, 1), with p in units of the frequency.
+    double q[2] = {1, 0}, p[2] = {0, 1};
+    for (const SplittingStage& s : stages)
+        for (int i = 0; i < 2; ++i) {
+            if (s.isKick)
+                p[i] -= s.fraction * z * q[i];
+            else
+                q[i] += s.fraction * z * p[i];
+        }
+    return (q[0] + p[1]) / 2;
+}
+
+}  // namespace extremal

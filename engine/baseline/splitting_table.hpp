@@ -1,0 +1,40 @@
+/// Splitting methods for x' = A(x) + B(x) as tables: products of the two flows, exp(h (A + B)) up to order r,
+///     exp(b_1 h B) exp(a_1 h A) exp(b_2 h B) ... exp(b_{n+1} h B)     kick first ("BAB"), or
+///     exp(a_1 h A) exp(b_1 h B) exp(a_2 h A) ... exp(a_{n+1} h A)     drift first ("ABA"),
+/// to be read from left to right as they are applied. All are palindromes, hence symmetric.
+///
+/// For mechanical systems A moves q (drift, the kinetic energy T(p)) and B moves p (kick, -grad V(q)); for the
+/// Schroedinger equation A is the kinetic and B the potential part. Those marked Nystrom have their order only where
+/// [B, [B, [B, A]]] = 0: T quadratic in p with constant masses, V a function of q (and t) alone; Schroedinger included.
+///
+/// Source: S. Blanes and P. C. Moan, Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom methods,
+/// J. Comput. Appl. Math. 142 (2002) 313-330, tables 2 and 3. The coefficients are printed to 15 digits; those that
+/// follow from consistency (sums equal to 1) are computed. tests/engine/baseline checks the order conditions.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace extremal {
+
+struct SplittingStage {
+    bool isKick;      ///< a flow of B, else of A
+    double fraction;  ///< of the step
+};
+
+struct Splitting {
+    int order = 0;
+    bool isNystrom = false;              ///< needs [B, [B, [B, A]]] = 0
+    std::vector<SplittingStage> stages;  ///< in the order in which they are applied
+};
+
+Splitting blanesMoanS6();   ///< order 4, any A and B, 6 kicks a step (the last is the first of the next)
+Splitting blanesMoanS10();  ///< order 6, any A and B, 10 kicks
+Splitting srkn6b();         ///< order 4, Nystrom, 6 kicks
+Splitting srkn11b();        ///< order 6, Nystrom, 11 kicks
+Splitting srkn14a();        ///< order 6, Nystrom, 14 kicks, drift first
+
+/// Half the trace of the product on the harmonic oscillator, with z = step * frequency.
+double halfTrace(const std::vector<SplittingStage>& stages, double z);
+
+}  // namespace extremal

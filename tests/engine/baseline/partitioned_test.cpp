@@ -1,0 +1,89 @@
+/// Splittings on a system whose kicks and drifts are not explicit: Euler maps and adjoints with the same coefficients.
+#include <QTest>
+
+#include <cmath>
+
+#include "engine/baseline/partitioned.hpp"
+#include "tests/laws/laws.hpp"
+
+namespace extremal {
+
+class PartitionedTest : public QObject {
+    Q_OBJECT
+    const System polar_ = laws::systemNamed("spring-pendulum", {{"k", 40.0}});
+    const State start_{0, 0, {0.1, 0.8, 0, 0.3}};
+
+    State fine() const {
+        const auto pair = makeIntegrator(polar_, laws::polynomialPair(8, {"gauss", {}, {}}), {0, 1. / 64});
+        return laws::after(*pair, start_, 128).value();
+    }
+    struct Slopes {
+        double q, p;
+    };
+    Slopes orders(const std::vector<PartitionedStage>& stages) const {
+        const State exact = fine();
+        std::vector<double> h, q, p;
+        for (const int n : {40, 60, 90}) {
+            const auto method = makePartitioned(polar_.mechanics, {0, 2.0 / n}, stages);
+            const State end = laws::after(*method, start_, n).value();
+            h.push_back(std::log(2.0 / n));
+            q.push_back(std::log(laws::distance(end.x, exact.x, 0, 2)));
+            p.push_back(std::log(laws::distance(end.x, exact.x, 2, 4)));
+        }
+        return {laws::slope(h, q), laws::slope(h, p)};
+    }
+
+private slots:
+    void splittingsKeepTheirOrderForAnyHamiltonian() {
+        for (const Splitting& s : {blanesMoanS6(), blanesMoanS10()}) {
+            const Slopes measured = orders(partitionedStages(s, false));
+            qInfo("claimed %d, measured q %.3f, p %.3f", s.order, measured.q, measured.p);
+            QVERIFY(std::abs(measured.q - s.order) < 0.15);
+            QVERIFY(std::abs(measured.p - s.order) < 0.15);
+        }
+    }
+    void kicksAndDriftsAloneDoNot() {
+        // Teeth: explicit kicks and drifts are not the flows of a splitting here.
+        const Slopes measured = orders(partitionedStages(blanesMoanS6(), true));
+        QVERIFY(measured.q < 2);
+    }
+    void bothFormsAreTheSameWhereSeparable() {
+        const System kepler = laws::systemNamed("kepler");
+        const auto a = makePartitioned(kepler.mechanics, {0, 0.05}, partitionedStages(blanesMoanS10(), true));
+        const auto b = makePartitioned(kepler.mechanics, {0, 0.05}, partitionedStages(blanesMoanS10(), false));
+        const State x = laws::after(*a, laws::keplerStart, 20).value(), y = laws::after(*b, laws::keplerStart, 20).value();
+        QVERIFY(laws::distance(x.x, y.x, 0, 4) < 1e-13);  // measured: 4e-15
+    }
+    void nystromMethodsAreForSeparableSystems() {
+        const System kepler = laws::systemNamed("kepler");
+        for (const char* id : {"srkn-6b", "srkn-11b", "srkn-14a"}) {
+            QVERIFY(appliesTo(*findBaseline(id), kepler));
+            QVERIFY(!appliesTo(*findBaseline(id), polar_));
+        }
+    }
+    void theStabilityLimitIsThatOfTheStep() {
+        const System oscillator = laws::systemNamed("harmonic-oscillator");
+        for (const BaselineEntry& e : baselineCatalog()) {
+            if (e.isAdaptive || !e.item.claims->isSymplectic || std::isinf(e.stabilityLimit)) continue;
+            const auto largest = [&](double h) {
+                const auto integrator = e.make(oscillator, {{0, h}, 0, 0, laws::defaultsOf(e.item)});
+                State s{0, 0, {1, 0.3}};
+                double size = 0;
+                for (int k = 0; k < 200000; ++k) {
+                    (void)integrator->advance(s);
+                    size = std::max(size, std::abs(s.x[0]));
+                }
+                return size;
+            };
+            const double below = largest(0.99 * e.stabilityLimit), above = largest(1.0001 * e.stabilityLimit);
+            qInfo("%s: limit %.4f, largest %.3g below and %.3g above", e.item.id.c_str(), e.stabilityLimit, below, above);
+            QVERIFY(below < 100);
+            QVERIFY(!(above < 1e6));  // the weakest: SRKN 11b, which grows by 3e-4 a step
+        }
+    }
+};
+
+}  // namespace extremal
+
+QTEST_APPLESS_MAIN(extremal::PartitionedTest)
+#include "partitioned_test.moc"
