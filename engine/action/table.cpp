@@ -1,8 +1,86 @@
+#include <boost/multiprecision/float128.hpp>
+
+#include <Eigen/Core>
+
+#include <type_traits>
+
 #include "engine/action/table_build.hpp"
 
 namespace extremal {
+namespace {
+
+using Quad = boost::multiprecision::float128;
+
+/// The twin of a space in quadruple precision, from its evaluateWide.
+Space<Quad> wideTwin(const Space<double>& space) {
+    Space<Quad> twin;
+    twin.size = space.size;
+    twin.degree = space.degree;
+    twin.hasKinks = space.hasKinks;
+    twin.evaluate = [evaluate = space.evaluateWide](const Quad& tau, std::span<Quad> value, std::span<Quad> derivative) {
+        std::vector<__float128> v(value.size()), d(value.size());
+        evaluate(tau.backend().value(), v, d);
+        for (std::size_t a = 0; a < value.size(); ++a) {
+            value[a] = v[a];
+            derivative[a] = d[a];
+        }
+    };
+    return twin;
+}
+
+Rule<Quad> widened(const Rule<double>& rule) {
+    Rule<Quad> wide;
+    wide.c.assign(rule.c.begin(), rule.c.end());
+    wide.b.assign(rule.b.begin(), rule.b.end());
+    wide.degree = rule.degree;
+    wide.isSymmetric = rule.isSymmetric;
+    wide.isInterpolatory = rule.isInterpolatory;
+    wide.panels = rule.panels;
+    wide.perPanel = rule.perPanel;
+    return wide;
+}
+
+Table<double> rounded(const Table<Quad>& wide, const Space<double>& space, const Rule<double>& rule) {
+    Table<double> t;
+    t.node = wide.node.cast<double>();
+    t.weight = wide.weight.cast<double>();
+    t.value = wide.value.cast<double>();
+    t.derivative = wide.derivative.cast<double>();
+    t.testValue = wide.testValue.cast<double>();
+    t.testDerivative = wide.testDerivative.cast<double>();
+    t.continuation = wide.continuation.cast<double>();
+    t.change = wide.change.cast<double>();
+    t.lift = wide.lift.cast<double>();
+    t.consistency = wide.consistency;
+    t.space = space;
+    t.rule = rule;
+    return t;
+}
+
+}  // namespace
+
+template <class T>
+Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
+    if constexpr (std::is_same_v<T, double>) {
+        if (space.evaluateWide) {
+            const Rule<double> once = space.hasKinks ? rule : merged(rule);
+            return rounded(detail::buildTable(wideTwin(space), widened(once)), space, once);
+        }
+    }
+    return detail::buildTable(space, rule);
+}
 
 template Table<double> makeTable(const Space<double>&, const Rule<double>&);
+template Table<Quad> makeTable(const Space<Quad>&, const Rule<Quad>&);
+
+template <class T>
+std::vector<T> weightsUpTo(const Table<T>& table, const T& tau) {
+    std::vector<T> weights(static_cast<std::size_t>(table.nodes()));
+    partialWeights<T>(table.rule, tau, weights);
+    return weights;
+}
+
 template std::vector<double> weightsUpTo(const Table<double>&, const double&);
+template std::vector<Quad> weightsUpTo(const Table<Quad>&, const Quad&);
 
 }  // namespace extremal

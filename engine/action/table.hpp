@@ -12,6 +12,9 @@
 /// table up to a change of the interior unknowns, and the same step to round-off.
 /// Test functions: value(., a) for a < m-1, and for the last row `test` = lift - value(., m-1), whose start trace is 1 and
 /// end trace 0: it pairs with p_0 alone, so that the system has only the unknowns Y.
+///
+/// The interior functions are orthonormal in int phi_a' phi_b', and the table of a space that can be evaluated in
+/// quadruple precision is computed there and rounded: the basis of the space leaves no trace in the conditioning.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,6 +40,10 @@ struct Table {
     Matrix continuation;    ///< (a, b): coefficients of the curve continued into the next step, relative to its start
     Matrix change;          ///< (function of the space, a): z = liftCoefficients q_0 + change Y
     Vector lift;            ///< coefficients of the function 1 in the space
+    /// Smallest k for which the rule is not exact for some (P_k phi_a)', P_k of degree k and phi_a interior (at most
+    /// degree + 1). Stationarity is then met to h^k only, which costs the action h^(2k); at k = 0 the rule does not
+    /// integrate the slopes of the space, and not even a free particle keeps its speed.
+    int consistency = 0;
     Space<T> space;
     Rule<T> rule;
 
@@ -46,11 +53,12 @@ struct Table {
 
 /// Builds the table. Throws InvalidScene where the pair makes no sense: constants are not in the space, its traces do
 /// not determine the end points, or the rule has too few nodes to see all of its functions (singular for every step).
+/// Defined for double and quadruple precision.
 template <class T>
 Table<T> makeTable(const Space<T>& space, const Rule<T>& rule);
 
-/// Weights b_i(tau) of the integral from 0 to tau of the polynomial through values at the nodes: those of the rule itself at
-/// tau = 1. A composite rule has no such polynomial; there a node counts when it is passed.
+/// Weights b_i(tau) of the integral from 0 to tau of the polynomials through values at the nodes of each panel: those of
+/// the rule itself at tau = 1.
 template <class T>
 std::vector<T> weightsUpTo(const Table<T>& table, const T& tau);
 

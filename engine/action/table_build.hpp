@@ -1,17 +1,17 @@
-/// How a table is made: the definition of makeTable for any scalar. Included where it is instantiated: table.cpp for
-/// double, the tests for quadruple precision.
+/// How a table is made: the definition of makeTable for any scalar. Included by table.cpp alone.
 #pragma once
 
 #include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "engine/action/table.hpp"
 #include "engine/core/problem.hpp"
 
-namespace extremal {
-namespace detail {
+namespace extremal::detail {
 
 /// phi_a(tau) and phi_a'(tau) as rows, one per given tau.
 template <class T>
@@ -27,6 +27,25 @@ struct Samples {
     }
 };
 
+/// Points denser than the space has functions, cosine-spaced, with weights: int f ~ sum_i weight_i f(point_i).
+template <class T>
+struct Probe {
+    std::vector<T> point;
+    typename Table<T>::Vector weight;
+    explicit Probe(int size) : weight(4 * size) {
+        using std::acos;
+        using std::cos;
+        using std::sin;
+        const int n = 4 * size;
+        const T pi = acos(T(-1));
+        for (int i = 0; i < n; ++i) {
+            const T angle = pi * (2 * i + 1) / (2 * n);
+            point.push_back((1 - cos(angle)) / 2);
+            weight(i) = pi * sin(angle) / (2 * n);
+        }
+    }
+};
+
 /// Smallest over largest pivot of a rank-revealing factorisation: 0 where columns are dependent.
 template <class T>
 double condition(const typename Table<T>::Matrix& m) {
@@ -35,11 +54,9 @@ double condition(const typename Table<T>::Matrix& m) {
     return r(r.size() - 1) / r(0);
 }
 
-/// Coefficients of the function 1, by least squares on more points than the space has functions.
+/// Coefficients of the function 1, by least squares.
 template <class T>
-typename Table<T>::Vector coefficientsOfOne(const Space<T>& space) {
-    const std::vector<T> points = clenshawCurtis<T>(2 * space.size + 1).c;
-    const Samples<T> samples(space, points);
+typename Table<T>::Vector coefficientsOfOne(const Samples<T>& samples) {
     using Vector = typename Table<T>::Vector;
     const Vector ones = Vector::Ones(samples.value.rows());
     Vector z = Eigen::HouseholderQR<typename Table<T>::Matrix>(samples.value).solve(ones);
@@ -50,85 +67,114 @@ typename Table<T>::Vector coefficientsOfOne(const Space<T>& space) {
     return z;
 }
 
-}  // namespace detail
-
+/// The change to functions Y_a whose traces are trivial (see table.hpp). The interior ones are orthonormal in
+/// int phi_a' phi_b', and orthogonal to the last: the step is as well conditioned as its space, whatever the basis.
 template <class T>
-Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
+typename Table<T>::Matrix changeOfBasis(const Space<T>& space, const Samples<T>& samples, const Probe<T>& probe) {
     using Matrix = typename Table<T>::Matrix;
-    using Vector = typename Table<T>::Vector;
     const int n = space.size, m = n - 1;
-    Table<T> t;
-    t.space = space;
-    t.rule = rule;
-    t.node = Eigen::Map<const Vector>(rule.c.data(), rule.size());
-    t.weight = Eigen::Map<const Vector>(rule.b.data(), rule.size());
-    t.lift = detail::coefficientsOfOne(space);
-
-    // Traces, and an orthonormal basis of the coefficient space: the first two vectors span them, the others vanish
-    // at both ends. Nodal bases with control points at the ends come out as themselves.
-    const detail::Samples<T> ends(space, {T(0), T(1)});
+    // The first two vectors of an orthonormal basis of the coefficients span the traces; the others vanish at both ends.
+    const Samples<T> ends(space, {T(0), T(1)});
     const Matrix traces = ends.value.transpose();  // n x 2
-    const Eigen::HouseholderQR<Matrix> qr(traces);
-    const Matrix q = qr.householderQ() * Matrix::Identity(n, n);
-    // Minimal-norm coefficients of the function with traces (0, 1).
+    const Matrix q = Eigen::HouseholderQR<Matrix>(traces).householderQ() * Matrix::Identity(n, n);
     const Eigen::Matrix<T, 2, 2> gram = traces.transpose() * traces;
     using std::abs;
     if (static_cast<double>(abs(gram.determinant())) < 1e-12)
         throw InvalidScene("/space", "the end points do not determine two independent functions", "raise the degree");
+    // Minimal-norm coefficients of a function with traces (0, 1).
     const Eigen::Matrix<T, 2, 1> toEnd = gram.inverse() * Eigen::Matrix<T, 2, 1>(T(0), T(1));
-    t.change = Matrix(n, m);
-    t.change.leftCols(m - 1) = q.rightCols(m - 1);
-    t.change.col(m - 1) = traces * toEnd;
+    Matrix change(n, m);
+    change.col(m - 1) = traces * toEnd;
+    if (m == 1) return change;
+    change.leftCols(m - 1) = q.rightCols(m - 1);
+    const Matrix slopes = probe.weight.cwiseSqrt().asDiagonal() * samples.derivative * change;
+    const Eigen::HouseholderQR<Matrix> qr(slopes.leftCols(m - 1));
+    const Matrix R = qr.matrixQR().topRows(m - 1);
+    const auto pivots = R.diagonal().cwiseAbs();
+    if (!(pivots.minCoeff() > pivots.maxCoeff() * T(1e-12)))
+        throw InvalidScene("/space", "has functions that are not independent", "leave out those that follow from others");
+    const Matrix along = R.template triangularView<Eigen::Upper>().solve(
+        Matrix((qr.householderQ().transpose() * slopes.col(m - 1)).topRows(m - 1)));
+    change.col(m - 1) -= change.leftCols(m - 1) * along;
+    const Matrix inverse = R.template triangularView<Eigen::Upper>().solve(Matrix::Identity(m - 1, m - 1));
+    change.leftCols(m - 1) = (change.leftCols(m - 1) * inverse).eval();
+    return change;
+}
 
-    const detail::Samples<T> at(space, rule.c);
-    t.value = at.value * t.change;
-    t.derivative = at.derivative * t.change;
-    if (rule.size() < m || detail::condition<T>(t.derivative) < 1e-9)
-        throw InvalidScene("/quadrature",
-                           "has too few nodes for a space of degree " + std::to_string(space.degree) +
-                               ": the step would be singular for every step size",
-                           "use at least " + std::to_string(m) + " nodes");
-    t.testValue = t.value;
-    t.testDerivative = t.derivative;
-    t.testValue.col(m - 1) = Vector::Ones(rule.size()) - t.value.col(m - 1);
-    t.testDerivative.col(m - 1) = -t.derivative.col(m - 1);
-
-    // Continue the curve: match it at m points of the next step, relative to the value at its start.
-    std::vector<T> here, beyond;
-    for (const T& c : lobatto<T>(m + 1).c) {
-        if (here.empty() && beyond.empty() && c == T(0)) continue;
-        here.push_back(c);
-        beyond.push_back(T(1) + c);
+/// Smallest k for which the rule is not exact for all (P_k phi_a)', P_k Legendre's polynomials and phi_a the interior
+/// functions, whose integrals vanish; at most degree + 1, as more does not matter.
+template <class T>
+int consistencyOf(const Table<T>& t) {
+    using std::abs;
+    const int most = t.space.degree + 1;
+    typename Table<T>::Vector P = Table<T>::Vector::Ones(t.nodes()), lower = Table<T>::Vector::Zero(t.nodes());
+    auto dP = lower, dLower = lower;
+    for (int k = 0; k < most; ++k) {
+        for (int a = 0; a < t.unknowns() - 1; ++a) {
+            T sum(0), size(0);
+            for (int i = 0; i < t.nodes(); ++i) {
+                sum += t.weight(i) * (dP(i) * t.value(i, a) + P(i) * t.derivative(i, a));
+                size += abs(t.weight(i) * P(i) * t.derivative(i, a));
+            }
+            if (abs(static_cast<double>(sum)) > 1e-11 * static_cast<double>(size + T(1))) return k;
+        }
+        for (int i = 0; i < t.nodes(); ++i) {
+            const T x = 2 * t.node(i) - 1;
+            const T next = (T(2 * k + 1) * x * P(i) - T(k) * lower(i)) / T(k + 1);
+            const T dNext = dLower(i) + 2 * T(2 * k + 1) * P(i);
+            lower(i) = P(i);
+            dLower(i) = dP(i);
+            P(i) = next;
+            dP(i) = dNext;
+        }
     }
-    const Matrix local = detail::Samples<T>(space, here).value * t.change;
-    Matrix next = detail::Samples<T>(space, beyond).value * t.change;
-    next.col(m - 1).array() -= T(1);  // the new step starts at q_1 = q_0 + Y_{m-1}
-    t.continuation = Eigen::HouseholderQR<Matrix>(local).solve(next);
-    return t;
+    return most;
 }
 
 template <class T>
-std::vector<T> weightsUpTo(const Table<T>& table, const T& tau) {
-    const int n = table.nodes();
-    std::vector<T> weights(static_cast<std::size_t>(n));
-    const Rule<T> inner = gauss<T>(n / 2 + 1);
-    for (int i = 0; i < n; ++i) {
-        T& w = weights[static_cast<std::size_t>(i)];
-        if (!table.rule.isInterpolatory) {
-            w = table.node(i) <= tau ? table.weight(i) : T(0);
-            continue;
-        }
-        w = T(0);
-        for (int j = 0; j < inner.size(); ++j) {
-            T cardinal(1);
-            for (int k = 0; k < n; ++k)
-                if (k != i)
-                    cardinal *= (inner.c[static_cast<std::size_t>(j)] * tau - table.node(k)) /
-                                (table.node(i) - table.node(k));
-            w += tau * inner.b[static_cast<std::size_t>(j)] * cardinal;
-        }
-    }
-    return weights;
+void checkRank(const Table<T>& t) {
+    const int m = t.unknowns();
+    const typename Table<T>::Matrix seen = t.weight.cwiseAbs().cwiseSqrt().asDiagonal() * t.derivative;
+    if (t.nodes() >= m && condition<T>(seen) > 1e-8) return;
+    throw InvalidScene("/quadrature",
+                       (t.nodes() < m ? "has too few nodes (" : "has nodes in the wrong places (") +
+                           std::to_string(t.nodes()) + ") for the " + std::to_string(m + 1) +
+                           " functions of the space: some motions inside a step would cost no action, and the step would "
+                           "be singular for every step size",
+                       "use at least " + std::to_string(m) + " nodes, spread over the step");
 }
 
-}  // namespace extremal
+template <class T>
+Table<T> buildTable(const Space<T>& space, const Rule<T>& rule) {
+    using Matrix = typename Table<T>::Matrix;
+    using Vector = typename Table<T>::Vector;
+    const int m = space.size - 1;
+    Table<T> t;
+    t.space = space;
+    t.rule = space.hasKinks ? rule : merged(rule);
+    t.node = Eigen::Map<const Vector>(t.rule.c.data(), t.rule.size());
+    t.weight = Eigen::Map<const Vector>(t.rule.b.data(), t.rule.size());
+    const Probe<T> probe(space.size);
+    const Samples<T> samples(space, probe.point);
+    t.lift = coefficientsOfOne(samples);
+    t.change = changeOfBasis(space, samples, probe);
+    const Samples<T> at(space, t.rule.c);
+    t.value = at.value * t.change;
+    t.derivative = at.derivative * t.change;
+    checkRank(t);
+    t.consistency = consistencyOf(t);
+    t.testValue = t.value;
+    t.testDerivative = t.derivative;
+    t.testValue.col(m - 1) = Vector::Ones(t.nodes()) - t.value.col(m - 1);
+    t.testDerivative.col(m - 1) = -t.derivative.col(m - 1);
+
+    // Continue the curve: match it at points of the next step, relative to the value at its start.
+    std::vector<T> beyond;
+    for (const T& c : probe.point) beyond.push_back(T(1) + c);
+    Matrix next = Samples<T>(space, beyond).value * t.change;
+    next.col(m - 1).array() -= T(1);  // the new step starts at q_1 = q_0 + Y_{m-1}
+    t.continuation = Eigen::HouseholderQR<Matrix>(samples.value * t.change).solve(next);
+    return t;
+}
+
+}  // namespace extremal::detail

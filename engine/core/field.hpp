@@ -27,6 +27,7 @@ struct FieldInfo {
     std::vector<std::string> components;  ///< for FieldType::numbers: what each number is called; gives their count
     bool isOptional = false;           ///< a key without a default that may be left out
     std::string description;           ///< one line
+    std::string whyLimits;             ///< hint where a value is out of range; may be empty
 };
 
 /// A number field of `Owner`: its descriptor and where it is stored.

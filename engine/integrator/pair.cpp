@@ -38,6 +38,14 @@ std::string ordinal(const char* prefix, int order) { return prefix + std::to_str
 /// Name by which the field knows the pair; degree s, rule with n nodes.
 void nameOf(const Settings& space, const Settings& rule, int n, PairProperties& p) {
     const int s = space.integer("degree");
+    if (space.type != "polynomial") {
+        p.shortName = ordinal(space.type == "spline" ? "S" : "VI", p.claims.order);
+        return;
+    }
+    if (rule.integer("panels") > 1) {
+        p.shortName = ordinal("VI", p.claims.order);
+        return;
+    }
     const bool isTrapezoid = (rule.type == "trapezoid" && n == 2) || (rule.type == "lobatto" && n == 2) ||
                              (rule.type == "clenshaw-curtis" && n == 2);
     const bool isMidpoint = n == 1 && rule.type != "radau";
@@ -65,14 +73,35 @@ void nameOf(const Settings& space, const Settings& rule, int n, PairProperties& 
     }
 }
 
+/// The error of L_d over h^(2 degree + 1) from the space, h^(order of the rule + 1) from the rule on the solution, and
+/// h^(2 consistency + 1) from the rule in the stationarity conditions, where it counts twice.
+int orderOf(const Table<double>& table) {
+    return std::min({2 * table.space.degree, table.rule.degree + 1, 2 * table.consistency});
+}
+
 PairProperties makeDescription(const Settings& space, const Settings& quadrature) {
     PairProperties p;
     const Rule<double> rule = makeRule<double>(quadrature);
-    p.claims.order = std::min(2 * space.integer("degree"), rule.degree + 1);
     p.claims.isSymmetric = rule.isSymmetric;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"momentum"};
     const bool isLie = space.type == "lie-polynomial";
+    try {
+        const Table<double> table = makeTable(makeSpace(space), rule);
+        p.claims.order = orderOf(table);
+        p.curveOrder = std::min({table.space.degree + 1, table.consistency + 1, p.claims.order});
+        p.stabilityLimit = firstInstability([&](double z) { return halfTrace(table, z); });
+        // A limit of the oscillator says nothing of a turning body.
+        if (isLie && p.stabilityLimit > 0) p.stabilityLimit = std::numeric_limits<double>::infinity();
+        if (table.consistency == 0) {
+            p.refusal = "the rule does not integrate the velocities of the space: not even a free particle would keep its speed";
+            p.hint = "a rule that is exact for degree " + std::to_string(std::max(0, table.space.degree - 1)) +
+                     " between the knots of the space";
+        }
+    } catch (const InvalidScene& e) {
+        p.refusal = e.problems().front().message;
+        p.hint = e.problems().front().hint;
+    }
     if (isLie) {
         // The chart at the start of the step is seen from one side; but a curve of degree 1 has the same charts at both ends.
         p.claims.isSymmetric = rule.isSymmetric && (space.flag("symmetric") || space.integer("degree") == 1);
@@ -82,15 +111,6 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
     }
     if (p.knownAs == "Gauss collocation" || p.knownAs == "implicit midpoint")
         p.claims.conserves.push_back("quadratic invariants");
-    try {
-        const Table<double> table = makeTable(makeSpace(space), rule);
-        p.stabilityLimit = firstInstability([&](double z) { return halfTrace(table, z); });
-        // A limit of the oscillator says nothing of a turning body.
-        if (isLie && p.stabilityLimit > 0) p.stabilityLimit = std::numeric_limits<double>::infinity();
-    } catch (const InvalidScene& e) {
-        p.refusal = e.problems().front().message;
-        p.hint = e.problems().front().hint;
-    }
     return p;
 }
 
@@ -139,7 +159,7 @@ Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
     if (q.type == "gauss" || q.type == "radau") set("nodes", degree);
     if (q.type == "lobatto" || q.type == "clenshaw-curtis") set("nodes", degree + 1);
     if (q.type == "radau") set("end", "right");
-    if (q.type == "midpoint" || q.type == "trapezoid") set("panels", 1.0);
+    set("panels", space.type == "spline" ? std::max(1.0, space.number("cells")) : 1.0);
     return q;
 }
 

@@ -24,7 +24,10 @@ struct Discretization {
 
 /// What the program knows of a pair before it runs.
 struct PairProperties {
-    Claims claims;            ///< order min(2 degree, order of the rule); see the law tests
+    /// The order is min(2 degree, order of the rule, 2 consistency), consistency as in action/table.hpp. It is measured
+    /// for every pair of the handbook's table of orders.
+    Claims claims;
+    int curveOrder = 0;       ///< order of q between the nodes: min(degree + 1, consistency + 1, order)
     std::string knownAs;      ///< "implicit midpoint", "Störmer-Verlet", "Lobatto IIIA-IIIB", ...; may be empty
     std::string shortName;    ///< for a cell of a grid: "mid", "SV", "G4", "L6"
     bool isExplicit = false;  ///< for separable systems

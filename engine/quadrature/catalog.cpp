@@ -29,22 +29,24 @@ FieldInfo side() {
 }  // namespace
 
 const std::vector<CatalogItem>& quadratureCatalog() {
+    const FieldInfo panels = count("panels", "panels", 1, nullptr,
+                                   "The rule is repeated in equal panels; default: the cells of the space.");
     const std::string default0 = "Number of nodes; default: the degree of the space.";
     const std::string default1 = "Number of nodes; default: the degree of the space plus one.";
     static const std::vector<CatalogItem> all = {
         {"gauss", "Gauss", "Gauss-Legendre: n nodes inside the step, exact to degree 2n - 1.",
-         {count("nodes", "nodes", 1, nullptr, default0)}, {}, ""},
+         {count("nodes", "nodes", 1, nullptr, default0), panels}, {}, ""},
         {"lobatto", "Lobatto", "Gauss-Lobatto: both ends are nodes, exact to degree 2n - 3.",
-         {count("nodes", "nodes", 2, nullptr, default1)}, {}, ""},
+         {count("nodes", "nodes", 2, nullptr, default1), panels}, {}, ""},
         {"radau", "Radau", "Gauss-Radau: one end is a node, exact to degree 2n - 2; not symmetric.",
-         {count("nodes", "nodes", 1, nullptr, default0), side()}, {}, ""},
+         {count("nodes", "nodes", 1, nullptr, default0), side(), panels}, {}, ""},
         {"clenshaw-curtis", "Clenshaw-Curtis",
          "Chebyshev extrema: both ends are nodes, exact to degree n - 1 (n for odd n).",
-         {count("nodes", "nodes", 2, nullptr, default1)}, {}, ""},
+         {count("nodes", "nodes", 2, nullptr, default1), panels}, {}, ""},
         {"midpoint", "midpoint", "The middle of the step, or of each of several equal panels.",
-         {count("panels", "panels", 1, 1.0, "Number of equal panels.")}, {}, ""},
+         {panels}, {}, ""},
         {"trapezoid", "trapezoid", "The two ends of the step, or of each of several equal panels.",
-         {count("panels", "panels", 1, 1.0, "Number of equal panels.")}, {}, ""},
+         {panels}, {}, ""},
         {"auto", "automatic", "Chosen for the space: Gauss with as many nodes as the degree.", {}, {}, ""},
     };
     return all;

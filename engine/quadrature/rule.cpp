@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <type_traits>
 #include <utility>
@@ -167,37 +168,84 @@ Rule<T> clenshawCurtis(int n) {
 
 template <class T>
 Rule<T> midpoint(int panels) {
-    Rule<T> rule;
-    rule.degree = 1;
-    rule.isInterpolatory = panels == 1;
-    for (int i = 0; i < panels; ++i) {
-        rule.c.push_back(T(2 * i + 1) / T(2 * panels));
-        rule.b.push_back(T(1) / T(panels));
-    }
-    return rule;
+    return composite(gauss<T>(1), panels);
 }
 
 template <class T>
 Rule<T> trapezoid(int panels) {
-    Rule<T> rule;
-    rule.degree = 1;
-    rule.isInterpolatory = panels == 1;
-    for (int i = 0; i <= panels; ++i) {
-        rule.c.push_back(T(i) / T(panels));
-        rule.b.push_back((i == 0 || i == panels ? T(0.5) : T(1)) / T(panels));
+    return merged(composite(lobatto<T>(2), panels));
+}
+
+template <class T>
+Rule<T> composite(const Rule<T>& rule, int panels) {
+    if (panels <= 1) return rule;
+    const T slack = std::numeric_limits<T>::epsilon();
+    Rule<T> all;
+    all.degree = rule.degree;
+    all.isSymmetric = rule.isSymmetric;
+    all.isInterpolatory = false;
+    all.panels = panels;
+    all.perPanel = rule.size();
+    for (int j = 0; j < panels; ++j) {
+        const T end = T(j + 1) / T(panels);
+        for (std::size_t k = 0; k < rule.c.size(); ++k) {
+            const T c = (T(j) + rule.c[k]) / T(panels);
+            all.c.push_back(c >= end && j + 1 < panels ? T(end - end * slack) : c);
+            all.b.push_back(rule.b[k] / T(panels));
+        }
     }
-    return rule;
+    return all;
+}
+
+template <class T>
+Rule<T> merged(const Rule<T>& rule) {
+    const T slack = 4 * std::numeric_limits<T>::epsilon();
+    Rule<T> result = rule;
+    result.c.clear();
+    result.b.clear();
+    for (std::size_t i = 0; i < rule.c.size(); ++i) {
+        if (!result.c.empty() && rule.c[i] - result.c.back() <= slack) {
+            result.c.back() = rule.c[i];
+            result.b.back() += rule.b[i];
+            continue;
+        }
+        result.c.push_back(rule.c[i]);
+        result.b.push_back(rule.b[i]);
+    }
+    return result;
+}
+
+template <class T>
+void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share) {
+    const int perPanel = rule.perPanel > 0 ? rule.perPanel : rule.size();
+    const bool isMerged = rule.size() < rule.panels * perPanel;
+    const int stride = isMerged ? perPanel - 1 : perPanel;
+    const Rule<T> inner = gauss<T>(perPanel / 2 + 1);  // exact for the cardinal polynomials of a panel
+    std::fill(share.begin(), share.end(), T(0));
+    for (int j = 0; j < rule.panels; ++j) {
+        const T start = T(j) / T(rule.panels), end = T(j + 1) / T(rule.panels);
+        if (j > 0 && tau <= start) return;
+        const T length = (tau < end || j + 1 == rule.panels ? tau : end) - start;
+        const auto first = static_cast<std::size_t>(j * stride), last = first + static_cast<std::size_t>(perPanel);
+        for (std::size_t i = first; i < last; ++i)
+            for (std::size_t k = 0; k < inner.c.size(); ++k) {
+                T cardinal(1);
+                for (std::size_t l = first; l < last; ++l)
+                    if (l != i) cardinal *= (start + length * inner.c[k] - rule.c[l]) / (rule.c[i] - rule.c[l]);
+                share[i] += length * inner.b[k] * cardinal;
+            }
+    }
 }
 
 template <class T>
 Rule<T> makeRule(const Settings& q) {
-    const int n = q.integer("nodes");
-    if (q.type == "gauss") return gauss<T>(n);
-    if (q.type == "lobatto") return lobatto<T>(n);
-    if (q.type == "radau") return radau<T>(n, q.text("end") != "left");
-    if (q.type == "clenshaw-curtis") return clenshawCurtis<T>(n);
-    if (q.type == "trapezoid") return trapezoid<T>(std::max(1, q.integer("panels")));
-    return midpoint<T>(std::max(1, q.integer("panels")));
+    const int n = q.integer("nodes"), panels = std::max(1, q.integer("panels"));
+    if (q.type == "gauss") return composite(gauss<T>(n), panels);
+    if (q.type == "lobatto") return composite(lobatto<T>(n), panels);
+    if (q.type == "radau") return composite(radau<T>(n, q.text("end") != "left"), panels);
+    if (q.type == "clenshaw-curtis") return composite(clenshawCurtis<T>(n), panels);
+    if (q.type == "trapezoid") return composite(lobatto<T>(2), panels);
+    return midpoint<T>(panels);
 }
 
 #define EXTREMAL_INSTANTIATE(T)             \
@@ -207,6 +255,9 @@ Rule<T> makeRule(const Settings& q) {
     template Rule<T> clenshawCurtis<T>(int); \
     template Rule<T> midpoint<T>(int);      \
     template Rule<T> trapezoid<T>(int);     \
+    template Rule<T> composite<T>(const Rule<T>&, int);                       \
+    template Rule<T> merged<T>(const Rule<T>&);                               \
+    template void partialWeights<T>(const Rule<T>&, const T&, std::span<T>); \
     template Rule<T> makeRule<T>(const Settings&);
 EXTREMAL_INSTANTIATE(double)
 EXTREMAL_INSTANTIATE(Quad)

@@ -2,10 +2,13 @@
 ///
 /// Nodes and weights are computed (Newton on the orthogonal polynomials), not tabulated, for any number of nodes.
 /// `degree` is the highest polynomial degree integrated exactly, so that the rule's order is degree + 1.
+/// A composite rule repeats a rule in equal panels; two panels that share an end both keep their node there, one just
+/// inside each, so that a function whose derivative jumps is seen from both sides. For smooth functions `merged` joins them.
 /// Double rules are computed in extended precision and rounded: good to 2e-16.
 /// Sources: Abramowitz and Stegun 25.4; Waldvogel 2006 for Clenshaw-Curtis.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/core/settings.hpp"
@@ -19,6 +22,8 @@ struct Rule {
     int degree = 0;
     bool isSymmetric = true;
     bool isInterpolatory = true;  ///< the weights integrate the polynomial through all nodes
+    int panels = 1;    ///< in each panel the weights integrate the polynomial through its nodes
+    int perPanel = 0;  ///< nodes of a panel; merged panels share their ends. 0: all, in one panel
     int size() const { return static_cast<int>(c.size()); }
 };
 
@@ -34,6 +39,18 @@ template <class T>
 Rule<T> midpoint(int panels);  ///< the middles of equal panels, degree 1; one panel is gauss(1)
 template <class T>
 Rule<T> trapezoid(int panels);  ///< panels + 1 equally spaced nodes, degree 1
+
+/// The rule in each of equal panels, whose ends are at j / panels.
+template <class T>
+Rule<T> composite(const Rule<T>& rule, int panels);
+/// Neighbouring nodes that differ by round-off only are made one.
+template <class T>
+Rule<T> merged(const Rule<T>& rule);
+
+/// share[i] such that sum_i share[i] f(c_i) is the integral from 0 to tau of the polynomials that interpolate f at the
+/// nodes of each panel; at tau = 1 the weights. share has rule.size() entries.
+template <class T>
+void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share);
 
 /// The rule that a scene's "quadrature" names; its keys are checked and complete.
 template <class T>

@@ -10,7 +10,7 @@
 namespace extremal {
 
 Limits Limits::of(const FieldInfo& field) {
-    return {field.min, field.max, field.isMinExcluded, field.type == FieldType::integer};
+    return {field.min, field.max, field.isMinExcluded, field.type == FieldType::integer, field.whyLimits};
 }
 
 bool Limits::admit(double value) const {
@@ -80,8 +80,10 @@ std::optional<Number> Reader::number(const Value& value, const std::string& poin
         return {};
     }
     if (limits.admit(result.value)) return result;
-    error(pointer, "must be " + limits.describe() + ", got " + formatNumber(result.value) +
-                       (value.isString() ? " = " + describeValue(value) : ""));
+    error(pointer,
+          "must be " + limits.describe() + ", got " + formatNumber(result.value) +
+              (value.isString() ? " = " + describeValue(value) : ""),
+          limits.hint);
     return {};
 }
 

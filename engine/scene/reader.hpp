@@ -24,6 +24,7 @@ struct Limits {
     double max = std::numeric_limits<double>::infinity();
     bool isMinExcluded = false;
     bool isInteger = false;
+    std::string hint = {};  ///< where a value is not admitted
 
     static Limits positive() { return {0, std::numeric_limits<double>::infinity(), true, false}; }
     static Limits of(const FieldInfo& field);

@@ -3,9 +3,11 @@
 #include <boost/multiprecision/float128.hpp>
 
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "engine/quadrature/rule.hpp"
+#include "engine/space/wide.hpp"
 
 namespace extremal {
 namespace {
@@ -70,6 +72,13 @@ Space<T> modal(int degree, bool isLegendre) {
     return space;
 }
 
+template <class T>
+Space<T> inBasis(int degree, PolynomialBasis basis) {
+    if (basis == PolynomialBasis::legendre) return modal<T>(degree, true);
+    if (basis == PolynomialBasis::chebyshevModal) return modal<T>(degree, false);
+    return nodal(controlPoints<T>(degree, basis));
+}
+
 }  // namespace
 
 PolynomialBasis polynomialBasis(std::string_view name) {
@@ -82,9 +91,10 @@ PolynomialBasis polynomialBasis(std::string_view name) {
 
 template <class T>
 Space<T> polynomialSpace(int degree, PolynomialBasis basis) {
-    if (basis == PolynomialBasis::legendre) return modal<T>(degree, true);
-    if (basis == PolynomialBasis::chebyshevModal) return modal<T>(degree, false);
-    return nodal(controlPoints<T>(degree, basis));
+    if constexpr (std::is_same_v<T, double>)
+        return withWide(inBasis<double>(degree, basis), inBasis<Quad>(degree, basis));
+    else
+        return inBasis<T>(degree, basis);
 }
 
 template Space<double> polynomialSpace<double>(int, PolynomialBasis);

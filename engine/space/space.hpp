@@ -18,6 +18,9 @@ struct Space {
     int degree = 0;  ///< highest degree of polynomials contained
     /// Fills value[a] = phi_a(tau) and derivative[a] = phi_a'(tau) (derivative by tau, not by t).
     std::function<void(const T& tau, std::span<T> value, std::span<T> derivative)> evaluate;
+    bool hasKinks = false;  ///< the derivative jumps inside [0, 1]: rules keep a node on both sides
+    /// The same in quadruple precision, or empty: ill-conditioned bases then make tables without loss (action/table.hpp).
+    std::function<void(__float128 tau, std::span<__float128> value, std::span<__float128> derivative)> evaluateWide = {};
 };
 
 /// The space that a scene's "space" names (space/catalog.hpp); its keys are checked and complete.

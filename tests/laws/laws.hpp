@@ -70,6 +70,13 @@ inline Discretization polynomialPair(int degree, Settings quadrature, const std:
     return pair;
 }
 
+inline Discretization splinePair(int degree, int cells, Settings quadrature) {
+    Discretization pair;
+    pair.space = {"spline", {{"degree", static_cast<double>(degree)}, {"cells", static_cast<double>(cells)}}, {}};
+    pair.quadrature = completeQuadrature(pair.space, quadrature);
+    return pair;
+}
+
 /// The state after n steps, or nothing if one failed.
 inline std::optional<State> after(Integrator& integrator, State state, long long n) {
     for (long long k = 0; k < n; ++k)

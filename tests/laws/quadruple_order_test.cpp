@@ -6,7 +6,7 @@
 
 #include <array>
 
-#include "engine/action/table_build.hpp"
+#include "engine/action/table.hpp"
 #include "engine/integrator/galerkin_step_build.hpp"
 #include "engine/model/bind.hpp"
 #include "engine/space/polynomial.hpp"

@@ -28,7 +28,29 @@ constexpr std::array<RuleColumn, 6> columns = {{{"midpoint", "mid", "M"},
                                                 {"lobatto", "Lob", "L"},
                                                 {"radau", "Rad", "R"},
                                                 {"clenshaw-curtis", "C–C", "C"}}};
-constexpr std::array<int, 6> degrees = {1, 2, 3, 4, 6, 8};
+struct SpaceRow {
+    const char *id, *heading;
+    int degree;
+};
+/// The rows for models with coordinates, and for bodies.
+std::vector<SpaceRow> rowsFor(const std::string& space) {
+    const bool isLie = space == "lie-polynomial";
+    std::vector<SpaceRow> rows;
+    for (const int degree : {1, 2, 3, 4, 6, 8})
+        rows.push_back(isLie ? SpaceRow{"lie-polynomial", "Lie", degree} : SpaceRow{"polynomial", "poly", degree});
+    if (!isLie)
+        for (const int degree : {2, 3}) rows.push_back({"spline", "spline", degree});
+    return rows;
+}
+
+/// "polynomials of degree 3", "splines of degree 3 with 2 cells".
+QString spaceText(const Settings& space) {
+    const QString degree = QString::number(space.integer("degree"));
+    if (space.type == "spline")
+        return QObject::tr("splines of degree %1 with %2 cells").arg(degree).arg(space.integer("cells"));
+    if (space.type == "lie-polynomial") return QObject::tr("polynomials of degree %1 in the algebra").arg(degree);
+    return QObject::tr("polynomials of degree %1").arg(degree);
+}
 
 /// Cells are small: well-known names have well-known abbreviations.
 QString abbreviation(const QString& knownAs) {
@@ -56,8 +78,12 @@ DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* p
         name_ = letterOf(quadrature_.type) + order;
     else
         order_ = order;
-    setObjectName(QString("cell.%1.%2").arg(space_.integer("degree")).arg(QString::fromStdString(quadrature_.type)));
-    setAccessibleName(tr("Degree %1, %2").arg(space_.integer("degree")).arg(ruleTitle(quadrature_.type)));
+    setObjectName(QString("cell.%1%2.%3")
+                      .arg(space_.type == "spline" ? QStringLiteral("spline") : QString())
+                      .arg(space_.integer("degree"))
+                      .arg(QString::fromStdString(quadrature_.type)));
+    const QString ofSpace = spaceText(space_);
+    setAccessibleName(ofSpace.at(0).toUpper() + ofSpace.mid(1) + ", " + ruleTitle(quadrature_.type));
     setToolTip(tooltip(known));
     setAccessibleDescription(toolTip().remove(QRegularExpression("<[^>]*>")));
     setFocusPolicy(Qt::TabFocus);
@@ -66,14 +92,12 @@ DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* p
 }
 
 QString DiscretizerCell::tooltip(const PairProperties& known) const {
-    const bool isLie = space_.type == "lie-polynomial";
-    const QString pair = (isLie ? tr("polynomials of degree %1 in the algebra × %2") : tr("polynomials of degree %1 × %2"))
-                             .arg(space_.integer("degree"))
-                             .arg(ruleTitle(quadrature_.type));
+    const QString pair = spaceText(space_) + QStringLiteral(" × ") + ruleTitle(quadrature_.type);
     if (!known.refusal.empty()) return tr("<b>%1</b><br>No scheme: %2").arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
     QString text = "<b>" + (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) + "</b>";
     if (!known.knownAs.empty()) text += "<br>" + pair;
     QStringList badges{tr("order %1").arg(known.claims.order)};
+    badges << tr("order %1 between the nodes").arg(known.curveOrder);
     if (known.claims.isSymplectic) badges << tr("symplectic");
     if (known.claims.isSymmetric) badges << tr("symmetric");
     badges << (known.isExplicit ? tr("explicit where the model is separable") : tr("implicit"));
@@ -149,6 +173,7 @@ void Discretizer::fill(const std::string& space) {
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setHorizontalSpacing(3);
     grid->setVerticalSpacing(3);
+    const std::vector<SpaceRow> rows = rowsFor(space);
     int column = 1;
     for (const RuleColumn& rule : columns) {
         QLabel* heading = makeLabel(QString::fromUtf8(rule.heading), "caption");
@@ -157,8 +182,9 @@ void Discretizer::fill(const std::string& space) {
         grid->addWidget(heading, 0, column);
         grid->setColumnStretch(column, 1);
         int row = 1;
-        for (const int degree : degrees) {
-            auto* cell = new DiscretizerCell(spaceOf(space, degree), ruleFor(rule.id, degree));
+        for (const SpaceRow& line : rows) {
+            const Settings ofRow = spaceOf(line.id, line.degree);
+            auto* cell = new DiscretizerCell(ofRow, ruleFor(rule.id, ofRow));
             if (theme_) cell->setTheme(*theme_);
             connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
             cells_.push_back(cell);
@@ -167,12 +193,9 @@ void Discretizer::fill(const std::string& space) {
         ++column;
     }
     int row = 1;
-    for (const int degree : degrees) {
-        const bool isLie = space == "lie-polynomial";
-        QLabel* name = makeLabel((isLie ? tr("Lie %1") : tr("poly %1")).arg(degree), "caption");
-        name->setToolTip((isLie ? tr("Polynomials of degree %1 in the Lie algebra, on each step")
-                                : tr("Polynomials of degree %1 on each step"))
-                             .arg(degree));
+    for (const SpaceRow& line : rows) {
+        QLabel* name = makeLabel(QString("%1 %2").arg(line.heading).arg(line.degree), "caption");
+        name->setToolTip(tr("On each step: %1").arg(spaceText(spaceOf(line.id, line.degree))));
         grid->addWidget(name, row++, 0);
     }
     body()->addWidget(grid_);

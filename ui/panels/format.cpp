@@ -55,9 +55,10 @@ QString schemeText(const SchemeSpec& spec) {
         return QStringLiteral("scheme ") + QString::fromStdString(spec.named);
     QString text = QString::fromStdString(spec.space.type);
     if (spec.space.find("degree")) text += QString(" %1").arg(spec.space.integer("degree"));
+    if (const int cells = spec.space.integer("cells"); cells > 1) text += QStringLiteral(" (%1 cells)").arg(cells);
     text += QStringLiteral(" × ") + ruleTitle(spec.quadrature.type);
     if (spec.quadrature.find("nodes")) text += QString(" %1").arg(spec.quadrature.integer("nodes"));
-    if (spec.quadrature.integer("panels") > 1) text += QString(" %1").arg(spec.quadrature.integer("panels"));
+    if (const int panels = spec.quadrature.integer("panels"); panels > 1) text += QStringLiteral(" (%1 panels)").arg(panels);
     return text;
 }
 

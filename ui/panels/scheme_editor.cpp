@@ -85,7 +85,10 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
     first_ = addChoice(tr("choice"), "choice");
     connect(first_, &QComboBox::activated, this, [this] {
         const Scene& scene = workspace_.scene();
-        if (spec().kind == SchemeSpec::Kind::pair) return change(newPair(scene, spaceOf(chosen(*first_), 2), ruleFor("gauss", 2)));
+        if (spec().kind == SchemeSpec::Kind::pair) {
+            const Settings space = spaceOf(chosen(*first_), std::max(1, spec().space.integer("degree")));
+            return change(newPair(scene, space, ruleFor(spec().quadrature.type, space)));
+        }
         change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_)) : newNamed(scene, chosen(*first_)));
     });
     rule_ = addChoice(tr("rule"), "rule");
@@ -93,7 +96,7 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
         if (item.id != "auto") rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
     ruleRow_ = rule_->parentWidget();
     connect(rule_, &QComboBox::activated, this, [this] {
-        const Settings rule = ruleFor(chosen(*rule_), spec().space.integer("degree"));
+        const Settings rule = ruleFor(chosen(*rule_), spec().space);
         Value tree(Value::Object{{"type", rule.type}});
         workspace_.edit({{place() + "/quadrature", tree}}, tr("Change quadrature"));
     });
@@ -178,7 +181,10 @@ void SchemeEditor::rebuild() {
 void SchemeEditor::changeKind(int kind) {
     const Scene& scene = workspace_.scene();
     if (kind == static_cast<int>(spec().kind)) return;
-    if (kind == 0) return change(newPair(scene, spaceOf(pairSpace(scene), 2), ruleFor("gauss", 2)));
+    if (kind == 0) {
+        const Settings space = spaceOf(pairSpace(scene), 2);
+        return change(newPair(scene, space, ruleFor("gauss", space)));
+    }
     const auto firstOf = [](const std::vector<CatalogItem>& items, const char* wish) {
         const bool hasWish = std::any_of(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == wish; });
         return hasWish || items.empty() ? std::string(wish) : items.front().id;

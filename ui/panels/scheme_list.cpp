@@ -59,7 +59,7 @@ void SchemeList::fillAddMenu() {
     for (const char* rule : {"gauss", "lobatto", "radau", "clenshaw-curtis"}) {
         QMenu* sub = pairs->addMenu(ruleTitle(rule));
         for (int degree = 1; degree <= 8; ++degree) {
-            const Settings space = spaceOf(spaceId, degree), quadrature = ruleFor(rule, degree);
+            const Settings space = spaceOf(spaceId, degree), quadrature = ruleFor(rule, space);
             const PairProperties known = describe(space, quadrature);
             if (!known.refusal.empty()) continue;
             QString text = tr("degree %1, order %2").arg(degree).arg(known.claims.order);

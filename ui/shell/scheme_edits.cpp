@@ -88,7 +88,10 @@ Value newPair(const Scene& scene, const Settings& space, const Settings& quadrat
     scheme.set("label", uniqueLabel(scene, pairLabel(space, quadrature)));
     scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
     scheme.set("space", settingsTree(space));
-    scheme.set("quadrature", settingsTree(quadrature));
+    // Panels that follow the cells of the space are left to do so when these are edited.
+    Settings rule = quadrature;
+    if (rule.integer("panels") == ruleFor(rule.type, space).integer("panels")) setKey(rule, "panels", Value());
+    scheme.set("quadrature", settingsTree(rule));
     return scheme;
 }
 
@@ -171,7 +174,8 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         if (!fits) {
             const std::string space = pairSpace(next);
             const int degree = std::min(pair->space.integer("degree"), 8);
-            scheme = newPair(next, spaceOf(space, degree), ruleFor(pair->quadrature.type, degree));
+            const Settings fitting = spaceOf(space, degree);
+            scheme = newPair(next, fitting, ruleFor(pair->quadrature.type, fitting));
         }
         if (spec.step.value > 0) scheme.set("step", roundStep(spec.step.value * scale * 1.0001));
         scheme.set("enabled", spec.isEnabled);
@@ -179,7 +183,10 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         next.schemes.back().label = scheme.find("label")->asString();
         schemes.push_back(std::move(scheme));
     }
-    if (schemes.empty()) schemes.push_back(newPair(next, spaceOf(pairSpace(next), 2), ruleFor("gauss", 2)));
+    if (schemes.empty()) {
+        const Settings space = spaceOf(pairSpace(next), 2);
+        schemes.push_back(newPair(next, space, ruleFor("gauss", space)));
+    }
     edits.push_back({"/schemes", std::move(schemes)});
     return edits;
 }
@@ -204,12 +211,9 @@ Settings spaceOf(const std::string& id, int degree) {
     return space;
 }
 
-Settings ruleFor(const std::string& id, int degree) {
+Settings ruleFor(const std::string& id, const Settings& space) {
     const CatalogItem* item = itemOf(quadratureCatalog(), id);
-    Settings rule = item ? withDefaults(*item) : Settings{};
-    const bool hasBothEnds = id == "lobatto" || id == "clenshaw-curtis";
-    setKey(rule, "nodes", degree + (hasBothEnds ? 1 : 0));
-    return rule;
+    return completeQuadrature(space, item ? withDefaults(*item) : Settings{});
 }
 
 }  // namespace extremal

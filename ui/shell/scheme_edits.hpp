@@ -34,7 +34,9 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 
 /// The settings of a pair of the discretizer, with every default filled in.
+/// A space of the catalogue with its defaults and this degree.
 Settings spaceOf(const std::string& id, int degree);
-Settings ruleFor(const std::string& id, int degree);
+/// A rule of the catalogue as it fits the space.
+Settings ruleFor(const std::string& id, const Settings& space);
 
 }  // namespace extremal

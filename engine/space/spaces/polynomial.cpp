@@ -13,6 +13,7 @@ FieldInfo degree() {
     f.min = 1;
     f.max = 24;
     f.description = "Degree of the polynomials on one step.";
+    f.whyLimits = "a curve of degree 0 stands still; above 24 more steps are cheaper than a higher degree";
     return f;
 }
 

@@ -1,0 +1,28 @@
+/// Gives a space in double precision its twin in quadruple precision, so that tables are made without round-off.
+/// Internal to engine/space: includes the heavy header of quadruple numbers.
+#pragma once
+
+#include <boost/multiprecision/float128.hpp>
+
+#include <utility>
+#include <vector>
+
+#include "engine/space/space.hpp"
+
+namespace extremal {
+
+inline Space<double> withWide(Space<double> space, Space<boost::multiprecision::float128> twin) {
+    using Quad = boost::multiprecision::float128;
+    space.evaluateWide = [twin = std::move(twin)](__float128 tau, std::span<__float128> value,
+                                                  std::span<__float128> derivative) {
+        std::vector<Quad> v(value.size()), d(value.size());
+        twin.evaluate(Quad(tau), v, d);
+        for (std::size_t a = 0; a < value.size(); ++a) {
+            value[a] = v[a].backend().value();
+            derivative[a] = d[a].backend().value();
+        }
+    };
+    return space;
+}
+
+}  // namespace extremal
