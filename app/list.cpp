@@ -68,6 +68,10 @@ std::string typeName(FieldType type) {
             return "text";
         case FieldType::choice:
             return "choice";
+        case FieldType::names:
+            return "names";
+        case FieldType::constants:
+            return "constants";
         case FieldType::json:
             return "json";
     }

@@ -10,7 +10,8 @@
 
 namespace extremal {
 
-enum class FieldType { number, numbers, integer, boolean, text, choice, json };
+/// numbers: an array of a fixed length; names: an array of texts; constants: an object of numbers by names of the user's.
+enum class FieldType { number, numbers, integer, boolean, text, choice, names, constants, json };
 
 /// What is known about one parameter, independent of the type that owns it.
 struct FieldInfo {
@@ -28,6 +29,7 @@ struct FieldInfo {
     bool isOptional = false;           ///< a key without a default that may be left out
     std::string description;           ///< one line
     std::string whyLimits;             ///< hint where a value is out of range; may be empty
+    Value example;                     ///< what a new scene starts from where there is no default
 };
 
 /// A number field of `Owner`: its descriptor and where it is stored.

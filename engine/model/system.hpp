@@ -130,6 +130,8 @@ struct ModelEntry {
     Value::Object exampleInitial;
     double exampleEnd = 10, exampleStep = 0.05;
     std::function<System(const Settings& settings)> make;  ///< keys are checked and complete
+    /// Throws InvalidScene (pointers below /model) where the system cannot start from a state; may be empty.
+    std::function<void(const Settings& settings, const System& system, const State& initial)> checkInitial;
 };
 
 /// All systems, in alphabetical order of their ids; gathered from the files of model/systems.

@@ -118,10 +118,24 @@ void checkScheme(Reader& reader, const System* system, const Scene& scene, const
         tryToMake(reader, *system, scene, scheme, pair, pointer);
 }
 
+/// False: the system cannot start from the initial data.
+bool checkStart(Reader& reader, const System& system, const Scene& scene) {
+    const ModelEntry* entry = findModel(scene.model.type);
+    if (!entry || !entry->checkInitial || !reader.errors.empty()) return true;
+    try {
+        entry->checkInitial(scene.model, system, initialState(scene, system));
+        return true;
+    } catch (const InvalidScene& e) {
+        for (const Problem& p : e.problems()) reader.error("/model" + p.pointer, p.message, p.hint);
+        return false;
+    }
+}
+
 }  // namespace
 
 void checkWhole(Reader& reader, const System* system, const Scene& scene,
                 const std::vector<std::size_t>& places) {
+    if (system && !checkStart(reader, *system, scene)) return;
     if (scene.end.value > scene.start.value) checkRows(reader, scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i)
         checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", places[i]));

@@ -153,6 +153,12 @@ std::vector<std::string> knownKeys(const Value& document, const std::vector<std:
     if (first == "reference" && place.size() > 1 && object)
         return schemeKeys(*object, {place.begin() + 2, place.end()});
     if (first == "views") return place.size() == 2 ? format::view : std::vector<std::string>{};
+    if (first == "model" && place.size() == 2 && object && object->isObject()) {
+        // The user's own names: those that are there. To add one, set the whole object.
+        std::vector<std::string> names;
+        for (const auto& member : object->asObject()) names.push_back(member.first);
+        return names;
+    }
     if (place.size() > 1) return {};
     if (first == "model") return object ? typedKeys(*object, modelCatalog()) : std::vector<std::string>{};
     if (first == "time") return format::time;

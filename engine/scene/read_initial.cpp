@@ -79,9 +79,12 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
     const Value* initial = document.find("initial");
     Initial& result = scene.initial;
     if (system.start) return readGiven(reader, initial, system, *entry, result);
-    result.q = literals(entry->exampleQ);
+    // The example of a model whose coordinates are the user's own fits only some; the others start from zero.
+    const std::size_t d = system.coordinates.size();
+    const bool fits = entry->exampleQ.size() == d;
+    result.q = fits ? literals(entry->exampleQ) : std::vector<Number>(d);
     result.second = Initial::Second::momentum;
-    result.pOrV = literals(entry->exampleP);
+    result.pOrV = fits ? literals(entry->exampleP) : std::vector<Number>(d);
     if (!initial) {
         reader.warning("/initial", "is missing: the run starts from the model's example");
         return;

@@ -14,39 +14,49 @@ bool isNumeric(const FieldInfo& field) {
 /// Gives every numeric parameter its value; those written as expressions may use each other in any order.
 class ParameterResolver {
 public:
-    ParameterResolver(Reader& reader, const Value& model, const std::vector<FieldInfo>& fields)
-        : reader_(reader), model_(model), fields_(fields) {}
+    ParameterResolver(Reader& reader, const Value& model, const std::vector<FieldInfo>& fields) : reader_(reader) {
+        for (const FieldInfo& field : fields) {
+            const Value* value = model.find(field.key);
+            if (!value) value = &field.fallback;
+            if (isNumeric(field)) parameters_.push_back({field.key, childPointer("/model", field.key), value});
+            if (field.type != FieldType::constants || !value->isObject()) continue;
+            for (const auto& [name, number] : value->asObject())
+                parameters_.push_back({name, childPointer(childPointer("/model", field.key), name), &number});
+        }
+    }
 
     void resolveAll() {
-        for (const FieldInfo& field : fields_)
-            if (isNumeric(field)) valueOf(field.key);
+        for (const Parameter& parameter : parameters_) valueOf(parameter.name);
     }
 
 private:
+    struct Parameter {
+        std::string name, pointer;
+        const Value* value;
+    };
+
     std::optional<double> valueOf(std::string_view name) {
-        const auto field = std::find_if(fields_.begin(), fields_.end(),
-                                        [&](const FieldInfo& f) { return f.key == name && isNumeric(f); });
-        if (field == fields_.end()) return {};
+        const auto parameter = std::find_if(parameters_.begin(), parameters_.end(),
+                                            [&](const Parameter& p) { return p.name == name; });
+        if (parameter == parameters_.end()) return {};
         if (const auto known = reader_.parameters.find(name); known != reader_.parameters.end())
             return known->second;
         if (const auto open = std::find(open_.begin(), open_.end(), name); open != open_.end()) {
-            reportCycle({open, open_.end()});
+            reportCycle({open, open_.end()}, parameter->pointer);
             return {};
         }
         open_.emplace_back(name);
-        const std::optional<double> value = compute(*field);
+        const std::optional<double> value = compute(*parameter->value);
         open_.pop_back();
-        reader_.parameters[field->key] = value;
+        reader_.parameters[parameter->name] = value;
         return value;
     }
-    std::optional<double> compute(const FieldInfo& field) {
-        const Value* value = model_.find(field.key);
-        if (!value) value = &field.fallback;
-        if (value->isNumber()) return value->asNumber();
-        if (!value->isString()) return {};
+    std::optional<double> compute(const Value& value) {
+        if (value.isNumber()) return value.asNumber();
+        if (!value.isString()) return {};
         // What is wrong inside the text is reported when the parameter itself is read.
         try {
-            const Expression expression = parseExpression(value->asString());
+            const Expression expression = parseExpression(value.asString());
             bool isKnown = true;
             const double result = evaluate(expression, [&](std::string_view name) -> std::optional<double> {
                 const auto operand = valueOf(name);
@@ -58,17 +68,15 @@ private:
             return {};
         }
     }
-    void reportCycle(std::vector<std::string> names) {
+    void reportCycle(std::vector<std::string> names, const std::string& pointer) {
         names.push_back(names.front());
         std::string chain;
         for (const std::string& name : names) chain += (chain.empty() ? "" : " -> ") + name;
-        reader_.error(childPointer("/model", names.front()), "depends on itself: " + chain,
-                      "give one of them a number");
+        reader_.error(pointer, "depends on itself: " + chain, "give one of them a number");
     }
 
     Reader& reader_;
-    const Value& model_;
-    const std::vector<FieldInfo>& fields_;
+    std::vector<Parameter> parameters_;
     std::vector<std::string> open_;
 };
 

@@ -13,7 +13,7 @@
 #include "engine/core/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/settings.hpp"
-#include "engine/scene/expression.hpp"
+#include "engine/core/expression.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace extremal {

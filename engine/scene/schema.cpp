@@ -89,6 +89,13 @@ Value property(const FieldInfo& field) {
         case FieldType::choice:
             v = enumeration(field.choices);
             break;
+        case FieldType::names:
+            v = arrayOf(typed("string"));
+            break;
+        case FieldType::constants:
+            v = typed("object");
+            v.set("additionalProperties", reference("number"));
+            break;
         case FieldType::json:
             break;
     }

@@ -32,6 +32,34 @@ bool readNumbers(Reader& reader, const Value& value, const std::string& pointer,
     return true;
 }
 
+bool readNames(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
+               Settings& settings) {
+    if (!reader.isArray(value, pointer, "names")) return false;
+    bool isSound = true;
+    for (std::size_t i = 0; i < value.asArray().size(); ++i)
+        isSound = reader.text(value.asArray()[i], childPointer(pointer, i)) && isSound;
+    if (isSound) settings.keys.emplace_back(field.key, value);
+    return isSound;
+}
+
+/// Numbers by name; what the user wrote is kept as a whole where any of them is an expression.
+bool readConstants(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
+                 Settings& settings) {
+    if (!reader.isObject(value, pointer)) return false;
+    Value numbers{Value::Object{}};
+    bool isSound = true, hasExpression = false;
+    for (const auto& [name, member] : value.asObject()) {
+        const auto number = reader.number(member, childPointer(pointer, name), {});
+        isSound = isSound && number;
+        hasExpression = hasExpression || member.isString();
+        if (number) numbers.set(name, number->value);
+    }
+    if (!isSound) return false;
+    settings.keys.emplace_back(field.key, numbers);
+    if (hasExpression) settings.expressions.emplace_back(field.key, value);
+    return true;
+}
+
 /// Stores one member after checking it against its descriptor.
 bool readField(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
                Settings& settings) {
@@ -68,6 +96,10 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
             settings.keys.emplace_back(field.key, *text);
             return true;
         }
+        case FieldType::names:
+            return readNames(reader, value, pointer, field, settings);
+        case FieldType::constants:
+            return readConstants(reader, value, pointer, field, settings);
         case FieldType::json:
             settings.keys.emplace_back(field.key, value);
             return true;

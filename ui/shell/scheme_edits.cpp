@@ -147,7 +147,10 @@ std::vector<Edit> editsForToggle(const Scene& scene, int index) {
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
     const ModelEntry* old = findModel(scene.model.type);
     const double scale = old && old->exampleStep > 0 ? entry.exampleStep / old->exampleStep : 1;
-    std::vector<Edit> edits = {{"/model", Value(Value::Object{{"type", entry.item.id}})},
+    Value model(Value::Object{{"type", entry.item.id}});
+    for (const FieldInfo& field : entry.item.parameters)
+        if (!field.example.isNull()) model.set(field.key, field.example);
+    std::vector<Edit> edits = {{"/model", model},
                                {"/initial", std::nullopt},
                                {"/views", std::nullopt},
                                {"/observe", std::nullopt},

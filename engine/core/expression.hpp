@@ -1,4 +1,4 @@
-/// Expressions: numbers, and later Lagrangians, potentials and profiles, as users type them.
+/// Expressions as users type them: numbers, Lagrangians, potentials and profiles.
 ///
 ///     sum     = product { ("+" | "-") product }
 ///     product = signed { ("*" | "/") signed }
@@ -7,8 +7,8 @@
 ///     atom    = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
 ///
 /// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign. `pi` is a constant;
-/// names are [A-Za-z][A-Za-z0-9_]*. Parsing and meaning are apart: the tree knows nothing of which names
-/// exist.
+/// names are [A-Za-z][A-Za-z0-9_]*. dot(x), the velocity of x, is read as a call of "dot", and has a meaning in
+/// Lagrangians only. Parsing and meaning are apart: the tree knows nothing of which names exist.
 #pragma once
 
 #include <functional>
@@ -62,7 +62,14 @@ double evaluate(const Expression& expression,
 /// Two indented lines: the text (around the place if it is long), and a caret below the place.
 std::string caretLines(std::string_view text, std::size_t position);
 
-/// All functions that expressions know.
+/// All functions that expressions know, without dot.
 const std::vector<std::string>& expressionFunctions();
+
+/// The value of a function at a (and b: atan2 only).
+double applyFunction(std::string_view function, double a, double b);
+
+/// Why a text cannot name a coordinate or a parameter: letters, digits and inner "_", a letter first, not ending
+/// in "_t" (which makes velocities), no function, not t, not pi. Empty if it can.
+std::string nameProblem(std::string_view name);
 
 }  // namespace extremal

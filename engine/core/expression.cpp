@@ -1,4 +1,4 @@
-#include "engine/scene/expression.hpp"
+#include "engine/core/expression.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -13,6 +13,8 @@ namespace {
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+
+constexpr std::string_view velocityCall = "dot";
 
 struct Function {
     const char* name;
@@ -177,7 +179,8 @@ private:
     }
     int call(const std::string& name, std::size_t position) {
         const Function* function = findFunction(name);
-        if (!function)
+        const bool isVelocity = name == velocityCall;
+        if (!function && !isVelocity)
             throw ExpressionError("has no function \"" + name + "\"", position,
                                   suggestName(name, expressionFunctions()));
         const Nesting nesting(*this);
@@ -185,7 +188,7 @@ private:
         take('(');
         const int first = sum();
         int second = -1;
-        if (function->two) {
+        if (function && function->two) {
             if (!take(',')) throw ExpressionError("needs two arguments for " + name, at_);
             second = sum();
         } else if (peek() == ',') {
@@ -201,7 +204,7 @@ private:
     Expression result_;
 };
 
-double apply(const Expression::Node& node, double a, double b) {
+double applyNode(const Expression::Node& node, double a, double b) {
     switch (node.kind) {
         case Operator::negate:
             return -a;
@@ -215,10 +218,8 @@ double apply(const Expression::Node& node, double a, double b) {
             return a / b;
         case Operator::power:
             return std::pow(a, b);
-        case Operator::call: {
-            const Function* function = findFunction(node.name);
-            return function->two ? function->two(a, b) : function->one(a);
-        }
+        case Operator::call:
+            return applyFunction(node.name, a, b);
         case Operator::number:
         case Operator::name:
             break;
@@ -227,6 +228,23 @@ double apply(const Expression::Node& node, double a, double b) {
 }
 
 }  // namespace
+
+double applyFunction(std::string_view name, double a, double b) {
+    const Function* function = findFunction(name);
+    return function->two ? function->two(a, b) : function->one(a);
+}
+
+std::string nameProblem(std::string_view name) {
+    const auto isPart = [](char c) { return isLetter(c) || isDigit(c) || c == '_'; };
+    if (name.empty() || !isLetter(name.front()) || !std::all_of(name.begin(), name.end(), isPart))
+        return "must be letters, digits and _, with a letter first";
+    if (name.size() > 40) return "must have at most 40 characters";
+    if (name.ends_with("_t")) return "must not end in _t, which makes the name of a velocity";
+    if (name == "t") return "must not be t, which is time";
+    if (name == "pi") return "must not be pi, which is a constant";
+    if (findFunction(name)) return "must not be the name of a function";
+    return {};
+}
 
 std::vector<std::string> Expression::names() const {
     std::vector<std::string> found;
@@ -254,8 +272,11 @@ double evaluate(const Expression& expression,
             const std::optional<double> value = valueOf(node.name);
             if (!value) throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position);
             values.push_back(*value);
+        } else if (node.kind == Operator::call && node.name == velocityCall) {
+            throw ExpressionError("has dot(...), which stands for a velocity", node.position,
+                                  "only a Lagrangian has velocities");
         } else {
-            values.push_back(apply(node, operand(node.left), operand(node.right)));
+            values.push_back(applyNode(node, operand(node.left), operand(node.right)));
         }
     }
     return values.back();

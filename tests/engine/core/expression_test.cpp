@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/expression.hpp"
+#include "engine/core/expression.hpp"
 
 using namespace extremal;
 

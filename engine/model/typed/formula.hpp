@@ -1,0 +1,41 @@
+/// A Lagrangian as a user types it, with every name in it understood.
+///
+/// Names are the coordinates, their velocities (x_t or dot(x)), the parameters and t. Symbols are numbered
+///     q_i: i,   v_i: d + i,   t: 2d,   acceleration of q_i: 2d + 1 + i,   parameter k: 3d + 1 + k.
+/// Errors: ExpressionError with the place in the text; an unknown name comes with the nearest known one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/core/expression.hpp"
+
+namespace extremal::typed {
+
+/// At most this many coordinates.
+inline constexpr std::size_t maxCoordinates = 64;
+
+struct Formula {
+    std::vector<std::string> coordinates;
+    std::vector<std::pair<std::string, double>> parameters;
+    std::string text;
+
+    int dimension() const { return static_cast<int>(coordinates.size()); }
+    int time() const { return 2 * dimension(); }
+    int acceleration(int i) const { return 2 * dimension() + 1 + i; }
+    int firstParameter() const { return 3 * dimension() + 1; }
+};
+
+/// The parsed text; symbol[n] is the symbol that node n stands for, or -1; constant[n] is its value where it has
+/// no symbol at all, or, inside exponents, none but parameters: x^n is differentiated with n in place.
+struct ResolvedFormula {
+    Expression expression;
+    std::vector<int> symbol;
+    std::vector<std::optional<double>> constant;
+    std::vector<double> exponents;  ///< the values of parameters that were put in place, in order
+};
+ResolvedFormula resolve(const Formula& formula);
+
+}  // namespace extremal::typed

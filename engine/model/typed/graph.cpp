@@ -1,0 +1,201 @@
+#include "engine/model/typed/graph.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "engine/core/expression.hpp"
+
+namespace extremal::typed {
+namespace {
+
+constexpr std::array<std::string_view, 15> names = {"sin",  "cos",  "tan", "asin", "acos", "atan", "atan2", "sinh",
+                                                    "cosh", "tanh", "exp", "log",  "abs",  "sign", "power"};
+
+std::uint64_t mix(std::uint64_t h, std::uint64_t x) {
+    h ^= x + 0x9e3779b97f4a7c15ULL + (h << 6) + (h >> 2);
+    h *= 0xbf58476d1ce4e5b9ULL;
+    return h ^ (h >> 29);
+}
+std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); }
+
+bool isInteger(double x) { return x == std::trunc(x) && std::fabs(x) < 1e9; }
+
+bool isSame(const Graph::Node& a, const Graph::Node& b) {
+    return a.kind == b.kind && bits(a.number) == bits(b.number) && a.symbol == b.symbol &&
+           (a.kind != Graph::Kind::call || a.function == b.function) && a.operands == b.operands;
+}
+
+}  // namespace
+
+std::string_view name(Function function) { return names[static_cast<std::size_t>(function)]; }
+
+std::optional<Function> functionNamed(std::string_view wanted) {
+    const auto found = std::find(names.begin(), names.end(), wanted);
+    if (found == names.end()) return {};
+    return static_cast<Function>(found - names.begin());
+}
+
+int Graph::intern(Node node) {
+    std::uint64_t h = mix(static_cast<std::uint64_t>(node.kind) + 1, bits(node.number));
+    h = mix(h, static_cast<std::uint64_t>(node.symbol + 2));
+    if (node.kind == Kind::call) h = mix(h, static_cast<std::uint64_t>(node.function));
+    for (const Operand& o : node.operands) h = mix(mix(h, at(o.node).hash), bits(o.factor));
+    node.hash = h;
+    const auto [from, to] = known_.equal_range(h);
+    for (auto it = from; it != to; ++it)
+        if (isSame(at(it->second), node)) return it->second;
+    nodes_.push_back(std::move(node));
+    known_.emplace(h, size() - 1);
+    return size() - 1;
+}
+
+int Graph::number(double value) {
+    Node node;
+    node.number = value == 0 ? 0 : value;
+    return intern(std::move(node));
+}
+
+int Graph::symbol(int index) {
+    Node node;
+    node.kind = Kind::symbol;
+    node.symbol = index;
+    return intern(std::move(node));
+}
+
+int Graph::sum(double constant, const std::vector<Operand>& operands) {
+    Node node;
+    node.kind = Kind::sum;
+    node.number = constant;
+    std::vector<Operand>& terms = node.operands;
+    for (const auto& [operand, factor] : operands) {
+        const Node& inner = at(operand);
+        const bool isScaled = inner.kind == Kind::sum && inner.operands.size() == 1 && inner.number == 0;
+        if (factor == 0) continue;
+        if (inner.kind == Kind::number)
+            node.number += factor * inner.number;
+        else if (isScaled || (inner.kind == Kind::sum && std::fabs(factor) == 1)) {
+            node.number += factor * inner.number;
+            for (const Operand& o : inner.operands) terms.push_back({o.node, factor * o.factor});
+        } else {
+            terms.push_back({operand, factor});
+        }
+    }
+    const auto order = [&](const Operand& a, const Operand& b) {
+        return std::pair(at(a.node).hash, a.node) < std::pair(at(b.node).hash, b.node);
+    };
+    std::stable_sort(terms.begin(), terms.end(), order);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < terms.size();) {
+        Operand term = terms[i];
+        for (++i; i < terms.size() && terms[i].node == term.node; ++i) term.factor += terms[i].factor;
+        if (term.factor != 0) terms[kept++] = term;
+    }
+    terms.resize(kept);
+    if (terms.empty()) return number(node.number);
+    if (terms.size() == 1 && node.number == 0 && terms[0].factor == 1) return terms[0].node;
+    return intern(std::move(node));
+}
+
+int Graph::product(const std::vector<Operand>& operands) {
+    Node node;
+    node.kind = Kind::product;
+    double coefficient = 1;
+    std::vector<Operand>& factors = node.operands;
+    const auto add = [&](auto&& self, int operand, double exponent) -> void {
+        const Node& inner = at(operand);
+        if (exponent == 0) return;
+        if (inner.kind == Kind::number) {
+            coefficient *= exponent == 1 ? inner.number : std::pow(inner.number, exponent);
+        } else if (inner.kind == Kind::sum && inner.operands.size() == 1 && inner.number == 0 &&
+                   (isInteger(exponent) || inner.operands[0].factor > 0)) {
+            coefficient *= exponent == 1 ? inner.operands[0].factor : std::pow(inner.operands[0].factor, exponent);
+            self(self, inner.operands[0].node, exponent);
+        } else if (inner.kind == Kind::product && isInteger(exponent)) {
+            for (const Operand& o : inner.operands) factors.push_back({o.node, o.factor * exponent});
+        } else {
+            factors.push_back({operand, exponent});
+        }
+    };
+    for (const auto& [operand, exponent] : operands) add(add, operand, exponent);
+    const auto order = [&](const Operand& a, const Operand& b) {
+        return std::pair(at(a.node).hash, a.node) < std::pair(at(b.node).hash, b.node);
+    };
+    std::stable_sort(factors.begin(), factors.end(), order);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < factors.size();) {
+        Operand factor = factors[i];
+        for (++i; i < factors.size() && factors[i].node == factor.node; ++i) factor.factor += factors[i].factor;
+        if (factor.factor != 0) factors[kept++] = factor;
+    }
+    factors.resize(kept);
+    if (factors.empty() || coefficient == 0) return number(coefficient);
+    const int whole = factors.size() == 1 && factors[0].factor == 1 ? factors[0].node : intern(std::move(node));
+    return coefficient == 1 ? whole : scaled(whole, coefficient);
+}
+
+int Graph::call(Function function, int a, int b) {
+    const bool isFolded = isNumber(a) && (b < 0 || isNumber(b));
+    if (function == Function::power) {
+        if (isNumber(b)) return product({{a, at(b).number}});
+        if (isFolded) return number(std::pow(at(a).number, at(b).number));
+    } else if (isFolded) {
+        return number(applyFunction(name(function), at(a).number, b < 0 ? 0 : at(b).number));
+    }
+    Node node;
+    node.kind = Kind::call;
+    node.function = function;
+    node.operands.push_back({a, 1});
+    if (b >= 0) node.operands.push_back({b, 1});
+    return intern(std::move(node));
+}
+
+std::vector<int> Graph::adopt(const Graph& from, const std::vector<int>& roots,
+                              const std::function<std::optional<double>(int)>& valueOf) {
+    // Operands come before what uses them, so one pass over what the roots need is enough.
+    std::vector<char> isNeeded(static_cast<std::size_t>(from.size()), 0);
+    for (const int root : roots) isNeeded[static_cast<std::size_t>(root)] = 1;
+    for (int i = from.size() - 1; i >= 0; --i)
+        if (isNeeded[static_cast<std::size_t>(i)])
+            for (const Operand& o : from.at(i).operands) isNeeded[static_cast<std::size_t>(o.node)] = 1;
+    std::vector<int> here(static_cast<std::size_t>(from.size()), -1);
+    for (int i = 0; i < from.size(); ++i) {
+        if (!isNeeded[static_cast<std::size_t>(i)]) continue;
+        const Node& node = from.at(i);
+        std::vector<Operand> operands = node.operands;
+        for (Operand& o : operands) o.node = here[static_cast<std::size_t>(o.node)];
+        int& made = here[static_cast<std::size_t>(i)];
+        switch (node.kind) {
+            case Kind::number: made = number(node.number); break;
+            case Kind::symbol: {
+                const std::optional<double> value = valueOf(node.symbol);
+                made = value ? number(*value) : symbol(node.symbol);
+                break;
+            }
+            case Kind::sum: made = sum(node.number, operands); break;
+            case Kind::product: made = product(operands); break;
+            case Kind::call:
+                made = call(node.function, operands[0].node, operands.size() > 1 ? operands[1].node : -1);
+                break;
+        }
+    }
+    std::vector<int> result;
+    for (const int root : roots) result.push_back(here[static_cast<std::size_t>(root)]);
+    return result;
+}
+
+bool Graph::dependsOn(const std::vector<int>& roots, const std::function<bool(int)>& picks) const {
+    std::vector<char> isNeeded(nodes_.size(), 0);
+    for (const int root : roots) isNeeded[static_cast<std::size_t>(root)] = 1;
+    for (int i = size() - 1; i >= 0; --i) {
+        if (!isNeeded[static_cast<std::size_t>(i)]) continue;
+        if (at(i).kind == Kind::symbol && picks(at(i).symbol)) return true;
+        for (const Operand& o : at(i).operands) isNeeded[static_cast<std::size_t>(o.node)] = 1;
+    }
+    return false;
+}
+
+}  // namespace extremal::typed

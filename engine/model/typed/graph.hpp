@@ -1,0 +1,71 @@
+/// Formulas as a graph in which equal parts are one node: what symbolic differentiation is flattened to.
+///
+///     sum     = number + sum_k factor_k operand_k
+///     product = prod_k operand_k ^ factor_k          (no number in it: c x is a sum of one term)
+///     call    = function(operand_0 [, operand_1])
+///
+/// Every node is made through the functions below, which bring it into this form, combine like terms and like powers,
+/// and fold numbers. Operands are ordered by a hash of their structure alone, so that equal formulas give equal
+/// graphs, whatever the order they were made in. A symbol is a number chosen by the caller.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace extremal::typed {
+
+enum class Function : std::uint8_t {
+    sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, abs, sign, power
+};
+/// As it is spelled in expressions; "power" is pow(a, b) with an exponent that is no number.
+std::string_view name(Function function);
+std::optional<Function> functionNamed(std::string_view name);
+
+class Graph {
+public:
+    enum class Kind : std::uint8_t { number, symbol, sum, product, call };
+    struct Operand {
+        int node;
+        double factor = 1;  ///< coefficient in a sum, exponent in a product
+        bool operator==(const Operand&) const = default;
+    };
+    struct Node {
+        Kind kind = Kind::number;
+        double number = 0;  ///< number; the constant of a sum
+        int symbol = -1;
+        Function function = Function::sin;
+        std::vector<Operand> operands;
+        std::uint64_t hash = 0;
+    };
+
+    int number(double value);
+    int symbol(int index);
+    int sum(double constant, const std::vector<Operand>& operands);
+    int product(const std::vector<Operand>& operands);
+    int call(Function function, int a, int b = -1);
+    int scaled(int node, double factor) { return sum(0, {{node, factor}}); }
+
+    const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }
+    int size() const { return static_cast<int>(nodes_.size()); }
+    bool isNumber(int node) const { return at(node).kind == Kind::number; }
+    bool isZero(int node) const { return isNumber(node) && at(node).number == 0; }
+
+    /// Makes these nodes of another graph here, with numbers in place of the symbols that have one.
+    std::vector<int> adopt(const Graph& from, const std::vector<int>& roots,
+                           const std::function<std::optional<double>(int symbol)>& valueOf);
+
+    /// Whether any of the roots depends on a symbol that the predicate picks.
+    bool dependsOn(const std::vector<int>& roots, const std::function<bool(int symbol)>& picks) const;
+
+private:
+    int intern(Node node);
+
+    std::vector<Node> nodes_;
+    std::unordered_multimap<std::uint64_t, int> known_;
+};
+
+}  // namespace extremal::typed

@@ -1,0 +1,232 @@
+#include "engine/model/typed/tape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "engine/model/typed/tape_code.hpp"
+
+namespace extremal::typed {
+namespace {
+
+using Value = std::uint32_t;
+constexpr Value none = std::numeric_limits<Value>::max();
+
+/// How many operands of an instruction are values; a comes first, then b, then c.
+int operandCount(Op op) {
+    switch (op) {
+        case Op::negate:
+        case Op::reciprocal:
+        case Op::sqrt:
+        case Op::sinCos:
+        case Op::call: return 1;
+        case Op::add:
+        case Op::subtract:
+        case Op::multiply:
+        case Op::call2: return 2;
+        case Op::multiplyAdd:
+        case Op::multiplySubtract:
+        case Op::subtractProduct: return 3;
+    }
+    return 0;
+}
+
+template <class F>
+void forOperands(Instruction& code, F&& f) {
+    const int n = operandCount(code.op);
+    if (n > 0) f(code.a);
+    if (n > 1) f(code.b);
+    if (n > 2) f(code.c);
+}
+
+/// The instructions that some outputs need, in order, each with the value it makes.
+struct Line {
+    struct Step {
+        Instruction code;
+        Value makes, makesToo = none;  ///< makesToo: cos of sinCos
+    };
+    std::vector<Step> steps;
+    std::vector<Value> outputs;
+    std::vector<int> uses;  ///< of each value
+
+    Line(const std::vector<Code::Item>& items, std::vector<Value> wanted) : outputs(std::move(wanted)) {
+        uses.assign(items.size(), 0);
+        for (const Value v : outputs) ++uses[v];
+        for (std::size_t i = items.size(); i-- > 0;) {
+            if (uses[i] == 0 || items[i].kind != Code::Kind::instruction) continue;
+            Step step{items[i].code, static_cast<Value>(i), none};
+            forOperands(step.code, [&](Value& v) { ++uses[v]; });
+            steps.push_back(step);
+        }
+        std::reverse(steps.begin(), steps.end());
+        joinSinesAndCosines();
+        joinProductsAndSums();
+    }
+
+private:
+    void drop(const std::vector<char>& isDropped) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            if (!isDropped[i]) steps[kept++] = steps[i];
+        steps.resize(kept);
+    }
+    void joinSinesAndCosines() {
+        constexpr auto sine = static_cast<Value>(Function::sin), cosine = static_cast<Value>(Function::cos);
+        std::map<Value, std::pair<std::size_t, std::size_t>> pairs;  // argument -> places of sin, cos
+        constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            const Instruction& c = steps[i].code;
+            if (c.op != Op::call || (c.c != sine && c.c != cosine)) continue;
+            auto& both = pairs.try_emplace(c.a, nowhere, nowhere).first->second;
+            (c.c == sine ? both.first : both.second) = i;
+        }
+        std::vector<char> isDropped(steps.size(), 0);
+        for (const auto& [argument, both] : pairs) {
+            const auto [s, c] = both;
+            if (s == nowhere || c == nowhere) continue;
+            Step& first = steps[std::min(s, c)];
+            const Value sinValue = steps[s].makes, cosValue = steps[c].makes;
+            first = {{Op::sinCos, 0, argument, 0, 0}, sinValue, cosValue};
+            isDropped[std::max(s, c)] = 1;
+            --uses[argument];
+        }
+        drop(isDropped);
+    }
+    /// A product that only one sum uses becomes part of it.
+    void joinProductsAndSums() {
+        std::map<Value, std::size_t> products;
+        std::vector<char> isDropped(steps.size(), 0);
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            Instruction& code = steps[i].code;
+            if (code.op == Op::multiply) products[steps[i].makes] = i;
+            if (code.op != Op::add && code.op != Op::subtract) continue;
+            const auto join = [&](Value product, Value other, Op op) {
+                const auto found = products.find(product);
+                if (found == products.end() || uses[product] != 1) return false;
+                const Instruction& p = steps[found->second].code;
+                code = {op, 0, p.a, p.b, other};
+                isDropped[found->second] = 1;
+                return true;
+            };
+            const Value a = code.a, b = code.b;
+            if (code.op == Op::add) {
+                if (!join(b, a, Op::multiplyAdd)) join(a, b, Op::multiplyAdd);
+            } else if (!join(b, a, Op::subtractProduct)) {
+                join(a, b, Op::multiplySubtract);
+            }
+        }
+        drop(isDropped);
+    }
+};
+
+}  // namespace
+
+Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
+    Code code(graph);
+    std::vector<Value> wanted;
+    for (const int root : roots) wanted.push_back(code.value(root));
+    Line line(code.items(), std::move(wanted));
+
+    Tape tape;
+    tape.inputs_ = static_cast<std::size_t>(inputs);
+    std::vector<std::uint32_t> place(code.items().size(), none);
+    for (std::size_t i = 0; i < code.items().size(); ++i) {
+        const Code::Item& item = code.items()[i];
+        if (line.uses[i] == 0) continue;
+        if (item.kind == Code::Kind::input) place[i] = item.code.a;
+        if (item.kind == Code::Kind::constant) {
+            place[i] = static_cast<std::uint32_t>(tape.inputs_ + tape.constants_.size());
+            tape.constants_.push_back(item.number);
+        }
+    }
+    // The last step that reads each value; outputs are read at the end.
+    std::vector<std::size_t> last(place.size(), 0);
+    for (std::size_t s = 0; s < line.steps.size(); ++s)
+        forOperands(line.steps[s].code, [&](Value& v) { last[v] = s; });
+    for (const Value v : line.outputs) last[v] = line.steps.size();
+    const auto firstFree = static_cast<std::uint32_t>(tape.inputs_ + tape.constants_.size());
+    std::uint32_t end = firstFree;
+    std::vector<std::uint32_t> free;
+    const auto take = [&] {
+        if (free.empty()) return end++;
+        const std::uint32_t r = free.back();
+        free.pop_back();
+        return r;
+    };
+    for (std::size_t s = 0; s < line.steps.size(); ++s) {
+        auto& [instruction, makes, makesToo] = line.steps[s];
+        std::vector<Value> read;
+        forOperands(instruction, [&](Value& v) {
+            read.push_back(v);
+            v = place[v];
+        });
+        std::sort(read.begin(), read.end());
+        read.erase(std::unique(read.begin(), read.end()), read.end());
+        for (const Value v : read)
+            if (last[v] == s && place[v] >= firstFree) free.push_back(place[v]);
+        instruction.to = place[makes] = take();
+        if (makesToo != none) instruction.c = place[makesToo] = take();
+        tape.code_.push_back(instruction);
+    }
+    tape.registers_ = end;
+    for (const Value v : line.outputs) tape.outputs_.push_back(place[v]);
+    return tape;
+}
+
+namespace {
+
+double callOne(Function function, double a) {
+    switch (function) {
+        case Function::sin: return std::sin(a);
+        case Function::cos: return std::cos(a);
+        case Function::tan: return std::tan(a);
+        case Function::asin: return std::asin(a);
+        case Function::acos: return std::acos(a);
+        case Function::atan: return std::atan(a);
+        case Function::sinh: return std::sinh(a);
+        case Function::cosh: return std::cosh(a);
+        case Function::tanh: return std::tanh(a);
+        case Function::exp: return std::exp(a);
+        case Function::log: return std::log(a);
+        case Function::abs: return std::fabs(a);
+        case Function::sign: return static_cast<double>((a > 0) - (a < 0));
+        case Function::atan2:
+        case Function::power: break;
+    }
+    return a;
+}
+
+}  // namespace
+
+void Tape::run(double* r) const {
+    if (!constants_.empty()) std::memcpy(r + inputs_, constants_.data(), constants_.size() * sizeof(double));
+    for (const Instruction& i : code_) {
+        switch (i.op) {
+            case Op::add: r[i.to] = r[i.a] + r[i.b]; break;
+            case Op::subtract: r[i.to] = r[i.a] - r[i.b]; break;
+            case Op::multiply: r[i.to] = r[i.a] * r[i.b]; break;
+            case Op::multiplyAdd: r[i.to] = r[i.a] * r[i.b] + r[i.c]; break;
+            case Op::multiplySubtract: r[i.to] = r[i.a] * r[i.b] - r[i.c]; break;
+            case Op::subtractProduct: r[i.to] = r[i.c] - r[i.a] * r[i.b]; break;
+            case Op::negate: r[i.to] = -r[i.a]; break;
+            case Op::reciprocal: r[i.to] = 1 / r[i.a]; break;
+            case Op::sqrt: r[i.to] = std::sqrt(r[i.a]); break;
+            case Op::sinCos: {
+                const double angle = r[i.a];
+                r[i.to] = std::sin(angle);
+                r[i.c] = std::cos(angle);
+                break;
+            }
+            case Op::call: r[i.to] = callOne(static_cast<Function>(i.c), r[i.a]); break;
+            case Op::call2:
+                r[i.to] = static_cast<Function>(i.c) == Function::atan2 ? std::atan2(r[i.a], r[i.b])
+                                                                        : std::pow(r[i.a], r[i.b]);
+                break;
+        }
+    }
+}
+
+}  // namespace extremal::typed

@@ -1,0 +1,57 @@
+/// A formula as a straight line of instructions over a small array of registers.
+///
+/// Registers: the inputs (q, v, t), then the constants, then intermediate values, reused when they are no longer
+/// needed. Every common part is computed once; integer powers are products, x^(n/2) products of one square root, and
+/// sin and cos of one angle a single call. Evaluation allocates nothing and changes nothing but the caller's registers,
+/// so any number of threads may share a tape.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/model/typed/graph.hpp"
+
+namespace extremal::typed {
+
+enum class Op : std::uint8_t {
+    add,               ///< a + b
+    subtract,          ///< a - b
+    multiply,          ///< a b
+    multiplyAdd,       ///< a b + c
+    multiplySubtract,  ///< a b - c
+    subtractProduct,   ///< c - a b
+    negate,            ///< -a
+    reciprocal,        ///< 1 / a
+    sqrt,              ///< a^(1/2)
+    sinCos,            ///< sin a, and cos a in register c
+    call,              ///< the function number c of a
+    call2              ///< the function number c of a and b
+};
+
+struct Instruction {
+    Op op;
+    std::uint32_t to, a, b, c;
+};
+
+class Tape {
+public:
+    /// What computes the roots. Symbols below `inputs` are inputs; there must be no others.
+    static Tape of(const Graph& graph, std::span<const int> roots, int inputs);
+
+    std::size_t registers() const { return registers_; }
+    std::size_t outputs() const { return outputs_.size(); }
+    std::size_t length() const { return code_.size(); }
+
+    /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i.
+    void run(double* r) const;
+    double output(std::size_t i, const double* r) const { return r[outputs_[i]]; }
+
+private:
+    std::size_t inputs_ = 0, registers_ = 0;
+    std::vector<double> constants_;
+    std::vector<Instruction> code_;
+    std::vector<std::uint32_t> outputs_;
+};
+
+}  // namespace extremal::typed

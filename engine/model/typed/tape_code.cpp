@@ -1,0 +1,133 @@
+#include "engine/model/typed/tape_code.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace extremal::typed {
+namespace {
+
+/// Powers up to this are products; beyond it the library's power is more accurate, and no slower.
+constexpr double largestProduct = 32;
+
+}  // namespace
+
+std::uint32_t Code::value(int node) {
+    if (const auto found = known_.find(node); found != known_.end()) return found->second;
+    const Graph::Node& here = graph_.at(node);
+    std::uint32_t made = 0;
+    switch (here.kind) {
+        case Graph::Kind::number: made = constant(here.number); break;
+        case Graph::Kind::symbol: {
+            Item item{Kind::input, 0, {}};
+            item.code.a = static_cast<std::uint32_t>(here.symbol);
+            items_.push_back(item);
+            made = static_cast<std::uint32_t>(items_.size() - 1);
+            break;
+        }
+        case Graph::Kind::sum: made = sum(here); break;
+        case Graph::Kind::product: made = product(here); break;
+        case Graph::Kind::call: {
+            const std::uint32_t a = value(here.operands[0].node);
+            const auto function = static_cast<std::uint32_t>(here.function);
+            if (here.operands.size() > 1)
+                made = make(Op::call2, a, value(here.operands[1].node), function);
+            else
+                made = make(Op::call, a, 0, function);
+            break;
+        }
+    }
+    known_.emplace(node, made);
+    return made;
+}
+
+std::uint32_t Code::constant(double number) {
+    const auto key = std::bit_cast<std::uint64_t>(number);
+    if (const auto found = constants_.find(key); found != constants_.end()) return found->second;
+    items_.push_back({Kind::constant, number, {}});
+    return constants_[key] = static_cast<std::uint32_t>(items_.size() - 1);
+}
+
+std::uint32_t Code::make(Op op, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if ((op == Op::add || op == Op::multiply) && a > b) std::swap(a, b);
+    const auto key = std::tuple(op, a, b, c);
+    if (const auto found = made_.find(key); found != made_.end()) return found->second;
+    Item item{Kind::instruction, 0, {}};
+    item.code = {op, 0, a, b, c};
+    items_.push_back(item);
+    return made_[key] = static_cast<std::uint32_t>(items_.size() - 1);
+}
+
+/// A common size of all coefficients is multiplied in at the end: c (a - b).
+std::uint32_t Code::sum(const Graph::Node& node) {
+    const double first = std::fabs(node.operands.front().factor);
+    const bool isCommon = std::all_of(node.operands.begin(), node.operands.end(),
+                                      [&](const Graph::Operand& o) { return std::fabs(o.factor) == first; });
+    if (!isCommon || first == 1 || node.number != 0) return plainSum(node.number, node.operands, 1);
+    const bool isNegative = node.operands.size() == 1 && node.operands[0].factor < 0;
+    const double scale = isNegative ? -first : first;
+    const std::uint32_t inner = plainSum(0, node.operands, scale);
+    return make(Op::multiply, constant(scale), inner);
+}
+
+/// constant + sum of (factor / scale) term.
+std::uint32_t Code::plainSum(double start, const std::vector<Graph::Operand>& terms, double scale) {
+    std::vector<std::uint32_t> plus, minus;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> scaled;
+    for (const auto& [node, factor] : terms) {
+        const std::uint32_t v = value(node);
+        if (factor == scale)
+            plus.push_back(v);
+        else if (factor == -scale)
+            minus.push_back(v);
+        else
+            scaled.emplace_back(constant(factor / scale), v);
+    }
+    bool isEmpty = start == 0;
+    std::uint32_t sum = isEmpty ? 0 : constant(start);
+    const auto add = [&](std::uint32_t v) {
+        sum = isEmpty ? v : make(Op::add, sum, v);
+        isEmpty = false;
+    };
+    for (const std::uint32_t v : plus) add(v);
+    for (const auto& [c, v] : scaled) add(make(Op::multiply, c, v));
+    for (const std::uint32_t v : minus) {
+        sum = isEmpty ? make(Op::negate, v) : make(Op::subtract, sum, v);
+        isEmpty = false;
+    }
+    return sum;
+}
+
+std::uint32_t Code::product(const Graph::Node& node) {
+    bool isEmpty = true;
+    std::uint32_t result = 0;
+    for (const auto& [operand, exponent] : node.operands) {
+        const std::uint32_t factor = power(value(operand), exponent);
+        result = isEmpty ? factor : make(Op::multiply, result, factor);
+        isEmpty = false;
+    }
+    return result;
+}
+
+std::uint32_t Code::power(std::uint32_t base, double exponent) {
+    const double size = std::fabs(exponent);
+    if (2 * size != std::trunc(2 * size) || size > largestProduct)
+        return make(Op::call2, base, constant(exponent), static_cast<std::uint32_t>(Function::power));
+    const bool isWhole = size == std::trunc(size);
+    std::uint32_t root = isWhole ? base : make(Op::sqrt, base);
+    if (exponent < 0) root = make(Op::reciprocal, root);
+    if (isWhole) return whole(root, static_cast<long>(size));
+    if (size == 0.5) return root;
+    // x^(n + 1/2) = x^n sqrt x; for negative powers 1/x = (1/sqrt x)^2 costs no second division.
+    const std::uint32_t inner = exponent > 0 ? base : whole(root, 2);
+    return make(Op::multiply, root, whole(inner, static_cast<long>(size)));
+}
+
+std::uint32_t Code::whole(std::uint32_t base, long exponent) {
+    if (exponent == 1) return base;
+    const std::uint32_t half = whole(base, exponent / 2);
+    const std::uint32_t square = make(Op::multiply, half, half);
+    return exponent % 2 == 0 ? square : make(Op::multiply, base, square);
+}
+
+}  // namespace extremal::typed

@@ -1,0 +1,46 @@
+/// From a graph to instructions, before registers are given out: each value is made once and has its own number.
+/// Internal to engine/model/typed.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "engine/model/typed/graph.hpp"
+#include "engine/model/typed/tape.hpp"
+
+namespace extremal::typed {
+
+class Code {
+public:
+    enum class Kind : std::uint8_t { input, constant, instruction };
+    struct Item {
+        Kind kind;
+        double number = 0;         ///< constant
+        Instruction code{};        ///< instruction; operands are values; `to` is not used
+    };
+    explicit Code(const Graph& graph) : graph_(graph) {}
+
+    /// The value of a node; what it needs is made before it.
+    std::uint32_t value(int node);
+    const std::vector<Item>& items() const { return items_; }
+
+private:
+    std::uint32_t constant(double number);
+    std::uint32_t make(Op op, std::uint32_t a, std::uint32_t b = 0, std::uint32_t c = 0);
+    std::uint32_t sum(const Graph::Node& node);
+    std::uint32_t plainSum(double constant, const std::vector<Graph::Operand>& terms, double scale);
+    std::uint32_t product(const Graph::Node& node);
+    std::uint32_t power(std::uint32_t base, double exponent);
+    std::uint32_t whole(std::uint32_t base, long exponent);
+
+    const Graph& graph_;
+    std::vector<Item> items_;
+    std::map<int, std::uint32_t> known_;
+    std::map<int, std::uint32_t> inputs_;
+    std::map<std::uint64_t, std::uint32_t> constants_;
+    std::map<std::tuple<Op, std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> made_;
+};
+
+}  // namespace extremal::typed

@@ -1,0 +1,312 @@
+#include "engine/model/typed/typed_mechanics.hpp"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "engine/core/dimension.hpp"
+#include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/tape.hpp"
+
+namespace extremal::typed {
+namespace {
+
+/// Everything the calls need; immutable once made.
+struct Model {
+    int d = 0;
+    bool isQuadratic = false;  ///< in v
+    bool isDiagonal = false;   ///< L_vv
+    Tape value, gradient, force, jet, legendre;
+    std::vector<double> masses;            ///< separable
+    std::vector<double> hessian;           ///< its constant entries in place
+    struct Place {
+        std::size_t output, at, mirrored;  ///< output of the jet's tape -> two entries of the Hessian
+    };
+    std::vector<Place> places;
+};
+
+const Model& self(const void* p) { return *static_cast<const Model*>(p); }
+
+/// Registers for one evaluation: on the stack, or, for long formulas, one array per thread.
+class Registers {
+public:
+    Registers(const Model& m, const Tape& tape, double t, const double* q, const double* v)
+        : tape_(tape), at_(tape.registers() <= std::size(small_) ? small_ : large(tape.registers())) {
+        const auto d = static_cast<std::size_t>(m.d);
+        std::memcpy(at_, q, d * sizeof(double));
+        std::memcpy(at_ + d, v, d * sizeof(double));
+        at_[2 * d] = t;
+        tape.run(at_);
+    }
+    double operator[](std::size_t output) const { return tape_.output(output, at_); }
+
+private:
+    static double* large(std::size_t size) {
+        thread_local std::vector<double> registers;
+        if (registers.size() < size) registers.resize(size);
+        return registers.data();
+    }
+    const Tape& tape_;
+    double small_[192];
+    double* at_;
+};
+
+void jet(const void* p, const double& t, const double* q, const double* v, double* value, double* gradient,
+         double* hessian) {
+    const Model& m = self(p);
+    const Registers r(m, m.jet, t, q, v);
+    const auto n = static_cast<std::size_t>(2 * m.d);
+    *value = r[0];
+    for (std::size_t i = 0; i < n; ++i) gradient[i] = r[1 + i];
+    std::memcpy(hessian, m.hessian.data(), n * n * sizeof(double));
+    for (const Model::Place& place : m.places) hessian[place.at] = hessian[place.mirrored] = r[place.output];
+}
+
+void gradient(const void* p, const double& t, const double* q, const double* v, double* g) {
+    const Model& m = self(p);
+    const Registers r(m, m.gradient, t, q, v);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(2 * m.d); ++i) g[i] = r[i];
+}
+
+/// L_q; where L is separable it does not depend on v.
+void force(const Model& m, double t, const double* q, const double* v, double* f) {
+    const Registers r(m, m.force, t, q, v);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(m.d); ++i) f[i] = r[i];
+}
+void separableForce(const void* p, const double& t, const double* q, double* f) { force(self(p), t, q, q, f); }
+
+bool separableVelocity(const void* p, const double&, const double*, const double* momentum, double* v) {
+    const Model& m = self(p);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(m.d); ++i) v[i] = momentum[i] / m.masses[i];
+    return true;
+}
+
+/// Solves M x = b in place, M as a lower triangle; at most maxCoordinates, so nothing is allocated.
+bool solveMass(int d, const double* triangle, double* x) {
+    return withDimension(d, [&](auto dimension) {
+        constexpr int D = decltype(dimension)::value;
+        constexpr int most = D == Eigen::Dynamic ? static_cast<int>(maxCoordinates) : D;
+        Eigen::Matrix<double, D, D, 0, most, most> mass(d, d);
+        for (int i = 0; i < d; ++i)
+            for (int j = 0; j <= i; ++j) mass(i, j) = mass(j, i) = *triangle++;
+        const Eigen::PartialPivLU<decltype(mass)> lu(mass);
+        Eigen::Map<Eigen::Matrix<double, D, 1, 0, most, 1>> b(x, d);
+        const Eigen::Matrix<double, D, 1, 0, most, 1> solution = lu.solve(b);
+        b = solution;
+        return b.allFinite();
+    });
+}
+
+/// v from r = p - L_v at a guess, by one solve with the mass matrix there. Outputs of the tape: L_v, then L_vv.
+bool solveVelocity(const Model& m, const Registers& r, double* x) {
+    const auto d = static_cast<std::size_t>(m.d);
+    if (m.isDiagonal) {
+        bool isFinite = true;
+        for (std::size_t i = 0; i < d; ++i) {
+            x[i] /= r[d + (i + 1) * (i + 2) / 2 - 1];
+            isFinite = isFinite && std::isfinite(x[i]);
+        }
+        return isFinite;
+    }
+    double triangle[maxCoordinates * (maxCoordinates + 1) / 2];
+    for (std::size_t k = 0; k < d * (d + 1) / 2; ++k) triangle[k] = r[d + k];
+    return solveMass(m.d, triangle, x);
+}
+
+bool quadraticVelocity(const void* p, const double& t, const double* q, const double* momentum, double* v) {
+    const Model& m = self(p);
+    const Registers r(m, m.legendre, t, q, q);  // at v = 0, put in place
+    for (std::size_t i = 0; i < static_cast<std::size_t>(m.d); ++i) v[i] = momentum[i] - r[i];
+    return solveVelocity(m, r, v);
+}
+
+/// Newton on L_v(t, q, v) = p from v = 0, to round-off.
+bool newtonVelocity(const void* p, const double& t, const double* q, const double* momentum, double* v) {
+    const Model& m = self(p);
+    const auto d = static_cast<std::size_t>(m.d);
+    std::fill_n(v, d, 0);
+    double change[maxCoordinates], last = -1;
+    for (int iteration = 0; iteration < 50; ++iteration) {
+        const Registers r(m, m.legendre, t, q, v);
+        for (std::size_t i = 0; i < d; ++i) change[i] = momentum[i] - r[i];
+        if (!solveVelocity(m, r, change)) return false;
+        double size = 0, scale = 0;
+        for (std::size_t i = 0; i < d; ++i) {
+            v[i] += change[i];
+            size += std::fabs(change[i]);
+            scale += std::fabs(v[i]);
+        }
+        if (!(size < 1e300)) return false;
+        if (size <= 1e-15 * scale) return true;
+        if (iteration > 5 && size >= last && size <= 1e-10 * scale) return true;
+        last = size;
+    }
+    return false;
+}
+
+double energy(const void* p, const double& t, const double* q, const double* momentum, bool isFound, const double* v) {
+    const Model& m = self(p);
+    if (!isFound) return std::numeric_limits<double>::quiet_NaN();
+    const Registers r(m, m.value, t, q, v);
+    double sum = -r[0];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(m.d); ++i) sum += momentum[i] * v[i];
+    return sum;
+}
+
+/// Energy and flow are the same over each of the three Legendre transforms.
+template <bool (*velocity)(const void*, const double&, const double*, const double*, double*)>
+struct Over {
+    static double energyOf(const void* p, const double& t, const double* q, const double* momentum) {
+        double v[maxCoordinates];
+        const bool isFound = velocity(p, t, q, momentum, v);
+        return energy(p, t, q, momentum, isFound, v);
+    }
+    static bool flow(const void* p, const double& t, const double* q, const double* momentum, double* qdot,
+                     double* pdot) {
+        if (!velocity(p, t, q, momentum, qdot)) return false;
+        force(self(p), t, q, qdot, pdot);
+        return true;
+    }
+    static void set(Mechanics<double>& m) {
+        m.velocity = velocity;
+        m.energy = energyOf;
+        m.flow = flow;
+    }
+};
+
+/// The nodes of the derivatives with the parameters' values in place.
+struct Numeric {
+    Graph graph;
+    int value;
+    std::vector<int> gradient, hessian;
+
+    Numeric(const SymbolicLagrangian& from, const Formula& formula) {
+        std::vector<int> roots{from.value};
+        roots.insert(roots.end(), from.gradient.begin(), from.gradient.end());
+        roots.insert(roots.end(), from.hessian.begin(), from.hessian.end());
+        const std::vector<int> here = graph.adopt(from.graph, roots, [&](int symbol) -> std::optional<double> {
+            const int k = symbol - formula.firstParameter();
+            if (k < 0) return {};
+            return formula.parameters[static_cast<std::size_t>(k)].second;
+        });
+        const auto first = here.begin() + 1, second = first + static_cast<std::ptrdiff_t>(from.gradient.size());
+        value = here.front();
+        gradient.assign(first, second);
+        hessian.assign(second, here.end());
+    }
+    int second(int i, int j) const { return hessian[static_cast<std::size_t>(i * (i + 1) / 2 + j)]; }
+};
+
+class Builder {
+public:
+    Builder(const Formula& formula, Numeric& n) : formula_(formula), n_(n), d_(formula.dimension()) {}
+
+    TypedMechanics build() {
+        model_->d = d_;
+        model_->value = tape({n_.value});
+        model_->gradient = tape(n_.gradient);
+        model_->force = tape({n_.gradient.begin(), n_.gradient.begin() + d_});
+        buildJet();
+        buildLegendre();
+        TypedMechanics made;
+        Mechanics<double>& m = made.mechanics;
+        m.dimension = d_;
+        m.jet = jet;
+        m.gradient = gradient;
+        m.isTimeDependent = n_.graph.dependsOn({n_.value}, [&](int s) { return s == formula_.time(); });
+        if (findMasses()) {
+            m.isSeparable = true;
+            m.force = separableForce;
+            m.masses = model_->masses.data();
+            Over<separableVelocity>::set(m);
+        } else if (model_->isQuadratic) {
+            Over<quadraticVelocity>::set(m);
+        } else {
+            Over<newtonVelocity>::set(m);
+        }
+        for (int i = 0; i < d_; ++i)
+            if (n_.graph.isZero(n_.gradient[static_cast<std::size_t>(i)])) made.cyclic.push_back(i);
+        m.model = std::move(model_);
+        return made;
+    }
+
+private:
+    Tape tape(const std::vector<int>& roots) const { return Tape::of(n_.graph, roots, 2 * d_ + 1); }
+    bool isVelocity(int symbol) const { return symbol >= d_ && symbol < 2 * d_; }
+
+    void buildJet() {
+        const auto n = static_cast<std::size_t>(2 * d_);
+        std::vector<int> roots{n_.value};
+        roots.insert(roots.end(), n_.gradient.begin(), n_.gradient.end());
+        model_->hessian.assign(n * n, 0);
+        for (std::size_t i = 0, k = 0; i < n; ++i)
+            for (std::size_t j = 0; j <= i; ++j, ++k) {
+                const int node = n_.hessian[k];
+                if (n_.graph.isNumber(node)) {
+                    model_->hessian[i * n + j] = model_->hessian[j * n + i] = n_.graph.at(node).number;
+                } else {
+                    model_->places.push_back({roots.size(), i * n + j, j * n + i});
+                    roots.push_back(node);
+                }
+            }
+        model_->jet = tape(roots);
+    }
+    std::vector<int> massNodes() const {
+        std::vector<int> nodes;
+        for (int i = 0; i < d_; ++i)
+            for (int j = 0; j <= i; ++j) nodes.push_back(n_.second(d_ + i, d_ + j));
+        return nodes;
+    }
+    void buildLegendre() {
+        std::vector<int> mass = massNodes();
+        const auto atZero = [&](int symbol) { return isVelocity(symbol) ? std::optional<double>(0) : std::nullopt; };
+        std::vector<int> roots(n_.gradient.begin() + d_, n_.gradient.end());
+        model_->isQuadratic = !n_.graph.dependsOn(mass, [&](int s) { return isVelocity(s); });
+        model_->isDiagonal = true;
+        for (int i = 0; i < d_; ++i)
+            for (int j = 0; j < i; ++j)
+                model_->isDiagonal = model_->isDiagonal && n_.graph.isZero(n_.second(d_ + i, d_ + j));
+        roots.insert(roots.end(), mass.begin(), mass.end());
+        if (model_->isQuadratic) {
+            Graph graph;
+            const std::vector<int> there = graph.adopt(n_.graph, roots, atZero);
+            model_->legendre = Tape::of(graph, there, 2 * d_ + 1);
+        } else {
+            model_->legendre = tape(roots);
+        }
+    }
+    /// L_v = (m_i v_i) with constant m_i, seen in the formulas themselves.
+    bool findMasses() {
+        if (!model_->isDiagonal) return false;
+        std::vector<double> masses;
+        for (int i = 0; i < d_; ++i) {
+            const int mass = n_.second(d_ + i, d_ + i);
+            if (!n_.graph.isNumber(mass) || n_.graph.isZero(mass)) return false;
+            masses.push_back(n_.graph.at(mass).number);
+            const int momentum = n_.graph.scaled(n_.graph.symbol(d_ + i), masses.back());
+            if (n_.gradient[static_cast<std::size_t>(d_ + i)] != momentum) return false;
+        }
+        model_->masses = std::move(masses);
+        return true;
+    }
+
+    const Formula& formula_;
+    Numeric& n_;
+    int d_;
+    std::shared_ptr<Model> model_ = std::make_shared<Model>();
+};
+
+}  // namespace
+
+TypedMechanics makeMechanics(const Formula& formula) {
+    const auto symbolic = differentiate(formula);
+    Numeric numeric(*symbolic, formula);
+    return Builder(formula, numeric).build();
+}
+
+}  // namespace extremal::typed

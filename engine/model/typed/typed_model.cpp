@@ -1,0 +1,59 @@
+#include "engine/model/typed/typed_model.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "engine/core/problem.hpp"
+
+namespace extremal::typed {
+namespace {
+
+void checkName(const std::string& name, const std::string& pointer, const std::set<std::string>& taken,
+               std::vector<Problem>& problems) {
+    const std::string problem = nameProblem(name);
+    if (!problem.empty())
+        problems.push_back({pointer, "the name \"" + name + "\" " + problem, {}});
+    else if (taken.contains(name))
+        problems.push_back({pointer, "the name \"" + name + "\" is there twice", "every name has one meaning"});
+}
+
+}  // namespace
+
+Formula formulaOf(const Settings& settings) {
+    Formula formula;
+    std::vector<Problem> problems;
+    std::set<std::string> taken;
+    const Value* coordinates = settings.find("coordinates");
+    const Value* parameters = settings.find("parameters");
+    for (const Value& name : coordinates->asArray()) {
+        checkName(name.asString(), "/coordinates/" + std::to_string(formula.coordinates.size()), taken, problems);
+        taken.insert(name.asString());
+        formula.coordinates.push_back(name.asString());
+    }
+    for (const auto& [name, value] : parameters->asObject()) {
+        checkName(name, "/parameters/" + name, taken, problems);
+        taken.insert(name);
+        formula.parameters.emplace_back(name, value.asNumber());
+    }
+    if (formula.coordinates.empty()) problems.push_back({"/coordinates", "needs at least one name", {}});
+    if (formula.coordinates.size() > maxCoordinates)
+        problems.push_back({"/coordinates",
+                            "has " + std::to_string(formula.coordinates.size()) + " names, the limit is " +
+                                std::to_string(maxCoordinates),
+                            {}});
+    if (!problems.empty()) throw InvalidScene(std::move(problems));
+    formula.text = settings.text("lagrangian");
+    return formula;
+}
+
+TypedMechanics mechanicsOf(const Formula& formula) {
+    try {
+        TypedMechanics made = makeMechanics(formula);
+        if (const auto fault = degeneracy(formula, made.mechanics)) throw InvalidScene("/lagrangian", *fault);
+        return made;
+    } catch (const ExpressionError& e) {
+        throw InvalidScene("/lagrangian", std::string(e.what()) + "\n" + caretLines(formula.text, e.position), e.hint);
+    }
+}
+
+}  // namespace extremal::typed

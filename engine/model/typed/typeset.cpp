@@ -1,0 +1,242 @@
+#include "engine/model/typed/typeset.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/core/text.hpp"
+
+namespace extremal::typed {
+namespace {
+
+constexpr std::array<std::pair<const char*, const char*>, 37> greek = {
+    {{"alpha", "α"}, {"beta", "β"},   {"gamma", "γ"},    {"delta", "δ"}, {"epsilon", "ε"}, {"zeta", "ζ"},
+     {"eta", "η"},   {"theta", "θ"},  {"iota", "ι"},     {"kappa", "κ"}, {"lambda", "λ"},  {"mu", "μ"},
+     {"nu", "ν"},    {"xi", "ξ"},     {"omicron", "ο"},  {"rho", "ρ"},   {"sigma", "σ"},   {"tau", "τ"},
+     {"upsilon", "υ"}, {"phi", "φ"},  {"chi", "χ"},      {"psi", "ψ"},   {"omega", "ω"},   {"varphi", "φ"},
+     {"Gamma", "Γ"}, {"Delta", "Δ"},  {"Theta", "Θ"},    {"Lambda", "Λ"}, {"Xi", "Ξ"},     {"Pi", "Π"},
+     {"Sigma", "Σ"}, {"Upsilon", "Υ"}, {"Phi", "Φ"},     {"Psi", "Ψ"},   {"Omega", "Ω"},   {"Mu", "Μ"},
+     {"Rho", "Ρ"}}};
+
+/// A name as a letter or word, and an index below it.
+struct Name {
+    std::string base, index;
+    bool isLetter = false;  ///< one letter, Latin or Greek
+};
+
+Name split(const std::string& name) {
+    Name result;
+    const auto underscore = name.find('_');
+    std::size_t end = underscore;
+    if (end == std::string::npos) {
+        end = name.size();
+        while (end > 1 && name[end - 1] >= '0' && name[end - 1] <= '9') --end;
+        result.index = name.substr(end);
+    } else {
+        result.index = name.substr(underscore + 1);
+    }
+    result.base = name.substr(0, end);
+    result.isLetter = result.base.size() == 1;
+    for (const auto& [word, letter] : greek)
+        if (result.base == word) {
+            result.base = letter;
+            result.isLetter = true;
+        }
+    return result;
+}
+
+std::string plainIndex(const std::string& index) {
+    if (index.empty()) return {};
+    const bool isNumber = std::all_of(index.begin(), index.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (!isNumber) return "_" + index;
+    static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
+    std::string text;
+    for (const char c : index) text += digits[static_cast<std::size_t>(c - '0')];
+    return text;
+}
+
+/// p / q with a small q, if the number is one.
+bool isFraction(double x, double& p, double& q) {
+    for (q = 1; q <= 64; ++q) {
+        p = x * q;
+        if (std::fabs(p) < 1e6 && std::fabs(p - std::round(p)) < 1e-13 * std::fabs(p)) {
+            p = std::round(p);
+            return true;
+        }
+    }
+    return false;
+}
+
+class Printer {
+public:
+    Printer(const Graph& graph, const Formula& formula, TextForm form)
+        : graph_(graph), formula_(formula), isRich_(form == TextForm::rich) {}
+
+    std::string sum(int node) {
+        const Graph::Node& here = graph_.at(node);
+        if (here.kind != Graph::Kind::sum) return term(node, 1, true);
+        std::vector<std::pair<std::string, Graph::Operand>> terms;
+        for (const Graph::Operand& o : here.operands) terms.emplace_back(rank(o.node) + term(o.node, 1, true), o);
+        std::sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        // A sum that can start without a sign does.
+        const auto positive = std::find_if(terms.begin(), terms.end(), [](const auto& t) { return t.second.factor > 0; });
+        if (positive != terms.end() && positive->first[0] == terms[0].first[0])
+            std::rotate(terms.begin(), positive, positive + 1);
+        std::string text;
+        for (const auto& [key, o] : terms) text += term(o.node, o.factor, text.empty());
+        if (here.number != 0) text += signedNumber(here.number, text.empty());
+        return text;
+    }
+
+private:
+    /// Accelerations first, then velocities, then the rest.
+    char rank(int node) const {
+        const int d = formula_.dimension();
+        const auto has = [&](int from, int to) {
+            return graph_.dependsOn({node}, [&](int s) { return s >= from && s < to; });
+        };
+        if (has(2 * d + 1, 3 * d + 1)) return 'a';
+        return has(d, 2 * d) ? 'b' : 'c';
+    }
+    std::string sign(bool isNegative, bool isFirst) const {
+        if (isFirst) return isNegative ? "−" : "";
+        return isNegative ? " − " : " + ";
+    }
+    std::string signedNumber(double x, bool isFirst) const {
+        return sign(x < 0, isFirst) + numberText(std::fabs(x));
+    }
+    std::string numberText(double x) const {
+        if (x == std::numbers::pi) return "π";
+        double p = 0, q = 1;
+        if (isFraction(x, p, q) && q > 1 && std::fabs(x) * 1000 != std::round(std::fabs(x) * 1000))
+            return formatCount(p) + "/" + formatCount(q);
+        return formatNumber(x, 8);
+    }
+    std::string symbol(int s) const {
+        const int d = formula_.dimension();
+        if (s == formula_.time()) return italic("t");
+        if (s >= formula_.firstParameter())
+            return named(formula_.parameters[static_cast<std::size_t>(s - formula_.firstParameter())].first, 0);
+        const int dots = s < d ? 0 : s < 2 * d ? 1 : 2;
+        const int i = s < d ? s : s < 2 * d ? s - d : s - 2 * d - 1;
+        return named(formula_.coordinates[static_cast<std::size_t>(i)], dots);
+    }
+    std::string italic(const std::string& text) const { return isRich_ ? "<i>" + text + "</i>" : text; }
+    std::string named(const std::string& name, int dots) const {
+        Name parts = split(name);
+        if (dots > 0 && parts.isLetter) parts.base += dots == 1 ? "\u0307" : "\u0308";
+        std::string text = italic(parts.base);
+        if (!parts.index.empty()) text += isRich_ ? "<sub>" + parts.index + "</sub>" : plainIndex(parts.index);
+        if (dots > 0 && !parts.isLetter) text += dots == 1 ? "′" : "″";
+        return text;
+    }
+    bool isAtom(int node) const {
+        const Graph::Node& n = graph_.at(node);
+        return n.kind == Graph::Kind::symbol || (n.kind == Graph::Kind::number && n.number >= 0) ||
+               (n.kind == Graph::Kind::call && n.function == Function::abs);
+    }
+    std::string bracketed(int node) { return "(" + sum(node) + ")"; }
+    std::string atom(int node) { return isAtom(node) ? factorText(node, 1) : bracketed(node); }
+    std::string raised(const std::string& base, const std::string& exponent) const {
+        if (isRich_) return base + "<sup>" + exponent + "</sup>";
+        if (exponent == "2") return base + "²";
+        if (exponent == "3") return base + "³";
+        if (exponent == "4") return base + "⁴";
+        return base + "^" + (exponent.size() == 1 ? exponent : "(" + exponent + ")");
+    }
+    std::string callText(const Graph::Node& n, const std::string& exponent) {
+        const std::string first = sum(n.operands[0].node);
+        if (n.function == Function::abs) return "|" + first + "|";
+        if (n.function == Function::power) return raised(atom(n.operands[0].node), sum(n.operands[1].node));
+        std::string function(name(n.function));
+        if (!exponent.empty()) function = raised(function, exponent);
+        if (n.operands.size() > 1) return function + "(" + first + ", " + sum(n.operands[1].node) + ")";
+        return graph_.at(n.operands[0].node).kind == Graph::Kind::symbol ? function + " " + first
+                                                                         : function + "(" + first + ")";
+    }
+    /// node ^ exponent, exponent > 0.
+    std::string factorText(int node, double exponent) {
+        const Graph::Node& n = graph_.at(node);
+        if (exponent == 0.5) return "√" + atom(node);
+        if (n.kind == Graph::Kind::call && n.function != Function::abs && n.function != Function::power)
+            return callText(n, exponent == 1 ? "" : numberText(exponent));
+        if (exponent != 1) return raised(atom(node), numberText(exponent));
+        switch (n.kind) {
+            case Graph::Kind::number: return numberText(n.number);
+            case Graph::Kind::symbol: return symbol(n.symbol);
+            case Graph::Kind::call: return callText(n, {});
+            case Graph::Kind::sum:
+            case Graph::Kind::product: break;
+        }
+        return bracketed(node);
+    }
+    /// Parameters, coordinates and time, functions, velocities, accelerations: as one would write it.
+    std::string factorKey(const Graph::Operand& o) {
+        const Graph::Node& n = graph_.at(o.node);
+        const int d = formula_.dimension();
+        if (n.kind != Graph::Kind::symbol) return (rank(o.node) == 'c' ? "3" : "4") + factorText(o.node, 1);
+        const int s = n.symbol;
+        const int group = s >= formula_.firstParameter() ? 0 : s > 2 * d ? 7 : s >= d && s < 2 * d ? 6 : 2;
+        return std::to_string(group) + std::to_string(1000 + s);
+    }
+    std::string term(int node, double coefficient, bool isFirst) {
+        const Graph::Node& n = graph_.at(node);
+        const std::string start = sign(coefficient < 0, isFirst);
+        double p = std::fabs(coefficient), q = 1;
+        if (!isFraction(std::fabs(coefficient), p, q)) {
+            p = std::fabs(coefficient);
+            q = 1;
+        }
+        std::vector<Graph::Operand> factors{{node, 1}};
+        if (n.kind == Graph::Kind::product) factors = n.operands;
+        if (n.kind == Graph::Kind::sum && n.operands.size() == 1 && n.number == 0)
+            return term(n.operands[0].node, coefficient * n.operands[0].factor, isFirst);
+        std::vector<std::pair<std::string, Graph::Operand>> sorted;
+        for (const Graph::Operand& o : factors) sorted.emplace_back(factorKey(o), o);
+        std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<std::string> above, below;
+        if (p != 1) above.push_back(numberText(p));
+        if (q != 1) below.push_back(numberText(q));
+        for (const auto& [key, o] : sorted)
+            (o.factor > 0 ? above : below).push_back(factorText(o.node, std::fabs(o.factor)));
+        if (above.empty()) above.emplace_back("1");
+        std::string text = start + joined(above);
+        if (!below.empty()) text += " / " + (below.size() == 1 ? below[0] : "(" + joined(below) + ")");
+        return text;
+    }
+    static std::string joined(const std::vector<std::string>& parts) {
+        std::string text;
+        for (const std::string& part : parts) text += (text.empty() ? "" : " ") + part;
+        return text;
+    }
+
+    const Graph& graph_;
+    const Formula& formula_;
+    bool isRich_;
+};
+
+}  // namespace
+
+std::string symbolOf(const std::string& name) {
+    const Name parts = split(name);
+    return parts.base + plainIndex(parts.index);
+}
+
+std::string typeset(const Graph& graph, int node, const Formula& formula, TextForm form) {
+    return Printer(graph, formula, form).sum(node);
+}
+
+std::vector<std::string> equationLines(const Formula& formula, TextForm form) {
+    constexpr std::size_t longest = 3000;
+    const auto symbolic = differentiate(formula);
+    std::vector<std::string> lines;
+    for (const int equation : symbolic->equations) {
+        lines.push_back(typeset(symbolic->graph, equation, formula, form) + " = 0");
+        if (lines.back().size() > longest) lines.back() = "(too long to show)";
+    }
+    return lines;
+}
+
+}  // namespace extremal::typed
