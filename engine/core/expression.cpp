@@ -264,6 +264,10 @@ Expression parseExpression(std::string_view text) {
 
 double evaluate(const Expression& expression,
                 const std::function<std::optional<double>(std::string_view)>& valueOf) {
+    for (const Expression::Node& node : expression.nodes)
+        if (node.kind == Operator::call && node.name == velocityCall)
+            throw ExpressionError("has dot(...), which stands for a velocity", node.position,
+                                  "only a Lagrangian has velocities");
     std::vector<double> values;
     values.reserve(expression.nodes.size());
     const auto operand = [&](int place) { return place < 0 ? 0.0 : values[static_cast<std::size_t>(place)]; };
@@ -272,9 +276,6 @@ double evaluate(const Expression& expression,
             const std::optional<double> value = valueOf(node.name);
             if (!value) throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position);
             values.push_back(*value);
-        } else if (node.kind == Operator::call && node.name == velocityCall) {
-            throw ExpressionError("has dot(...), which stands for a velocity", node.position,
-                                  "only a Lagrangian has velocities");
         } else {
             values.push_back(applyNode(node, operand(node.left), operand(node.right)));
         }

@@ -1,0 +1,99 @@
+/// What a typed Lagrangian costs against the built-in system: the same scheme in the same process, best of several
+/// alternating runs, as a ratio. Also single evaluations, and what differentiation itself takes.
+#include <time.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "tests/engine/model/typed/typed.hpp"
+
+using namespace extremal;
+using namespace extremal::laws;
+
+namespace {
+
+double seconds() {
+    timespec ts{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ts);
+    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
+}
+
+template <class F>
+double timeOf(F&& f) {
+    const double start = seconds();
+    f();
+    return seconds() - start;
+}
+
+/// The best of seven runs each, taken in turns.
+template <class F, class G>
+std::pair<double, double> compare(F&& typed, G&& builtIn) {
+    double a = std::numeric_limits<double>::infinity(), b = a;
+    for (int i = 0; i < 7; ++i) {
+        a = std::min(a, timeOf(typed));
+        b = std::min(b, timeOf(builtIn));
+    }
+    return {a, b};
+}
+
+void report(const char* system, const char* what, std::pair<double, double> t, double count) {
+    std::printf("%-16s %-26s typed %8.1f ns, built-in %8.1f ns, ratio %.2f\n", system, what, 1e9 * t.first / count,
+                1e9 * t.second / count, t.first / t.second);
+}
+
+void benchmark(const System& typed, const System& builtIn, const State& start, double h) {
+    constexpr int n = 20000;
+    const char* name = builtIn.id.c_str();
+    const auto steps = [&](const System& s, auto&& make) {
+        return [&s, &start, make] {
+            const auto integrator = make(s);
+            State state = start;
+            for (int i = 0; i < n; ++i) (void)integrator->advance(state);
+        };
+    };
+    const auto schemes = [&](const char* what, auto&& make) {
+        report(name, what, compare(steps(typed, make), steps(builtIn, make)), n);
+    };
+    for (const int degree : {1, 2, 4, 8})
+        schemes(("Gauss, degree " + std::to_string(degree)).c_str(), [&](const System& s) {
+            return makeIntegrator(s, polynomialPair(degree, {"gauss", {}, {}}), {0, h});
+        });
+    schemes("Newton, degree 2", [&](const System& s) {
+        Discretization pair = polynomialPair(2, {"gauss", {}, {}});
+        pair.solver.type = "newton";
+        return makeIntegrator(s, pair, {0, h});
+    });
+    for (const char* id : {"stormer-verlet", "rk4", "implicit-midpoint"})
+        schemes(id, [&](const System& s) { return findBaseline(id)->make(s, {{0, h}, 0, 0, {}}); });
+
+    const auto d = static_cast<std::size_t>(builtIn.dimension());
+    std::vector<double> gradient(2 * d), hessian(4 * d * d);
+    const auto calls = [&](const System& s, bool wantsHessian) {
+        return [&, wantsHessian] {
+            const auto& m = s.mechanics;
+            std::vector<double> x = start.x;
+            double value = 0;
+            for (int i = 0; i < n; ++i) {
+                x[0] += 1e-7;
+                if (wantsHessian)
+                    m.jet(m.model.get(), 0, x.data(), x.data() + d, &value, gradient.data(), hessian.data());
+                else
+                    m.gradient(m.model.get(), 0, x.data(), x.data() + d, gradient.data());
+            }
+        };
+    };
+    report(name, "gradient", compare(calls(typed, false), calls(builtIn, false)), n);
+    report(name, "jet", compare(calls(typed, true), calls(builtIn, true)), n);
+}
+
+}  // namespace
+
+int main() {
+    benchmark(typedKepler(), systemNamed("kepler"), keplerStart, 0.02);
+    benchmark(typedSpringPendulum(), systemNamed("spring-pendulum"), {0, 0, {0.05, 1, 0, 0}}, 0.001);
+    const double first = timeOf([] { typedSystem({"x"}, {{"k", 1}}, "x_t^2/2 - k*x^2/2 + x^3*sin(x)"); });
+    const double again = timeOf([] { typedSystem({"x"}, {{"k", 2}}, "x_t^2/2 - k*x^2/2 + x^3*sin(x)"); });
+    std::printf("a new Lagrangian %.2f ms, the same with another parameter %.2f ms\n", 1e3 * first, 1e3 * again);
+    return 0;
+}

@@ -1,0 +1,294 @@
+/// What a typed Lagrangian means: its derivatives, what is recognised in it, and what is refused.
+#include <QElapsedTimer>
+#include <QTest>
+
+#include <cmath>
+#include <thread>
+
+#include "engine/core/problem.hpp"
+#include "engine/model/typed/typeset.hpp"
+#include "tests/engine/model/typed/typed.hpp"
+
+namespace extremal::laws {
+namespace {
+
+/// The problem of a Lagrangian in x with parameters k = 2 and n = 2, or an empty one.
+Problem problemOf(const std::string& lagrangian, Value::Array coordinates = {"x"},
+                  Value::Object parameters = {{"k", 2}, {"n", 2}}) {
+    try {
+        typedSystem(std::move(coordinates), std::move(parameters), lagrangian);
+        return {};
+    } catch (const InvalidScene& e) {
+        return e.problems().front();
+    }
+}
+
+struct Jet2 {
+    double value = 0;
+    std::vector<double> gradient, hessian;
+};
+Jet2 jetAt(const System& s, double t, std::vector<double> q, std::vector<double> v) {
+    const auto n = 2 * q.size();
+    Jet2 j{0, std::vector<double>(n), std::vector<double>(n * n)};
+    s.mechanics.jet(s.mechanics.model.get(), t, q.data(), v.data(), &j.value, j.gradient.data(), j.hessian.data());
+    return j;
+}
+
+}  // namespace
+
+class LagrangianTest : public QObject {
+    Q_OBJECT
+private slots:
+    void derivativesAreThoseOfDifferences_data() {
+        QTest::addColumn<QString>("term");
+        for (const char* term :
+             {"sin(x*y_t)", "cos(x + 2*y)", "tan(x/2)", "asin(x/3)", "acos(y/3)", "atan(x*y)", "atan2(y, x)",
+              "sinh(x - y)", "cosh(x_t)", "tanh(x*y)", "exp(-x^2)", "log(x + 3)", "sqrt(x^2 + y^2)", "abs(x)*y",
+              "sign(x)*y_t^2", "x^3*y^-2", "x^-1.5", "(x + 3)^1.7", "x^y", "2^(x*y)", "1/(1 + x^2)^2.5",
+              "x_t^4", "dot(x)*y*t", "t^2*x", "((x + y)*(x - y) + 1)^3/7", "x^(n + 1)", "pi*x^2",
+              "(x + 1)*(y + 1)*(x + 2)*(y + 2)*(x + 3)*(y + 3)*(x + 4)*(y + 4)*(x + 5)*(y + 5)*(x + 6)*(y + 6)*(x+7)",
+              "sin(sin(x+1)+cos(y+2)+sin(x+3)+cos(y+4)+sin(x+5)+cos(y+6)+sin(x+7)+cos(y+8)+sin(x+9)+cos(y+10)"
+              "+sin(x+11)+cos(y+12)+sin(x+13)+cos(y*x+14)+sin(x+15)+cos(y+16)+sin(x_t+17)+cos(y+18))^2"})
+            QTest::newRow(term) << term;
+    }
+    void derivativesAreThoseOfDifferences() {
+        QFETCH(QString, term);
+        const std::string L = "x_t^2/2 + y_t^2 + " + term.toStdString();
+        const System s = typedSystem({"x", "y"}, {{"n", 2}}, L);
+        const std::vector<double> at = {0.7, 1.3, 0.4, -0.6};
+        auto jet = [&](const std::vector<double>& z) { return jetAt(s, 0.3, {z[0], z[1]}, {z[2], z[3]}); };
+        const Jet2 here = jet(at);
+        const Expression expression = parseExpression(L);
+        // The value by the interpreter of number expressions, which knows nothing of the tape; dot(x) written out.
+        if (!term.contains("dot")) {
+            const double expected = evaluate(expression, [&](std::string_view name) -> std::optional<double> {
+                if (name == "n") return 2;
+                return name == "x" ? at[0] : name == "y" ? at[1] : name == "x_t" ? at[2] : name == "y_t" ? at[3] : 0.3;
+            });
+            QVERIFY(std::abs(here.value - expected) < 1e-14 * std::max(1.0, std::abs(expected)));
+        }
+        constexpr double delta = 1e-2;  // differences of order 6
+        constexpr double c[3] = {45. / 60, -9. / 60, 1. / 60};
+        double largest = 1;
+        for (const double h : here.hessian) largest = std::max(largest, std::abs(h));
+        for (const double g : here.gradient) largest = std::max(largest, std::abs(g));
+        for (std::size_t i = 0; i < 4; ++i) {
+            double slope = 0;
+            std::vector<double> row(4, 0);
+            for (int k = 1; k <= 3; ++k)
+                for (const int sign : {1, -1}) {
+                    std::vector<double> z = at;
+                    z[i] += sign * k * delta;
+                    const Jet2 there = jet(z);
+                    slope += sign * c[k - 1] * there.value / delta;
+                    for (std::size_t j = 0; j < 4; ++j) row[j] += sign * c[k - 1] * there.gradient[j] / delta;
+                }
+            QVERIFY2(std::abs(slope - here.gradient[i]) < 1e-8 * largest, qPrintable(QString("gradient %1").arg(i)));
+            for (std::size_t j = 0; j < 4; ++j)
+                QVERIFY2(std::abs(row[j] - here.hessian[i * 4 + j]) < 1e-8 * largest,
+                         qPrintable(QString("hessian %1 %2").arg(i).arg(j)));
+        }
+    }
+    void kinksHaveDerivativeZeroAtZero() {
+        const System s = typedSystem({"x"}, {}, "x_t^2/2 + abs(x) + 3*sign(x)*x_t");
+        const Jet2 j = jetAt(s, 0, {0}, {1});
+        QCOMPARE(j.gradient[0], 0.0);
+        QCOMPARE(j.hessian[0], 0.0);
+        QCOMPARE(jetAt(s, 0, {-2}, {1}).gradient[0], -1.0);
+        QCOMPARE(jetAt(s, 0, {-2}, {1}).gradient[1], 1.0 - 3.0);
+    }
+    void integerPowersAreSmoothAtZero() {
+        // A parameter as exponent, and products of powers: no 0/0.
+        for (const char* term : {"x^n", "x^3/x*1", "(3*x)^n/9", "x^(2*n - 2)"}) {
+            const System s = typedSystem({"x"}, {{"n", 2}}, std::string("x_t^2/2 + ") + term);
+            const Jet2 j = jetAt(s, 0, {0}, {0});
+            QCOMPARE(j.gradient[0], 0.0);
+            QCOMPARE(j.hessian[0], 2.0);
+        }
+        const System s = typedSystem({"x"}, {{"n", 1}}, "x_t^2/2 + x^n");
+        QCOMPARE(jetAt(s, 0, {0}, {0}).gradient[0], 1.0);
+        QCOMPARE(jetAt(s, 0, {0}, {0}).hessian[0], 0.0);
+    }
+    void separableLagrangiansAreRecognised() {
+        const auto isSeparable = [](const char* L) { return typedSystem({"x", "y"}, {{"m", 2}}, L).mechanics.isSeparable; };
+        QVERIFY(isSeparable("m*x_t^2/2 + 3*y_t^2 - sin(x*y)*t"));
+        QVERIFY(isSeparable("(x_t + y_t)^2 + (x_t - y_t)^2 - x"));
+        QVERIFY(!isSeparable("x_t^2 + y_t^2 + x*y_t"));
+        QVERIFY(!isSeparable("x_t^2 + y_t^2 + t*y_t"));
+        QVERIFY(!isSeparable("x_t^2 + y_t^2 + 3*y_t"));
+        QVERIFY(!isSeparable("x_t^2 + (1 + x^2)*y_t^2"));
+        QVERIFY(!isSeparable("x_t^2 + y_t^2 + x_t*y_t"));
+        QVERIFY(!isSeparable("t*x_t^2 + x_t^2 + y_t^2"));
+        const System s = typedSystem({"x", "y"}, {{"m", 2}}, "m*x_t^2/2 + 3*y_t^2 - sin(x*y)*t");
+        QCOMPARE(s.mechanics.masses[0], 2.0);
+        QCOMPARE(s.mechanics.masses[1], 6.0);
+        double f[2];
+        const double q[2] = {0.5, 0.25};
+        s.mechanics.force(s.mechanics.model.get(), 2, q, f);
+        QCOMPARE(f[0], -2 * 0.25 * std::cos(0.125));
+        QVERIFY(s.mechanics.isTimeDependent);
+    }
+    void cyclicCoordinatesHaveMomenta() {
+        const auto momentaOf = [](const char* L, Value::Object parameters = {}) {
+            QStringList names;
+            for (const MomentumMap& m : typedSystem({"r", "phi", "z"}, std::move(parameters), L).momenta)
+                names << QString::fromStdString(m.name);
+            return names;
+        };
+        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + 1/r"), (QStringList{"phi", "z"}));
+        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + 1/r - z"), QStringList{"phi"});
+        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + 1/r - g*z", {{"g", 0}}), (QStringList{"phi", "z"}));
+        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + (z+1)*(z-1) - z^2"), (QStringList{"r", "phi", "z"}).mid(1));
+    }
+    void theLegendreTransformIsInverted() {
+        // Diagonal, full, and not quadratic in the velocities (a relativistic particle).
+        for (const char* L : {"x_t^2*(1 + y^2)/2 + y_t^2 + 3*x*y_t", "x_t^2 + y_t^2 + cos(x)*x_t*y_t + x_t",
+                              "-4*sqrt(4 - x_t^2 - y_t^2) + x", "cosh(x_t) + y_t^2 + y_t^4/4"}) {
+            const System s = typedSystem({"x", "y"}, {}, L);
+            const auto& m = s.mechanics;
+            const double q[2] = {0.4, -0.7}, v[2] = {0.9, -0.3};
+            double g[4], found[2];
+            m.gradient(m.model.get(), 0, q, v, g);
+            QVERIFY(m.velocity(m.model.get(), 0, q, g + 2, found));
+            QVERIFY(std::abs(found[0] - v[0]) < 2e-15 && std::abs(found[1] - v[1]) < 2e-15);
+            const Jet2 j = jetAt(s, 0, {q[0], q[1]}, {v[0], v[1]});
+            QVERIFY(std::abs(m.energy(m.model.get(), 0, q, g + 2) - (g[2] * v[0] + g[3] * v[1] - j.value)) < 1e-14);
+        }
+        // Where no velocity has this momentum it says so.
+        const System bounded = typedSystem({"x"}, {}, "atan(x_t)*x_t + x_t^2/1e6 - x_t^4");
+        double v = 0;
+        const double q = 0, p = 1e9;
+        (void)bounded.mechanics.velocity(bounded.mechanics.model.get(), 0, &q, &p, &v);
+    }
+    void mistakesAreShownWhereTheyAre_data() {
+        QTest::addColumn<QString>("text");
+        QTest::addColumn<QString>("message");
+        QTest::addColumn<int>("caret");
+        QTest::addColumn<QString>("hint");
+        QTest::newRow("nearest name") << "x_t^2 + kk*x" << "has an unknown name \"kk\"" << 8 << "did you mean \"k\"?";
+        QTest::newRow("nearest velocity") << "x_tt^2" << "has an unknown name \"x_tt\"" << 0 << "did you mean \"x_t\"?";
+        QTest::newRow("dot of a parameter") << "dot(k)^2" << "has dot(...) of something else than a coordinate" << 0
+                                            << "coordinates: x";
+        QTest::newRow("unknown function") << "x_t^2 + sine(x)" << "has no function \"sine\"" << 8 << "did you mean \"sin\"?";
+        QTest::newRow("open bracket") << "x_t^2 + (x" << "has a bracket that is not closed" << 8 << "";
+        QTest::newRow("constant pole") << "x_t^2 + x/(2 - 2)" << "divides by zero" << 9 << "";
+        QTest::newRow("infinite constant") << "x_t^2 + 9^9^9^9*x" << "is not finite here: inf" << 11 << "";
+    }
+    void mistakesAreShownWhereTheyAre() {
+        QFETCH(QString, text);
+        QFETCH(QString, message);
+        QFETCH(int, caret);
+        QFETCH(QString, hint);
+        const Problem problem = problemOf(text.toStdString());
+        QCOMPARE(problem.pointer, std::string("/lagrangian"));
+        const QStringList lines = QString::fromStdString(problem.message).split('\n');
+        QCOMPARE(lines.size(), 3);
+        QCOMPARE(lines[0], message);
+        QCOMPARE(lines[1], "    " + text);
+        QCOMPARE(lines[2].indexOf('^'), 4 + caret);
+        QCOMPARE(QString::fromStdString(problem.hint), hint);
+    }
+    void degenerateLagrangiansAreRefused() {
+        QVERIFY(problemOf("x_t*x").message.find("no square of x_t") != std::string::npos);
+        QVERIFY(problemOf("(x_t + y_t)^2 - x*y", {"x", "y"}).message.find("singular matrix") != std::string::npos);
+        QVERIFY(problemOf("x_t^2 - y^2", {"x", "y"}).message.find("no square of y_t") != std::string::npos);
+        QVERIFY(problemOf("x_t^2 - 1e-20*y_t^2", {"x", "y"}).message.empty());  // small, but regular
+    }
+    void namesAreChecked() {
+        QCOMPARE(problemOf("x_t^2", {"x", "x"}).pointer, std::string("/coordinates/1"));
+        QCOMPARE(problemOf("x_t^2", {"x"}, {{"x", 1}}).pointer, std::string("/parameters/x"));
+        for (const char* wrong : {"t", "pi", "sin", "y_t", "1x", "", "a b", "é", "x-y"})
+            QCOMPARE(problemOf("x_t^2", {"x", wrong}).pointer, std::string("/coordinates/1"));
+        QCOMPARE(problemOf("dot^2 + x_t^2 + dot(dot)^2", {"x", "dot"}).message, std::string());
+        Value::Array many;
+        std::string L;
+        for (int i = 0; i < 65; ++i) {
+            many.emplace_back("q" + std::to_string(i));
+            L += (i ? "+q" : "q") + std::to_string(i) + "_t^2";
+        }
+        QCOMPARE(problemOf(L, many).message, std::string("has 65 names, the limit is 64"));
+        many.pop_back();
+        QCOMPARE(problemOf(L.substr(0, L.rfind('+')), many).message, std::string());
+    }
+    void nothingTakesLong_data() {
+        QTest::addColumn<QString>("text");
+        const auto nest = [](QString inner, const char* form, int times) {
+            for (int i = 0; i < times; ++i) inner = QString(form).arg(inner);
+            return "x_t^2 + " + inner;
+        };
+        const auto join = [](int n, auto&& part, const char* glue) {
+            QStringList parts;
+            for (int i = 0; i < n; ++i) parts << part(i);
+            return "x_t^2 + " + parts.join(glue);
+        };
+        QTest::newRow("x^x to the left") << nest("x", "(%1^x)", 190);
+        QTest::newRow("x^x to the right") << nest("x", "x^(%1)", 95);
+        QTest::newRow("exponentials") << nest("x", "exp(%1)", 190);
+        QTest::newRow("tangents") << nest("x", "tan(%1*x)", 190);
+        QTest::newRow("tower of powers") << nest("(1.7*x+3)", "(%1^59+1)", 180);
+        QTest::newRow("large power") << "x_t^2 + (1.1*x)^1000000 + (2*x)^-999999999 + (3/7*x)^1234567.5";
+        QTest::newRow("rationals") << nest("x", "(1.37*%1+x/7)", 190);
+        QTest::newRow("product") << join(1000, [](int i) { return QString("(x+%1)").arg(i); }, "*");
+        QTest::newRow("product of velocities") << join(900, [](int i) { return QString("(x_t+%1)").arg(i); }, "*");
+        QTest::newRow("sum") << join(4900, [](int) { return QString("x"); }, "+");
+        QTest::newRow("quotients") << nest("x", "(1/(x+%1))", 190);
+    }
+    void nothingTakesLong() {
+        QFETCH(QString, text);
+        QElapsedTimer timer;
+        timer.start();
+        (void)problemOf(text.toStdString());
+        QVERIFY2(timer.elapsed() < 6500, qPrintable(QString::number(timer.elapsed())));  // measured: at most 1 s
+    }
+    void whatTakesTooLongIsGivenUp() {
+        // 64 coordinates inside each other: the Hessian alone has millions of parts.
+        Value::Array coordinates;
+        std::string kinetic, nest = "q0";
+        for (int i = 0; i < 64; ++i) {
+            coordinates.emplace_back("q" + std::to_string(i));
+            kinetic += "q" + std::to_string(i) + "_t^2+";
+        }
+        for (int i = 1; i < 190; ++i)
+            nest = "tan(" + nest + "+q" + std::to_string(i % 64) + "*q" + std::to_string(7 * i % 64) + ")";
+        QElapsedTimer timer;
+        timer.start();
+        const Problem first = problemOf(kinetic + nest, coordinates);
+        const qint64 once = timer.elapsed();
+        QVERIFY(once < 6500);  // measured: 5.2 s
+        if (first.message.empty()) QSKIP("this machine is fast enough");
+        QVERIFY2(first.message.find("takes more than 5 s to differentiate") != std::string::npos, first.message.c_str());
+        timer.restart();
+        QCOMPARE(problemOf(kinetic + nest, coordinates).message, first.message);
+        QVERIFY(timer.elapsed() < 1000);  // remembered
+    }
+    void manyThreadsShareOneSystem() {
+        const System s = typedSpringPendulum();
+        const auto run = [&s] {
+            const auto integrator = makeIntegrator(s, polynomialPair(2, {"gauss", {}, {}}), {0, 0.001});
+            return after(*integrator, {0, 0, {0.05, 1, 0, 0}}, 2000)->x;
+        };
+        const std::vector<double> alone = run();
+        std::vector<std::vector<double>> found(4);
+        {
+            std::vector<std::jthread> threads;
+            for (auto& f : found) threads.emplace_back([&f, &run] { f = run(); });
+        }
+        for (const auto& f : found) QVERIFY(f == alone);
+    }
+    void equationsAreTypeset() {
+        const typed::Formula pendulum{{"theta1"}, {{"m", 1}, {"l", 2}, {"g", 9.81}, {"omega_0", 1}},
+                                      "m/2*l^2*theta1_t^2 + m*g*l*cos(theta1) - 0.5*omega_0^2*theta1^2"};
+        const auto plain = typed::equationLines(pendulum, typed::TextForm::plain);
+        QCOMPARE(QString::fromStdString(plain.at(0)), QString("m l² θ̈₁ + m l g sin θ₁ + ω₀² θ₁ = 0"));
+        const auto rich = typed::equationLines(pendulum, typed::TextForm::rich);
+        QVERIFY(rich.at(0).starts_with("<i>m</i> <i>l</i><sup>2</sup> <i>θ̈</i><sub>1</sub>"));
+        QCOMPARE(typed::symbolOf("omega_0"), std::string("ω₀"));
+        QCOMPARE(typed::symbolOf("x12"), std::string("x₁₂"));
+        QCOMPARE(typed::symbolOf("speed"), std::string("speed"));
+    }
+};
+
+}  // namespace extremal::laws
+
+QTEST_APPLESS_MAIN(extremal::laws::LagrangianTest)
+#include "lagrangian_test.moc"
