@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/integrator/galerkin_step.hpp"
+#include "engine/integrator/node_iteration_build.hpp"
 
 namespace extremal {
 
@@ -18,7 +19,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, Table<T> table, T step,
     tolerance_ = policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
     for (Columns* c : {&Y_, &previousY_, &R_, &delta_, &trial_}) *c = Columns::Zero(d(), m());
     for (Columns* c : {&nodeQ_, &nodeV_, &Lq_, &Lv_}) *c = Columns::Zero(d(), n());
-    for (Vector* v : {&q0_, &p0_, &v0_, &a0_}) *v = Vector::Zero(d());
+    for (Vector* v : {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_}) *v = Vector::Zero(d());
     jetGradient_ = Flat::Zero(2 * d());
     jetHessian_ = Flat::Zero(4 * d() * d());
     const int size = m() * d();
@@ -30,6 +31,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, Table<T> table, T step,
     const Square kinetic =
         table_.testDerivative.transpose() * table_.weight.asDiagonal() * table_.derivative / h_;
     kineticInverse_ = kinetic.partialPivLu().inverse();
+    if (mechanics_.isSeparable) together_.emplace(mechanics_, table_, h_, tolerance_);
 }
 
 /// q(c_i) and v(c_i) from Y.
@@ -143,18 +145,13 @@ bool GalerkinStep<T, D>::guess(const T& t) {
 
 /// Solves for the correction of Y from R; returns its size relative to the unknowns.
 template <class T, int D>
-T GalerkinStep<T, D>::correction(bool isNewton) {
+T GalerkinStep<T, D>::correction() {
     using std::abs;
-    if (isNewton) {
-        for (int a = 0; a < m(); ++a)
-            for (int k = 0; k < d(); ++k) flatR_(a * d() + k) = -R_(k, a);
-        flatDelta_ = lu_.solve(flatR_);
-        for (int a = 0; a < m(); ++a)
-            for (int k = 0; k < d(); ++k) delta_(k, a) = flatDelta_(a * d() + k);
-    } else {
-        delta_.noalias() = -R_.lazyProduct(kineticInverse_.transpose());
-        for (int k = 0; k < d(); ++k) delta_.row(k) /= mechanics_.masses[k];
-    }
+    for (int a = 0; a < m(); ++a)
+        for (int k = 0; k < d(); ++k) flatR_(a * d() + k) = -R_(k, a);
+    flatDelta_ = lu_.solve(flatR_);
+    for (int a = 0; a < m(); ++a)
+        for (int k = 0; k < d(); ++k) delta_(k, a) = flatDelta_(a * d() + k);
     ++report_.linearSolves;
     // Each coordinate is measured against its own increments and the round-off of its own value.
     T worst(0);
@@ -169,19 +166,18 @@ T GalerkinStep<T, D>::correction(bool isNewton) {
 }
 
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, bool isNewton,
-                                                                 const std::stop_token& stop) {
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, const std::stop_token& stop) {
     const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
     const int limit = policy_.maxIterations;
     T last = std::numeric_limits<T>::infinity();
     int growing = 0, sinceJacobian = 0;
     placeNodes();
-    if (isNewton && !assembleJacobian(t)) return Attempt::singular;
+    if (!assembleJacobian(t)) return Attempt::singular;
     for (int iteration = 0; iteration < limit; ++iteration) {
         if (stop.stop_requested()) return Attempt::stopped;
         evaluateForces(t);
         residual();
-        const T size = correction(isNewton);
+        const T size = correction();
         ++report_.iterations;
         report_.residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
@@ -190,10 +186,9 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, boo
         Y_ += delta_;
         placeNodes();
         ++sinceJacobian;
-        const bool isSlow = size > last * T(0.1);
         growing = size >= last ? growing + 1 : 0;
-        if (growing >= 4 || (!isNewton && isSlow && iteration >= 3)) return Attempt::failed;
-        if (isNewton && isSlow && sinceJacobian >= 2 && size > stagnation) {
+        if (growing >= 4) return Attempt::failed;
+        if (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation) {
             if (!assembleJacobian(t)) return Attempt::singular;
             sinceJacobian = 0;
         }
@@ -204,54 +199,104 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, boo
 
 /// Guess and iterate; where the continued curve was a poor guess (large steps), once more from the Taylor guess.
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::attempt(const T& t, bool isNewton,
-                                                                 const std::stop_token& stop) {
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, const std::stop_token& stop) {
     for (;;) {
         if (!guess(t)) return Attempt::singular;
-        const Attempt result = iterate(t, isNewton, stop);
-        if (result == Attempt::solved || result == Attempt::stopped || !hasCurve_) return result;
+        const Attempt result = iterate(t, stop);
+        if (result == Attempt::solved || result == Attempt::stopped || !hasCurve_) {
+            if (result == Attempt::solved && together_) together_->remember(Lq_);
+            return result;
+        }
         hasCurve_ = false;
     }
 }
 
 template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, const std::stop_token& stop) {
+    using Result = typename NodeIteration<T>::Result;
+    switch (together_->solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(), policy_.maxIterations, stop,
+                             report_)) {
+        case Result::solved: {
+            together_->increments(dq_.data(), dp_.data());
+            return dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
+        }
+        case Result::stopped: return Attempt::stopped;
+        case Result::notFinite: return Attempt::notFinite;
+        case Result::slow: break;
+    }
+    return Attempt::failed;
+}
+
+template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const std::stop_token& stop) {
-    if (policy_.method == SolverMethod::fixedPoint) return attempt(t, false, stop);
-    if (policy_.method == SolverMethod::automatic && mechanics_.isSeparable && newtonSteps_ == 0) {
-        if (!guess(t)) return Attempt::singular;
-        const Attempt result = iterate(t, false, stop);
-        if (result == Attempt::solved || result == Attempt::stopped) return result;
+    isTogether_ = false;
+    if (together_ && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
+        Attempt result = fixedPoint(t, stop);
+        // Forces continued from the step before may be a poor start where steps are large.
+        if (policy_.method == SolverMethod::fixedPoint && result != Attempt::solved && result != Attempt::stopped)
+            result = fixedPoint(t, stop);
+        isTogether_ = result == Attempt::solved;
+        hasCurve_ = false;
+        if (isTogether_ || result == Attempt::stopped || policy_.method == SolverMethod::fixedPoint) return result;
         newtonSteps_ = 32;  // the fixed point is slow here: stay with Newton for a while
     } else if (newtonSteps_ > 0) {
         --newtonSteps_;
     }
-    return attempt(t, true, stop);
+    return newton(t, stop);
+}
+
+/// Starts from (q, p), and from what the last step could not add if this is where it ended.
+template <class T, int D>
+void GalerkinStep<T, D>::takeUp(const T* q, const T* p) {
+    bool isNext = true;
+    for (int k = 0; k < d(); ++k) {
+        isNext = isNext && q[k] == lastQ_(k) && p[k] == lastP_(k);
+        q0_(k) = q[k];
+        p0_(k) = p[k];
+    }
+    if (isNext) return;
+    carryQ_.setZero();
+    carryP_.setZero();
+}
+
+/// Adds the increments to (q, p); the carries keep what is lost (Knuth's exact sum).
+template <class T, int D>
+void GalerkinStep<T, D>::add(T* q, T* p) {
+    if (!isTogether_) {
+        for (int k = 0; k < d(); ++k) {
+            T impulse(0);
+            for (int i = 0; i < n(); ++i) impulse += table_.weight(i) * Lq_(k, i);
+            dp_(k) = h_ * impulse;
+            dq_(k) = Y_(k, m() - 1);
+        }
+        previousY_ = Y_;
+    }
+    const auto sum = [](const T& a, const T& b, T& lost) {
+        const T s = a + b, back = s - a;
+        lost = (a - (s - back)) + (b - back);
+        return s;
+    };
+    for (int k = 0; k < d(); ++k) {
+        q[k] = lastQ_(k) = sum(q0_(k), dq_(k) + carryQ_(k), carryQ_(k));
+        p[k] = lastP_(k) = sum(p0_(k), dp_(k) + carryP_(k), carryP_(k));
+    }
 }
 
 template <class T, int D>
 StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_token& stop) {
     report_ = StepReport{};
     report_.step = static_cast<double>(h_);
-    for (int k = 0; k < d(); ++k) {
-        q0_(k) = q[k];
-        p0_(k) = p[k];
-    }
-    switch (solve(t, stop)) {
+    takeUp(q, p);
+    const Attempt result = solve(t, stop);
+    switch (result) {
         case Attempt::solved: break;
         case Attempt::failed: report_.outcome = Outcome::diverged; break;
         case Attempt::notFinite: report_.outcome = Outcome::notFinite; break;
         case Attempt::singular: report_.outcome = Outcome::singular; break;
         case Attempt::stopped: report_.outcome = Outcome::stopped; break;
     }
-    hasCurve_ = report_.outcome == Outcome::converged;
-    if (!hasCurve_) return report_;
-    for (int k = 0; k < d(); ++k) {
-        T impulse(0);
-        for (int i = 0; i < n(); ++i) impulse += table_.weight(i) * Lq_(k, i);
-        p[k] = p0_(k) + h_ * impulse;
-        q[k] = q0_(k) + Y_(k, m() - 1);
-    }
-    previousY_ = Y_;
+    hasCurve_ = result == Attempt::solved && !isTogether_;
+    if (result == Attempt::solved) add(q, p);
     return report_;
 }
 
@@ -262,8 +307,10 @@ void GalerkinStep<T, D>::curve(const T& tau, T* q, T* p) const {
     table_.space.evaluate(tau, value, slope);
     const Eigen::Map<const Flat> phi(value.data(), table_.space.size);
     const Flat y = table_.change.transpose() * phi;
+    Square Y = Y_, forces = Lq_;
+    if (isTogether_) together_->coefficients(Y, forces);
     for (int k = 0; k < d(); ++k) {
-        q[k] = q0_(k) + Y_.row(k).dot(y.transpose());
+        q[k] = q0_(k) + Y.row(k).dot(y.transpose());
         p[k] = p0_(k);
     }
     // p(tau) = p_0 + h int_0^tau of the polynomial through the L_q(i): at tau = 1 the rule itself. A composite rule has no
@@ -287,7 +334,7 @@ void GalerkinStep<T, D>::curve(const T& tau, T* q, T* p) const {
         }
     }
     for (int k = 0; k < d(); ++k)
-        for (int i = 0; i < n(); ++i) p[k] += h_ * share[static_cast<std::size_t>(i)] * Lq_(k, i);
+        for (int i = 0; i < n(); ++i) p[k] += h_ * share[static_cast<std::size_t>(i)] * forces(k, i);
 }
 
 }  // namespace extremal

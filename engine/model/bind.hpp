@@ -4,7 +4,7 @@
 ///   * `S lagrangian(t, q, v)`, generic in the number S (double, Dual, Jet): any Lagrangian; optionally
 ///     `void velocity(t, q, p, v)`, the inverse Legendre transform in closed form;
 ///   * `S potential(t, q)` and `std::array<T, d> masses<T>()`: L = 1/2 sum_i m_i v_i^2 - V(t, q), separable;
-///     optionally `void force(t, q, f)`, -dV/dq in closed form where the derivative of `potential` is slower.
+///     optionally `static constexpr bool isNodeParallel = true` (node_forces.hpp), and `void force(t, q, f)`, -dV/dq in closed form where the derivative of `potential` is slower.
 /// q and v are std::array<S, d>.
 #pragma once
 
@@ -16,6 +16,7 @@
 
 #include "engine/core/jet.hpp"
 #include "engine/model/mechanics.hpp"
+#include "engine/model/node_forces.hpp"
 
 namespace extremal {
 
@@ -30,7 +31,7 @@ namespace detail {
 template <class M, class T>
 struct Bound {
     static constexpr int d = M::dimension;
-    M model;
+    M model;  ///< first: NodeForces finds it where Bound starts
     std::array<T, d> masses{};
 };
 
@@ -171,6 +172,7 @@ Mechanics<T> bindMechanics(const M& model) {
         bound->masses = model.template masses<T>();
         m.isSeparable = true;
         m.force = &C::force;
+        if constexpr (NodeParallelModel<M> && std::is_same_v<T, double>) m.forces = NodeForces<M>::call();
         m.masses = bound->masses.data();
     }
     m.jet = &C::jet;

@@ -30,6 +30,9 @@ struct Mechanics {
     /// iteration apply, and force and masses are set.
     bool isSeparable = false;
     void (*force)(const void*, const T& t, const T* q, T* f) = nullptr;  ///< f = -dV/dq
+    /// The forces at many nodes together, where the system offers it (null else): coordinate k of node i is q[k * nodes + i],
+    /// likewise f; `nodes` is a multiple of 8.
+    void (*forces)(const void*, const T* t, int nodes, const T* q, T* f) = nullptr;
     const T* masses = nullptr;                                           ///< length d
     bool isTimeDependent = false;
 };

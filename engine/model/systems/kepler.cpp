@@ -15,6 +15,7 @@ namespace {
 
 struct Kepler {
     static constexpr int dimension = 2;
+    static constexpr bool isNodeParallel = true;
     double mu = 1;
 
     template <class T>
@@ -30,8 +31,13 @@ struct Kepler {
     void force(const T&, const T* q, T* f) const {
         using std::sqrt;
         const T r2 = q[0] * q[0] + q[1] * q[1], w = T(-mu) / (r2 * sqrt(r2));
-        // As one store: the caller reads f as a vector, and two narrow stores would make it wait for the cache.
-        Eigen::Map<Eigen::Array<T, 2, 1>>{f} = w * Eigen::Map<const Eigen::Array<T, 2, 1>>{q};
+        if constexpr (std::is_same_v<T, double>) {
+            // As one store: the caller reads f as a vector, and two narrow stores would make it wait for the cache.
+            Eigen::Map<Eigen::Array2d>{f} = w * Eigen::Map<const Eigen::Array2d>{q};
+        } else {
+            f[0] = w * q[0];
+            f[1] = w * q[1];
+        }
     }
 };
 

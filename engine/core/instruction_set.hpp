@@ -1,0 +1,39 @@
+/// Kernels compiled for several instruction sets and chosen at start.
+///
+/// A release runs on any x86-64; loops over Lanes are compiled for AVX2 and AVX-512 besides. Contraction is off
+/// everywhere, so all of them give the same bits.
+#pragma once
+
+#include <string_view>
+
+namespace extremal {
+
+enum class InstructionSet { baseline, avx2, avx512 };
+
+inline InstructionSet instructionSet() {
+#if defined(__x86_64__) && defined(__GNUC__)
+    if (__builtin_cpu_supports("x86-64-v4")) return InstructionSet::avx512;
+    if (__builtin_cpu_supports("x86-64-v3")) return InstructionSet::avx2;
+#endif
+    return InstructionSet::baseline;
+}
+
+constexpr std::string_view name(InstructionSet set) {
+    switch (set) {
+        case InstructionSet::avx512: return "AVX-512";
+        case InstructionSet::avx2: return "AVX2";
+        case InstructionSet::baseline: break;
+    }
+    return "baseline";
+}
+
+}  // namespace extremal
+
+/// In front of a function: compile it, and everything it calls in line, for that set.
+#if defined(__x86_64__) && defined(__GNUC__)
+#define EXTREMAL_FOR_AVX512 [[gnu::target("arch=x86-64-v4,prefer-vector-width=512"), gnu::flatten]]
+#define EXTREMAL_FOR_AVX2 [[gnu::target("arch=x86-64-v3"), gnu::flatten]]
+#else
+#define EXTREMAL_FOR_AVX512
+#define EXTREMAL_FOR_AVX2
+#endif

@@ -1,0 +1,203 @@
+/// The definition of NodeIteration for any scalar. Included where GalerkinStep is instantiated.
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "engine/integrator/node_iteration.hpp"
+
+namespace extremal {
+namespace detail {
+
+/// (j, i): weight of the force at node j in its continuation to 1 + c_i, by the polynomial of the highest degree whose
+/// Legendre coefficients the rule integrates exactly.
+template <class T>
+typename NodeIteration<T>::Square continuation(const Rule<T>& rule) {
+    const int n = rule.size(), degree = std::min(n - 1, rule.degree / 2);
+    typename NodeIteration<T>::Square here(n, degree + 1), beyond(n, degree + 1);
+    for (int i = 0; i < n; ++i) {
+        const auto fill = [&](auto row, const T& c) {
+            const T x = 2 * c - 1;
+            row(0) = T(1);
+            if (degree > 0) row(1) = x;
+            for (int k = 1; k < degree; ++k) row(k + 1) = (T(2 * k + 1) * x * row(k) - T(k) * row(k - 1)) / T(k + 1);
+        };
+        fill(here.row(i), rule.c[static_cast<std::size_t>(i)]);
+        fill(beyond.row(i), T(1) + rule.c[static_cast<std::size_t>(i)]);
+    }
+    for (int j = 0; j < n; ++j)
+        for (int k = 0; k <= degree; ++k) here(j, k) *= rule.b[static_cast<std::size_t>(j)] * T(2 * k + 1);
+    return here * beyond.transpose();
+}
+
+}  // namespace detail
+
+template <class T>
+NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& table, const T& h, const T& tolerance)
+    : mechanics_(mechanics),
+      d_(mechanics.dimension),
+      n_(table.nodes()),
+      m_(table.unknowns()),
+      stride_((n_ + 7) / 8 * 8),
+      h_(h),
+      tolerance_(tolerance) {
+    const Square kinetic = table.testDerivative.transpose() * table.weight.asDiagonal() * table.derivative / h;
+    const Square inverse = kinetic.partialPivLu().inverse();
+    const Square moments = h * (table.testValue.transpose() * table.weight.asDiagonal());  // m x n
+    const Square toForces = -inverse * moments;                                            // m x n
+    const Square G = table.value * toForces, start = G * detail::continuation<T>(table.rule).transpose();
+
+    const auto size = static_cast<std::size_t>(stride_), d = static_cast<std::size_t>(d_);
+    const auto unknowns = static_cast<std::size_t>(m_);
+    for (Array* a : {&node_, &weight_, &slope_, &times_}) a->assign(size, T(0));
+    for (Array* a : {&G_, &start_}) a->assign(size * size, T(0));
+    for (Array* a : {&base_, &F_, &Z_, &Q_}) a->assign(size * d, T(0));
+    for (Array* a : {&inverseMass_, &v0_, &lost_, &place_, &force_}) a->assign(d, T(0));
+    toForces_.assign(size * unknowns, T(0));
+    toVelocity_.assign(unknowns, T(0));
+    size_.resize(d);
+    for (int i = 0; i < stride_; ++i) {
+        const int node = std::min(i, n_ - 1);  // the lanes beyond the last node repeat it
+        node_[at(0, i)] = table.node(node);
+        slope_[at(0, i)] = -table.value.row(node).dot(inverse.col(m_ - 1));
+        for (int j = 0; j < n_; ++j) {
+            G_[at(j, i)] = G(node, j);
+            start_[at(j, i)] = start(node, j);
+        }
+    }
+    for (int i = 0; i < n_; ++i) weight_[at(0, i)] = h * table.weight(i);
+    for (int a = 0; a < m_; ++a) {
+        toVelocity_[static_cast<std::size_t>(a)] = -inverse(a, m_ - 1);
+        for (int i = 0; i < n_; ++i) toForces_[at(a, i)] = toForces(a, i);
+    }
+    for (int k = 0; k < d_; ++k) inverseMass_[static_cast<std::size_t>(k)] = 1 / mechanics.masses[k];
+    if constexpr (std::is_same_v<T, double>)
+        sweep_ = nodeParallelSweep();
+    else
+        sweep_ = &sweep<T>;
+}
+
+/// Times of the nodes, and where they would be without a force.
+template <class T>
+void NodeIteration<T>::place(const T& t, const T* p, const T* carryQ, const T* carryP) {
+    for (int i = 0; i < stride_; ++i) times_[at(0, i)] = t + node_[at(0, i)] * h_;
+    for (int k = 0; k < d_; ++k) {
+        const auto c = static_cast<std::size_t>(k);
+        v0_[c] = p[k] * inverseMass_[c];
+        lost_[c] = carryP[k] * inverseMass_[c];  // far below v_0, whose round-off would swallow it
+        for (int i = 0; i < stride_; ++i)
+            base_[at(k, i)] = slope_[at(0, i)] * v0_[c] + (slope_[at(0, i)] * lost_[c] + carryQ[k]);
+    }
+}
+
+template <class T>
+void NodeIteration<T>::evaluateForces() {
+    const void* model = mechanics_.model.get();
+    if (mechanics_.forces) return mechanics_.forces(model, times_.data(), stride_, Q_.data(), F_.data());
+    for (int i = 0; i < n_; ++i) {
+        for (int k = 0; k < d_; ++k) place_[static_cast<std::size_t>(k)] = Q_[at(k, i)];
+        mechanics_.force(model, times_[at(0, i)], place_.data(), force_.data());
+        for (int k = 0; k < d_; ++k) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
+    }
+}
+
+template <class T>
+void NodeIteration<T>::startFromConstantForce(const T& t, const T* q) {
+    mechanics_.force(mechanics_.model.get(), t, q, force_.data());
+    for (int k = 0; k < d_; ++k)
+        for (int i = 0; i < n_; ++i) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
+}
+
+/// Size of the last sweep's change: each coordinate against its own increments and the round-off of its own value.
+template <class T>
+T NodeIteration<T>::largestChange(const T* q) const {
+    using std::abs;
+    T worst(0);
+    for (int k = 0; k < d_; ++k) {
+        const SweepSize<T>& size = size_[static_cast<std::size_t>(k)];
+        const T roundOff = std::numeric_limits<T>::epsilon() * abs(q[k]);
+        if (!(size.change <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
+        if (size.change > roundOff * T(0.01)) worst = std::max(worst, T(size.change / std::max(size.scale, roundOff)));
+    }
+    return worst;
+}
+
+template <class T>
+typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ,
+                                                          const T* carryP, int maxIterations,
+                                                          const std::stop_token& stop, StepReport& report) {
+    const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
+    place(t, p, carryQ, carryP);
+    Sweep<T> s{d_, n_, stride_, start_.data(), base_.data(), F_.data(), inverseMass_.data(), q, Z_.data(), Q_.data(),
+               size_.data()};
+    if (!hasForces_) {
+        startFromConstantForce(t, q);
+        ++report.evaluations;
+        s.G = G_.data();
+    }
+    sweep_(s);
+    s.G = G_.data();
+    T last = std::numeric_limits<T>::infinity();
+    int growing = 0;
+    for (int iteration = 0; iteration < maxIterations; ++iteration) {
+        if (stop.stop_requested()) return Result::stopped;
+        evaluateForces();
+        sweep_(s);
+        ++report.iterations;
+        report.evaluations += n_;
+        const T size = largestChange(q);
+        report.residual = static_cast<double>(size);
+        hasForces_ = false;
+        if (!(size < std::numeric_limits<T>::infinity())) return Result::notFinite;
+        // At round-off, or so close that one more sweep would only change what is lost to it, or no longer shrinking
+        // within a few digits of it.
+        const bool isNext = iteration > 0 && size < last && size * (size / last) <= T(0.1) * tolerance_;
+        if (size <= tolerance_ || isNext || (size < stagnation && size >= last * T(0.25))) {
+            hasForces_ = true;
+            return Result::solved;
+        }
+        growing = size >= last ? growing + 1 : 0;
+        if (growing >= 4 || (iteration >= 3 && size > last * T(0.1))) return Result::slow;
+        last = size;
+    }
+    return Result::slow;
+}
+
+template <class T>
+T NodeIteration<T>::impulse(const Array& weights, int row, int k) const {
+    T sum(0);
+    for (int i = 0; i < n_; ++i) sum += weights[at(row, i)] * F_[at(k, i)];
+    return sum;
+}
+
+template <class T>
+void NodeIteration<T>::increments(T* dq, T* dp) const {
+    for (int k = 0; k < d_; ++k) {
+        const auto c = static_cast<std::size_t>(k);
+        const T drift = toVelocity_[static_cast<std::size_t>(m_ - 1)];
+        dq[k] = drift * v0_[c] + (impulse(toForces_, m_ - 1, k) * inverseMass_[c] + drift * lost_[c]);
+        dp[k] = impulse(weight_, 0, k);
+    }
+}
+
+template <class T>
+void NodeIteration<T>::coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> forces) const {
+    for (int k = 0; k < d_; ++k) {
+        const auto c = static_cast<std::size_t>(k);
+        for (int a = 0; a < m_; ++a)
+            Y(k, a) = toVelocity_[static_cast<std::size_t>(a)] * v0_[c] + impulse(toForces_, a, k) * inverseMass_[c];
+        for (int i = 0; i < n_; ++i) forces(k, i) = F_[at(k, i)];
+    }
+}
+
+template <class T>
+void NodeIteration<T>::remember(const Eigen::Ref<const Square>& forces) {
+    for (int k = 0; k < d_; ++k)
+        for (int i = 0; i < n_; ++i) F_[at(k, i)] = forces(k, i);
+    hasForces_ = true;
+}
+
+}  // namespace extremal

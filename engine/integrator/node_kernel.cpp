@@ -1,0 +1,69 @@
+#include "engine/integrator/node_kernel.hpp"
+
+#include "engine/core/instruction_set.hpp"
+#include "engine/core/lanes.hpp"
+
+namespace extremal {
+namespace {
+
+/// Column j of G times F_j, nodes i..i+7.
+Lanes term(const Sweep<double>& s, const double* F, int i, int j) {
+    return Lanes::load(s.G + j * s.stride + i) * Lanes(F[j]);
+}
+
+/// One instruction, which a NaN in a escapes.
+double larger(double a, double b) {
+    return b > a ? b : a;
+}
+/// Of eight; uses the array up.
+double largest(double* v) {
+    for (int l = 0; l < 4; ++l) v[l] = larger(v[l], v[l + 4]);
+    for (int l = 0; l < 2; ++l) v[l] = larger(v[l], v[l + 2]);
+    return larger(v[0], v[1]);
+}
+
+/// Sums are written out and go through memory every eight terms: the compiler keeps straight lines of Lanes in vector
+/// registers, but takes accumulators that live through a loop apart.
+void sweepLanes(const Sweep<double>& s) {
+    for (int k = 0; k < s.d; ++k) {
+        const double* F = s.F + k * s.stride;
+        double change = 0, scale = 0;
+        for (int i = 0; i < s.stride; i += 8) {
+            double* Z = s.Z + k * s.stride + i;
+            double sum[8] = {}, moved[8], far[8];
+            for (int j = 0; j < s.stride; j += 8) {
+                const Lanes part = ((term(s, F, i, j) + term(s, F, i, j + 1)) +
+                                    (term(s, F, i, j + 2) + term(s, F, i, j + 3))) +
+                                   ((term(s, F, i, j + 4) + term(s, F, i, j + 5)) +
+                                    (term(s, F, i, j + 6) + term(s, F, i, j + 7)));
+                (Lanes::load(sum) + part).store(sum);
+            }
+            const Lanes z = Lanes::load(s.base + k * s.stride + i) + Lanes::load(sum) * Lanes(s.inverseMass[k]);
+            const auto magnitude = [](double v) { return __builtin_fabs(v); };
+            (z - Lanes::load(Z)).map(magnitude).store(moved);
+            z.map(magnitude).store(far);
+            z.store(Z);
+            (Lanes(s.q[k]) + z).store(s.Q + k * s.stride + i);
+            change = larger(change, largest(moved));
+            scale = larger(scale, largest(far));
+        }
+        s.size[k] = {change, scale};
+    }
+}
+
+EXTREMAL_FOR_AVX512 void sweepAvx512(const Sweep<double>& s) { sweepLanes(s); }
+EXTREMAL_FOR_AVX2 void sweepAvx2(const Sweep<double>& s) { sweepLanes(s); }
+[[gnu::flatten]] void sweepBaseline(const Sweep<double>& s) { sweepLanes(s); }
+
+}  // namespace
+
+SweepCall nodeParallelSweep() {
+    switch (instructionSet()) {
+        case InstructionSet::avx512: return &sweepAvx512;
+        case InstructionSet::avx2: return &sweepAvx2;
+        case InstructionSet::baseline: break;
+    }
+    return &sweepBaseline;
+}
+
+}  // namespace extremal

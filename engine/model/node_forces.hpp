@@ -1,0 +1,66 @@
+/// The forces of a separable model at many nodes together, in the instruction set of this machine.
+///
+/// A model opts in by `static constexpr bool isNodeParallel = true`; its `potential` (and `force`) must then be generic in
+/// Lanes, too: plain arithmetic and sqrt are worth it, other functions run lane by lane.
+#pragma once
+
+#include <array>
+
+#include "engine/core/instruction_set.hpp"
+#include "engine/core/jet.hpp"
+#include "engine/core/lanes.hpp"
+
+namespace extremal {
+
+template <class M>
+concept NodeParallelModel = requires { requires M::isNodeParallel; };
+
+template <class M>
+struct NodeForces {
+    using Call = void (*)(const void*, const double* t, int nodes, const double* q, double* f);
+
+    /// For the model at the start of what `model` points to.
+    static Call call() {
+        switch (instructionSet()) {
+            case InstructionSet::avx512: return &avx512;
+            case InstructionSet::avx2: return &avx2;
+            case InstructionSet::baseline: break;
+        }
+        return &baseline;
+    }
+
+private:
+    static constexpr std::size_t d = static_cast<std::size_t>(M::dimension);
+
+    static void lanes(const M& m, const double* t, int nodes, const double* q, double* f) {
+        for (int i = 0; i < nodes; i += 8) {
+            std::array<Lanes, d> force;
+            const auto at = [&](std::size_t k) { return static_cast<int>(k) * nodes + i; };
+            if constexpr (requires(const Lanes* x, Lanes* y) { m.force(x[0], x, y); }) {
+                std::array<Lanes, d> Q;
+                for (std::size_t k = 0; k < d; ++k) Q[k] = Lanes::load(q + at(k));
+                m.force(Lanes::load(t + i), Q.data(), force.data());
+            } else {
+                using S = Dual<Lanes, M::dimension>;
+                std::array<S, d> Q;
+                for (std::size_t k = 0; k < d; ++k) Q[k] = S::variable(Lanes::load(q + at(k)), static_cast<int>(k));
+                const S U = m.potential(Lanes::load(t + i), Q);
+                for (std::size_t k = 0; k < d; ++k) force[k] = -U.g[k];
+            }
+            for (std::size_t k = 0; k < d; ++k) force[k].store(f + at(k));
+        }
+    }
+    static const M& model(const void* p) { return *static_cast<const M*>(p); }
+
+    EXTREMAL_FOR_AVX512 static void avx512(const void* p, const double* t, int nodes, const double* q, double* f) {
+        lanes(model(p), t, nodes, q, f);
+    }
+    EXTREMAL_FOR_AVX2 static void avx2(const void* p, const double* t, int nodes, const double* q, double* f) {
+        lanes(model(p), t, nodes, q, f);
+    }
+    [[gnu::flatten]] static void baseline(const void* p, const double* t, int nodes, const double* q, double* f) {
+        lanes(model(p), t, nodes, q, f);
+    }
+};
+
+}  // namespace extremal
