@@ -1,0 +1,199 @@
+/// The interactive plots, driven by the mouse and the keyboard.
+#include <qcustomplot.h>
+
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <cmath>
+
+#include "engine/figure/sample.hpp"
+#include "tests/engine/figure/hand_made.hpp"
+#include "ui/plots/plot_group.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/theme.hpp"
+
+namespace extremal {
+namespace {
+
+Figure figureOf(const char* view) {
+    static const System pendulum = handmade::pendulum();
+    View v;
+    v.id = view;
+    return makeFigure(handmade::comparison(), v, &pendulum);
+}
+
+QCustomPlot& canvas(PlotWidget& plot) { return *plot.findChild<QCustomPlot*>(); }
+/// The middle of the axis rectangle.
+QPoint middle(PlotWidget& plot) { return canvas(plot).axisRect()->rect().center(); }
+
+void wheel(PlotWidget& plot, QPoint at, int notches) {
+    QCustomPlot& c = canvas(plot);
+    QWheelEvent event(at, c.mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&c, &event);
+}
+
+std::unique_ptr<PlotWidget> shown(const char* view) {
+    auto plot = std::make_unique<PlotWidget>(Theme::light());
+    plot->resize(600, 400);
+    plot->setFigure(figureOf(view));
+    plot->show();
+    (void)QTest::qWaitForWindowExposed(plot.get());
+    canvas(*plot).replot();
+    return plot;
+}
+
+}  // namespace
+
+class PlotWidgetTest : public QObject {
+    Q_OBJECT
+private slots:
+    void zoomSticksWhenNewDataArrive() {
+        const auto plot = shown("energy");
+        QVERIFY(!plot->isUserZoomed());
+        const PlotRange before = plot->visibleRange(PlotAxis::x);
+        wheel(*plot, middle(*plot), 3);
+        const PlotRange zoomed = plot->visibleRange(PlotAxis::x);
+        QVERIFY(zoomed.high - zoomed.low < 0.7 * (before.high - before.low));
+        Figure longer = figureOf("energy");
+        longer.x.range = {0, 1000};
+        plot->setFigure(longer);
+        canvas(*plot).replot();
+        QCOMPARE(plot->visibleRange(PlotAxis::x), zoomed);
+        auto* chip = plot->findChild<QPushButton*>();
+        QVERIFY(chip->isVisible());
+        QTest::mouseClick(chip, Qt::LeftButton);
+        canvas(*plot).replot();
+        QVERIFY(!plot->isUserZoomed() && !chip->isVisible());
+        QVERIFY(plot->visibleRange(PlotAxis::x).high >= 1000);
+    }
+    void wheelOnAnAxisZoomsThatAxisAlone() {
+        const auto plot = shown("energy");
+        const PlotRange x = plot->visibleRange(PlotAxis::x), y = plot->visibleRange(PlotAxis::y);
+        const QRect rect = canvas(*plot).axisRect()->rect();
+        wheel(*plot, {rect.center().x(), rect.bottom() + 12}, 2);
+        QVERIFY(!(plot->visibleRange(PlotAxis::x) == x));
+        QCOMPARE(plot->visibleRange(PlotAxis::y), y);
+        wheel(*plot, {rect.left() - 12, rect.center().y()}, 2);
+        QVERIFY(!(plot->visibleRange(PlotAxis::y) == y));
+    }
+    void whatIsUnderThePointerStaysThere() {
+        const auto plot = shown("error");
+        const QRect rect = canvas(*plot).axisRect()->rect();
+        const QPoint at(rect.left() + rect.width() / 4, rect.center().y());
+        const auto valueAt = [&] {
+            const PlotRange r = plot->visibleRange(PlotAxis::x);
+            return r.low + (r.high - r.low) * (at.x() - rect.left()) / rect.width();
+        };
+        const double before = valueAt();
+        wheel(*plot, at, 5);
+        QVERIFY(std::abs(valueAt() - before) < 0.02);
+    }
+    void dragPansBoxZoomsBackspaceReturns() {
+        const auto plot = shown("energy");
+        QCustomPlot& c = canvas(*plot);
+        const PlotRange start = plot->visibleRange(PlotAxis::x);
+        const QPoint m = middle(*plot);
+        QTest::mousePress(&c, Qt::LeftButton, {}, m);
+        QTest::mouseMove(&c, m + QPoint(30, 0));
+        QTest::mouseMove(&c, m + QPoint(60, 0));
+        QTest::mouseRelease(&c, Qt::LeftButton, {}, m + QPoint(60, 0));
+        const PlotRange panned = plot->visibleRange(PlotAxis::x);
+        QVERIFY(panned.low < start.low && panned.high < start.high);
+        QVERIFY(std::abs((panned.high - panned.low) - (start.high - start.low)) < 1e-9);
+        QTest::mousePress(&c, Qt::LeftButton, Qt::ControlModifier, m - QPoint(80, 60));
+        QTest::mouseMove(&c, m + QPoint(80, 60));
+        QTest::mouseRelease(&c, Qt::LeftButton, Qt::ControlModifier, m + QPoint(80, 60));
+        const PlotRange boxed = plot->visibleRange(PlotAxis::x);
+        QVERIFY(boxed.high - boxed.low < 0.6 * (panned.high - panned.low));
+        QTest::keyClick(plot.get(), Qt::Key_Backspace);
+        QCOMPARE(plot->visibleRange(PlotAxis::x), panned);
+        QTest::keyClick(plot.get(), Qt::Key_Backspace);
+        QCOMPARE(plot->visibleRange(PlotAxis::x), start);
+        QTest::mouseDClick(&c, Qt::LeftButton, {}, m);
+        QVERIFY(!plot->isUserZoomed());
+    }
+    void timeAxesOfAGroupMoveTogether() {
+        const auto energy = shown("energy"), error = shown("error"), phase = shown("phase");
+        PlotGroup group;
+        for (PlotWidget* plot : {energy.get(), error.get(), phase.get()}) group.add(plot);
+        const PlotRange phaseBefore = phase->visibleRange(PlotAxis::x);
+        wheel(*energy, middle(*energy), 4);
+        QCOMPARE(error->visibleRange(PlotAxis::x), energy->visibleRange(PlotAxis::x));
+        QCOMPARE(phase->visibleRange(PlotAxis::x), phaseBefore);  // its x is no time
+        group.fitAll();
+        QVERIFY(!energy->isUserZoomed() && !error->isUserZoomed());
+    }
+    void aClickMovesTheCursorOfAllPlots() {
+        const auto energy = shown("energy"), error = shown("error");
+        PlotGroup group;
+        group.add(energy.get());
+        group.add(error.get());
+        QSignalSpy moved(&group, &PlotGroup::cursorMoved);
+        QTest::mouseClick(&canvas(*energy), Qt::LeftButton, {}, middle(*energy));
+        QCOMPARE(moved.count(), 1);
+        const PlotRange r = energy->visibleRange(PlotAxis::x);
+        QVERIFY(std::abs(moved[0][0].toDouble() - (r.low + r.high) / 2) < 0.05 * (r.high - r.low));
+    }
+    void valuesThatCannotBeDrawnAreGapsAndCounted() {
+        const Figure energy = figureOf("energy");  // a log axis: zeros and infinities
+        int hidden = 0;
+        for (const Series& s : energy.series) {
+            hidden += s.hidden;
+            for (const double v : s.y) QVERIFY(std::isnan(v) || (std::isfinite(v) && v > 0));
+        }
+        QVERIFY(energy.y.isLog && hidden > 0);
+        const auto plot = shown("energy");  // and such a figure fits and draws
+        const PlotRange y = plot->visibleRange(PlotAxis::y);
+        QVERIFY(std::isfinite(y.low) && std::isfinite(y.high) && y.low < y.high);
+    }
+    void savesInFourFormats() {
+        const auto plot = shown("energy");
+        QTemporaryDir dir;
+        const auto bytes = [&](const QString& name, double scale) {
+            QString error;
+            if (!plot->save(dir.filePath(name), scale, &error)) qWarning("%s", qPrintable(error));
+            QFile file(dir.filePath(name));
+            return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+        };
+        QImage once, twice;
+        QVERIFY(once.loadFromData(bytes("a.png", 1)) && twice.loadFromData(bytes("b.png", 2)));
+        QCOMPARE(twice.size(), 2 * once.size());
+        QVERIFY(bytes("c.pdf", 1).startsWith("%PDF-"));
+        QVERIFY(bytes("d.svg", 1).contains("<svg"));
+        const QByteArray csv = bytes("e.csv", 1);
+        QVERIFY(csv.count('\n') > 100);
+        QVERIFY(csv.contains("multiscale R2"));
+        QCOMPARE(bytes("c.pdf", 1), bytes("f.pdf", 1));  // the same bytes every time
+        QString error;
+        QVERIFY(!plot->save(dir.filePath("g.gif"), 1, &error));
+        QVERIFY(error.contains(".gif"));
+        QVERIFY(!plot->save(dir.filePath("missing/h.png"), 1, &error));
+    }
+    void csvOfTheVisiblePartIsAPart() {
+        Figure part = figureOf("energy");
+        const std::string all = figureCsv(part, false);
+        part.x.range = {2, 3};
+        const std::string visible = figureCsv(part, true);
+        QVERIFY(visible.size() < all.size() / 4);
+        QVERIFY(visible.size() > 100);
+    }
+    void hoveringNamesTheSchemeAndTheValue() {
+        const auto plot = shown("phase");
+        const Figure& figure = plot->figure();
+        QSignalSpy clicked(plot.get(), &PlotWidget::pointClicked);
+        QCustomPlot& c = canvas(*plot);
+        const Series& s = figure.series.front();
+        const QPoint at(static_cast<int>(c.xAxis->coordToPixel(s.x[50])), static_cast<int>(c.yAxis->coordToPixel(s.y[50])));
+        QTest::mouseClick(&c, Qt::LeftButton, {}, at);
+        QCOMPARE(clicked.count(), 1);
+        bool isASeries = false;
+        for (const Series& any : figure.series) isASeries = isASeries || any.style == clicked[0][0].toInt();
+        QVERIFY(isASeries);
+    }
+};
+
+}  // namespace extremal
+
+QTEST_MAIN(extremal::PlotWidgetTest)
+#include "plot_widget_test.moc"
