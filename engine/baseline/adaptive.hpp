@@ -1,4 +1,5 @@
-/// Adaptive explicit codes of Boost.odeint on (q, p), under error control: the library answer to "just integrate it".
+/// Adaptive explicit codes of Boost.odeint under error control, on (q, p) or on any system of first order: the library
+/// answer to "just integrate it".
 ///
 /// advance() takes one accepted step; the last one lands on the end. Both relative and absolute tolerance are the
 /// scene's tolerance. A step below round-off of t, or 500 refusals in a row, is Outcome::stepBudget.
@@ -8,7 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
@@ -20,11 +23,20 @@ class Adaptive final : public Integrator {
     using Vector = std::vector<double>;
 
 public:
-    Adaptive(const Mechanics<double>& mechanics, const BaselineOptions& options)
-        : mechanics_(mechanics),
+    /// xdot = rate(t, x); false where it is not defined.
+    using Rate = std::function<bool(double t, const double* x, double* dx)>;
+
+    Adaptive(const Mechanics<double>& m, const BaselineOptions& options)
+        : Adaptive(
+              [m](double t, const double* x, double* dx) {
+                  return m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
+              },
+              static_cast<std::size_t>(2 * m.dimension), options) {}
+
+    Adaptive(Rate rate, std::size_t n, const BaselineOptions& options)
+        : rate_(std::move(rate)),
           end_(options.end),
           stepper_(boost::numeric::odeint::make_controlled(options.tolerance, options.tolerance, Stepper())) {
-        const auto n = static_cast<std::size_t>(2 * mechanics.dimension);
         for (Vector* v : {&x_, &before_, &slopeBefore_, &slopeAfter_}) v->assign(n, 0);
     }
 
@@ -80,10 +92,7 @@ private:
         report.outcome = outcome;
         return report;
     }
-    bool flow(double t, const Vector& x, Vector& dx) const {
-        const auto d = static_cast<std::size_t>(mechanics_.dimension);
-        return mechanics_.flow(mechanics_.model.get(), t, x.data(), x.data() + d, dx.data(), dx.data() + d);
-    }
+    bool flow(double t, const Vector& x, Vector& dx) const { return rate_(t, x.data(), dx.data()); }
     /// A cautious first step: 1/1000 of the time scale |x| / |xdot|, at most a hundredth of what is left.
     double firstStep(const State& state) const {
         Vector dx(state.x.size());
@@ -97,7 +106,7 @@ private:
         return rate > 0 && size > 0 && std::isfinite(rate) ? std::min(cap, 1e-3 * size / rate) : cap * 1e-3;
     }
 
-    Mechanics<double> mechanics_;
+    Rate rate_;
     double end_, step_ = 0, startTime_ = 0, endTime_ = 0;
     bool isSingular_ = false;
     decltype(boost::numeric::odeint::make_controlled(1.0, 1.0, Stepper())) stepper_;

@@ -23,6 +23,7 @@ struct BaselineEntry {
     CatalogItem item;
     bool isAdaptive = false;  ///< takes "tolerance" instead of "step"
     std::function<bool(const System&)> applies;  ///< empty: every system with coordinates
+    std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
     std::function<std::unique_ptr<Integrator>(const System&, const BaselineOptions&)> make;
 };

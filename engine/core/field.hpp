@@ -24,7 +24,7 @@ struct FieldInfo {
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
     bool isMinExcluded = false;        ///< true: the value must be greater than min
-    std::vector<std::string> choices;  ///< for FieldType::choice
+    std::vector<std::string> choices;  ///< for FieldType::choice; the values allowed of a FieldType::integer, if any
     std::vector<std::string> components;  ///< for FieldType::numbers: what each number is called; gives their count
     bool isOptional = false;           ///< a key without a default that may be left out
     std::string description;           ///< one line

@@ -126,9 +126,10 @@ std::vector<double> startOf(const BodyMechanics<double>& body, const Settings& i
     return x;
 }
 
-FieldInfo optionalVector(const char* key, const char* title, const char* unit, std::vector<std::string> components,
+FieldInfo optionalVector(const char* key, const char* title, const char* symbol, const char* unit, std::vector<std::string> components,
                          const char* description) {
     FieldInfo f = numbers(key, title, unit, std::move(components), nullptr, description);
+    f.symbol = symbol;
     f.isOptional = true;
     return f;
 }
@@ -175,19 +176,19 @@ std::vector<FieldInfo> bodyInitialFields(bool movesInSpace) {
     std::vector<FieldInfo> fields{
         numbers("attitude", "attitude", "", {"w", "x", "y", "z"}, Value::Array{1.0, 0.0, 0.0, 0.0},
                 "Quaternion from body to space, of length 1."),
-        optionalVector("momentum", "angular momentum", "kg m²/s", body, "Angular momentum in body axes."),
-        optionalVector("omega", "angular velocity", "rad/s", body, "Angular velocity in body axes, instead of momentum.")};
+        optionalVector("momentum", "momentum", "Π", "kg m²/s", body, "Angular momentum in body axes."),
+        optionalVector("omega", "rate", "Ω", "rad/s", body, "Angular velocity in body axes, instead of momentum.")};
     if (!movesInSpace) return fields;
     fields.push_back(numbers("position", "position", "m", space, Value::Array{0.0, 0.0, 0.0},
                              "Centre of mass in space axes."));
-    fields.push_back(optionalVector("velocity", "velocity", "m/s", space, "Velocity of the centre of mass, in space axes."));
-    fields.push_back(optionalVector("linear_momentum", "linear momentum", "kg m/s", space,
+    fields.push_back(optionalVector("velocity", "velocity", "v", "m/s", space, "Velocity of the centre of mass, in space axes."));
+    fields.push_back(optionalVector("linear_momentum", "impulse", "p", "kg m/s", space,
                                     "Linear momentum in space axes, instead of velocity."));
     return fields;
 }
 
 FieldInfo inertiaField(std::array<double, 3> fallback) {
-    FieldInfo f = numbers("inertia", "moments of inertia", "kg m²", {"1", "2", "3"},
+    FieldInfo f = numbers("inertia", "inertia", "kg m²", {"1", "2", "3"},
                           Value::Array{fallback[0], fallback[1], fallback[2]}, "The three principal moments of inertia.");
     f.symbol = "I";
     f.min = 0;

@@ -198,7 +198,10 @@ Reference makeReference(const Scene& scene, const System& system, const State& i
             double scale = 0;
             for (const double v : initial.x) scale = std::max(scale, std::abs(v));
             Reference reference;
-            reference.info = {"exact", 2e-15 * scale, "exact solution"};
+            // An angle that grows by w t cannot be known better than to round-off of w t.
+            const double turns = system.hasBody() ? 0.25 * highestFrequency(system, initial) *
+                                                        (scene.end.value - scene.start.value) : 0;
+            reference.info = {"exact", 2e-15 * std::max(system.hasBody() ? 1.0 : scale, turns), "exact solution"};
             reference.make = [exact = system.exact, initial] { return exact(initial); };
             return reference;
         }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
@@ -64,6 +65,10 @@ Value numberOf(const FieldInfo& field) {
     Value number = typed(field.type == FieldType::integer ? "integer" : "number");
     if (std::isfinite(field.min)) number.set(field.isMinExcluded ? "exclusiveMinimum" : "minimum", field.min);
     if (std::isfinite(field.max)) number.set("maximum", field.max);
+    Value::Array allowed;
+    if (field.type == FieldType::integer)
+        for (const std::string& choice : field.choices) allowed.emplace_back(parseNumber(choice).value_or(0));
+    if (!allowed.empty()) number.set("enum", std::move(allowed));
     return anyOf({number, typed("string")});
 }
 

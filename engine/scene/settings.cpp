@@ -68,6 +68,11 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
         case FieldType::integer: {
             const auto number = reader.number(value, pointer, Limits::of(field));
             if (!number) return false;
+            const auto isValue = [&](const std::string& choice) { return choice == formatCount(number->value); };
+            if (!field.choices.empty() && std::none_of(field.choices.begin(), field.choices.end(), isValue)) {
+                reader.error(pointer, "must be one of " + joinNames(field.choices) + ", got " + formatCount(number->value));
+                return false;
+            }
             settings.keys.emplace_back(field.key, number->value);
             if (!number->expression.empty()) settings.expressions.emplace_back(field.key, number->expression);
             return true;

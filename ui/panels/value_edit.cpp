@@ -34,13 +34,16 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
     if (info.type == FieldType::boolean) {
         input = check_ = new QCheckBox;
         connect(check_, &QCheckBox::toggled, this, [this](bool on) { emit edited(Value(on)); });
-    } else if (info.type == FieldType::choice) {
+    } else if (info.type == FieldType::choice || (info.type == FieldType::integer && !info.choices.empty())) {
         input = choice_ = new QComboBox;
         for (const std::string& choice : info.choices) choice_->addItem(QString::fromStdString(choice));
         choice_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         choice_->setMinimumContentsLength(6);
         connect(choice_, &QComboBox::activated, this,
-                [this](int i) { emit edited(Value(info_.choices[static_cast<std::size_t>(i)])); });
+                [this](int i) {
+                    const bool isInteger = info_.type == FieldType::integer;
+                    emit edited(isInteger ? Value(choice_->itemText(i).toInt()) : Value(choice_->itemText(i).toStdString()));
+                });
     } else if (info.type == FieldType::integer) {
         input = spin_ = new QSpinBox;
         spin_->setRange(asInt(info.min, -1000000000), asInt(info.max, 1000000000));
@@ -68,7 +71,7 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
 void ValueEdit::makeText() {
     text_ = new QLineEdit;
     if (info_.type == FieldType::number) text_->setAlignment(Qt::AlignRight);
-    text_->setMinimumWidth(40);
+    text_->setMinimumWidth(info_.type == FieldType::numbers ? 116 : 40);
     text_->installEventFilter(this);
     connect(text_, &QLineEdit::editingFinished, this, &ValueEdit::submitText);
 }
@@ -118,7 +121,7 @@ void ValueEdit::show(const Value& value) {
     const QSignalBlocker b1(check_), b2(spin_), b3(choice_);
     if (check_) check_->setChecked(value.isBool() && value.asBool());
     if (spin_ && value.isNumber()) spin_->setValue(static_cast<int>(value.asNumber()));
-    if (choice_ && value.isString()) choice_->setCurrentText(QString::fromStdString(value.asString()));
+    if (choice_) choice_->setCurrentText(fieldText(value));
     if (!text_) return;
     const QString text = fieldText(value);
     const bool isTyping = text_->hasFocus() && text_->text() != shown_;

@@ -1,10 +1,13 @@
 /// Free rigid body on SO(3): L = 1/2 eta . I eta, eta the angular velocity in body axes. SI units.
 #include <algorithm>
 
+#include "engine/model/free_body_motion.hpp"
 #include "engine/model/rigid.hpp"
 
 namespace extremal::systems {
 namespace {
+
+using Three = std::array<double, 3>;
 
 System make(const Settings& settings) {
     System s;
@@ -17,6 +20,7 @@ System make(const Settings& settings) {
     const char* symbols[] = {"π_x", "π_y", "π_z"};
     for (int i = 0; i < 3; ++i)
         s.momenta.push_back({names[i], symbols[i], "kg m²/s", [i](const double* x, const double*) { return x[7 + i]; }});
+    s.exact = [I = Three{inertia[0], inertia[1], inertia[2]}](const State& initial) { return freeBodyMotion(I, initial); };
     s.casimir = [](double, const double* x) { return x[4] * x[4] + x[5] * x[5] + x[6] * x[6]; };
     s.draw = [half = boxOf(s.body)](const double* x, Drawing& drawing) { drawBox(half, {0, 0, 0}, x, drawing); };
     return s;

@@ -1,0 +1,59 @@
+/// The classical Runge-Kutta method of order 4 on attitude quaternion and momentum in the body, with or without bringing
+/// the quaternion back to length 1 after each step.
+#include "engine/baseline/body_method.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+class Rk4Quaternion final : public BodyMethod {
+public:
+    Rk4Quaternion(const System& system, const BaselineOptions& options)
+        : BodyMethod(system, options.clock), isProjected_(options.settings.flag("projection")) {}
+
+private:
+    static Motion sum(const Motion& m, double s, const Motion& d) {
+        return {m.q + s * d.q, m.momentum + s * d.momentum, m.position + s * d.position, m.linear + s * d.linear};
+    }
+    /// q' = q (0, omega) / 2, Pi' = Pi x omega + torque, x' = p / m, p' = R force.
+    Motion rate(const Motion& m) {
+        Vector torque, force;
+        if (body_.isFree()) ++report_.evaluations;
+        forces(m, torque, force);
+        const Vector w = omega(m.momentum);
+        Motion d;
+        d.q = so3::product(m.q, Quaternion(0, w(0) / 2, w(1) / 2, w(2) / 2));
+        d.momentum = so3::cross(m.momentum, w) + torque;
+        if (body_.dimension == 6) {
+            d.position = m.linear / body_.inertia[3];
+            d.linear = so3::matrix(so3::normalised(m.q)) * force;
+        }
+        return d;
+    }
+    void step(Motion& m, double h) override {
+        const Motion k1 = rate(m), k2 = rate(sum(m, h / 2, k1)), k3 = rate(sum(m, h / 2, k2)), k4 = rate(sum(m, h, k3));
+        m = sum(sum(sum(sum(m, h / 6, k1), h / 3, k2), h / 3, k3), h / 6, k4);
+        if (isProjected_) m.q = so3::normalised(m.q);
+    }
+    bool isProjected_;
+};
+
+}  // namespace
+
+BaselineEntry rk4_quaternion() {
+    FieldInfo projection;
+    projection.key = projection.title = "projection";
+    projection.type = FieldType::boolean;
+    projection.fallback = true;
+    projection.description = "Bring the quaternion back to length 1 after each step.";
+    BaselineEntry e;
+    e.item = {"rk4-quaternion", "RK4 on quaternions",
+              "Classical Runge-Kutta of order 4 for rigid bodies: energy and momentum drift.", {projection},
+              Claims{4, false, false, {}}, "a rigid body"};
+    e.applies = [](const System& system) { return system.hasBody(); };
+    e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
+        return std::make_unique<Rk4Quaternion>(system, options);
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines
