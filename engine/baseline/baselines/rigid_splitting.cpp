@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include <limits>
+
 #include "engine/baseline/body_method.hpp"
 
 namespace extremal::baselines {
@@ -83,6 +85,7 @@ BaselineEntry rigid_splitting() {
               "Explicit splitting of a rigid body into rotations about its axes; kicks for a potential.", {order},
               Claims{2, true, true, {"momentum"}}, "a rigid body"};
     e.claims = [](const Settings& settings) { return Claims{settings.integer("order"), true, true, {"momentum"}}; };
+    e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.applies = [](const System& system) { return system.hasBody(); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<RigidSplitting>(system, options);

@@ -1,5 +1,7 @@
 /// The classical Runge-Kutta method of order 4 on attitude quaternion and momentum in the body, with or without bringing
 /// the quaternion back to length 1 after each step.
+#include <limits>
+
 #include "engine/baseline/body_method.hpp"
 
 namespace extremal::baselines {
@@ -49,6 +51,7 @@ BaselineEntry rk4_quaternion() {
     e.item = {"rk4-quaternion", "RK4 on quaternions",
               "Classical Runge-Kutta of order 4 for rigid bodies: energy and momentum drift.", {projection},
               Claims{4, false, false, {}}, "a rigid body"};
+    e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.applies = [](const System& system) { return system.hasBody(); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Rk4Quaternion>(system, options);
