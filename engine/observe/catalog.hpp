@@ -9,6 +9,7 @@
 #include "engine/core/catalog.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/core/state.hpp"
+#include "engine/integrator/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/evaluation.hpp"
 #include "engine/trajectory/trajectory.hpp"
@@ -21,6 +22,9 @@ struct ObserveContext {
     const State& initial;
     /// The reference solution, one per run because it may keep a warm start; empty where there is none.
     ExactSolution reference;
+    /// The pair and the step of the scheme; null for baselines, and where only the columns are asked for.
+    const Discretization* pair = nullptr;
+    double step = 0;
 };
 
 /// An observable bound to one run: its columns, and a pure function from a node to their values.

@@ -13,6 +13,7 @@
 #include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
@@ -126,9 +127,10 @@ Reference fromScheme(const Scene& scene, const System& system, const State& init
     };
     Reference reference;
     reference.info = {"scheme", unknown, spec.label};
-    reference.make = marching(make(spec.step.value), initial);
+    const State own = schemeStart(scene, system, spec, spec.step.value, initial);
+    reference.make = marching(make(spec.step.value), own);
     if (!isAdaptive(spec)) {
-        const auto coarse = marching(make(2 * spec.step.value), initial);
+        const auto coarse = marching(make(2 * spec.step.value), own);
         reference.info.estimatedError =
             distance(reference.make(), coarse(), scene, errorMeasure(system, initial), initial.x.size(), stop);
     }

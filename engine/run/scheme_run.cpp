@@ -13,6 +13,7 @@
 #include "engine/run/advice.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
@@ -108,10 +109,12 @@ struct SchemeRun::Pass {
     }
 
     void bindObservers(const Reference& reference, const std::vector<std::string>& observe, const State& initial) {
+        const auto pair = pairOf(spec);
         for (const std::string& id : observe) {
             const ObservableEntry* entry = findObservable(id);
             if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
-            Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{}}),
+            Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{}, pair ? &*pair : nullptr,
+                                 step}),
                     result.trajectory.columns.size(), nullptr};
             if (b.observer.extreme >= 0) {
                 if (id == "energy") b.extreme = &Summary::maxEnergyError;
@@ -297,7 +300,8 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
     using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
     auto pass = [&](long long stride, long long maxRows) {
-        Pass p(scene_, spec_, system, initial, reference, scene_.observe, spec_.step.value, stride, style, stop);
+        const State own = schemeStart(scene_, system, spec_, spec_.step.value, initial);
+        Pass p(scene_, spec_, system, own, reference, scene_.observe, spec_.step.value, stride, style, stop);
         p.maxRows = maxRows;
         auto last = Clock_::now();
         auto pause = std::chrono::milliseconds(30);
@@ -356,7 +360,9 @@ void SchemeRun::measureOrder(SchemeResult& result, const System& system, const S
     for (const double v : initial.x) scale = std::max(scale, std::abs(v));
     std::vector<double> x, y;
     for (const double divisor : {1.0, 2.0, 4.0}) {
-        Pass p(scene_, spec_, system, initial, reference, {"error"}, spec_.step.value / divisor, 1LL << 60, 0, stop);
+        const double step = spec_.step.value / divisor;
+        const State own = schemeStart(scene_, system, spec_, step, initial);
+        Pass p(scene_, spec_, system, own, reference, {"error"}, step, 1LL << 60, 0, stop);
         p.run([] {});
         const double error = p.result.summary.maxError;
         // Round-off accumulates along the run: in the worst case, for growing errors, by every step.

@@ -5,6 +5,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 
@@ -21,6 +22,7 @@ State initialState(const Scene& scene, const System& system) {
         state.x = system.start(scene.initial.given);
         return state;
     }
+    if (scene.initial.second == Initial::Second::position) return exactStart(scene, system);
     const auto d = static_cast<std::size_t>(system.dimension());
     state.x.assign(2 * d, 0);
     for (std::size_t i = 0; i < d; ++i) {

@@ -13,7 +13,8 @@ namespace extremal {
 
 System makeSystem(const Scene& scene);
 
-/// The state at the start; velocities are turned into momenta, p = L_v(t, q, v).
+/// The state at the start; velocities are turned into momenta, p = L_v(t, q, v), and two positions into the momentum of
+/// the exact motion between them. Schemes start from schemeStart (scene/two_positions.hpp).
 State initialState(const Scene& scene, const System& system);
 
 /// The pair that a scheme stands for; none for baselines.

@@ -8,6 +8,7 @@
 #include "engine/scene/cost.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
+#include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
@@ -96,6 +97,7 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
                const std::optional<Discretization>& pair, const std::string& pointer) {
     try {
         makeScheme(system, scheme, scheme.step.value, scene.start.value, scene.end.value);
+        schemeStart(scene, system, scheme, scheme.step.value, initialState(scene, system));
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
         return;

@@ -41,6 +41,7 @@ ReadScene readDocument(const Value& document, const std::string& directory) {
     if (model) readInitial(reader, document, *model, scene);
     readTime(reader, document, scene);
     const auto places = readSchemes(reader, document, scene);
+    if (model) readStart(reader, *model, scene);
     readReference(reader, document, directory, scene);
     readOutput(reader, document, scene);
     readObserve(reader, document, model, scene);

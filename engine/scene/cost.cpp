@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "engine/scene/bind.hpp"
+#include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
@@ -20,7 +21,7 @@ double predictSeconds(const Scene& scene, const System& system, const SchemeSpec
     constexpr int largestBlock = 1024;
     const double start = scene.start.value, end = scene.end.value;
     const auto integrator = makeScheme(system, scheme, scheme.step.value, start, end);
-    State state = initialState(scene, system);
+    State state = schemeStart(scene, system, scheme, scheme.step.value, initialState(scene, system));
     const double begin = threadSeconds();
     double spent = 0;
     // Blocks that double: reading the clock costs as much as a cheap step.

@@ -10,7 +10,7 @@ inline const std::vector<std::string> root = {"$schema",   "extremal", "title", 
                                               "notes",     "model",    "initial", "time",   "schemes",
                                               "reference", "observe",  "output",  "views",  "limits"};
 inline const std::vector<std::string> time = {"start", "end"};
-inline const std::vector<std::string> initial = {"q", "p", "v"};
+inline const std::vector<std::string> initial = {"q", "p", "v", "q1", "at"};
 inline const std::vector<std::string> output = {"every", "dense"};
 inline const std::vector<std::string> limits = {"steps"};
 inline const std::vector<std::string> reference = {"type", "scheme", "path"};

@@ -5,6 +5,7 @@
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
+#include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
@@ -98,13 +99,54 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
         result.q = readVector(reader, *q, "/initial/q", system);
     else
         reader.warning("/initial/q", "is missing: the model's example is taken");
-    if (p && v) reader.error("/initial", "has both p and v", "give the momentum or the velocity");
+    const Value* q1 = initial->find("q1");
+    const Value* at = initial->find("at");
+    std::vector<std::string> given;
+    for (const char* key : {"p", "v", "q1"})
+        if (initial->find(key)) given.emplace_back(key);
+    if (given.size() > 1)
+        reader.error("/initial", "has " + std::string(given.size() == 2 ? "both " : "") + joinNames(given),
+                     q1 ? "give the momentum, the velocity or the second position" : "give the momentum or the velocity");
+    if (at && !q1)
+        reader.error("/initial/at", "stands without q1", "q1 is the position that much after the start");
     if (q || p || v) result.pOrV.assign(system.coordinates.size(), Number{});
     if (p) result.pOrV = readVector(reader, *p, "/initial/p", system);
     if (v && !p) {
         result.second = Initial::Second::velocity;
         result.pOrV = readVector(reader, *v, "/initial/v", system);
     }
+    if (!q1 || given.size() > 1) return;
+    result.second = Initial::Second::position;
+    result.pOrV = readVector(reader, *q1, "/initial/q1", system);
+    if (at) result.at = reader.number(*at, "/initial/at", Limits::positive());
+}
+
+void readStart(Reader& reader, const System& system, Scene& scene) {
+    Initial& initial = scene.initial;
+    if (initial.second != Initial::Second::position) return;
+    const std::size_t before = reader.errors.size();
+    if (!initial.at && before == 0) {
+        // The position after the first step, where all schemes agree how long that is.
+        for (const SchemeSpec& scheme : scene.schemes) {
+            if (scheme.tolerance) continue;
+            if (!initial.at) initial.at = scheme.step;
+            if (initial.at->value != scheme.step.value) {
+                reader.error("/initial/at", "is required: the schemes have different steps",
+                             "the time from q to q1, for example " + formatNumber(initial.at->value));
+                break;
+            }
+        }
+        if (!initial.at) reader.error("/initial/at", "is required: no scheme has a step", "the time from q to q1");
+    }
+    try {
+        if (reader.errors.empty()) exactStart(scene, system);
+    } catch (const InvalidScene& e) {
+        for (const Problem& p : e.problems()) reader.error(p.pointer, p.message, p.hint);
+    }
+    if (reader.errors.empty()) return;
+    // What is wrong is said; the rest is checked as for a start at rest.
+    initial.second = Initial::Second::momentum;
+    initial.pOrV.assign(system.coordinates.size(), Number{});
 }
 
 }  // namespace extremal

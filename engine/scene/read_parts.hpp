@@ -17,6 +17,9 @@ std::optional<System> readModel(Reader& reader, const Value& document, Scene& sc
 /// Initial data; the model's example where the scene has none.
 void readInitial(Reader& reader, const Value& document, const System& system, Scene& scene);
 
+/// For starts from two positions, after the schemes: the time between them, and whether a motion joins them.
+void readStart(Reader& reader, const System& system, Scene& scene);
+
 /// Schemes and their default labels. Those that are wrong are left out; the result says where in the document
 /// each of scene.schemes stands.
 std::vector<std::size_t> readSchemes(Reader& reader, const Value& document, Scene& scene);

@@ -39,10 +39,11 @@ struct SchemeSpec {
 
 /// Initial data: q and p or v of models with coordinates; other models have keys of their own.
 struct Initial {
-    enum class Second { none, momentum, velocity };
+    enum class Second { none, momentum, velocity, position };
     std::vector<Number> q;
     Second second = Second::none;
-    std::vector<Number> pOrV;
+    std::vector<Number> pOrV;  ///< second: momentum, velocity, or the position at a later time
+    std::optional<Number> at;  ///< Second::position: how much later
     Settings given;  ///< the keys of ModelEntry::initial; type empty
     bool operator==(const Initial&) const = default;
 };

@@ -175,10 +175,12 @@ Value initialData() {
     p.set("q", vector);
     p.set("p", vector);
     p.set("v", vector);
+    p.set("q1", vector);
+    p.set("at", reference("number"));
     for (const ModelEntry& entry : modelCatalog())
         for (const FieldInfo& field : entry.initial)
             if (!p.find(field.key)) p.set(field.key, property(field));
-    return object(p, {}, "Coordinates, and momenta or velocities; or the keys of the model.");
+    return object(p, {}, "Coordinates, and momenta, velocities or a second position (q1, a time `at` later); or the keys of the model.");
 }
 
 Value referenceChoice() {

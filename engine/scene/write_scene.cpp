@@ -21,6 +21,8 @@ Value initialValue(const Initial& initial) {
     if (!initial.q.empty()) value.set("q", numbersValue(initial.q));
     if (initial.second == Initial::Second::momentum) value.set("p", numbersValue(initial.pOrV));
     if (initial.second == Initial::Second::velocity) value.set("v", numbersValue(initial.pOrV));
+    if (initial.second == Initial::Second::position) value.set("q1", numbersValue(initial.pOrV));
+    if (initial.at) value.set("at", numberValue(*initial.at));
     return value;
 }
 

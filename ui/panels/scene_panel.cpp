@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "engine/model/system.hpp"
+#include "engine/scene/bind.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
@@ -50,6 +51,17 @@ std::vector<FormField> initialFields(const Workspace& workspace, const System& s
         }
     };
     add("q", {}, false);
+    if (workspace.scene().initial.second == Initial::Second::position) {
+        for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
+            const Coordinate& c = system.coordinates[i];
+            const QString symbol = QString::fromStdString(c.symbol.empty() ? c.name : c.symbol).toHtmlEscaped();
+            FieldInfo info = numberField("q1." + c.name, c.title, c.unit, 0, "Value a time t1 after the start.");
+            fields.push_back({std::move(info), "/initial/q1/" + std::to_string(i), QString("%1(t<sub>1</sub>)").arg(symbol), {}});
+        }
+        FieldInfo at = numberField("at", "time of the second position", system.timeUnit, 0.1, "Time from the start to the second position.");
+        fields.push_back({std::move(at), "/initial/at", QStringLiteral("t<sub>1</sub>"), {}});
+        return fields;
+    }
     const bool isVelocity = workspace.scene().initial.second == Initial::Second::velocity;
     if (valueAt(workspace.document(), isVelocity ? "/initial/v" : "/initial/p"))
         add(isVelocity ? "v" : "p", isVelocity ? "v" : "p", !isVelocity);
@@ -92,6 +104,8 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     });
     menu()->addAction(tr("Reset initial data"), this,
                       [this] { workspace_.edit({{"/initial", std::nullopt}}, tr("Reset initial data")); });
+    menu()->addAction(tr("Start from two positions"), this, &ScenePanel::startFromTwoPositions);
+    menu()->addAction(tr("Start from a momentum"), this, &ScenePanel::startFromMomentum);
     connect(&workspace_, &Workspace::sceneChanged, this, &ScenePanel::rebuild);
     connect(&workspace_, &Workspace::opened, this, [this] { shownModel_.clear(); });
 }
@@ -111,6 +125,43 @@ void ScenePanel::rebuild() {
     parameters_->setFields(parameterFields(*entry));
     initial_->setFields(initialFields(workspace_, system));
     time_->setFields({{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
+}
+
+/// The second position is where the first scheme with a step goes in that step.
+void ScenePanel::startFromTwoPositions() {
+    const Scene& scene = workspace_.scene();
+    const System system = makeSystem(scene);
+    if (scene.initial.second == Initial::Second::position || !system.hasMechanics()) return;
+    for (const SchemeSpec& spec : scene.schemes) {
+        if (spec.tolerance) continue;
+        State state = initialState(scene, system);
+        const State start = state;
+        const auto integrator = makeScheme(system, spec, spec.step.value, state.t, scene.end.value);
+        if (integrator->advance(state).outcome != Outcome::converged) continue;
+        const auto positions = [&](const State& s) {
+            Value::Array values;
+            for (int i = 0; i < system.dimension(); ++i) values.emplace_back(s.x[static_cast<std::size_t>(i)]);
+            return values;
+        };
+        Value initial{Value::Object{}};
+        initial.set("q", positions(start));
+        initial.set("q1", positions(state));
+        initial.set("at", spec.step.value);
+        workspace_.edit({{"/initial", initial}}, tr("Start from two positions"));
+        return;
+    }
+}
+
+void ScenePanel::startFromMomentum() {
+    const Scene& scene = workspace_.scene();
+    const System system = makeSystem(scene);
+    if (scene.initial.second == Initial::Second::momentum || !system.hasMechanics()) return;
+    const State start = initialState(scene, system);
+    const auto half = start.x.begin() + system.dimension();
+    Value initial{Value::Object{}};
+    initial.set("q", Value::Array(start.x.begin(), half));
+    initial.set("p", Value::Array(half, start.x.end()));
+    workspace_.edit({{"/initial", initial}}, tr("Start from a momentum"));
 }
 
 void ScenePanel::changeModel(int index) {

@@ -19,6 +19,8 @@ public:
 private:
     void rebuild();
     void changeModel(int index);
+    void startFromTwoPositions();
+    void startFromMomentum();
 
     Workspace& workspace_;
     QComboBox* model_;

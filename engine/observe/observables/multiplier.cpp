@@ -1,0 +1,78 @@
+/// The multiplier that glues the element beginning at the node to the one before it: lambda_k of the augmented action, from
+/// the whole saddle-point system with nothing condensed (solve/multipliers.hpp).
+///
+/// From (q_k, p_k) one step of the pair gives q_{k+1}; the system is then solved between q_k and q_{k+1}, without p_k, and
+/// its first multiplier is -D_1 L_d(q_k, q_{k+1}). That it equals the momentum is what `multiplier_error` shows.
+#include <Eigen/Core>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "engine/integrator/scheme.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/solve/multipliers.hpp"
+
+namespace extremal::observables {
+namespace {
+
+class MultiplierOfNode {
+public:
+    MultiplierOfNode(const System& system, const Discretization& pair, double step)
+        : system_(system),
+          pair_(pair),
+          step_(step),
+          glued_(system.mechanics, makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature)), step, 1) {}
+
+    /// |lambda|, |lambda - p| and lambda; NaN where the step fails.
+    void operator()(const State& state, const StepReport&, double* values) const {
+        const int d = system_.dimension();
+        std::fill_n(values, d + 2, std::numeric_limits<double>::quiet_NaN());
+        State next = state;
+        next.node = 0;
+        const auto integrator = makeIntegrator(system_, pair_, Clock{state.t, step_});
+        if (integrator->advance(next).outcome != Outcome::converged) return;
+        Eigen::MatrixXd ends(d, 2);
+        ends << Eigen::Map<const Eigen::VectorXd>(state.x.data(), d), Eigen::Map<const Eigen::VectorXd>(next.x.data(), d);
+        const GluedElements found = solveBetween(glued_, state.t, ends);
+        if (found.outcome != Outcome::converged) return;
+        const Eigen::VectorXd lambda = found.multipliers.col(0);
+        values[0] = lambda.norm();
+        values[1] = (lambda - Eigen::Map<const Eigen::VectorXd>(state.x.data() + d, d)).norm();
+        for (int i = 0; i < d; ++i) values[2 + i] = lambda(i);
+    }
+
+private:
+    System system_;
+    Discretization pair_;
+    double step_;
+    SaddlePoint glued_;
+};
+
+}  // namespace
+
+ObservableEntry multiplier() {
+    ObservableEntry e;
+    e.item = {"multiplier", "multiplier",
+              "Multiplier of continuity from the full saddle-point system of a pair, and its distance from the momentum.", {}, {},
+              "a pair"};
+    e.bind = [](const ObserveContext& context) {
+        Observer o;
+        const auto& coordinates = context.system.coordinates;
+        const std::string unit = coordinates.size() == 1 ? coordinates.front().momentumUnit : "";
+        o.columns = {{"multiplier", "|λ|", unit, {}, {}}, {"multiplier_error", "|λ - p|", unit, {}, {}}};
+        for (const Coordinate& c : coordinates) o.columns.push_back({"multiplier." + c.name, "λ_" + c.symbol, c.momentumUnit, {}, {}});
+        if (!context.pair || !isPairFor(*context.pair, context.system)) {
+            o.evaluate = [n = o.columns.size()](const State&, const StepReport&, double* values) {
+                std::fill_n(values, n, std::numeric_limits<double>::quiet_NaN());
+            };
+            return o;
+        }
+        o.evaluate = [look = std::make_shared<const MultiplierOfNode>(context.system, *context.pair, context.step)](
+                         const State& state, const StepReport& report, double* values) { (*look)(state, report, values); };
+        return o;
+    };
+    return e;
+}
+
+}  // namespace extremal::observables

@@ -1,0 +1,139 @@
+#include "engine/scene/two_positions.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/solve/discrete_lagrangian.hpp"
+#include "engine/solve/newton.hpp"
+
+namespace extremal {
+namespace {
+
+/// Elements up to which the discrete equations of all nodes are solved at once; beyond, shooting is cheaper.
+constexpr int mostElements = 32;
+
+Eigen::VectorXd valuesOf(const std::vector<Number>& numbers) {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(numbers.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) values(static_cast<Eigen::Index>(i)) = numbers[i].value;
+    return values;
+}
+
+State stateOf(const Scene& scene, const Eigen::VectorXd& p0) {
+    State state;
+    state.t = scene.start.value;
+    for (const Number& q : scene.initial.q) state.x.push_back(q.value);
+    state.x.insert(state.x.end(), p0.data(), p0.data() + p0.size());
+    return state;
+}
+
+ActionBetween<double> solveExact(const Scene& scene, const System& system) {
+    Eigen::MatrixXd ends(system.dimension(), 2);
+    ends << valuesOf(scene.initial.q), valuesOf(scene.initial.pOrV);
+    return exactDiscreteLagrangian<double>(system.mechanics, scene.start.value, scene.initial.at->value, ends, 1e-15);
+}
+
+ActionBetween<double> exactBetween(const Scene& scene, const System& system) {
+    struct Memory {
+        Settings model;
+        Initial initial;
+        double start;
+        ActionBetween<double> motion;
+    };
+    static std::mutex mutex;
+    static std::optional<Memory> last;
+    const std::lock_guard lock(mutex);
+    if (!last || !(last->model == scene.model) || !(last->initial == scene.initial) || last->start != scene.start.value)
+        last = Memory{scene.model, scene.initial, scene.start.value, solveExact(scene, system)};
+    return last->motion;
+}
+
+/// Nodes at equal times on the broken line through the nodes of the exact motion.
+Eigen::MatrixXd sampled(const Eigen::MatrixXd& path, int n) {
+    Eigen::MatrixXd nodes(path.rows(), n + 1);
+    const auto pieces = path.cols() - 1;
+    for (int k = 0; k <= n; ++k) {
+        const double place = static_cast<double>(k) * static_cast<double>(pieces) / n;
+        const auto i = std::min(pieces - 1, static_cast<Eigen::Index>(place));
+        const double part = place - static_cast<double>(i);
+        nodes.col(k) = (1 - part) * path.col(i) + part * path.col(i + 1);
+    }
+    return nodes;
+}
+
+/// p_0 for which the scheme's own n steps end at q_1, from a guess.
+Outcome shoot(const Scene& scene, const System& system, const SchemeSpec& scheme, double step, int n, Eigen::VectorXd& p0) {
+    const int d = system.dimension();
+    const Eigen::VectorXd q1 = valuesOf(scene.initial.pOrV);
+    auto reach = [&](const Eigen::VectorXd& p, Eigen::VectorXd& q) {
+        const auto integrator = makeScheme(system, scheme, step, scene.start.value, scene.end.value);
+        State state = stateOf(scene, p);
+        for (int k = 0; k < n; ++k)
+            if (integrator->advance(state).outcome != Outcome::converged) return false;
+        q = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
+        return q.allFinite();
+    };
+    const double size = p0.cwiseAbs().maxCoeff();
+    return solveNewton<double>(p0, [&](const Eigen::VectorXd& p, Eigen::VectorXd& F, Eigen::MatrixXd* J) {
+        if (!reach(p, F)) return false;
+        F -= q1;
+        if (!J) return true;
+        J->resize(d, d);
+        const double delta = 1e-6 * std::max(size, 1e-3);
+        Eigen::VectorXd low, high, moved = p;
+        for (int i = 0; i < d; ++i) {
+            moved(i) = p(i) - delta;
+            if (!reach(moved, low)) return false;
+            moved(i) = p(i) + delta;
+            if (!reach(moved, high)) return false;
+            moved(i) = p(i);
+            J->col(i) = (high - low) / (2 * delta);
+        }
+        return true;
+    });
+}
+
+}  // namespace
+
+State exactStart(const Scene& scene, const System& system) {
+    const ActionBetween<double> motion = exactBetween(scene, system);
+    if (motion.outcome != Outcome::converged)
+        throw InvalidScene("/initial/q1",
+                           "no motion from q to q1 in the time " + formatNumber(scene.initial.at->value) + " was found",
+                           "positions closer to each other, another time, or p in place of q1");
+    return stateOf(scene, motion.startMomentum);
+}
+
+State schemeStart(const Scene& scene, const System& system, const SchemeSpec& scheme, double step, const State& initial) {
+    if (scene.initial.second != Initial::Second::position || isAdaptive(scheme)) return initial;
+    const double at = scene.initial.at->value, steps = at / step;
+    const int n = static_cast<int>(std::lround(std::min(steps, 1e6)));
+    if (n < 1 || std::abs(steps - n) > 1e-9 * n)
+        throw InvalidScene("/step", formatNumber(step) + " does not reach the second position, at " + formatNumber(at) +
+                                        " after the start, by whole steps",
+                           "a whole part of /initial/at");
+    const ActionBetween<double> exact = exactBetween(scene, system);
+    Eigen::VectorXd p0 = exact.startMomentum;
+    Outcome outcome = Outcome::converged;
+    const auto pair = pairOf(scheme);
+    if (pair && n <= mostElements) {
+        const DiscreteLagrangian<double> Ld(system.mechanics, makeTable(makeSpace(pair->space), makeRule<double>(pair->quadrature)));
+        const ActionBetween<double> motion = Ld.between(scene.start.value, at / n, sampled(exact.nodes, n));
+        outcome = motion.outcome;
+        p0 = motion.startMomentum;
+    } else {
+        outcome = shoot(scene, system, scheme, step, n, p0);
+    }
+    if (outcome != Outcome::converged)
+        throw InvalidScene("/step", "finds no motion of the scheme from q to q1", "a smaller step");
+    return stateOf(scene, p0);
+}
+
+}  // namespace extremal
