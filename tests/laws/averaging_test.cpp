@@ -24,15 +24,17 @@ Matrix nearestRotation(Matrix X) {
     return X;
 }
 
-/// h times the kinetic energy of a body at the mean rate between a quarter and three quarters of a curve from g_0 to g_1.
-/// The curve is the straight line between the matrices, brought to the group with a metric that prefers some axes of
+/// The action of a body at its mean rates over the two halves of a curve from g_0 to g_1. The curve is the straight line between the matrices, brought to the group with a metric that prefers some axes of
 /// space: smooth on all of SO(3), and not invariant.
 double discreteLagrangian(const Matrix& g0, const Matrix& g1) {
     constexpr double h = 0.5;
-    const Vector metric(1, 1.4, 0.75), inertia(1, 2, 3);
+    const Vector metric(1, 1.8, 0.6), inertia(1, 2, 3);
     const auto at = [&](double t) { return nearestRotation(metric.asDiagonal() * Matrix((1 - t) * g0 + t * g1)); };
-    const Vector rate = so3::log(Matrix(at(0.25).transpose() * at(0.75))) / (h / 2);
-    return h * 0.5 * rate.dot(inertia.cwiseProduct(rate));
+    const auto kinetic = [&](const Matrix& a, const Matrix& b) {
+        const Vector rate = so3::log(Matrix(a.transpose() * b)) / (h / 2);
+        return 0.5 * rate.dot(inertia.cwiseProduct(rate));
+    };
+    return h / 2 * (kinetic(g0, at(0.5)) + kinetic(at(0.5), g1));
 }
 
 /// The mean over SO(3) by a product rule in Euler angles: equidistant in the two angles about z, Gauss in the cosine of the

@@ -34,7 +34,7 @@ Pose<Quad> run(bool isTop, int degree, bool isGauss, int n) {
                                         isGauss ? gauss<Quad>(degree) : lobatto<Quad>(degree + 1));
     LieStep<Quad, Group> step(body, table, Quad(2) / n, true, false, {});
     Pose<Quad> pose;
-    pose.momentum << Quad(1) / 10, Quad(1) / 5, isTop ? Quad(2) : Quad(1);
+    pose.momentum << Quad(1) / 10, Quad(1) / 5, isTop ? Quad(1) / 2 : Quad(1);
     for (int k = 0; k < n; ++k) {
         StepReport report;
         if (step.advance(pose, report, {}) != Outcome::converged) throw std::runtime_error("the step failed");
@@ -66,9 +66,9 @@ private slots:
         QFETCH(bool, isTop);
         QFETCH(int, degree);
         QFETCH(bool, isGauss);
-        const Pose<Quad> reference = run(isTop, 8, true, isTop ? 48 : 24);
+        const Pose<Quad> reference = run(isTop, 8, true, isTop ? 80 : 24);
         std::vector<double> h, error;
-        const int first = (isTop ? 16 : 8) / (degree == 8 ? 2 : 1);
+        const int first = isTop ? (degree == 8 ? 12 : 20) : (degree == 8 ? 2 : 8);
         for (const int n : {first, first * 3 / 2, first * 2}) {
             h.push_back(-std::log(static_cast<double>(n)));
             error.push_back(std::log(angle(reference, run(isTop, degree, isGauss, n))));

@@ -95,7 +95,7 @@ private slots:
         // Equal masses and lengths: theta2 = +-sqrt 2 theta1, w^2 = (2 -+ sqrt 2) g / l.
         const System s = laws::systemNamed("double-pendulum");
         for (const double sign : {1.0, -1.0}) {
-            constexpr double amplitude = 1e-5;
+            constexpr double amplitude = 1e-6;
             const double w = std::sqrt((2 - sign * std::sqrt(2.0)) * 9.81);
             State state{0, 0, {amplitude, sign * std::sqrt(2.0) * amplitude, 0, 0}};
             const auto step = makeIntegrator(s, *namedScheme("galerkin-gauss-4"), {0, 0.02});
@@ -104,7 +104,9 @@ private slots:
                 QVERIFY(step->advance(state).outcome == Outcome::converged);
                 worst = std::max(worst, std::abs(state.x[0] - amplitude * std::cos(w * state.t)));
             }
-            QVERIFY2(worst < 1e-8 * amplitude, qPrintable(QString::number(worst / amplitude)));  // measured 2e-9
+            // The cubic terms of relative size amplitude^2 = 1e-12 shift the frequency, by w t = 30 in all.
+            qInfo("%+.0f: %.1e", sign, worst / amplitude);
+            QVERIFY(worst < 1e-9 * amplitude);
         }
     }
     void aLinearChainIsASumOfNormalModes() {

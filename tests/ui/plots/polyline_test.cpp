@@ -66,7 +66,7 @@ private slots:
         }
     }
     void gapsDivideALine() {
-        const std::vector<double> x{0, 0.2, 0.4, 0.6, 0.8, 1}, y{0, 0.1, nan, 0.3, std::numeric_limits<double>::infinity(), 0.5};
+        const std::vector<double> x{0, 0.2, 0.4, 0.6, 0.8, 1}, y{0, 0.1, nan, 0.3, nan, 0.5};
         const auto lines = visiblePolylines(x, y, unitMap(), false);
         qsizetype pieces = 0;
         for (const QPolygonF& line : lines) {
