@@ -8,6 +8,7 @@
 #include "engine/integrator/galerkin_step_build.hpp"
 #include "engine/integrator/lie.hpp"
 #include "engine/integrator/scheme.hpp"
+#include "engine/integrator/table_of.hpp"
 
 namespace extremal {
 namespace {
@@ -57,7 +58,7 @@ std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretiz
     if (!system.hasMechanics())
         throw InvalidScene("/space/type", pair.space.type + " needs coordinates, and " + system.id + " has none",
                            system.hasBody() ? "take lie-polynomial" : "another space: extremal list spaces");
-    Table<double> table = makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature));
+    Table<double> table = tableOf(pair.space, pair.quadrature);
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(table), clock, policy);
     });

@@ -160,7 +160,8 @@ T GalerkinStep<T, D>::correction() {
         const T roundOff = std::numeric_limits<T>::epsilon() * abs(q0_(k));
         const T size = delta_.row(k).cwiseAbs().maxCoeff();
         if (!(size <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
-        if (size > roundOff * T(0.01)) worst = std::max(worst, T(size / std::max(scale, roundOff)));
+        const T known = std::max(scale, roundOff);  // 0: at rest in 0 so far
+        if (size > roundOff * T(0.01)) worst = std::max(worst, known > T(0) ? T(size / known) : T(1));
     }
     return worst;
 }

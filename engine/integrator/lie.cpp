@@ -4,6 +4,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/integrator/lie_step_build.hpp"
+#include "engine/integrator/table_of.hpp"
 
 namespace extremal {
 namespace {
@@ -49,7 +50,7 @@ std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discre
                            "take polynomial");
     if (policy.method == SolverMethod::fixedPoint)
         throw InvalidScene("/solver/method", "lie-polynomial is solved by Newton's method alone", "use newton or auto");
-    const Table<double> table = makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature));
+    const Table<double> table = tableOf(pair.space, pair.quadrature);
     const bool isReduced = pair.space.flag("reduced"), isSymmetrised = pair.space.flag("symmetric");
     const BodyMechanics<double>& body = system.body;
     if (body.dimension == 3)

@@ -60,11 +60,12 @@ private:
     Mechanics<T> mechanics_;
     int d_, n_, m_, stride_;
     T h_, tolerance_;
+    bool isExact_;                 ///< solve to round-off
     Array node_;                   ///< c_i
     Array G_, start_;              ///< by columns: G, and G times the continuation of the forces
     Array slope_;                  ///< base_i = slope_i v_0: h c_i where the space has the linear functions
     Array toForces_, toVelocity_;  ///< Y_a = toVelocity_a v_0 + sum_i toForces(a, i) F_i / m; (a, i) at a * stride + i
-    Array weight_;                 ///< h b_i
+    Array weight_, residue_;       ///< h b_i; what rounding takes from the last row of toForces_
     Array inverseMass_, v0_, lost_, place_, force_;
     Array times_, base_, F_, Z_, Q_;
     std::vector<SweepSize<T>> size_;

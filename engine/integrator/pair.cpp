@@ -10,8 +10,10 @@
 
 #include "engine/action/table.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/stability.hpp"
+#include "engine/integrator/table_of.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal {
@@ -87,7 +89,7 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
     p.claims.conserves = {"momentum"};
     const bool isLie = space.type == "lie-polynomial";
     try {
-        const Table<double> table = makeTable(makeSpace(space), rule);
+        const Table<double> table = tableOf(space, quadrature);
         p.claims.order = orderOf(table);
         p.curveOrder = std::min({table.space.degree + 1, table.consistency + 1, p.claims.order});
         p.stabilityLimit = firstInstability([&](double z) { return halfTrace(table, z); });
@@ -119,26 +121,45 @@ std::string keyOf(const Settings& s) {
     std::string key = s.type;
     for (const auto& [name, value] : s.keys) {
         key += '|' + name + '=';
-        if (value.isNumber()) key += std::to_string(value.asNumber());
+        if (value.isNumber()) key += formatNumber(value.asNumber());
         if (value.isString()) key += value.asString();
         if (value.isBool()) key += value.asBool() ? "true" : "false";
     }
     return key;
 }
 
+/// What was made for a pair before. A result is a function of the settings alone, so it does not matter who asked first.
+template <class V>
+class Memory {
+public:
+    template <class Make>
+    V get(const Settings& space, const Settings& quadrature, Make make) {
+        const std::string key = keyOf(space) + "||" + keyOf(quadrature);
+        {
+            const std::lock_guard lock(mutex_);
+            if (const auto found = known_.find(key); found != known_.end()) return found->second;
+        }
+        V made = make();
+        const std::lock_guard lock(mutex_);
+        if (known_.size() >= 256) known_.clear();
+        return known_.emplace(key, std::move(made)).first->second;
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, V> known_;
+};
+
 }  // namespace
 
 PairProperties describe(const Settings& space, const Settings& quadrature) {
-    static std::mutex mutex;
-    static std::map<std::string, PairProperties> known;
-    const std::string key = keyOf(space) + "||" + keyOf(quadrature);
-    {
-        const std::lock_guard lock(mutex);
-        if (const auto found = known.find(key); found != known.end()) return found->second;
-    }
-    PairProperties p = makeDescription(space, quadrature);
-    const std::lock_guard lock(mutex);
-    return known.emplace(key, std::move(p)).first->second;
+    static Memory<PairProperties> known;
+    return known.get(space, quadrature, [&] { return makeDescription(space, quadrature); });
+}
+
+Table<double> tableOf(const Settings& space, const Settings& quadrature) {
+    static Memory<Table<double>> known;
+    return known.get(space, quadrature, [&] { return makeTable(makeSpace(space), makeRule<double>(quadrature)); });
 }
 
 Settings completeQuadrature(const Settings& space, const Settings& quadrature) {

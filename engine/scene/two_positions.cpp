@@ -10,6 +10,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/table_of.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
 #include "engine/solve/newton.hpp"
@@ -124,7 +125,7 @@ State schemeStart(const Scene& scene, const System& system, const SchemeSpec& sc
     Outcome outcome = Outcome::converged;
     const auto pair = pairOf(scheme);
     if (pair && n <= mostElements) {
-        const DiscreteLagrangian<double> Ld(system.mechanics, makeTable(makeSpace(pair->space), makeRule<double>(pair->quadrature)));
+        const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(pair->space, pair->quadrature));
         const ActionBetween<double> motion = Ld.between(scene.start.value, at / n, sampled(exact.nodes, n));
         outcome = motion.outcome;
         p0 = motion.startMomentum;

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "engine/integrator/scheme.hpp"
+#include "engine/integrator/table_of.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/solve/multipliers.hpp"
 
@@ -22,7 +23,7 @@ public:
         : system_(system),
           pair_(pair),
           step_(step),
-          glued_(system.mechanics, makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature)), step, 1) {}
+          glued_(system.mechanics, tableOf(pair.space, pair.quadrature), step, 1) {}
 
     /// |lambda|, |lambda - p| and lambda; NaN where the step fails.
     void operator()(const State& state, const StepReport&, double* values) const {
