@@ -166,7 +166,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         // One more sweep would change less than is lost to round-off anyway (stopping at round-off itself would leave a
         // bias that adds up over millions of steps), or the changes no longer shrink within a few digits of it.
         const T coming = iteration > 0 ? size * std::min(T(1), T(size / last)) : size;
-        const bool isEnough = isExact_ ? coming <= T(0.01) * tolerance_ : size <= tolerance_;
+        const bool isEnough = isExact_ ? coming <= T(1e-4) * tolerance_ : size <= tolerance_;
         if (isEnough || (size < stagnation && size >= last * T(0.25))) {
             hasForces_ = true;
             return Result::solved;
@@ -179,9 +179,9 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
 }
 
 template <class T>
-T NodeIteration<T>::impulse(const Array& weights, int row, int k) const {
-    T sum(0);
-    for (int i = 0; i < n_; ++i) sum += weights[at(row, i)] * F_[at(k, i)];
+typename NodeIteration<T>::Wide NodeIteration<T>::impulse(const Array& weights, int row, int k) const {
+    Wide sum(0);
+    for (int i = 0; i < n_; ++i) sum += Wide(weights[at(row, i)]) * Wide(F_[at(k, i)]);
     return sum;
 }
 
@@ -189,10 +189,10 @@ template <class T>
 void NodeIteration<T>::increments(T* dq, T* dp) const {
     for (int k = 0; k < d_; ++k) {
         const auto c = static_cast<std::size_t>(k);
-        const T drift = toVelocity_[static_cast<std::size_t>(m_ - 1)];
-        const T kick = impulse(toForces_, m_ - 1, k) + impulse(residue_, 0, k);
-        dq[k] = drift * v0_[c] + (kick * inverseMass_[c] + drift * lost_[c]);
-        dp[k] = impulse(weight_, 0, k);
+        const Wide drift(toVelocity_[static_cast<std::size_t>(m_ - 1)]);
+        const Wide kick = impulse(toForces_, m_ - 1, k) + impulse(residue_, 0, k);
+        dq[k] = static_cast<T>(drift * Wide(v0_[c]) + (kick * Wide(inverseMass_[c]) + drift * Wide(lost_[c])));
+        dp[k] = static_cast<T>(impulse(weight_, 0, k));
     }
 }
 
@@ -201,7 +201,8 @@ void NodeIteration<T>::coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> for
     for (int k = 0; k < d_; ++k) {
         const auto c = static_cast<std::size_t>(k);
         for (int a = 0; a < m_; ++a)
-            Y(k, a) = toVelocity_[static_cast<std::size_t>(a)] * v0_[c] + impulse(toForces_, a, k) * inverseMass_[c];
+            Y(k, a) = toVelocity_[static_cast<std::size_t>(a)] * v0_[c] +
+                      static_cast<T>(impulse(toForces_, a, k)) * inverseMass_[c];
         for (int i = 0; i < n_; ++i) forces(k, i) = F_[at(k, i)];
     }
 }
