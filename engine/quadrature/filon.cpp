@@ -1,0 +1,136 @@
+#include "engine/quadrature/filon.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "engine/quadrature/rule.hpp"
+
+namespace extremal {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// j_n(x) = x^n / (2n+1)!! sum_k (-x^2/2)^k / (k! (2n+3)(2n+5)...(2n+2k+1)): for |x| < 1 the terms fall fast.
+std::vector<double> ascending(double x, int count) {
+    std::vector<double> j(static_cast<std::size_t>(count));
+    double lead = 1;
+    for (int n = 0; n < count; ++n) {
+        if (n > 0) lead *= x / (2 * n + 1);
+        double term = 1, sum = 1;
+        for (int k = 1; std::abs(term) > 1e-18; ++k) {
+            term *= -x * x / (2.0 * k * (2 * n + 2 * k + 1));
+            sum += term;
+        }
+        j[static_cast<std::size_t>(n)] = lead * sum;
+    }
+    return j;
+}
+
+/// Miller's backward recurrence, normalised by sum (2n+1) j_n^2 = 1: where j_n falls with n, the upward one is
+/// unstable.
+std::vector<double> backward(double x, int count) {
+    const int top = count + 30 + static_cast<int>(x);
+    std::vector<double> j(static_cast<std::size_t>(top) + 2);
+    j[static_cast<std::size_t>(top)] = 1e-30;
+    for (int n = top; n > 0; --n) {
+        const auto i = static_cast<std::size_t>(n);
+        j[i - 1] = (2 * n + 1) / x * j[i] - j[i + 1];
+        if (std::abs(j[i - 1]) > 1e100)
+            for (double& value : j) value *= 1e-30;
+    }
+    double norm = 0;
+    for (int n = 0; n <= top; ++n) norm += (2 * n + 1) * std::pow(j[static_cast<std::size_t>(n)], 2);
+    const double j0 = std::sin(x) / x, j1 = (j0 - std::cos(x)) / x;
+    const bool isFlipped = std::abs(j0) > std::abs(j1) ? (j0 < 0) != (j[0] < 0) : (j1 < 0) != (j[1] < 0);
+    const double factor = (isFlipped ? -1 : 1) / std::sqrt(norm);
+    j.resize(static_cast<std::size_t>(count));
+    for (double& value : j) value *= factor;
+    return j;
+}
+
+std::vector<double> upward(double x, int count) {
+    std::vector<double> j(static_cast<std::size_t>(count));
+    j[0] = std::sin(x) / x;
+    if (count > 1) j[1] = (j[0] - std::cos(x)) / x;
+    for (std::size_t n = 2; n < j.size(); ++n) j[n] = static_cast<double>(2 * n - 1) / x * j[n - 1] - j[n - 2];
+    return j;
+}
+
+/// What does not depend on z: nodes, and gamma_n w_i P_n(2 c_i - 1) at i * count + n.
+struct Expansion {
+    std::vector<double> node, coefficient;
+};
+
+Expansion expansionOf(FilonNodes nodes, int count) {
+    const Rule<double> rule = nodes == FilonNodes::gauss ? gauss<double>(count) : lobatto<double>(count);
+    Expansion e;
+    e.node = rule.c;
+    for (std::size_t i = 0; i < rule.c.size(); ++i) {
+        const double t = 2 * rule.c[i] - 1;
+        double P = 1, lower = 0;
+        for (int n = 0; n < count; ++n) {
+            const bool isLastOfLobatto = nodes == FilonNodes::lobatto && n == count - 1;
+            e.coefficient.push_back((isLastOfLobatto ? count - 1 : 2 * n + 1) * rule.b[i] * P);
+            const double next = ((2 * n + 1) * t * P - n * lower) / (n + 1);
+            lower = P;
+            P = next;
+        }
+    }
+    return e;
+}
+
+std::vector<Complex> weightsOf(const Expansion& e, double z) {
+    const std::size_t count = e.node.size();
+    const std::vector<double> j = sphericalBessel(z / 2, static_cast<int>(count));
+    const Complex turn = std::polar(1.0, z / 2);
+    std::vector<Complex> weight(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        // Even n are real, odd ones imaginary; signs alternate in pairs: 1, i, -1, -i.
+        double even = 0, odd = 0;
+        for (std::size_t n = 0; n < count; ++n) {
+            const double term = (n % 4 < 2 ? 1 : -1) * e.coefficient[i * count + n] * j[n];
+            (n % 2 == 0 ? even : odd) += term;
+        }
+        weight[i] = turn * Complex(even, odd);
+    }
+    return weight;
+}
+
+}  // namespace
+
+std::vector<double> sphericalBessel(double x, int count) {
+    const double size = std::abs(x);
+    std::vector<double> j = size < 1             ? ascending(size, count)
+                            : size < count + 0.5 ? backward(size, count)
+                                                 : upward(size, count);
+    if (x < 0)
+        for (std::size_t n = 1; n < j.size(); n += 2) j[n] = -j[n];
+    return j;
+}
+
+FilonRule filonRule(FilonNodes nodes, int count, double z) {
+    const Expansion e = expansionOf(nodes, count);
+    return {e.node, weightsOf(e, z)};
+}
+
+FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z) {
+    const Expansion e = expansionOf(nodes, count);
+    FilonGrid grid;
+    grid.node = e.node;
+    const double turn = 2 * std::numbers::pi / phases;
+    for (int m = 0; m < phases; ++m) grid.phase.push_back(turn * m);
+    const int highest = (phases - 1) / 2;
+    for (int k = 0; k <= highest; ++k) {
+        const std::vector<Complex> b = weightsOf(e, k * z);
+        if (k == 0) grid.weight.resize(b.size() * grid.phase.size());
+        for (std::size_t i = 0; i < b.size(); ++i)
+            for (int m = 0; m < phases; ++m) {
+                const double share = (k == 0 ? 1 : 2) * (b[i] * std::polar(1.0, -turn * (k * m % phases))).real();
+                grid.weight[i * grid.phase.size() + static_cast<std::size_t>(m)] += share / phases;
+            }
+    }
+    return grid;
+}
+
+}  // namespace extremal
