@@ -10,4 +10,8 @@ const BaselineEntry* findBaseline(std::string_view id) {
     return found == all.end() ? nullptr : &*found;
 }
 
+Claims claimsOf(const BaselineEntry& entry, const Settings& settings) {
+    return entry.claims ? entry.claims(settings) : entry.item.claims.value_or(Claims{});
+}
+
 }  // namespace extremal

@@ -25,8 +25,12 @@ struct BaselineEntry {
     std::function<bool(const System&)> applies;  ///< empty: every system with coordinates
     std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
+    /// Throws InvalidScene (pointer relative to the scheme) where it cannot.
     std::function<std::unique_ptr<Integrator>(const System&, const BaselineOptions&)> make;
 };
+
+/// The claims of a baseline with these keys.
+Claims claimsOf(const BaselineEntry& entry, const Settings& settings);
 
 const std::vector<BaselineEntry>& baselineCatalog();
 const BaselineEntry* findBaseline(std::string_view id);

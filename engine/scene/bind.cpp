@@ -51,8 +51,7 @@ std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
 Claims claimsOf(const SchemeSpec& scheme) {
     if (const auto pair = pairOf(scheme)) return describe(pair->space, pair->quadrature).claims;
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
-    if (entry && entry->claims) return entry->claims(scheme.baseline);
-    return entry && entry->item.claims ? *entry->item.claims : Claims{};
+    return entry ? claimsOf(*entry, scheme.baseline) : Claims{};
 }
 
 bool isAdaptive(const SchemeSpec& scheme) {

@@ -172,7 +172,7 @@ std::string partsLabel(const SchemeSpec& scheme) {
         if (s.find(key)) label += " " + formatNumber(s.number(key));
         return label;
     };
-    if (scheme.kind == SchemeSpec::Kind::baseline) return scheme.baseline.type;
+    if (scheme.kind == SchemeSpec::Kind::baseline) return text(scheme.baseline, "stages");
     std::string basis = scheme.space.text("basis");
     basis = basis.empty() || basis == "lobatto" ? "" : " " + basis;
     return text(scheme.space, "degree") + basis + ", " + text(scheme.quadrature, "nodes");

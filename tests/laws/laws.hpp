@@ -40,6 +40,17 @@ inline Settings defaultsOf(const CatalogItem& item) {
     return settings;
 }
 
+/// The default keys; of a baseline with a number of stages, those with 1 to maxStages.
+inline std::vector<Settings> variantsOf(const CatalogItem& item, int maxStages) {
+    const Settings defaults = defaultsOf(item);
+    if (!defaults.find("stages")) return {defaults};
+    std::vector<Settings> all(static_cast<std::size_t>(maxStages), defaults);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (auto& [key, value] : all[i].keys)
+            if (key == "stages") value = static_cast<double>(i + 1);
+    return all;
+}
+
 /// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline, that fit the system.
 inline std::vector<Case> everyScheme(int maxDegree, const System& system = systemNamed("kepler")) {
     std::vector<Case> cases;
@@ -54,12 +65,15 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
                              [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); }, true});
         }
     }
-    for (const BaselineEntry& e : baselineCatalog())
-        if (!e.isAdaptive && appliesTo(e, system))
-            cases.push_back({e.item.id, *e.item.claims,
-                             [make = e.make, keys = defaultsOf(e.item)](const System& s, const Clock& c) {
+    for (const BaselineEntry& e : baselineCatalog()) {
+        if (e.isAdaptive || !appliesTo(e, system)) continue;
+        for (const Settings& keys : variantsOf(e.item, maxDegree)) {
+            const std::string stages = keys.find("stages") ? "-" + std::to_string(keys.integer("stages")) : "";
+            cases.push_back({e.item.id + stages, claimsOf(e, keys), [make = e.make, keys](const System& s, const Clock& c) {
                                  return make(s, {c, 0, 0, keys});
                              }});
+        }
+    }
     return cases;
 }
 

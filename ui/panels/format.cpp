@@ -49,7 +49,9 @@ QString ruleTitle(const std::string& id) {
 QString schemeText(const SchemeSpec& spec) {
     if (spec.kind == SchemeSpec::Kind::baseline) {
         const BaselineEntry* entry = findBaseline(spec.baseline.type);
-        return QStringLiteral("baseline: ") + QString::fromStdString(entry ? entry->item.title : spec.baseline.type);
+        const QString title = QString::fromStdString(entry ? entry->item.title : spec.baseline.type);
+        const QString stages = spec.baseline.find("stages") ? QString(" %1").arg(spec.baseline.integer("stages")) : QString();
+        return QStringLiteral("baseline: ") + title + stages;
     }
     if (spec.kind == SchemeSpec::Kind::named)
         return QStringLiteral("scheme ") + QString::fromStdString(spec.named);

@@ -1,0 +1,58 @@
+#include "engine/baseline/adaptive_method.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/core/problem.hpp"
+
+namespace extremal {
+
+AdaptiveMethod::AdaptiveMethod(const Mechanics<double>& m, const BaselineOptions& options)
+    : AdaptiveMethod(
+          [m](double t, const double* x, double* dx) {
+              return m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
+          },
+          static_cast<std::size_t>(2 * m.dimension), options) {}
+
+AdaptiveMethod::AdaptiveMethod(Rate rate, std::size_t n, const BaselineOptions& options)
+    : rate_(std::move(rate)), end_(options.end), before_(n, 0.0), x_(n, 0.0) {}
+
+StepReport AdaptiveMethod::advance(State& state) {
+    StepReport report;
+    const bool isContinued = hasStepped_ && state.t == endTime_ && state.x == x_;
+    before_ = x_ = state.x;
+    startTime_ = state.t;
+    double t = state.t;
+    hasStepped_ = false;
+    report.outcome = take(t, x_, report, isContinued);
+    if (report.outcome == Outcome::converged &&
+        !std::all_of(x_.begin(), x_.end(), [](double v) { return std::isfinite(v); }))
+        report.outcome = Outcome::notFinite;
+    if (report.outcome != Outcome::converged) return report;
+    hasStepped_ = true;
+    state.x = x_;
+    endTime_ = state.t = t;
+    ++state.node;
+    report.step = endTime_ - startTime_;
+    return report;
+}
+
+double AdaptiveMethod::firstStep(double t, const Vector& x) const {
+    Vector dx(x.size());
+    flow(t, x.data(), dx.data());
+    double length = 0, rate = 0;
+    for (std::size_t i = 0; i < dx.size(); ++i) {
+        length = std::max(length, std::abs(x[i]));
+        rate = std::max(rate, std::abs(dx[i]));
+    }
+    const double cap = (end_ - t) / 100;
+    return rate > 0 && length > 0 && std::isfinite(rate) ? std::min(cap, 1e-3 * length / rate) : cap * 1e-3;
+}
+
+void refuseWithout(const std::string& baseline, const std::string& library, const std::string& package) {
+    throw InvalidScene("/baseline", baseline + " needs " + library + ", which was missing when this program was built",
+                       "install the package " + package + " and build again");
+}
+
+}  // namespace extremal

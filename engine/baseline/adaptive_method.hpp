@@ -1,0 +1,53 @@
+/// What the codes that choose their own steps share: one accepted step per advance(), the end hit exactly, a curve.
+///
+/// They integrate x' = f(t, x): x = (q, p) and Hamilton's vector field, or any other. Both relative and absolute tolerance are the
+/// scene's tolerance. The curve inside a step is the code's own interpolant where it has one, else a shorter step of the
+/// same formula: steps are so long here that a polynomial through both ends would lose most digits.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+
+namespace extremal {
+
+class AdaptiveMethod : public Integrator {
+public:
+    /// xdot = rate(t, x), both of length n; false where it is not defined.
+    using Rate = std::function<bool(double t, const double* x, double* dx)>;
+
+    AdaptiveMethod(const Mechanics<double>& mechanics, const BaselineOptions& options);
+    AdaptiveMethod(Rate rate, std::size_t n, const BaselineOptions& options);
+
+    StepReport advance(State& state) final;
+
+protected:
+    using Vector = std::vector<double>;
+
+    /// Takes one accepted step: moves t and x, by no more than to end(). Counts refused steps in `report`. `isContinued`:
+    /// t and x are where the last step left them.
+    virtual Outcome take(double& t, Vector& x, StepReport& report, bool isContinued) = 0;
+
+    bool flow(double t, const double* x, double* dx) const { return rate_(t, x, dx); }
+    /// A cautious first step: 1/1000 of the time scale |x| / |xdot|, at most a hundredth of what is left.
+    double firstStep(double t, const Vector& x) const;
+
+    std::size_t size() const { return x_.size(); }
+    double end() const { return end_; }
+    double startTime() const { return startTime_; }
+    double endTime() const { return endTime_; }
+    const Vector& before() const { return before_; }  ///< x at the start of the last step
+
+private:
+    Rate rate_;
+    double end_, startTime_ = 0, endTime_ = 0;
+    Vector before_, x_;
+    bool hasStepped_ = false;
+};
+
+/// Says that the program was built without a library, and how to get it. Throws InvalidScene.
+[[noreturn]] void refuseWithout(const std::string& baseline, const std::string& library, const std::string& package);
+
+}  // namespace extremal

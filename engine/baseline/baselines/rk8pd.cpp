@@ -1,0 +1,105 @@
+/// Prince and Dormand's Runge-Kutta pair 8(9) of the GNU Scientific Library, under its standard step control.
+#include <algorithm>
+#include <memory>
+
+#include "engine/baseline/adaptive_method.hpp"
+
+#if EXTREMAL_HAS_GSL
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#endif
+
+namespace extremal::baselines {
+namespace {
+
+#if EXTREMAL_HAS_GSL
+template <auto destroy>
+struct Freed {
+    template <class T>
+    void operator()(T* p) const {
+        destroy(p);
+    }
+};
+
+using Step = std::unique_ptr<gsl_odeiv2_step, Freed<gsl_odeiv2_step_free>>;
+
+class Rk8pd final : public AdaptiveMethod {
+public:
+    Rk8pd(const Mechanics<double>& mechanics, const BaselineOptions& options)
+        : AdaptiveMethod(mechanics, options),
+          step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size())),
+          control_(gsl_odeiv2_control_y_new(options.tolerance, options.tolerance)),
+          evolve_(gsl_odeiv2_evolve_alloc(size())) {}
+
+    void curve(double tau, std::span<double> x) const override {
+        const Step shorter(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size()));
+        Watch watch{*this, {}, Outcome::converged};
+        const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
+        Vector y = before(), error(size());
+        gsl_odeiv2_step_apply(shorter.get(), startTime(), tau * (endTime() - startTime()), y.data(), error.data(), nullptr,
+                              nullptr, &system);
+        std::copy(y.begin(), y.end(), x.begin());
+    }
+
+private:
+    /// What the right-hand side is given, and what it saw.
+    struct Watch {
+        const Rk8pd& method;
+        StepReport report;
+        Outcome trouble;
+    };
+
+    Outcome take(double& t, Vector& x, StepReport& report, bool isContinued) override {
+        if (!isContinued) {
+            gsl_odeiv2_evolve_reset(evolve_.get());
+            gsl_odeiv2_step_reset(step_.get());
+        }
+        if (h_ == 0) h_ = std::min(firstStep(t, x), end() - t);
+        Watch watch{*this, report, Outcome::converged};
+        const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
+        const double start = t;
+        const unsigned long refused = evolve_->failed_steps;
+        const int status =
+            gsl_odeiv2_evolve_apply(evolve_.get(), control_.get(), step_.get(), &system, &t, end(), &h_, x.data());
+        report = watch.report;
+        report.rejected = static_cast<int>(evolve_->failed_steps - refused);
+        if (watch.trouble != Outcome::converged) return watch.trouble;
+        return status == GSL_SUCCESS && t > start ? Outcome::converged : Outcome::stepBudget;
+    }
+    static int rate(double t, const double* x, double* dx, void* given) {
+        auto& watch = *static_cast<Watch*>(given);
+        ++watch.report.evaluations;
+        if (watch.method.stop().stop_requested())
+            watch.trouble = Outcome::stopped;
+        else if (!watch.method.flow(t, x, dx))
+            watch.trouble = Outcome::singular;
+        return watch.trouble == Outcome::converged ? GSL_SUCCESS : GSL_EBADFUNC;
+    }
+
+    Step step_;
+    std::unique_ptr<gsl_odeiv2_control, Freed<gsl_odeiv2_control_free>> control_;
+    std::unique_ptr<gsl_odeiv2_evolve, Freed<gsl_odeiv2_evolve_free>> evolve_;
+    double h_ = 0;
+};
+#endif
+
+}  // namespace
+
+BaselineEntry rk8pd() {
+    BaselineEntry e;
+    e.item = {"rk8pd", "Prince-Dormand 8(9)",
+              "The GNU Scientific Library's explicit Runge-Kutta pair of order 8 under error control.", {},
+              Claims{8, false, false, {}}, "smooth forces"};
+    e.isAdaptive = true;
+    e.make = []([[maybe_unused]] const System& system,
+                [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
+#if EXTREMAL_HAS_GSL
+        return std::make_unique<Rk8pd>(system.mechanics, options);
+#else
+        refuseWithout("rk8pd", "the GNU Scientific Library", "libgsl-dev");
+#endif
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines
