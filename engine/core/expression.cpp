@@ -283,8 +283,24 @@ double evaluate(const Expression& expression,
     return values.back();
 }
 
-std::string caretLines(std::string_view text, std::size_t position) {
-    constexpr std::size_t reach = 40;
+std::string withNameReplaced(std::string_view text, std::string_view from, std::string_view to) {
+    const auto isPart = [](char c) { return isLetter(c) || isDigit(c) || c == '_'; };
+    std::string result;
+    for (std::size_t i = 0; i < text.size();) {
+        std::size_t end = i;
+        while (end < text.size() && isPart(text[end])) ++end;
+        if (end == i) {
+            result += text[i++];
+            continue;
+        }
+        const std::string_view word = text.substr(i, end - i);
+        result += word == from ? to : word;
+        i = end;
+    }
+    return result;
+}
+
+std::string caretLines(std::string_view text, std::size_t position, std::size_t reach, std::string_view indent) {
     std::size_t from = position > reach ? position - reach : 0;
     std::size_t to = std::min(text.size(), position + reach);
     const auto isInside = [&](std::size_t i) {
@@ -297,7 +313,7 @@ std::string caretLines(std::string_view text, std::size_t position) {
     std::replace_if(
         shown.begin(), shown.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
     const std::size_t column = codePoints(text.substr(from, position - from)) + (from > 0 ? 3 : 0);
-    return "    " + shown + "\n    " + std::string(column, ' ') + '^';
+    return std::string(indent) + shown + "\n" + std::string(indent) + std::string(column, ' ') + '^';
 }
 
 const std::vector<std::string>& expressionFunctions() {

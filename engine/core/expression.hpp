@@ -59,8 +59,12 @@ Expression parseExpression(std::string_view text);
 double evaluate(const Expression& expression,
                 const std::function<std::optional<double>(std::string_view)>& valueOf);
 
-/// Two indented lines: the text (around the place if it is long), and a caret below the place.
-std::string caretLines(std::string_view text, std::size_t position);
+/// Two lines: the text (so many bytes around the place if it is long), and a caret below the place.
+std::string caretLines(std::string_view text, std::size_t position, std::size_t reach = 40,
+                       std::string_view indent = "    ");
+
+/// The text with every occurrence of a name replaced; what it is a part of stays. The text need not be valid.
+std::string withNameReplaced(std::string_view text, std::string_view from, std::string_view to);
 
 /// All functions that expressions know, without dot.
 const std::vector<std::string>& expressionFunctions();

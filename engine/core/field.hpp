@@ -30,6 +30,8 @@ struct FieldInfo {
     std::string description;           ///< one line
     std::string whyLimits;             ///< hint where a value is out of range; may be empty
     Value example;                     ///< what a new scene starts from where there is no default
+
+    const Value& firstValue() const { return example.isNull() ? fallback : example; }
 };
 
 /// A number field of `Owner`: its descriptor and where it is stored.

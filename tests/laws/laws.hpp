@@ -17,7 +17,7 @@ inline System systemNamed(const std::string& id, Value::Object overrides = {}) {
     const ModelEntry* entry = findModel(id);
     Settings settings;
     settings.type = id;
-    for (const FieldInfo& f : entry->item.parameters) settings.keys.emplace_back(f.key, f.example.isNull() ? f.fallback : f.example);
+    for (const FieldInfo& f : entry->item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
     for (auto& [key, value] : overrides)
         for (auto& member : settings.keys)
             if (member.first == key) member.second = value;

@@ -4,10 +4,13 @@
 #include <QLabel>
 #include <QMenu>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/json.hpp"
 #include "ui/panels/form.hpp"
+#include "ui/panels/lagrangian_editor.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -23,6 +26,12 @@ FieldInfo numberField(std::string key, std::string title, std::string unit, doub
     f.fallback = fallback;
     f.description = std::move(description);
     return f;
+}
+
+/// Its parameters are named by the user, and have an editor of their own.
+bool isTyped(const ModelEntry& entry) {
+    return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
+                       [](const FieldInfo& field) { return field.type == FieldType::constants; });
 }
 
 std::vector<FormField> parameterFields(const ModelEntry& entry) {
@@ -88,18 +97,22 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     model_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     connect(model_, &QComboBox::activated, this, &ScenePanel::changeModel);
     parameters_ = new Form(workspace);
+    lagrangian_ = new LagrangianEditor(workspace);
+    lagrangian_->hide();
     initial_ = new Form(workspace);
     time_ = new Form(workspace);
     body()->addWidget(model_);
     body()->addWidget(parameters_);
+    body()->addWidget(lagrangian_);
     body()->addWidget(sectionLabel(tr("Initial data")));
     body()->addWidget(initial_);
     body()->addWidget(sectionLabel(tr("Time")));
     body()->addWidget(time_);
     menu()->addAction(tr("Reset parameters"), this, [this] {
         if (const ModelEntry* entry = findModel(workspace_.scene().model.type)) {
-            Value model(Value::Object{{"type", entry->item.id}});
-            workspace_.edit({{"/model", model}}, tr("Reset parameters"));
+            std::vector<Edit> edits{{"/model", exampleModel(*entry)}};
+            if (isTyped(*entry)) edits.push_back({"/initial", std::nullopt});
+            workspace_.edit(edits, tr("Reset parameters"));
         }
     });
     menu()->addAction(tr("Reset initial data"), this,
@@ -114,6 +127,7 @@ void ScenePanel::rebuild() {
     const Scene& scene = workspace_.scene();
     std::string keys = std::to_string(static_cast<int>(scene.initial.second));
     for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
+    if (const Value* names = scene.model.find("coordinates")) keys += writeCompactJson(*names);
     if (scene.model.type == shownModel_ && keys == shownInitial_) return;
     const ModelEntry* entry = findModel(scene.model.type);
     if (!entry) return;
@@ -122,7 +136,10 @@ void ScenePanel::rebuild() {
     model_->setCurrentIndex(model_->findData(QString::fromStdString(shownModel_)));
     model_->setToolTip(QString::fromStdString(entry->item.description));
     const System system = entry->make(scene.model);
-    parameters_->setFields(parameterFields(*entry));
+    parameters_->setFields(isTyped(*entry) ? std::vector<FormField>{} : parameterFields(*entry));
+    parameters_->setVisible(!isTyped(*entry));
+    lagrangian_->setVisible(isTyped(*entry));
+    lagrangian_->refresh();
     initial_->setFields(initialFields(workspace_, system));
     time_->setFields({{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
 }

@@ -9,6 +9,7 @@ class QComboBox;
 namespace extremal {
 
 class Form;
+class LagrangianEditor;
 class Workspace;
 
 class ScenePanel : public Card {
@@ -25,6 +26,7 @@ private:
     Workspace& workspace_;
     QComboBox* model_;
     Form *parameters_, *initial_, *time_;
+    LagrangianEditor* lagrangian_;
     std::string shownModel_;
     std::string shownInitial_;  ///< which keys of the initial data are shown
 };

@@ -122,7 +122,8 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
         const double radius = isHighlighted ? 6 : 4.5;
         for (std::size_t i = 0; i < series.x.size(); ++i) {
             const QPointF p = map(series.x[i], series.y[i]);
-            if (map.rect.adjusted(-6, -6, 6, 6).contains(p)) painter.drawEllipse(p, radius, radius);
+            const bool isKnown = std::isfinite(p.x()) && std::isfinite(p.y());
+            if (isKnown && map.rect.adjusted(-6, -6, 6, 6).contains(p)) painter.drawEllipse(p, radius, radius);
         }
         painter.setBrush(Qt::NoBrush);
     }

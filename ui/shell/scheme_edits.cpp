@@ -27,7 +27,7 @@ double roundStep(double x) {
 Settings withDefaults(const CatalogItem& item) {
     Settings settings;
     settings.type = item.id;
-    for (const FieldInfo& f : item.parameters) settings.keys.emplace_back(f.key, f.fallback);
+    for (const FieldInfo& f : item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
     return settings;
 }
 
@@ -144,13 +144,17 @@ std::vector<Edit> editsForToggle(const Scene& scene, int index) {
     return {{place(index) + "/enabled", !scene.schemes[static_cast<std::size_t>(index)].isEnabled}};
 }
 
-std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
-    const ModelEntry* old = findModel(scene.model.type);
-    const double scale = old && old->exampleStep > 0 ? entry.exampleStep / old->exampleStep : 1;
+Value exampleModel(const ModelEntry& entry) {
     Value model(Value::Object{{"type", entry.item.id}});
     for (const FieldInfo& field : entry.item.parameters)
         if (!field.example.isNull()) model.set(field.key, field.example);
-    std::vector<Edit> edits = {{"/model", model},
+    return model;
+}
+
+std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
+    const ModelEntry* old = findModel(scene.model.type);
+    const double scale = old && old->exampleStep > 0 ? entry.exampleStep / old->exampleStep : 1;
+    std::vector<Edit> edits = {{"/model", exampleModel(entry)},
                                {"/initial", std::nullopt},
                                {"/views", std::nullopt},
                                {"/observe", std::nullopt},
@@ -162,7 +166,7 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
                                {"/time", Value(Value::Object{{"start", 0}, {"end", entry.exampleEnd}})}};
     Scene next;
     next.model.type = entry.item.id;
-    for (const FieldInfo& f : entry.item.parameters) next.model.keys.emplace_back(f.key, f.fallback);
+    for (const FieldInfo& f : entry.item.parameters) next.model.keys.emplace_back(f.key, f.firstValue());
     const System system = entry.make(next.model);
     next.end.value = entry.exampleEnd;
     Value::Array schemes;
@@ -191,6 +195,9 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         schemes.push_back(newPair(next, space, ruleFor("gauss", space)));
     }
     edits.push_back({"/schemes", std::move(schemes)});
+    const bool isOfOldModel =
+        scene.reference.kind == ReferenceSpec::Kind::exact || scene.reference.kind == ReferenceSpec::Kind::file;
+    if (isOfOldModel) edits.push_back({"/reference", std::nullopt});
     return edits;
 }
 

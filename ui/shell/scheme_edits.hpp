@@ -26,6 +26,8 @@ std::vector<Edit> editsForDuplicate(const Value& document, const Scene& scene, i
 std::vector<Edit> editsForRemoval(int index);
 std::vector<Edit> editsForMove(const Value& document, int index, int by);
 std::vector<Edit> editsForToggle(const Scene& scene, int index);
+/// The model with the values it starts from, where they are not its defaults.
+Value exampleModel(const ModelEntry& entry);
 /// Another model: its example data and views, and a step that suits it for every scheme. Schemes that the model has no
 /// use for turn into pairs of the same order, or go.
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);

@@ -17,6 +17,7 @@ QLabel[role="heading"] { font-size: @14px; font-weight: 600; }
 QLabel[role="title"] { font-size: @13px; font-weight: 600; }
 QLabel[role="strong"] { font-weight: 600; }
 QLabel[role="caption"] { font-size: @11px; color: @muted; }
+QLabel[problem="true"] { color: @error; }
 QFrame[card="true"] { background: @panel; border: 1px solid @cardLine; border-radius: 8px; }
 QFrame[card="true"][selected="true"] { border: 2px solid @accent; }
 QFrame[banner="warning"] { background: @warningGround; border: 1px solid @warningLine; border-radius: 8px; }
@@ -80,6 +81,7 @@ QSpinBox::down-arrow, QDoubleSpinBox::down-arrow {
 QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; color: @text; border: 1px solid @cardLine; border-radius: 6px;
     selection-background-color: @accent; selection-color: @onAccent; }
 QPlainTextEdit:focus, QTextEdit:focus { border-color: @accent; }
+QPlainTextEdit[invalid="true"] { border-color: @error; background: @errorGround; }
 QSlider::groove:horizontal { height: 4px; border-radius: 2px; background: @line; }
 QSlider::sub-page:horizontal { height: 4px; border-radius: 2px; background: @accent; }
 QSlider::handle:horizontal { width: 12px; height: 12px; margin: -4px 0; border-radius: 6px; background: @accent; }

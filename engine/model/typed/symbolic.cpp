@@ -47,6 +47,7 @@ constexpr double maxBits = 2000;
 constexpr int maxGraph = 2'000'000;
 
 struct TooLong : std::exception {};
+struct Stopped : std::exception {};
 
 /// Number of parts, counted no further than one beyond the limit.
 int countParts(const ex& e, int limit) {
@@ -95,7 +96,8 @@ struct HashEx {
 /// One differentiation, from the formula to the graph; everything of GiNaC lives and dies in here.
 class Engine {
 public:
-    Engine(const Formula& formula, const ResolvedFormula& resolved) : formula_(formula), resolved_(resolved) {
+    Engine(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop)
+        : formula_(formula), resolved_(resolved), stop_(stop) {
         const int symbols = formula.firstParameter() + static_cast<int>(formula.parameters.size());
         for (int i = 0; i < symbols; ++i) symbols_.push_back(Leaf(*this, Leaf::Kind::symbol, i));
     }
@@ -118,7 +120,9 @@ public:
 
     /// Called at every leaf that a derivative meets: between two calls little can happen.
     void tick() {
-        if (++ticks_ % 64 == 0 && std::chrono::steady_clock::now() > deadline_) throw TooLong();
+        if (++ticks_ % 64 != 0) return;
+        if (stop_.stop_requested()) throw Stopped();
+        if (std::chrono::steady_clock::now() > deadline_) throw TooLong();
     }
     const ex& derivativeOfPart(int part, const GiNaC::symbol& s) {
         const int with = ex_to<Leaf>(s).index();
@@ -308,6 +312,7 @@ private:
 
     const Formula& formula_;
     const ResolvedFormula& resolved_;
+    std::stop_token stop_;
     std::chrono::steady_clock::time_point deadline_ =
         std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<long>(1000 * maxSeconds));
     long ticks_ = 0;
@@ -323,17 +328,19 @@ ex Leaf::derivative(const GiNaC::symbol& s) const {
     return kind_ == Kind::part ? engine_->derivativeOfPart(index_, s) : GiNaC::symbol::derivative(s);
 }
 
-/// What was found for a formula: derivatives, or why there are none.
+/// What was found for a formula: derivatives, or why there are none; neither if it was stopped.
 struct Finding {
     std::shared_ptr<const SymbolicLagrangian> result;
     std::optional<ExpressionError> error;
 };
 
-Finding find(const Formula& formula, const ResolvedFormula& resolved) {
+Finding find(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop) {
     try {
-        return {std::make_shared<const SymbolicLagrangian>(Engine(formula, resolved).run()), {}};
+        return {std::make_shared<const SymbolicLagrangian>(Engine(formula, resolved, stop).run()), {}};
     } catch (const ExpressionError& e) {
         return {nullptr, e};
+    } catch (const Stopped&) {
+        return {};
     } catch (const TooLong&) {
         return {nullptr, ExpressionError("takes more than " + formatNumber(maxSeconds) + " s to differentiate", 0,
                                          "a shorter formula, or fewer coordinates")};
@@ -344,35 +351,55 @@ Finding find(const Formula& formula, const ResolvedFormula& resolved) {
     }
 }
 
-}  // namespace
-
-std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula) {
-    struct Known {
+/// The last findings. Its lock is held for a moment only, while GiNaC may be at work for seconds.
+class Memory {
+public:
+    struct Key {
         std::vector<std::string> names;
         std::string text;
         std::vector<double> exponents;
-        Finding finding;
+        bool operator==(const Key&) const = default;
     };
-    constexpr std::size_t remembered = 24;
-    static std::mutex mutex;
-    static std::list<Known> known;
+    std::optional<Finding> recall(const Key& key) {
+        const std::lock_guard lock(mutex_);
+        const auto found = std::find_if(known_.begin(), known_.end(), [&](const auto& k) { return k.first == key; });
+        if (found == known_.end()) return {};
+        known_.splice(known_.begin(), known_, found);
+        return found->second;
+    }
+    void keep(const Key& key, const Finding& finding) {
+        constexpr std::size_t remembered = 24;
+        const std::lock_guard lock(mutex_);
+        known_.emplace_front(key, finding);
+        if (known_.size() > remembered) known_.pop_back();
+    }
+
+private:
+    std::mutex mutex_;
+    std::list<std::pair<Key, Finding>> known_;
+};
+
+}  // namespace
+
+std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, const std::stop_token& stop) {
+    static Memory memory;
+    static std::mutex working;
 
     const ResolvedFormula resolved = resolve(formula);
-    std::vector<std::string> names = formula.coordinates;
-    names.emplace_back();
-    for (const auto& parameter : formula.parameters) names.push_back(parameter.first);
-    const std::lock_guard lock(mutex);
-    auto found = std::find_if(known.begin(), known.end(), [&](const Known& k) {
-        return k.text == formula.text && k.names == names && k.exponents == resolved.exponents;
-    });
-    if (found == known.end()) {
-        known.push_front({std::move(names), formula.text, resolved.exponents, find(formula, resolved)});
-        if (known.size() > remembered) known.pop_back();
-    } else {
-        known.splice(known.begin(), known, found);
+    Memory::Key key{formula.coordinates, formula.text, resolved.exponents};
+    key.names.emplace_back();
+    for (const auto& parameter : formula.parameters) key.names.push_back(parameter.first);
+    std::optional<Finding> finding = memory.recall(key);
+    if (!finding) {
+        const std::lock_guard lock(working);
+        finding = memory.recall(key);  // another thread may have been at it
+        if (!finding) {
+            finding = find(formula, resolved, stop);
+            if (finding->result || finding->error) memory.keep(key, *finding);
+        }
     }
-    if (known.front().finding.error) throw *known.front().finding.error;
-    return known.front().finding.result;
+    if (finding->error) throw *finding->error;
+    return finding->result;
 }
 
 }  // namespace extremal::typed

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <stop_token>
 #include <vector>
 
 #include "engine/model/typed/formula.hpp"
@@ -25,7 +26,7 @@ struct SymbolicLagrangian {
     std::vector<int> equations;  ///< left-hand sides, one per coordinate; empty where they would fill pages
 };
 
-/// Coordinates and parameters must have valid, different names.
-std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula);
+/// Coordinates and parameters must have valid, different names. Null if a stop was requested on the way.
+std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, const std::stop_token& stop = {});
 
 }  // namespace extremal::typed

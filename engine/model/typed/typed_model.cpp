@@ -4,6 +4,8 @@
 #include <set>
 
 #include "engine/core/problem.hpp"
+#include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/typeset.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -54,6 +56,18 @@ TypedMechanics mechanicsOf(const Formula& formula) {
     } catch (const ExpressionError& e) {
         throw InvalidScene("/lagrangian", std::string(e.what()) + "\n" + caretLines(formula.text, e.position), e.hint);
     }
+}
+
+Examination examine(const Formula& formula, const std::stop_token& stop) {
+    Examination found;
+    try {
+        found.isComplete = differentiate(formula, stop) != nullptr;
+        if (found.isComplete) found.equations = equationLines(formula, TextForm::rich);
+    } catch (const ExpressionError& e) {
+        found.isComplete = true;
+        found.position = e.position;
+    }
+    return found;
 }
 
 }  // namespace extremal::typed

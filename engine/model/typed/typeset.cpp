@@ -23,7 +23,6 @@ constexpr std::array<std::pair<const char*, const char*>, 37> greek = {
 /// A name as a letter or word, and an index below it.
 struct Name {
     std::string base, index;
-    bool isLetter = false;  ///< one letter, Latin or Greek
 };
 
 Name split(const std::string& name) {
@@ -38,11 +37,10 @@ Name split(const std::string& name) {
         result.index = name.substr(underscore + 1);
     }
     result.base = name.substr(0, end);
-    result.isLetter = result.base.size() == 1;
     for (const auto& [word, letter] : greek)
         if (result.base == word) {
             result.base = letter;
-            result.isLetter = true;
+            break;
         }
     return result;
 }
@@ -119,17 +117,16 @@ private:
         if (s == formula_.time()) return italic("t");
         if (s >= formula_.firstParameter())
             return named(formula_.parameters[static_cast<std::size_t>(s - formula_.firstParameter())].first, 0);
-        const int dots = s < d ? 0 : s < 2 * d ? 1 : 2;
+        const int primes = s < d ? 0 : s < 2 * d ? 1 : 2;
         const int i = s < d ? s : s < 2 * d ? s - d : s - 2 * d - 1;
-        return named(formula_.coordinates[static_cast<std::size_t>(i)], dots);
+        return named(formula_.coordinates[static_cast<std::size_t>(i)], primes);
     }
     std::string italic(const std::string& text) const { return isRich_ ? "<i>" + text + "</i>" : text; }
-    std::string named(const std::string& name, int dots) const {
-        Name parts = split(name);
-        if (dots > 0 && parts.isLetter) parts.base += dots == 1 ? "\u0307" : "\u0308";
+    std::string named(const std::string& name, int primes) const {
+        const Name parts = split(name);
         std::string text = italic(parts.base);
         if (!parts.index.empty()) text += isRich_ ? "<sub>" + parts.index + "</sub>" : plainIndex(parts.index);
-        if (dots > 0 && !parts.isLetter) text += dots == 1 ? "′" : "″";
+        if (primes > 0) text += primes == 1 ? "′" : "″";
         return text;
     }
     bool isAtom(int node) const {

@@ -1,4 +1,4 @@
-/// Formulas for people: Greek letters, subscripts, powers, dots for velocities.
+/// Formulas for people: Greek letters, subscripts, powers, primes for time derivatives.
 ///
 /// Two forms: rich text (a subset of HTML: sup, sub, i) for the window, plain Unicode for the command line.
 #pragma once
@@ -19,7 +19,7 @@ enum class TextForm { plain, rich };
 /// A node of the graph as a formula.
 std::string typeset(const Graph& graph, int node, const Formula& formula, TextForm form);
 
-/// "m ẍ + k x = 0", one line per coordinate; empty for formulas that would fill pages.
+/// "m x″ + k x = 0", one line per coordinate; empty for formulas that would fill pages.
 std::vector<std::string> equationLines(const Formula& formula, TextForm form);
 
 }  // namespace extremal::typed

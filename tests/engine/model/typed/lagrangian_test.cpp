@@ -279,9 +279,9 @@ private slots:
         const typed::Formula pendulum{{"theta1"}, {{"m", 1}, {"l", 2}, {"g", 9.81}, {"omega_0", 1}},
                                       "m/2*l^2*theta1_t^2 + m*g*l*cos(theta1) - 0.5*omega_0^2*theta1^2"};
         const auto plain = typed::equationLines(pendulum, typed::TextForm::plain);
-        QCOMPARE(QString::fromStdString(plain.at(0)), QString("m l² θ̈₁ + m l g sin θ₁ + ω₀² θ₁ = 0"));
+        QCOMPARE(QString::fromStdString(plain.at(0)), QString("m l² θ₁″ + m l g sin θ₁ + ω₀² θ₁ = 0"));
         const auto rich = typed::equationLines(pendulum, typed::TextForm::rich);
-        QVERIFY(rich.at(0).starts_with("<i>m</i> <i>l</i><sup>2</sup> <i>θ̈</i><sub>1</sub>"));
+        QVERIFY(rich.at(0).starts_with("<i>m</i> <i>l</i><sup>2</sup> <i>θ</i><sub>1</sub>″"));
         QCOMPARE(typed::symbolOf("omega_0"), std::string("ω₀"));
         QCOMPARE(typed::symbolOf("x12"), std::string("x₁₂"));
         QCOMPARE(typed::symbolOf("speed"), std::string("speed"));

@@ -1,0 +1,199 @@
+/// The editor of a typed Lagrangian, driven as a user does, in the whole window.
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPlainTextEdit>
+#include <QSlider>
+#include <QTest>
+#include <QToolButton>
+
+#include <algorithm>
+
+#include "ui/panels/formula_edit.hpp"
+#include "ui/panels/lagrangian_edits.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+class LagrangianEditorTest : public QObject {
+    Q_OBJECT
+
+    struct Window : MainWindow {
+        explicit Window(const QString& scene) : MainWindow(Theme::light(), false) {
+            show();
+            open(scene);
+            settle();
+        }
+        template <class T>
+        T* part(const QString& name) {
+            return findChild<T*>(name);
+        }
+        FormulaEdit* formula() { return part<FormulaEdit>("field.lagrangian"); }
+        QString problem() {
+            auto* label = part<QLabel>("problem.lagrangian");
+            return label->isVisible() ? label->text() : QString();
+        }
+        QString inScene(const char* pointer = "/model/lagrangian") {
+            const Value* value = valueAt(workspace().document(), pointer);
+            return value && value->isString() ? QString::fromStdString(value->asString()) : QString();
+        }
+        std::size_t coordinates() { return valueAt(workspace().document(), "/model/coordinates")->asArray().size(); }
+        void type(const QString& text) {
+            formula()->setFocus();
+            formula()->selectAll();
+            QTest::keyClicks(formula(), text);
+        }
+        static void settle() { QTest::qWait(400); }
+    };
+
+    static void enter(QLineEdit* edit, const QString& text) {
+        edit->setFocus();
+        edit->selectAll();
+        QTest::keyClicks(edit, text);
+        QTest::keyClick(edit, Qt::Key_Return);
+    }
+
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void theFormulaAndItsEquationsAreShown() {
+        Window window("preset:duffing");
+        QVERIFY(window.formula()->isVisible());
+        QCOMPARE(window.formula()->toPlainText(), window.inScene());
+        QTRY_VERIFY(window.part<QLabel>("equations")->text().contains("<i>x</i><sup>3</sup>"));
+        QVERIFY(window.problem().isEmpty());
+        QVERIFY(!window.formula()->property("invalid").toBool());
+        window.open("preset:kepler");
+        QTRY_VERIFY(!window.formula()->isVisible());
+    }
+    void aSoundFormulaBecomesTheScene() {
+        Window window("preset:duffing");
+        const QString before = window.inScene();
+        window.type("m/2*x_t^2 - k*x^2");
+        QCOMPARE(window.inScene(), before);  // not while it is being typed
+        QTRY_COMPARE(window.inScene(), QString("m/2*x_t^2 - k*x^2"));
+        QTRY_VERIFY(!window.part<QLabel>("equations")->text().contains("<sup>3</sup>"));
+        window.actions().find("undo")->trigger();
+        QCOMPARE(window.inScene(), before);
+        QTRY_COMPARE(window.formula()->toPlainText(), before);
+        window.actions().find("redo")->trigger();
+        QTRY_COMPARE(window.formula()->toPlainText(), QString("m/2*x_t^2 - k*x^2"));
+    }
+    void aWrongFormulaIsMarkedAndTheSceneStays() {
+        Window window("preset:duffing");
+        const QString before = window.inScene();
+        window.type("m/2*x_t^2 - kk*x^2");
+        QTRY_VERIFY(window.problem().contains("unknown name &quot;kk&quot;"));
+        QVERIFY(window.problem().contains("did you mean &quot;k&quot;?"));
+        QVERIFY(window.problem().contains('^'));
+        QCOMPARE(window.inScene(), before);
+        QVERIFY(window.formula()->property("invalid").toBool());
+        QCOMPARE(window.formula()->extraSelections().size(), 1);
+        QCOMPARE(window.formula()->extraSelections()[0].cursor.selectedText(), QString("kk"));
+        QCOMPARE(window.formula()->toPlainText(), QString("m/2*x_t^2 - kk*x^2"));  // what was typed stays
+        window.type("m/2*x_t^2 - k*x^2");
+        QTRY_VERIFY(window.problem().isEmpty());
+        QVERIFY(window.formula()->extraSelections().isEmpty());
+        QTRY_COMPARE(window.inScene(), QString("m/2*x_t^2 - k*x^2"));
+    }
+    void degenerateIsSaidToBeSo() {
+        Window window("preset:duffing");
+        window.type("m*x_t - k*x^2");
+        QTRY_VERIFY(window.problem().contains("is degenerate"));
+    }
+    void aSliderChangesTheParameter() {
+        Window window("preset:duffing");
+        auto* slider = window.part<QSlider>("slider.c");
+        QVERIFY(slider && slider->isEnabled());
+        QCOMPARE(slider->value(), 100);  // 4, from 0 to 8
+        for (int i = 1; i <= 20; ++i) slider->setValue(100 + i);
+        QCOMPARE(valueAt(window.workspace().document(), "/model/parameters/c")->asNumber(), 4.8);
+        QCOMPARE(window.part<QLineEdit>("field.c")->text(), QString("4.8"));
+        window.actions().find("undo")->trigger();  // one drag is one step
+        QCOMPARE(valueAt(window.workspace().document(), "/model/parameters/c")->asNumber(), 4.0);
+        QCOMPARE(slider->value(), 100);
+        Window forced("preset:forced-pendulum");
+        QVERIFY(!forced.part<QSlider>("slider.omega")->isEnabled());  // an expression
+    }
+    void parametersAreAddedRenamedAndRemoved() {
+        Window window("preset:duffing");
+        QTest::mouseClick(window.part<QToolButton>("addParameter"), Qt::LeftButton);
+        QCOMPARE(valueAt(window.workspace().document(), "/model/parameters/a")->asNumber(), 1.0);
+        QVERIFY(window.part<QToolButton>("remove.a")->isEnabled());
+        QVERIFY(!window.part<QToolButton>("remove.m")->isEnabled());  // the formula uses it
+        auto* name = window.part<QLineEdit>("name.c");
+        enter(name, "beta");
+        QVERIFY(!valueAt(window.workspace().document(), "/model/parameters/c"));
+        QVERIFY(window.inScene().contains("beta/4*x^4"));
+        QTRY_VERIFY(window.part<QLabel>("equations")->text().contains("β"));
+        QTest::mouseClick(window.part<QToolButton>("remove.a"), Qt::LeftButton);
+        QVERIFY(!valueAt(window.workspace().document(), "/model/parameters/a"));
+        auto* taken = window.part<QLineEdit>("name.k");
+        enter(taken, "x");
+        QVERIFY(window.part<QLabel>("problem.parameters")->isVisible());
+        QVERIFY(valueAt(window.workspace().document(), "/model/parameters/k"));
+    }
+    void coordinatesAreAddedRenamedAndRemoved() {
+        Window window("preset:double-well");
+        QTest::mouseClick(window.part<QToolButton>("addCoordinate"), Qt::LeftButton);
+        QCOMPARE(window.coordinates(), std::size_t(2));
+        QVERIFY(window.inScene().endsWith("+ y_t^2/2"));
+        QCOMPARE(valueAt(window.workspace().document(), "/initial/q")->asArray().size(), std::size_t(2));
+        QTRY_COMPARE(window.formula()->toPlainText(), window.inScene());
+        auto* names = window.part<QLineEdit>("field.coordinates");
+        QCOMPARE(names->text(), QString("x, y"));
+        QVERIFY(window.part<QLineEdit>("field.q.y"));  // the initial data follow
+        enter(names, "x, phi");
+        QVERIFY(window.inScene().endsWith("+ phi_t^2/2"));
+        enter(names, "x");  // the formula still has phi
+        QTRY_VERIFY(window.problem().contains("unknown name &quot;phi_t&quot;"));
+        QCOMPARE(window.coordinates(), std::size_t(2));
+        window.type("x_t^2/2 - x^4");  // both together are sound
+        QTRY_COMPARE(window.coordinates(), std::size_t(1));
+        QVERIFY(window.problem().isEmpty());
+        QCOMPARE(window.inScene(), QString("x_t^2/2 - x^4"));
+        QCOMPARE(valueAt(window.workspace().document(), "/initial/q")->asArray().size(), std::size_t(1));
+    }
+    void typingStaysFastWhileAHardFormulaIsDifferentiated() {
+        Window window("preset:duffing");
+        QString nest = "x", kinetic = "x_t^2";
+        Value::Array names{"x"};
+        for (int i = 1; i < 64; ++i) {
+            names.emplace_back("q" + std::to_string(i));
+            kinetic += QString(" + q%1_t^2").arg(i);
+        }
+        for (int i = 1; i < 190; ++i) nest = QString("tan(%1+q%2*q%3)").arg(nest).arg(i % 63 + 1).arg(7 * i % 63 + 1);
+        std::vector<std::string> coordinates;
+        for (const Value& n : names) coordinates.push_back(n.asString());
+        std::vector<Edit> edits = editsForCoordinates(window.workspace().document(), coordinates);
+        edits.push_back({"/model/lagrangian", kinetic.toStdString()});
+        QVERIFY(window.workspace().edit(edits, "many"));
+        window.formula()->setPlainText(kinetic + " + " + nest);
+        QTest::qWait(600);  // it is being differentiated now
+        QElapsedTimer timer;
+        timer.start();
+        QVERIFY(window.workspace().edit({{"/time/end", 5.0}}, "end"));
+        QVERIFY2(timer.elapsed() < 1500, qPrintable(QString::number(timer.elapsed())));  // measured: 0.2 s
+        window.formula()->setPlainText(kinetic + " - x^2");  // stops it
+        QTRY_COMPARE_WITH_TIMEOUT(window.inScene(), kinetic + " - x^2", 4000);
+    }
+    void aNewTypedModelIsSound() {
+        Window window("preset:kepler");
+        auto* model = window.part<QComboBox>("model");
+        model->setCurrentIndex(model->findData("lagrangian"));
+        emit model->activated(model->currentIndex());
+        QCOMPARE(window.inScene("/model/type"), QString("lagrangian"));
+        QTRY_VERIFY(window.formula()->isVisible());
+        QTRY_VERIFY(!window.part<QLabel>("equations")->text().isEmpty());
+    }
+};
+
+}  // namespace extremal
+
+QTEST_MAIN(extremal::LagrangianEditorTest)
+#include "lagrangian_editor_test.moc"

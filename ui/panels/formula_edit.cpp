@@ -1,0 +1,60 @@
+#include "ui/panels/formula_edit.hpp"
+
+#include <QFontDatabase>
+#include <QTextBlock>
+#include <QTextLayout>
+#include <algorithm>
+
+#include "ui/shell/theme.hpp"
+
+namespace extremal {
+
+FormulaEdit::FormulaEdit(QWidget* parent) : QPlainTextEdit(parent) {
+    QFont mono = QFontDatabase::systemFont(QFontDatabase::FixedFont);
+    mono.setPixelSize(12);
+    setFont(mono);
+    setTabChangesFocus(true);
+    setWordWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+    setVerticalScrollBarPolicy(Qt::ScrollBarAsNeeded);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    connect(this, &QPlainTextEdit::textChanged, this, &FormulaEdit::fit);
+}
+
+void FormulaEdit::resizeEvent(QResizeEvent* event) {
+    QPlainTextEdit::resizeEvent(event);
+    fit();
+}
+
+void FormulaEdit::fit() {
+    int lines = 0;
+    for (QTextBlock block = document()->begin(); block.isValid(); block = block.next()) {
+        blockBoundingRect(block);  // lays it out
+        lines += std::max(1, block.layout() ? block.layout()->lineCount() : 1);
+    }
+    const int margins = 2 * (static_cast<int>(document()->documentMargin()) + frameWidth()) + 6;
+    setFixedHeight(std::clamp(lines, 2, 12) * fontMetrics().lineSpacing() + margins);
+}
+
+void FormulaEdit::mark(std::optional<int> position) {
+    QList<QTextEdit::ExtraSelection> selections;
+    if (position) {
+        QTextEdit::ExtraSelection wrong;
+        wrong.cursor = QTextCursor(document());
+        const int end = document()->characterCount() - 1;
+        wrong.cursor.setPosition(std::clamp(*position, 0, end));
+        wrong.cursor.movePosition(QTextCursor::EndOfWord, QTextCursor::KeepAnchor);
+        if (!wrong.cursor.hasSelection() && *position < end)
+            wrong.cursor.movePosition(QTextCursor::NextCharacter, QTextCursor::KeepAnchor);
+        if (!wrong.cursor.hasSelection())
+            wrong.cursor.movePosition(QTextCursor::PreviousCharacter, QTextCursor::KeepAnchor);
+        wrong.format.setUnderlineStyle(QTextCharFormat::WaveUnderline);
+        wrong.format.setUnderlineColor(QColor(0xd0, 0x3a, 0x3a));
+        selections << wrong;
+    }
+    setExtraSelections(selections);
+    if (property("invalid").toBool() == position.has_value()) return;
+    setProperty("invalid", position.has_value());
+    repolish(*this);
+}
+
+}  // namespace extremal

@@ -1,0 +1,24 @@
+/// A text field for a formula: monospaced, as high as its text, with one place that can be underlined as wrong.
+#pragma once
+
+#include <QPlainTextEdit>
+#include <optional>
+
+namespace extremal {
+
+class FormulaEdit : public QPlainTextEdit {
+    Q_OBJECT
+public:
+    explicit FormulaEdit(QWidget* parent = nullptr);
+
+    /// Underlines the word at a character; none: nothing.
+    void mark(std::optional<int> position);
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void fit();
+};
+
+}  // namespace extremal

@@ -1,0 +1,53 @@
+/// The editor of a typed Lagrangian: the formula, checked while it is typed, its equations of motion, the coordinates
+/// and the parameters.
+///
+/// A formula that is sound becomes part of the scene by itself; one that is not stays in the editor, with the place
+/// underlined and a caret below it, while the scene keeps the last sound one. Differentiation runs beside the window.
+#pragma once
+
+#include <QTimer>
+#include <QWidget>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "engine/model/typed/typed_model.hpp"
+
+class QLabel;
+class QLineEdit;
+class QToolButton;
+
+namespace extremal {
+
+class FormulaEdit;
+class ParameterTable;
+class Workspace;
+
+class LagrangianEditor : public QWidget {
+    Q_OBJECT
+public:
+    explicit LagrangianEditor(Workspace& workspace, QWidget* parent = nullptr);
+    ~LagrangianEditor() override;
+
+    /// Shows the scene's Lagrangian, or what was typed and refused.
+    void refresh();
+
+private:
+    void check();
+    void take(const std::string& text, const typed::Examination& found);
+    void showProblem();
+    void changeCoordinates();
+    typed::Formula formulaNow() const;
+
+    Workspace& workspace_;
+    FormulaEdit* text_;
+    QLabel *problem_, *equations_;
+    QLineEdit* coordinates_;
+    ParameterTable* parameters_;
+    QTimer debounce_;
+    std::stop_source stop_;
+    bool isPending_ = false;  ///< typed, and not yet in the scene or refused
+    std::optional<std::size_t> place_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,149 @@
+#include "ui/panels/lagrangian_edits.hpp"
+
+#include <algorithm>
+
+#include "engine/core/expression.hpp"
+
+namespace extremal {
+
+namespace {
+
+std::string lagrangianOf(const Value& document) {
+    const Value* text = valueAt(document, "/model/lagrangian");
+    return text && text->isString() ? text->asString() : std::string();
+}
+
+std::vector<std::string> coordinatesOf(const Value& document) {
+    std::vector<std::string> names;
+    if (const Value* coordinates = valueAt(document, "/model/coordinates"); coordinates && coordinates->isArray())
+        for (const Value& name : coordinates->asArray())
+            if (name.isString()) names.push_back(name.asString());
+    return names;
+}
+
+Value::Object parametersOf(const Value& document) {
+    const Value* parameters = valueAt(document, "/model/parameters");
+    return parameters && parameters->isObject() ? parameters->asObject() : Value::Object{};
+}
+
+bool isTaken(const Value& document, const std::string& name) {
+    const auto coordinates = coordinatesOf(document);
+    const auto parameters = parametersOf(document);
+    return std::find(coordinates.begin(), coordinates.end(), name) != coordinates.end() ||
+           std::any_of(parameters.begin(), parameters.end(), [&](const Value::Member& m) { return m.first == name; });
+}
+
+std::string freeName(const Value& document, const std::vector<std::string>& wanted) {
+    for (const std::string& name : wanted)
+        if (!isTaken(document, name)) return name;
+    for (int i = 1;; ++i)
+        if (const std::string name = wanted.back() + std::to_string(i); !isTaken(document, name)) return name;
+}
+
+/// Every text below a value in which the name occurs, with the name replaced.
+void renameBelow(const Value& value, const std::string& pointer, const std::string& from, const std::string& to,
+                 std::vector<Edit>& edits) {
+    if (value.isString()) {
+        std::string text = withNameReplaced(value.asString(), from, to);
+        if (text != value.asString()) edits.push_back({pointer, std::move(text)});
+    } else if (value.isArray()) {
+        for (std::size_t i = 0; i < value.asArray().size(); ++i)
+            renameBelow(value.asArray()[i], pointer + "/" + std::to_string(i), from, to, edits);
+    } else if (value.isObject()) {
+        for (const auto& [key, member] : value.asObject()) renameBelow(member, pointer + "/" + key, from, to, edits);
+    }
+}
+
+Value namesValue(const std::vector<std::string>& names) {
+    Value::Array array;
+    for (const std::string& name : names) array.emplace_back(name);
+    return array;
+}
+
+/// The initial data in the order of the new coordinates; new ones start from 0.
+Value initialFor(const Value& document, const std::vector<std::string>& old, const std::vector<std::string>& source) {
+    const Value* initial = valueAt(document, "/initial");
+    Value result = initial ? *initial : Value(Value::Object{});
+    for (const char* key : {"q", "p", "v"}) {
+        Value* numbers = result.find(key);
+        if (!numbers || !numbers->isArray()) continue;
+        Value::Array moved;
+        for (const std::string& name : source) {
+            const auto at = static_cast<std::size_t>(std::find(old.begin(), old.end(), name) - old.begin());
+            moved.push_back(at < numbers->asArray().size() ? numbers->asArray()[at] : Value(0.0));
+        }
+        *numbers = Value(std::move(moved));
+    }
+    return result;
+}
+
+}  // namespace
+
+typed::Formula formulaIn(const Value& model) {
+    Value document(Value::Object{{"model", model}});
+    typed::Formula formula;
+    formula.coordinates = coordinatesOf(document);
+    for (const auto& [name, value] : parametersOf(document))
+        formula.parameters.emplace_back(name, value.isNumber() ? value.asNumber() : 1);
+    formula.text = lagrangianOf(document);
+    return formula;
+}
+
+std::vector<Edit> editsForParameterName(const Value& document, const std::string& from, const std::string& to) {
+    std::vector<Edit> edits;
+    Value::Object parameters = parametersOf(document);
+    for (auto& [name, value] : parameters) {
+        if (value.isString()) value = Value(withNameReplaced(value.asString(), from, to));
+        if (name == from) name = to;
+    }
+    edits.push_back({"/model/parameters", Value(std::move(parameters))});
+    for (const char* place : {"/model/lagrangian", "/initial", "/time", "/output"})
+        if (const Value* value = valueAt(document, place)) renameBelow(*value, place, from, to, edits);
+    if (const Value* schemes = valueAt(document, "/schemes"))
+        for (std::size_t i = 0; i < schemes->asArray().size(); ++i) {
+            const std::string step = "/schemes/" + std::to_string(i) + "/step";
+            if (const Value* value = valueAt(document, step)) renameBelow(*value, step, from, to, edits);
+        }
+    return edits;
+}
+
+std::vector<Edit> editsForNewParameter(const Value& document, std::string& name) {
+    name = freeName(document, {"a", "b", "c", "d", "k"});
+    return {{"/model/parameters/" + name, 1.0}};
+}
+
+std::vector<Edit> editsForParameterRemoval(const Value& document, const std::string& name) {
+    Value::Object parameters = parametersOf(document);
+    std::erase_if(parameters, [&](const Value::Member& m) { return m.first == name; });
+    return {{"/model/parameters", Value(std::move(parameters))}};
+}
+
+std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<std::string>& names) {
+    const std::vector<std::string> old = coordinatesOf(document);
+    std::vector<std::string> source = names;  // under which name the initial data of each are found
+    std::vector<std::size_t> changed;
+    for (std::size_t i = 0; i < names.size() && names.size() == old.size(); ++i)
+        if (names[i] != old[i]) changed.push_back(i);
+    std::vector<Edit> edits{{"/model/coordinates", namesValue(names)}};
+    if (changed.size() == 1) {
+        const std::string &from = old[changed[0]], &to = names[changed[0]];
+        source = old;
+        std::string text = withNameReplaced(lagrangianOf(document), from, to);
+        text = withNameReplaced(text, from + "_t", to + "_t");
+        edits.push_back({"/model/lagrangian", std::move(text)});
+    }
+    edits.push_back({"/initial", initialFor(document, old, source)});
+    // Plots and columns named after coordinates that are gone would be errors: the defaults follow the new ones.
+    edits.push_back({"/views", std::nullopt});
+    return edits;
+}
+
+std::vector<Edit> editsForNewCoordinate(const Value& document) {
+    std::vector<std::string> names = coordinatesOf(document);
+    names.push_back(freeName(document, {"x", "y", "z", "q"}));
+    std::vector<Edit> edits = editsForCoordinates(document, names);
+    edits.push_back({"/model/lagrangian", lagrangianOf(document) + " + " + names.back() + "_t^2/2"});
+    return edits;
+}
+
+}  // namespace extremal
