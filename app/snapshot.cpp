@@ -1,5 +1,6 @@
 #include <QApplication>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 #include <optional>
@@ -90,7 +91,12 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         const SnapshotRequest request = requestOf(snapshot);
         checkSnapshot(read.scene, request);
         InterruptWatch watch;
-        Run run(read.scene, {options.threads});
+        // A view asked for here is computed as if the scene had it.
+        Scene shown = read.scene;
+        const bool isInScene = std::any_of(shown.views.begin(), shown.views.end(),
+                                           [&](const View& v) { return v.id == request.view; });
+        if (request.view != "all" && !isInScene) shown.views.push_back({request.view, "", ""});
+        Run run(shown, {options.threads});
         run.start();
         const bool isInterrupted = waitFor(run, watch, options);
         const auto comparison = std::make_shared<const Comparison>(run.latest());

@@ -30,8 +30,8 @@ SaddlePoint::SaddlePoint(Mechanics<double> mechanics, const Table<double>& table
     end_ = Eigen::Map<const Eigen::VectorXd>(value.data(), n);
 }
 
-std::vector<SaddlePoint::Block> SaddlePoint::blocks() const {
-    std::vector<Block> all;
+std::vector<UnknownBlock> SaddlePoint::blocks() const {
+    std::vector<UnknownBlock> all;
     for (int k = 0; k <= elements_; ++k) {
         all.push_back({multiplierOffset(k), dimension(), true, k});
         if (k < elements_) all.push_back({elementOffset(k), elementSize(), false, k});

@@ -15,18 +15,13 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
+#include "engine/action/unknown_block.hpp"
 #include "engine/model/mechanics.hpp"
 
 namespace extremal {
 
 class SaddlePoint {
 public:
-    struct Block {
-        int offset = 0, size = 0;
-        bool isMultiplier = false;
-        int index = 0;  ///< k of p_k or z_k
-    };
-
     /// Elements of length h. The table says space and rule; its change of basis is not used.
     SaddlePoint(Mechanics<double> mechanics, const Table<double>& table, double h, int elements);
 
@@ -35,7 +30,7 @@ public:
     int size() const { return (elements_ + 1) * dimension() + elements_ * elementSize(); }
     int elementSize() const { return functions() * dimension(); }
     int functions() const { return static_cast<int>(value_.cols()); }
-    std::vector<Block> blocks() const;
+    std::vector<UnknownBlock> blocks() const;
     int multiplierOffset(int k) const { return k * (dimension() + elementSize()); }
     int elementOffset(int k) const { return multiplierOffset(k) + dimension(); }
 

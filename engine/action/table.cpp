@@ -34,7 +34,6 @@ Rule<Quad> widened(const Rule<double>& rule) {
     wide.b.assign(rule.b.begin(), rule.b.end());
     wide.degree = rule.degree;
     wide.isSymmetric = rule.isSymmetric;
-    wide.isInterpolatory = rule.isInterpolatory;
     wide.panels = rule.panels;
     wide.perPanel = rule.perPanel;
     return wide;

@@ -93,11 +93,13 @@ void addAgainstTime(Figure& figure, const FigureContext& context, std::string_vi
 
 void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn) {
     for (const auto& scheme : context.comparison.schemes) {
-        const std::span<const double> x = scheme->trajectory[xColumn], y = scheme->trajectory[yColumn];
+        const bool hasCurve = scheme->curve.find(xColumn) && scheme->curve.find(yColumn);
+        const Trajectory& from = hasCurve ? scheme->curve : scheme->trajectory;
+        const std::span<const double> x = from[xColumn], y = from[yColumn];
         if (x.empty() || y.empty()) continue;
         Series s = startSeries(*scheme);
         s.isCurve = xColumn != "t";
-        if (const std::span<const double> t = scheme->trajectory["t"]; s.isCurve) s.t.assign(t.begin(), t.end());
+        if (const std::span<const double> t = from["t"]; s.isCurve) s.t.assign(t.begin(), t.end());
         s.x.assign(x.begin(), x.end());
         s.y.assign(y.begin(), y.end());
         figure.series.push_back(std::move(s));

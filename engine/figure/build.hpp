@@ -32,7 +32,7 @@ Figure startFigure(const FigureContext& context, std::string title);
 enum class Take { value, magnitude };
 void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take);
 
-/// One curve per scheme: a column against another.
+/// One curve per scheme: a column against another; where steps are few, along the scheme's own curve inside them.
 void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn);
 
 /// Marks of the schemes that failed, gaps where an axis cannot show a value, ranges, a message if there is nothing,

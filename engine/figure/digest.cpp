@@ -50,7 +50,7 @@ std::string digest(const Figure& figure) {
     for (const Series& s : figure.series) {
         text += "series " + std::to_string(s.style) + " " + s.label + ": " + std::to_string(s.x.size()) + " points, " +
                 std::to_string(s.hidden) + " hidden" + (s.isCurve ? ", curve" : "") + (s.hasMarkers ? ", markers" : "") +
-                (s.hasLine ? ", line" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " +
+                (s.hasLine ? ", line" : "") + (s.isCells ? ", cells" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " +
                 nineDigits(maxMagnitude(s.y)) + "\n";
     }
     for (const FailureMark& f : figure.failures)

@@ -5,6 +5,7 @@
 
 #include "engine/figure/view.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/scene/bind.hpp"
 
 namespace extremal {
 
@@ -62,6 +63,20 @@ std::vector<std::string> timePlots(const System& system) {
 
 }  // namespace
 
+namespace {
+
+/// The first pairs that run, by label: pictures of one scheme each.
+std::vector<std::string> pairLabels(const Scene& scene, const System& system) {
+    constexpr std::size_t most = 4;
+    std::vector<std::string> labels;
+    for (const SchemeSpec& s : scene.schemes)
+        if (const auto pair = pairOf(s); s.isEnabled && pair && isPairFor(*pair, system) && labels.size() < most)
+            labels.push_back(s.label);
+    return labels;
+}
+
+}  // namespace
+
 std::vector<View> plotViews(const Scene& scene) {
     const ModelEntry* model = findModel(scene.model.type);
     const System system = model ? model->make(scene.model) : System{};
@@ -69,6 +84,12 @@ std::vector<View> plotViews(const Scene& scene) {
     for (const View& view : scene.views.empty() ? defaultViews(scene) : scene.views) {
         const ViewEntry* entry = findView(view.id);
         if (!entry || !entry->make) continue;
+        if (view.id == "sparsity" && view.scheme.empty()) {
+            const std::vector<std::string> pairs = pairLabels(scene, system);
+            for (const std::string& label : pairs) result.push_back({view.id, "", "", label});
+            if (pairs.empty()) result.push_back(view);
+            continue;
+        }
         const std::vector<std::string> columns = timePlots(system);
         if (view.id != "trajectory" || !view.x.empty() || !view.y.empty() || columns.empty()) {
             result.push_back(view);

@@ -16,6 +16,7 @@ struct Axis {
     bool isLog = false;
     bool isTime = false;  ///< linked with the other time axes
     std::optional<std::pair<double, double>> range;  ///< fixed range; else fitted to the data
+    std::vector<std::pair<double, std::string>> ticks = {};  ///< named places in place of numbers, without a grid
 };
 
 struct Series {
@@ -24,6 +25,8 @@ struct Series {
     bool isCurve = false;      ///< x is not monotone (phase portrait): drawn as a parametric curve
     bool hasMarkers = false;   ///< a point at every value
     bool hasLine = true;
+    bool isCells = false;      ///< a unit square around every point
+    bool isHollow = false;     ///< cells are pale
     std::vector<double> x, y;  ///< NaN is a gap
     std::vector<double> t;     ///< of the points of a curve, so that a cursor in time finds its place; else empty
     int hidden = 0;      ///< values a log axis cannot show (<= 0) or that are not finite

@@ -9,7 +9,7 @@ namespace extremal {
 
 std::optional<std::pair<double, double>> pointAt(const Series& series, double t) {
     const std::vector<double>& time = series.isCurve ? series.t : series.x;
-    if (time.size() != series.y.size() || time.empty() || series.hasMarkers) return {};
+    if (time.size() != series.y.size() || time.empty() || series.hasMarkers || series.isCells) return {};
     if (!(t >= time.front() && t <= time.back())) return {};
     const auto next = std::upper_bound(time.begin(), time.end(), t);
     const std::size_t b = std::min<std::size_t>(static_cast<std::size_t>(next - time.begin()), time.size() - 1);

@@ -314,26 +314,8 @@ void GalerkinStep<T, D>::curve(const T& tau, T* q, T* p) const {
         q[k] = q0_(k) + Y.row(k).dot(y.transpose());
         p[k] = p0_(k);
     }
-    // p(tau) = p_0 + h int_0^tau of the polynomial through the L_q(i): at tau = 1 the rule itself. A composite rule has no
-    // such polynomial; there the impulse of each node acts when it is passed.
-    std::vector<T> share(static_cast<std::size_t>(n()));
-    for (int i = 0; i < n(); ++i) {
-        auto& s = share[static_cast<std::size_t>(i)];
-        if (!table_.rule.isInterpolatory) {
-            s = table_.node(i) <= tau ? table_.weight(i) : T(0);
-            continue;
-        }
-        const Rule<T> inner = gauss<T>(n() / 2 + 1);
-        s = T(0);
-        for (int j = 0; j < inner.size(); ++j) {
-            T cardinal(1);
-            for (int k = 0; k < n(); ++k)
-                if (k != i)
-                    cardinal *= (inner.c[static_cast<std::size_t>(j)] * tau - table_.node(k)) /
-                                (table_.node(i) - table_.node(k));
-            s += tau * inner.b[static_cast<std::size_t>(j)] * cardinal;
-        }
-    }
+    // p(tau) = p_0 + h int_0^tau of the polynomials through the L_q(i) of each panel: at tau = 1 the rule itself.
+    const std::vector<T> share = weightsUpTo(table_, tau);
     for (int k = 0; k < d(); ++k)
         for (int i = 0; i < n(); ++i) p[k] += h_ * share[static_cast<std::size_t>(i)] * forces(k, i);
 }

@@ -183,7 +183,6 @@ Rule<T> composite(const Rule<T>& rule, int panels) {
     Rule<T> all;
     all.degree = rule.degree;
     all.isSymmetric = rule.isSymmetric;
-    all.isInterpolatory = false;
     all.panels = panels;
     all.perPanel = rule.size();
     for (int j = 0; j < panels; ++j) {
@@ -220,7 +219,9 @@ void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share) {
     const int perPanel = rule.perPanel > 0 ? rule.perPanel : rule.size();
     const bool isMerged = rule.size() < rule.panels * perPanel;
     const int stride = isMerged ? perPanel - 1 : perPanel;
-    const Rule<T> inner = gauss<T>(perPanel / 2 + 1);  // exact for the cardinal polynomials of a panel
+    // Exact for the cardinal polynomials of a panel; kept, as curves are asked for at many places.
+    thread_local Rule<T> inner;
+    if (inner.size() != perPanel / 2 + 1) inner = gauss<T>(perPanel / 2 + 1);
     std::fill(share.begin(), share.end(), T(0));
     for (int j = 0; j < rule.panels; ++j) {
         const T start = T(j) / T(rule.panels), end = T(j + 1) / T(rule.panels);

@@ -21,7 +21,6 @@ struct Rule {
     std::vector<T> b;  ///< weights, sum 1
     int degree = 0;
     bool isSymmetric = true;
-    bool isInterpolatory = true;  ///< the weights integrate the polynomial through all nodes
     int panels = 1;    ///< in each panel the weights integrate the polynomial through its nodes
     int perPanel = 0;  ///< nodes of a panel; merged panels share their ends. 0: all, in one panel
     int size() const { return static_cast<int>(c.size()); }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "engine/core/outcome.hpp"
+#include "engine/integrator/action_defect.hpp"
+#include "engine/integrator/kkt_pattern.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/trajectory.hpp"
 
@@ -48,7 +50,11 @@ struct SchemeResult {
     int style = 0;            ///< index of colour and dash: the scheme's place in the scene, disabled ones counted
     double fraction = 0;      ///< of the time interval covered, 0..1
     Trajectory trajectory;
+    Trajectory curve;  ///< t and state of a run of few steps, several times in each, from the scheme's own curve; for plots
     Summary summary;
+    /// Of pairs, where a view of the scene shows them; else null.
+    std::shared_ptr<const KktPattern> pattern = {};
+    std::shared_ptr<const ActionDefect> actionDefect = {};
 };
 
 struct ReferenceInfo {

@@ -8,6 +8,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/run/look_at_pair.hpp"
 #include "engine/run/reference.hpp"
 #include "engine/run/scheme_run.hpp"
 #include "engine/scene/bind.hpp"
@@ -58,9 +59,10 @@ struct Run::Impl {
             const std::lock_guard lock(mutex);
             reference = ref.info;
         }
+        const std::shared_ptr<ExactActions> exact = exactActionsOf(scene, system, initial);
         std::atomic<std::size_t> next{0};
         auto takeTasks = [&] {
-            for (std::size_t i = next++; i < tasks.size(); i = next++) tasks[i]->run(system, initial, ref, stop);
+            for (std::size_t i = next++; i < tasks.size(); i = next++) tasks[i]->run(system, initial, ref, exact.get(), stop);
         };
         {
             std::vector<std::jthread> pool;

@@ -11,6 +11,7 @@
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/advice.hpp"
+#include "engine/run/look_at_pair.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -73,6 +74,7 @@ struct SchemeRun::Pass {
     long long steps = 0;       ///< planned; 0 for adaptive schemes
     long long maxRows = 0;     ///< adaptive: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
+    bool isCurveWanted = false;
     std::unique_ptr<Integrator> integrator;
     RowSampler sampler;
     std::vector<Bound> observers;
@@ -204,12 +206,41 @@ struct SchemeRun::Pass {
         }
     }
 
+    /// Points inside a step for plots: enough to bend where steps are few, none where they are many.
+    int pointsPerStep() const {
+        constexpr long long fewSteps = 500, points = 2000;
+        if (isAdaptiveScheme) return 8;
+        return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
+    }
+    void keepCurve(double before, int points) {
+        constexpr std::size_t most = 20000;
+        std::vector<Column>& columns = result.curve.columns;
+        std::vector<double> x(state.x.size());
+        for (int j = 1; j <= points; ++j) {
+            const double tau = static_cast<double>(j) / points;
+            if (j < points)
+                integrator->curve(tau, x);
+            else
+                x = state.x;
+            columns[0].values.push_back(before + tau * (state.t - before));
+            for (std::size_t c = 0; c < stateWidth; ++c) columns[c + 1].values.push_back(x[c]);
+        }
+        if (columns[0].values.size() > most) columns.clear();  // an adaptive code with many steps: its rows are dense
+    }
+
     /// Integrates to the end or the first trouble; `publish` is called between blocks.
     template <class Publish>
     Outcome integrate(Publish&& publish) {
         // Long enough to be worth the clock, short enough for the cache and for a stop.
         const bool isDense = scene.isDense && scene.every;
-        const std::size_t blockMax = isDense ? 1 : std::clamp<std::size_t>(16384 / state.x.size(), 1, 512);
+        const int points = isCurveWanted ? pointsPerStep() : 0;
+        if (points > 0) {
+            result.curve.columns = leadingColumns(system);
+            result.curve.columns[0].values.push_back(state.t);
+            for (std::size_t c = 0; c < stateWidth; ++c) result.curve.columns[c + 1].values.push_back(state.x[c]);
+        }
+        // The curve is that of the last step alone.
+        const std::size_t blockMax = isDense || points > 0 ? 1 : std::clamp<std::size_t>(16384 / state.x.size(), 1, 512);
         NodeBlock nodes(state.x.size(), blockMax);
         nodes.push(state, {});
         look(nodes);
@@ -253,6 +284,7 @@ struct SchemeRun::Pass {
                 }
                 lastReport = nodes.report(nodes.size() - 1);
                 if (isDense) lookDense(start.t, lastReport, nextMultiple);
+                if (!result.curve.columns.empty()) keepCurve(start.t, points);
             }
             if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows) hasOverflown = true;
             if (hasOverflown) {
@@ -294,7 +326,7 @@ void SchemeRun::publish(const SchemeResult& result) {
     latest_ = std::move(copy);
 }
 
-void SchemeRun::run(const System& system, const State& initial, const Reference& reference,
+void SchemeRun::run(const System& system, const State& initial, const Reference& reference, ExactActions* exact,
                     const std::stop_token& stop) {
     const int style = latest()->style;
     using Clock_ = std::chrono::steady_clock;
@@ -303,6 +335,7 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
         const State own = schemeStart(scene_, system, spec_, spec_.step.value, initial);
         Pass p(scene_, spec_, system, own, reference, scene_.observe, spec_.step.value, stride, style, stop);
         p.maxRows = maxRows;
+        p.isCurveWanted = true;
         auto last = Clock_::now();
         auto pause = std::chrono::milliseconds(30);
         p.run([&] {
@@ -338,6 +371,11 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
         }
         const bool wantsOrder =
             std::find(scene_.observe.begin(), scene_.observe.end(), "order") != scene_.observe.end();
+        if (exact || showsView(scene_, "sparsity")) {
+            publish(result);
+            const State own = schemeStart(scene_, system, spec_, spec_.step.value, initial);
+            lookAtPair(result, scene_, system, own, exact, stop);
+        }
         if (wantsOrder && result.summary.status == RunStatus::done && !isAdaptive(spec_) && reference.make)
             measureOrder(result, system, initial, reference, stop);
         publish(result);

@@ -16,12 +16,16 @@
 
 namespace extremal {
 
+class ExactActions;
+
 class SchemeRun {
 public:
     SchemeRun(const Scene& scene, const SchemeSpec& spec, int style);
 
-    /// Integrates; returns when done, failed or stopped. Never throws for numerical trouble.
-    void run(const System& system, const State& initial, const Reference& reference, const std::stop_token& stop);
+    /// Integrates; returns when done, failed or stopped. Never throws for numerical trouble. `exact`: null where no view
+    /// compares actions.
+    void run(const System& system, const State& initial, const Reference& reference, ExactActions* exact,
+             const std::stop_token& stop);
 
     /// What there is now; immutable.
     std::shared_ptr<const SchemeResult> latest() const;

@@ -195,6 +195,16 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             else if (system && column->isString() && !contains(columnNames(*system, scene), *target))
                 reader.unknownName(at, "column", *target, columnNames(*system, scene));
         }
+        if (const Value* label = object.find("scheme")) {
+            const std::string at = childPointer(pointer, "scheme");
+            view.scheme = reader.text(*label, at).value_or("");
+            std::vector<std::string> labels;
+            for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
+            if (view.id != "sparsity")
+                reader.error(at, "is only for pictures of one scheme", "the view sparsity");
+            else if (label->isString() && reader.errors.empty() && !contains(labels, view.scheme))
+                reader.unknownName(at, "scheme", view.scheme, labels);
+        }
         for (const char* id : {"energy", "momentum", "error"})
             if (view.id == id && !contains(scene.observe, id))
                 reader.warning(pointer, "shows nothing: " + view.id + " is not observed",

@@ -208,6 +208,7 @@ Value viewChoice() {
     p.set("view", enumeration(idsOf(viewCatalog())));
     p.set("x", typed("string", "A column, for phase portraits."));
     p.set("y", typed("string", "A column, for phase portraits."));
+    p.set("scheme", typed("string", "The label of a scheme, for the view sparsity."));
     return anyOf({enumeration(idsOf(viewCatalog())), object(p, {"view"})});
 }
 

@@ -1,6 +1,9 @@
 /// Kept pictures of plots, 600 x 400, and that small changes would be seen.
 #include <QtTest>
 
+#include "engine/run/run.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/codec.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/golden/golden_check.hpp"
 #include "ui/plots/plot_renderer.hpp"
@@ -16,6 +19,16 @@ class PlotGoldenTest : public QObject {
         v.id = view;
         return makeFigure(handmade::comparison(), v, &pendulum);
     }
+    /// Of the preset that shows the equations.
+    static Figure frameworkFigure(const std::string& view, const std::string& scheme) {
+        static const Scene scene = readScene(loadSceneText("preset:kkt-matrix")).scene;
+        static const Comparison comparison = run(scene);
+        static const System system = makeSystem(scene);
+        View v;
+        v.id = view;
+        v.scheme = scheme;
+        return makeFigure(comparison, v, &system);
+    }
     static QImage picture(const Figure& f, const Theme& theme = Theme::light()) { return renderFigure(f, {600, 400}, theme); }
     static void check(const QImage& image, const QString& name) {
         const GoldenResult result = checkGolden(image, name, GoldenLimits::plot());
@@ -26,6 +39,24 @@ private slots:
     void energyLooksAsKept() { check(picture(figure("energy")), "plot-energy"); }
     void errorLooksAsKept() { check(picture(figure("error"), Theme::dark()), "plot-error-dark"); }
     void phaseLooksAsKept() { check(picture(figure("phase")), "plot-phase"); }
+    void theKktMatrixLooksAsKept() {
+        const Figure nodal = frameworkFigure("sparsity", "Lobatto basis"), modal = frameworkFigure("sparsity", "Legendre basis");
+        check(picture(nodal), "plot-kkt-nodal");
+        check(picture(modal, Theme::dark()), "plot-kkt-modal-dark");
+        QVERIFY(!isWithin(compareImages(picture(nodal), picture(modal), 8), GoldenLimits::plot()));
+    }
+    void aMissingEntryOfTheMatrixIsSeen() {
+        const Figure right = frameworkFigure("sparsity", "tents");
+        Figure wrong = right;
+        wrong.series[0].x.pop_back();
+        wrong.series[0].y.pop_back();
+        const ImageDifference d = compareImages(picture(right), picture(wrong), 8);
+        QVERIFY(d.differingPercent > 0);
+    }
+    void theDiscreteLagrangianLooksAsKept() {
+        check(picture(frameworkFigure("discrete-lagrangian", "")), "plot-discrete-lagrangian");
+        check(picture(frameworkFigure("discrete-lagrangian", ""), Theme::dark()), "plot-discrete-lagrangian-dark");
+    }
     void aCurveShiftedByOnePixelIsSeen() {
         const Figure straight = figure("phase");
         Figure shifted = straight;

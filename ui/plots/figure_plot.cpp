@@ -137,8 +137,15 @@ void FigurePlot::prepare(QSize size) {
         set(x, s.view.range(PlotAxis::x));
         set(y, s.view.range(PlotAxis::y));
         const int xRoom = roomFor(width, false, s.figure.x.isLog), yRoom = roomFor(height, true, s.figure.y.isLog);
-        x.setTicker(s.figure.x.isLog ? logTicker(xRoom) : linearTicker(xRoom));
-        y.setTicker(s.figure.y.isLog ? logTicker(yRoom) : linearTicker(yRoom));
+        const auto ticker = [](const Axis& axis, int room, double perPixel) -> QSharedPointer<QCPAxisTicker> {
+            constexpr double roomOfName = 22;
+            if (!axis.ticks.empty()) return namedTicker(axis.ticks, roomOfName * perPixel);
+            return axis.isLog ? logTicker(room) : linearTicker(room);
+        };
+        x.setTicker(ticker(s.figure.x, xRoom, x.range().size() / std::max(1.0, width)));
+        y.setTicker(ticker(s.figure.y, yRoom, y.range().size() / std::max(1.0, height)));
+        x.grid()->setVisible(s.figure.x.ticks.empty());
+        y.grid()->setVisible(s.figure.y.ticks.empty());
         s.plot.plotLayout()->update(QCPLayoutElement::upPreparation);
         s.plot.plotLayout()->update(QCPLayoutElement::upMargins);
         s.plot.plotLayout()->update(QCPLayoutElement::upLayout);

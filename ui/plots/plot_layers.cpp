@@ -116,6 +116,7 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
         for (const QPolygonF& line : visiblePolylines(series.x, series.y, map, series.isCurve, shared_.density))
             drawPieces(painter, pen, line);
     }
+    if (series.isCells) drawCells(painter, map, series);
     if (series.hasMarkers) {
         painter.setPen(QPen(shared_.theme.panel, 1.2));
         painter.setBrush(color);
@@ -126,6 +127,21 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
             if (isKnown && map.rect.adjusted(-6, -6, 6, 6).contains(p)) painter.drawEllipse(p, radius, radius);
         }
         painter.setBrush(Qt::NoBrush);
+    }
+}
+
+/// Unit squares with a hairline between them where there is room.
+void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const {
+    QColor color = shared_.colorOf(series.style);
+    if (series.isHollow) {
+        const QColor ground = shared_.theme.panel;
+        const auto pale = [](int a, int b) { return (40 * a + 60 * b) / 100; };
+        color.setRgb(pale(color.red(), ground.red()), pale(color.green(), ground.green()), pale(color.blue(), ground.blue()));
+    }
+    const double side = std::abs(map(1, 0).x() - map(0, 0).x()), gap = side > 5 ? 0.5 : 0;
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        const QRectF cell = QRectF(map(series.x[i] - 0.5, series.y[i] + 0.5), map(series.x[i] + 0.5, series.y[i] - 0.5));
+        if (map.rect.intersects(cell)) painter.fillRect(cell.adjusted(gap, gap, -gap, -gap).intersected(map.rect), color);
     }
 }
 

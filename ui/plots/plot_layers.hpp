@@ -37,6 +37,7 @@ protected:
 private:
     void drawFloor(QCPPainter& painter, const PixelMap& map) const;
     void drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const;
+    void drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const;
     const FigurePlot::Shared& shared_;
 };
 

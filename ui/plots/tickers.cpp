@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace extremal {
 
@@ -127,5 +128,16 @@ private:
 
 QSharedPointer<QCPAxisTicker> linearTicker(int room) { return QSharedPointer<QCPAxisTicker>(new LinearTicker(room)); }
 QSharedPointer<QCPAxisTicker> logTicker(int room) { return QSharedPointer<QCPAxisTicker>(new LogTicker(room)); }
+
+QSharedPointer<QCPAxisTicker> namedTicker(const std::vector<std::pair<double, std::string>>& names, double least) {
+    auto ticker = QSharedPointer<QCPAxisTickerText>::create();
+    double last = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [place, name] : names) {
+        if (std::abs(place - last) < least) continue;
+        ticker->addTick(place, QString::fromStdString(name));
+        last = place;
+    }
+    return ticker;
+}
 
 }  // namespace extremal

@@ -5,6 +5,10 @@
 #include <QSharedPointer>
 #include <QString>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 class QCPAxisTicker;
 
 namespace extremal {
@@ -12,6 +16,9 @@ namespace extremal {
 /// `room`: number of labels that fit on the axis.
 QSharedPointer<QCPAxisTicker> linearTicker(int room);
 QSharedPointer<QCPAxisTicker> logTicker(int room);
+
+/// Words at their places, in place of numbers; one that is nearer than `least` to the last one shown is left out.
+QSharedPointer<QCPAxisTicker> namedTicker(const std::vector<std::pair<double, std::string>>& names, double least);
 
 /// "10⁻²".
 QString powerOfTen(int exponent);

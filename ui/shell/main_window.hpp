@@ -7,6 +7,7 @@
 
 class QLabel;
 class QSplitter;
+class QMenu;
 class QStackedWidget;
 class QTabBar;
 class QTextBrowser;
@@ -60,6 +61,7 @@ private:
     void addFileActions();
     void addEditActions();
     void addViewActions();
+    void fillPlots(QMenu& menu);
     void addRunActions();
     void showScene();
     void showStatus();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/figure/view.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -212,6 +213,23 @@ int findPair(const Scene& scene, const Settings& space, const Settings& quadratu
             return static_cast<int>(i);
     }
     return -1;
+}
+
+std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown) {
+    const Value document = toValue(scene);
+    Value::Array views;
+    for (std::size_t i = 0; i < scene.views.size(); ++i)
+        if (scene.views[i].id != id) views.push_back(document.find("views")->asArray()[i]);
+    if (isShown) views.emplace_back(id);
+    std::vector<Edit> edits{{"/views", Value(std::move(views))}};
+    const ViewEntry* entry = findView(id);
+    const bool isMissing = isShown && entry && !entry->observable.empty() &&
+                           std::find(scene.observe.begin(), scene.observe.end(), entry->observable) == scene.observe.end();
+    if (!isMissing) return edits;
+    Value::Array observe(scene.observe.begin(), scene.observe.end());
+    observe.emplace_back(entry->observable);
+    edits.push_back({"/observe", Value(std::move(observe))});
+    return edits;
 }
 
 Settings spaceOf(const std::string& id, int degree) {

@@ -36,6 +36,9 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 
 /// The settings of a pair of the discretizer, with every default filled in.
+/// Shows a view, with what it observes, or hides it.
+std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown);
+
 /// A space of the catalogue with its defaults and this degree.
 Settings spaceOf(const std::string& id, int degree);
 /// A rule of the catalogue as it fits the space.

@@ -1,9 +1,13 @@
 /// Everything the main window can do, each with its key.
 #include <QApplication>
 #include <QFileDialog>
+#include <QMenu>
 #include <QMessageBox>
 
+#include "engine/figure/view.hpp"
+#include "engine/observe/catalog.hpp"
 #include "engine/run/export.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/core/text.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
@@ -16,6 +20,7 @@
 #include "ui/shell/palette_dialog.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
 
@@ -83,6 +88,29 @@ void MainWindow::addEditActions() {
                       {QKeySequence(Qt::Key_1 + i)}, [this, i] { schemes_->toggle(i); });
 }
 
+/// The plots of the catalogue, checked where the scene has them.
+void MainWindow::fillPlots(QMenu& menu) {
+    menu.clear();
+    if (!workspace_->hasScene()) return;
+    const Scene& scene = workspace_->scene();
+    const System system = makeSystem(scene);
+    for (const ViewEntry& entry : viewEntries()) {
+        if (!entry.make || entry.item.id == "work-precision") continue;  // that one is always there
+        const std::string id = entry.item.id;
+        const ObservableEntry* needed = findObservable(entry.observable);
+        if (needed && !appliesTo(*needed, system)) continue;
+        const bool isShown = std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == id; });
+        QAction* action = menu.addAction(QString::fromStdString(entry.item.title));
+        action->setCheckable(true);
+        action->setChecked(isShown);
+        action->setToolTip(QString::fromStdString(entry.item.description));
+        connect(action, &QAction::triggered, this, [this, id, isShown] {
+            workspace_->edit(editsForView(workspace_->scene(), id, !isShown), isShown ? tr("Hide a plot") : tr("Show a plot"));
+        });
+    }
+    menu.setToolTipsVisible(true);
+}
+
 void MainWindow::addViewActions() {
     const QString menu = tr("View");
     actions_->add("palette", menu, tr("Find an action..."), {QKeySequence(Qt::CTRL | Qt::Key_K)}, [this] { showPalette(); });
@@ -90,6 +118,12 @@ void MainWindow::addViewActions() {
     actions_->add("values", menu, tr("Values at the cursor"), {QKeySequence(Qt::Key_V)}, [this] {
         values_->setVisible(values_->isHidden());
         showValues();
+    });
+    auto* plots = new QMenu(tr("Plots"), this);
+    connect(plots, &QMenu::aboutToShow, this, [this, plots] { fillPlots(*plots); });
+    actions_->addSubmenu(menu, plots);
+    actions_->add("plots", menu, tr("Choose plots..."), {QKeySequence(Qt::Key_P)}, [this, plots] {
+        plots->popup(compare_->mapToGlobal(QPoint(24, 24)));
     });
     actions_->add("theme", menu, tr("Light or dark"), {QKeySequence(Qt::CTRL | Qt::Key_T)}, [this] {
         Theme theme = theme_.isDark ? Theme::light() : Theme::dark();

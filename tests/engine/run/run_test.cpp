@@ -100,7 +100,7 @@ private slots:
             system.mechanics.energy = &countedEnergy;
             energyCalls = 0;
             SchemeRun task(scene, scene.schemes[0], 0);
-            task.run(system, initialState(scene, system), {}, {});
+            task.run(system, initialState(scene, system), {}, nullptr, {});
             QVERIFY(task.latest()->summary.status == RunStatus::done);
             if (asks)
                 QVERIFY(energyCalls >= 501);

@@ -1,5 +1,6 @@
 /// The window as a user drives it, on the offscreen platform.
 #include <QLineEdit>
+#include <QMenu>
 #include <QSet>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -74,6 +75,36 @@ private slots:
         QCOMPARE(static_cast<std::size_t>(pictures.size()), window.compareView().plots().size());
         QVERIFY(!window.exportEverything("/proc/nowhere"));
         QVERIFY(!window.notices().all().empty());  // a banner, not a box
+    }
+    void plotsAreChosenFromTheMenu() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        const auto shown = [&](const std::string& view) {
+            const auto& plots = window.compareView().plots();
+            return std::count_if(plots.begin(), plots.end(), [&](const PlotWidget* p) { return p->figure().view == view; });
+        };
+        const auto entry = [&](const QString& title) -> QAction* {
+            for (QMenu* menu : window.findChildren<QMenu*>()) {
+                if (menu->title() != QStringLiteral("Plots")) continue;
+                emit menu->aboutToShow();
+                for (QAction* action : menu->actions())
+                    if (action->text() == title) return action;
+            }
+            return nullptr;
+        };
+        QCOMPARE(shown("sparsity"), 0);
+        QAction* matrix = entry("KKT matrix");
+        QVERIFY(matrix && matrix->isCheckable() && !matrix->isChecked());
+        matrix->trigger();
+        QVERIFY(waitForResults(window));
+        QVERIFY(shown("sparsity") > 0);
+        for (const PlotWidget* plot : window.compareView().plots()) QVERIFY(plot->figure().message.empty());
+        QVERIFY(entry("KKT matrix")->isChecked());
+        entry("KKT matrix")->trigger();
+        QVERIFY(waitForResults(window));
+        QCOMPARE(shown("sparsity"), 0);
     }
     void aRefusedEditKeepsTheScene() {
         MainWindow window(Theme::light(), false);

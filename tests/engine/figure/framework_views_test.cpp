@@ -1,0 +1,90 @@
+/// The views of the equations themselves: the pattern of the KKT matrix, the defect of the discrete Lagrangian.
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/figure/figure.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/codec.hpp"
+
+namespace extremal {
+namespace {
+
+ReadScene pendulum(const std::string& views, const std::string& schemes) {
+    const std::string text = R"({"extremal":1,"model":{"type":"pendulum"},"initial":{"q":[1],"p":[0.7]},"time":{"end":1},)"
+                             R"("schemes":[)" + schemes + R"(],"views":)" + views + "}";
+    return readScene(std::string_view(text));
+}
+const std::string gauss2 = R"({"label":"nodal","step":0.1,"scheme":"galerkin-gauss-2"})";
+const std::string modal =
+    R"({"label":"modal","step":0.1,"space":{"type":"polynomial","degree":2,"basis":"legendre"},"quadrature":"gauss"})";
+const std::string rk4 = R"({"label":"rk4","step":0.1,"baseline":"rk4"})";
+
+}  // namespace
+
+class FrameworkViewsTest : public QObject {
+    Q_OBJECT
+private slots:
+    void onePictureForEachPair() {
+        const Scene scene = pendulum(R"(["sparsity"])", gauss2 + "," + rk4 + "," + modal).scene;
+        const std::vector<View> views = plotViews(scene);
+        QCOMPARE(views.size(), std::size_t(2));
+        QCOMPARE(views[0].scheme, std::string("nodal"));
+        QCOMPARE(views[1].scheme, std::string("modal"));
+    }
+    void cellsAreTheEntries() {
+        const Scene scene = pendulum(R"(["sparsity"])", gauss2 + "," + modal).scene;
+        const Comparison c = run(scene);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const KktPattern& p = *c.schemes[i]->pattern;
+            const Figure f = makeFigure(c, plotViews(scene)[i]);
+            QCOMPARE(f.series.size(), std::size_t(2));
+            QCOMPARE(f.series[0].x.size(), p.action.size());
+            QCOMPARE(f.series[1].x.size(), p.continuity.size());
+            QVERIFY(f.series[0].isCells && !f.series[0].isHollow && f.series[1].isHollow);
+            QCOMPARE(f.x.ticks.size(), p.blocks.size());
+            // Rows grow downwards: row r of the matrix is at size - 1 - r.
+            QCOMPARE(f.series[0].y[0], static_cast<double>(p.size - 1 - p.action[0].first));
+        }
+        // Four elements of three functions, five multipliers; modes reach both ends of an element with all of their functions.
+        QCOMPARE(c.schemes[0]->pattern->size, 17);
+        QCOMPARE(c.schemes[0]->pattern->continuity.size(), std::size_t(16));
+        QCOMPARE(c.schemes[1]->pattern->continuity.size(), std::size_t(48));
+    }
+    void noPairNoPicture() {
+        const Comparison c = run(pendulum(R"(["sparsity","discrete-lagrangian"])", rk4).scene);
+        for (const View& v : plotViews(c.scene)) QVERIFY(!makeFigure(c, v).message.empty());
+    }
+    void nothingIsComputedThatNoViewShows() {
+        const Comparison c = run(pendulum(R"(["energy"])", gauss2).scene);
+        QVERIFY(!c.schemes[0]->pattern && !c.schemes[0]->actionDefect);
+    }
+    void slopesStandInTheSubtitle() {
+        const Scene scene = pendulum(R"(["discrete-lagrangian"])", gauss2 + "," + rk4 + "," + modal).scene;
+        const Comparison c = run(scene);
+        const Figure f = makeFigure(c, plotViews(scene)[0]);
+        QCOMPARE(f.series.size(), std::size_t(2));
+        QVERIFY2(f.subtitle == "slope 4.98 of 5, 4.98 of 5", f.subtitle.c_str());
+        // The same action, whatever the basis: to the round-off of the action.
+        for (std::size_t i = 0; i < 6; ++i)
+            QVERIFY(std::abs(f.series[0].y[i] / f.series[1].y[i] - 1) < 1e-6);
+    }
+    void labelsOfOtherSchemesAreErrors() {
+        const ReadScene wrong = pendulum(R"([{"view":"sparsity","scheme":"nodl"}])", gauss2);
+        QCOMPARE(wrong.errors.size(), std::size_t(1));
+        QCOMPARE(wrong.errors[0].pointer, std::string("/views/0/scheme"));
+        QVERIFY(wrong.errors[0].message.find("nodal") != std::string::npos ||
+                wrong.errors[0].hint.find("nodal") != std::string::npos);
+        QCOMPARE(pendulum(R"([{"view":"energy","scheme":"nodal"}])", gauss2).errors.size(), std::size_t(1));
+        const ReadScene right = pendulum(R"([{"view":"sparsity","scheme":"nodal"}])", gauss2);
+        QVERIFY(right.errors.empty());
+        QCOMPARE(readScene(std::string_view(writeScene(right.scene))).scene.views, right.scene.views);
+    }
+};
+
+}  // namespace extremal
+
+QTEST_APPLESS_MAIN(extremal::FrameworkViewsTest)
+#include "framework_views_test.moc"
