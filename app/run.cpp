@@ -75,7 +75,7 @@ int runVerb(const std::string& scene, const std::string& folder, const CommonOpt
         const bool isInterrupted = waitFor(run, watch, options);
         const Comparison result = run.latest();
         exportComparison(result, folder);
-        printFailures(result);
+        printFailures(result, sceneName(scene));
         const int code = printResult(result, folder, exitCode(result, isInterrupted), options);
         if (isInterrupted) printProblem("", "interrupted: the results are partial");
         return code;

@@ -103,7 +103,7 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         const SnapshotResult result = makeSnapshot(comparison, request);
         // Comparing asks about the picture, which shows failures as it should; else they are the news.
         const bool isVerdict = result.isCompared && !isInterrupted;
-        if (!isVerdict) printFailures(*comparison);
+        if (!isVerdict) printFailures(*comparison, sceneName(scene));
         const int code = isVerdict ? (result.isEqual ? done : failed) : exitCode(*comparison, isInterrupted);
         if (isInterrupted) printProblem("", "interrupted: the picture shows partial results");
         return printResult(snapshot, request, result, code, options);

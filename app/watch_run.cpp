@@ -24,7 +24,8 @@ bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
     return isInterrupted;
 }
 
-void printFailures(const Comparison& comparison) {
+void printFailures(const Comparison& comparison, const std::string& scene) {
+    printProblems(scene, comparison.reference.problems, "warning: ");
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         if (s.status == RunStatus::failed)

@@ -12,7 +12,7 @@ namespace extremal::app {
 bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options);
 
 /// One line on standard error for every scheme that failed: when, why, and what to try.
-void printFailures(const Comparison& comparison);
+void printFailures(const Comparison& comparison, const std::string& scene);
 
 /// Interrupted, failed if a scheme failed numerically, or done.
 int exitCode(const Comparison& comparison, bool isInterrupted);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/outcome.hpp"
+#include "engine/core/problem.hpp"
 #include "engine/integrator/action_defect.hpp"
 #include "engine/integrator/kkt_pattern.hpp"
 #include "engine/scene/scene.hpp"
@@ -61,6 +62,7 @@ struct ReferenceInfo {
     std::string type = "none";         ///< "exact", "computed", "scheme", "file", "none"
     double estimatedError = Summary::unknown;
     std::string description;           ///< "Gauss(12), h = 0.01": for the window
+    std::vector<Problem> problems = {};  ///< why there is none although the scene asks for one
 };
 
 /// Immutable once published; shared between threads by pointer. Holds only enabled schemes.

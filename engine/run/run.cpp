@@ -52,7 +52,7 @@ struct Run::Impl {
             try {
                 ref = makeReference(scene, system, initial, stop);
             } catch (const InvalidScene& e) {
-                ref.info.description = e.what();
+                ref.info.problems = e.problems();  // the run goes on without errors
             }
         }
         {

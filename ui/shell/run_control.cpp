@@ -175,6 +175,11 @@ void RunControl::poll() {
     }
     if (isDone) {
         cost_.learn(*latest);
+        notices_.dismiss("reference");
+        for (const Problem& p : latest->reference.problems)
+            notices_.post({Notice::Kind::warning, "reference",
+                           tr("There is no reference, so no errors: %1").arg(QString::fromStdString(p.message)),
+                           QString::fromStdString(p.hint), {}});
         run_.reset();
         setState(State::finished);
     }

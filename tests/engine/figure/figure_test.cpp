@@ -59,6 +59,13 @@ private slots:
         QVERIFY(isBounded(line, 1000));
         QVERIFY(isBounded(walk, 0));
         QVERIFY(isBounded(wave, 0));
+        std::vector<double> lost, quarter;
+        for (int i = 0; i < 1000; ++i) {
+            lost.push_back(std::expm1(-0.02 * i));      // what a damping scheme does to a fast motion
+            quarter.push_back(std::sin(1.57e-3 * i));   // of a slow wave: it may well come back
+        }
+        QVERIFY(!isBounded(lost, 0));
+        QVERIFY(isBounded(quarter, 0));
         wave.back() = std::numeric_limits<double>::infinity();
         QVERIFY(!isBounded(wave, 0));
     }
