@@ -5,7 +5,7 @@
 #include "engine/action/table.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/lie.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/table_of.hpp"

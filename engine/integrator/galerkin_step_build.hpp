@@ -218,7 +218,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, 
     switch (together_->solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(), policy_.maxIterations, stop,
                              report_)) {
         case Result::solved: {
-            together_->increments(dq_.data(), dp_.data());
+            together_->increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
             return dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
         }
         case Result::stopped: return Attempt::stopped;
@@ -277,9 +277,14 @@ void GalerkinStep<T, D>::add(T* q, T* p) {
         lost = (a - (s - back)) + (b - back);
         return s;
     };
+    const auto step = [&](const T& from, const T& increment, T& carry) {
+        T lost;
+        const T to = sum(from, increment, lost);
+        return sum(to, lost + carry, carry);
+    };
     for (int k = 0; k < d(); ++k) {
-        q[k] = lastQ_(k) = sum(q0_(k), dq_(k) + carryQ_(k), carryQ_(k));
-        p[k] = lastP_(k) = sum(p0_(k), dp_(k) + carryP_(k), carryP_(k));
+        q[k] = lastQ_(k) = step(q0_(k), dq_(k), carryQ_(k));
+        p[k] = lastP_(k) = step(p0_(k), dp_(k), carryP_(k));
     }
 }
 

@@ -33,6 +33,25 @@ typename NodeIteration<T>::Square continuation(const Rule<T>& rule) {
     return here * beyond.transpose();
 }
 
+/// Rounds to multiples of one unit, of which the numbers below `largest` in magnitude are at most 1/epsilon.
+template <class T>
+class Grid {
+public:
+    explicit Grid(const T& largest) {
+        T above(1);
+        while (above <= largest) above *= 2;
+        while (above / 2 > largest) above /= 2;
+        unit_ = above * std::numeric_limits<T>::epsilon() / 2;
+    }
+    T operator()(const T& x) const {
+        using std::round;
+        return round(T(x / unit_)) * unit_;
+    }
+
+private:
+    T unit_;
+};
+
 }  // namespace detail
 
 template <class T>
@@ -53,9 +72,9 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
 
     const auto size = static_cast<std::size_t>(stride_), d = static_cast<std::size_t>(d_);
     const auto unknowns = static_cast<std::size_t>(m_);
-    for (Array* a : {&node_, &weight_, &residue_, &slope_, &times_}) a->assign(size, T(0));
-    for (Array* a : {&G_, &start_}) a->assign(size * size, T(0));
-    for (Array* a : {&base_, &F_, &Z_, &Q_}) a->assign(size * d, T(0));
+    for (Array* a : {&node_, &weight_, &toEnd_, &slope_, &times_}) a->assign(size, T(0));
+    for (Array* a : {&N_, &start_}) a->assign(size * size, T(0));
+    for (Array* a : {&base_, &F_, &impulse_, &Z_, &Q_}) a->assign(size * d, T(0));
     for (Array* a : {&inverseMass_, &v0_, &lost_, &place_, &force_}) a->assign(d, T(0));
     toForces_.assign(size * unknowns, T(0));
     toVelocity_.assign(unknowns, T(0));
@@ -63,27 +82,33 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     for (int i = 0; i < stride_; ++i) {
         const int node = std::min(i, n_ - 1);  // the lanes beyond the last node repeat it
         node_[at(0, i)] = table.node(node);
-        slope_[at(0, i)] = -table.value.row(node).dot(inverse.col(m_ - 1));
-        for (int j = 0; j < n_; ++j) {
-            G_[at(j, i)] = G(node, j);
-            start_[at(j, i)] = start(node, j);
-        }
+        if (i < n_) weight_[at(0, i)] = h * table.weight(i);
+        for (int j = 0; j < n_; ++j) start_[at(j, i)] = start(node, j);
     }
-    for (int i = 0; i < n_; ++i) weight_[at(0, i)] = h * table.weight(i);
     for (int a = 0; a < m_; ++a) {
         toVelocity_[static_cast<std::size_t>(a)] = -inverse(a, m_ - 1);
         for (int i = 0; i < n_; ++i) toForces_[at(a, i)] = toForces(a, i);
     }
-    // q_1 = q_0 + S v_0 + sum U_i F_i / m is symplectic with p_1 = p_0 + sum W_i F_i if U_i = W_i (S - slope_i). Rounded, U
-    // misses that by a bias which adds up over millions of steps: the residue is what rounding leaves.
-    const T S = toVelocity_[unknowns - 1];
-    for (int i = 0; i < n_; ++i) {
-        using std::fma;
-        const T s = slope_[at(0, i)], rest = S - s, back = rest - S, lost = (S - (rest - back)) - (s + back);
-        const T U = weight_[at(0, i)] * rest;
-        toForces_[at(m_ - 1, i)] = U;
-        residue_[at(0, i)] = fma(weight_[at(0, i)], rest, -U) + weight_[at(0, i)] * lost;
+    Square N = G;
+    for (int j = 0; j < n_; ++j) N.col(j) *= table.weight(j) != T(0) ? T(1 / (h * table.weight(j))) : T(0);
+    using std::abs;
+    const auto orLinear = [&](const T& time, const T& c) {  // the space has the linear functions, but for rounding
+        return abs(T(time - h * c)) <= 16 * std::numeric_limits<T>::epsilon() * abs(h) ? T(h * c) : time;
+    };
+    typename Table<T>::Vector times = -table.value * inverse.col(m_ - 1);
+    for (int i = 0; i < n_; ++i) times(i) = orLinear(times(i), table.node(i));
+    const T end = orLinear(T(-inverse(m_ - 1, m_ - 1)), T(1));
+    const detail::Grid<T> round(std::max({T(abs(end)), T(N.cwiseAbs().maxCoeff()), T(times.cwiseAbs().maxCoeff())}));
+    velocityToEnd_ = round(end);
+    for (int i = 0; i < stride_; ++i) {
+        slope_[at(0, i)] = round(times(std::min(i, n_ - 1)));
+        toEnd_[at(0, i)] = velocityToEnd_ - slope_[at(0, i)];
     }
+    for (int j = 0; j < n_; ++j)
+        for (int i = 0; i < stride_; ++i) {
+            const int node = std::min(i, n_ - 1);
+            N_[at(j, i)] = node >= j ? round(N(node, j)) : round(N(j, node)) + (slope_[at(0, node)] - slope_[at(0, j)]);
+        }
     for (int k = 0; k < d_; ++k) inverseMass_[static_cast<std::size_t>(k)] = 1 / mechanics.masses[k];
     if constexpr (std::is_same_v<T, double>)
         sweep_ = nodeParallelSweep();
@@ -107,10 +132,19 @@ void NodeIteration<T>::place(const T& t, const T* p, const T* carryQ, const T* c
 template <class T>
 void NodeIteration<T>::evaluateForces() {
     const void* model = mechanics_.model.get();
-    if (mechanics_.forces) return mechanics_.forces(model, times_.data(), stride_, Q_.data(), F_.data());
+    if (mechanics_.forces)
+        mechanics_.forces(model, times_.data(), stride_, Q_.data(), F_.data());
+    else
+        evaluateOneByOne();
+    for (int k = 0; k < d_; ++k)
+        for (int i = 0; i < stride_; ++i) impulse_[at(k, i)] = weight_[at(0, i)] * F_[at(k, i)];
+}
+
+template <class T>
+void NodeIteration<T>::evaluateOneByOne() {
     for (int i = 0; i < n_; ++i) {
         for (int k = 0; k < d_; ++k) place_[static_cast<std::size_t>(k)] = Q_[at(k, i)];
-        mechanics_.force(model, times_[at(0, i)], place_.data(), force_.data());
+        mechanics_.force(mechanics_.model.get(), times_[at(0, i)], place_.data(), force_.data());
         for (int k = 0; k < d_; ++k) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
     }
 }
@@ -119,7 +153,10 @@ template <class T>
 void NodeIteration<T>::startFromConstantForce(const T& t, const T* q) {
     mechanics_.force(mechanics_.model.get(), t, q, force_.data());
     for (int k = 0; k < d_; ++k)
-        for (int i = 0; i < n_; ++i) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
+        for (int i = 0; i < n_; ++i) {
+            F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
+            impulse_[at(k, i)] = weight_[at(0, i)] * F_[at(k, i)];
+        }
 }
 
 /// Size of the last sweep's change: each coordinate against its own increments and the round-off of its own value.
@@ -144,13 +181,17 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
     place(t, p, carryQ, carryP);
     Sweep<T> s{d_, n_, stride_, start_.data(), base_.data(), F_.data(), inverseMass_.data(), q, Z_.data(), Q_.data(),
                size_.data()};
+    const auto useImpulses = [&] {
+        s.G = N_.data();
+        s.F = impulse_.data();
+    };
     if (!hasForces_) {
         startFromConstantForce(t, q);
         ++report.evaluations;
-        s.G = G_.data();
+        useImpulses();
     }
     sweep_(s);
-    s.G = G_.data();
+    useImpulses();
     T last = std::numeric_limits<T>::infinity();
     int growing = 0;
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
@@ -163,11 +204,16 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         report.residual = static_cast<double>(size);
         hasForces_ = false;
         if (!(size < std::numeric_limits<T>::infinity())) return Result::notFinite;
-        // One more sweep would change less than is lost to round-off anyway (stopping at round-off itself would leave a
-        // bias that adds up over millions of steps), or the changes no longer shrink within a few digits of it.
+        // One more sweep would change less than is lost to round-off anyway, or the changes no longer shrink within a few
+        // digits of it. Then the forces are taken where that sweep has put the nodes: left where the nodes were, or had we
+        // stopped at round-off itself, they would have a bias that adds up over millions of steps.
         const T coming = iteration > 0 ? size * std::min(T(1), T(size / last)) : size;
-        const bool isEnough = isExact_ ? coming <= T(1e-4) * tolerance_ : size <= tolerance_;
+        const bool isEnough = isExact_ ? coming <= T(0.01) * tolerance_ : size <= tolerance_;
         if (isEnough || (size < stagnation && size >= last * T(0.25))) {
+            if (isExact_) {
+                evaluateForces();
+                report.evaluations += n_;
+            }
             hasForces_ = true;
             return Result::solved;
         }
@@ -179,20 +225,23 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
 }
 
 template <class T>
-typename NodeIteration<T>::Wide NodeIteration<T>::impulse(const Array& weights, int row, int k) const {
-    Wide sum(0);
-    for (int i = 0; i < n_; ++i) sum += Wide(weights[at(row, i)]) * Wide(F_[at(k, i)]);
-    return sum;
-}
-
-template <class T>
-void NodeIteration<T>::increments(T* dq, T* dp) const {
+void NodeIteration<T>::increments(T* dq, T* dp, T* carryQ, T* carryP) const {
+    const auto split = [](const Wide& sum, T& main, T& carry) {
+        main = static_cast<T>(sum);
+        carry += static_cast<T>(sum - Wide(main));
+    };
     for (int k = 0; k < d_; ++k) {
         const auto c = static_cast<std::size_t>(k);
-        const Wide drift(toVelocity_[static_cast<std::size_t>(m_ - 1)]);
-        const Wide kick = impulse(toForces_, m_ - 1, k) + impulse(residue_, 0, k);
-        dq[k] = static_cast<T>(drift * Wide(v0_[c]) + (kick * Wide(inverseMass_[c]) + drift * Wide(lost_[c])));
-        dp[k] = static_cast<T>(impulse(weight_, 0, k));
+        Wide kicks[2] = {Wide(0), Wide(0)}, impulses[2] = {Wide(0), Wide(0)};  // two, as each waits for its last sum
+        for (int i = 0; i < stride_; i += 2)  // beyond the nodes impulses are 0
+            for (int l = 0; l < 2; ++l) {
+                kicks[l] += Wide(toEnd_[at(0, i + l)]) * Wide(impulse_[at(k, i + l)]);
+                impulses[l] += Wide(impulse_[at(k, i + l)]);
+            }
+        const Wide kick = kicks[0] + kicks[1], impulse = impulses[0] + impulses[1];
+        const Wide drift(velocityToEnd_);
+        split(drift * Wide(v0_[c]) + (kick * Wide(inverseMass_[c]) + drift * Wide(lost_[c])), dq[k], carryQ[k]);
+        split(impulse, dp[k], carryP[k]);
     }
 }
 
@@ -200,9 +249,11 @@ template <class T>
 void NodeIteration<T>::coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> forces) const {
     for (int k = 0; k < d_; ++k) {
         const auto c = static_cast<std::size_t>(k);
-        for (int a = 0; a < m_; ++a)
-            Y(k, a) = toVelocity_[static_cast<std::size_t>(a)] * v0_[c] +
-                      static_cast<T>(impulse(toForces_, a, k)) * inverseMass_[c];
+        for (int a = 0; a < m_; ++a) {
+            T sum(0);
+            for (int i = 0; i < n_; ++i) sum += toForces_[at(a, i)] * F_[at(k, i)];
+            Y(k, a) = toVelocity_[static_cast<std::size_t>(a)] * v0_[c] + sum * inverseMass_[c];
+        }
         for (int i = 0; i < n_; ++i) forces(k, i) = F_[at(k, i)];
     }
 }

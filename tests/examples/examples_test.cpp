@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "tests/examples/galerkin_fine.cpp"
 #include "tests/examples/quartic_oscillator.cpp"

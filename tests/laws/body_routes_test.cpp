@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 
 #include "engine/action/table.hpp"
-#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/galerkin_step.hpp"
 #include "engine/model/bind.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/bodies.hpp"

@@ -2,7 +2,7 @@
 #include <QTest>
 
 #include "engine/action/table.hpp"
-#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/galerkin_step.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
 

@@ -7,7 +7,7 @@
 #include <array>
 
 #include "engine/action/table.hpp"
-#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/galerkin_step.hpp"
 #include "engine/model/bind.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"

@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "engine/action/table.hpp"
-#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/galerkin_step.hpp"
 #include "engine/model/bind.hpp"
 #include "engine/space/polynomial.hpp"
 #include "engine/space/spline.hpp"

@@ -1,0 +1,10 @@
+#include <boost/multiprecision/float128.hpp>
+
+#include "engine/integrator/galerkin_step_build.hpp"
+
+namespace extremal {
+
+template class GalerkinStep<boost::multiprecision::float128, 1>;
+template class GalerkinStep<boost::multiprecision::float128, 2>;
+
+}  // namespace extremal
