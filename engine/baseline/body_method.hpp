@@ -98,8 +98,7 @@ protected:
         ++report_.evaluations;
         const so3::Matrix<double> R = so3::matrix(so3::normalised(m.q));
         std::array<double, 6> f{};
-        double value = 0;
-        body_.potential(body_.model.get(), R.data(), size_ > 10 ? m.position.data() : nullptr, &value, f.data(), nullptr);
+        body_.potential(body_.model.get(), R.data(), size_ > 10 ? m.position.data() : nullptr, nullptr, f.data(), nullptr);
         torque << f[0], f[1], f[2];
         force << f[3], f[4], f[5];
     }

@@ -57,6 +57,10 @@ std::string digest(const Figure& figure) {
         text += "failure " + std::to_string(f.style) + " " + f.label + ": " + f.text + ", " + nineDigits(f.x) + "\n";
     if (figure.floor) text += "floor " + nineDigits(*figure.floor) + "\n";
     if (figure.doubtfulBelow) text += "doubtful below " + nineDigits(*figure.doubtfulBelow) + "\n";
+    for (const Guide& g : figure.guides)
+        text += std::string("guide") + (g.isStrong ? ", strong" : "") + ", x " + hash(g.x) + ", y " + hash(g.y) + "\n";
+    for (const Label& l : figure.labels) text += "label " + l.text + " at " + nineDigits(l.x) + ", " + nineDigits(l.y) + "\n";
+    if (!figure.hasTicks) text += "no ticks\n";
     if (figure.hasEqualScales) text += "equal scales\n";
     if (!figure.message.empty()) text += "message " + figure.message + "\n";
     return text + "summary " + figure.summary + "\n";

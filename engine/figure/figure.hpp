@@ -32,6 +32,18 @@ struct Series {
     int hidden = 0;      ///< values a log axis cannot show (<= 0) or that are not finite
 };
 
+/// A faint line behind the series: a contour, an outline.
+struct Guide {
+    std::vector<double> x, y;  ///< NaN is a gap
+    bool isStrong = false;
+};
+
+/// A word in the plane of the plot.
+struct Label {
+    double x = 0, y = 0;
+    std::string text;
+};
+
 /// A scheme that ended early: where, and why.
 struct FailureMark {
     std::string label;
@@ -47,6 +59,9 @@ struct Figure {
     Axis x, y;
     std::vector<Series> series;
     std::vector<FailureMark> failures;
+    std::vector<Guide> guides;
+    std::vector<Label> labels;
+    bool hasTicks = true;         ///< false: the axes are no scales
     std::optional<double> floor;  ///< round-off floor: a faint horizontal line
     std::optional<double> doubtfulBelow;  ///< values below are not resolved by the reference: a faint band
     std::string message;          ///< why there is nothing to see, in place of the series; else empty

@@ -51,9 +51,12 @@ struct RotationGroup {
         return g * at.rotation();
     }
     static Vector bodyMomentum(const Element& g, const Pose<T>& p) { return g.transpose() * p.momentum; }
-    static Vector bracket(const Vector& u, const Vector& v) { return so3::bracket(u, v); }
-    static Vector precession(const Vector& m, const Vector& u) { return so3::precession(m, u); }
     static Matrix precessionMatrix(const Vector& m) { return so3::precessionMatrix(m); }
+
+    /// The chart's coordinates of a place seen from the foot, whose turn is omega.
+    static Vector coordinates(const Pose<T>&, const Pose<T>&, const Vector& omega) { return omega; }
+    /// xi after a Newton correction.
+    static Vector corrected(const Vector& xi, const Vector& change) { return xi + change; }
 
     /// The place p exp(xi), with the momenta of p.
     static Pose<T> place(const Pose<T>& p, const Element&, const Vector& xi) {
@@ -104,9 +107,27 @@ struct MotionGroup {
         m << g.rotation.transpose() * p.momentum, g.rotation.transpose() * p.linear;
         return m;
     }
-    static Vector bracket(const Vector& u, const Vector& v) { return se3::bracket(u, v); }
-    static Vector precession(const Vector& m, const Vector& u) { return se3::precession(m, u); }
     static Matrix precessionMatrix(const Vector& m) { return se3::precessionMatrix(m); }
+
+    /// The chart's coordinates of a place seen from the foot, whose turn is omega.
+    static Vector coordinates(const Pose<T>& foot, const Pose<T>& place, const Three& omega) {
+        Vector xi;
+        const Three way = so3::matrix(foot.attitude).transpose() * (place.position - foot.position);
+        xi << omega, fromDisplacement(omega, way);
+        return xi;
+    }
+    /// The displacement of the position changes linearly, and rho with it: for a small body on a long way Newton's
+    /// corrections of rho itself would be good only as long as the turn changes by less than inertia / (mass way^2).
+    static Vector corrected(const Vector& xi, const Vector& change) {
+        const Three omega = xi.template head<3>(), rho = xi.template tail<3>();
+        const so3::Exponential<T, 1> at(omega);
+        const Three way = at.dexpTransposed(rho) + at.dexpTransposed(Three(change.template tail<3>())) +
+                          at.derivativeOfTransposed(rho) * change.template head<3>();
+        Vector r;
+        r.template head<3>() = omega + change.template head<3>();
+        r.template tail<3>() = fromDisplacement(r.template head<3>(), way);
+        return r;
+    }
 
     static Pose<T> place(const Pose<T>& p, const Element& g, const Vector& xi) {
         Pose<T> r = RotationGroup<T>::place(p, g.rotation, xi.template head<3>());
@@ -122,6 +143,12 @@ struct MotionGroup {
         foot.linear = tip.linear + g.rotation * W.template tail<3>();
         foot.momentum = tip.momentum + g.rotation * W.template head<3>() +
                         so3::cross(Three(tip.position - foot.position), tip.linear);
+    }
+
+private:
+    /// rho with dexp(omega)^T rho = way.
+    static Three fromDisplacement(const Three& omega, const Three& way) {
+        return so3::Exponential<T, 1>(omega).dexpInverseMatrix().transpose() * way;
     }
 };
 

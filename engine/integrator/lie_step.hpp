@@ -20,7 +20,7 @@
 /// T: scalar; G: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp). All buffers are allocated in the constructor.
 #pragma once
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include <stop_token>
 #include <vector>
@@ -30,6 +30,7 @@
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/lie_groups.hpp"
 #include "engine/model/body.hpp"
+#include "engine/solve/small_lu.hpp"
 
 namespace extremal {
 
@@ -60,11 +61,19 @@ private:
     int nodes() const { return table_.nodes(); }
     void placeNodes();
     void placeFoot();
-    void predict();
+    bool predict();
     void residual();
-    bool assembleJacobian();
+    /// The matrix of lu_, to be filled.
+    auto jacobian() {
+        using Rows = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+        return Eigen::Map<Rows>(lu_.row(0), n * m(), n * m());
+    }
+    Attempt assembleJacobian();
     void addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A, Matrix& xiXi);
-    T correct();
+    T correction();
+    T floor() const;
+    void correct();
+    void updateImpulse();
     Attempt iterate(const std::stop_token& stop);
     Vector weigh(const Vector& eta) const { return eta.cwiseProduct(inertia_); }
 
@@ -81,10 +90,12 @@ private:
     Vector mu_;  ///< momentum at the start, in the body
     Vector W_;
     Columns Y_, xi_, v_, force_, R_;
-    Square jacobian_, fit_;
-    Eigen::PartialPivLU<Square> lu_;
+    Square atPoints_, fit_;  ///< (k, a): values at m points from Y, and the opposite
+    Columns points_;
+    SmallLu<T> lu_;  ///< the Jacobian, then its factors
     Flat flat_;
-    std::vector<T> guessTimes_;
+    std::vector<T> times_;       ///< of the m points
+    std::vector<Pose<T>> poses_;  ///< guesses at the start and the m points
     StepReport* report_ = nullptr;
 };
 

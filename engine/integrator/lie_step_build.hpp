@@ -2,10 +2,13 @@
 /// precision.
 #pragma once
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "engine/integrator/lie_guess.hpp"
 #include "engine/integrator/lie_step.hpp"
 
 namespace extremal {
@@ -22,23 +25,23 @@ LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& st
     const T epsilon = std::numeric_limits<T>::epsilon();
     tolerance_ = policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
     for (int i = 0; i < n; ++i) inertia_(i) = body.inertia[static_cast<std::size_t>(i)];
-    for (Columns* c : {&Y_, &R_}) *c = Columns::Zero(n, m());
+    for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(n, m());
     for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(n, nodes());
     W_ = mu_ = Vector::Zero();
     const int size = n * m();
-    jacobian_ = Square::Zero(size, size);
-    lu_ = Eigen::PartialPivLU<Square>(size);
+    lu_ = SmallLu<T>(size);
     flat_ = Flat::Zero(size);
-    // Y from the values of xi at m points: the inverse of the functions there.
+    // Y from the values of xi at m points, and back.
     const std::vector<T> points = lobatto<T>(m() + 1).c;
-    Square at(m(), m());
+    atPoints_ = Square(m(), m());
     std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
     for (int k = 0; k < m(); ++k) {
-        guessTimes_.push_back(points[static_cast<std::size_t>(k + 1)]);
-        table_.space.evaluate(guessTimes_.back(), value, slope);
-        at.row(k) = Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
+        times_.push_back(points[static_cast<std::size_t>(k + 1)]);
+        table_.space.evaluate(times_.back(), value, slope);
+        atPoints_.row(k) = Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
     }
-    fit_ = at.partialPivLu().inverse();
+    fit_ = atPoints_.partialPivLu().inverse();
+    poses_.resize(static_cast<std::size_t>(m() + 1));
 }
 
 /// xi_i and xi'_i from Y.
@@ -57,30 +60,29 @@ void LieStep<T, G>::placeFoot() {
     footElement_ = G::element(foot_);
 }
 
-/// Y of the curve t w + t^2 w' / 2 + t^3 [w, w'] / 12, right to third order, with w and w' from the momentum at the
-/// start. It is the curve of the chart at the start; that of the adjoint step, seen from the end, is left to Newton.
+/// Y of the curve through guessed poses at the m points; false where the step is so long that there is none.
 template <class T, class G>
-void LieStep<T, G>::predict() {
-    const Vector w = mu_.cwiseQuotient(inertia_);
-    Vector torque = G::precession(mu_, w);
-    if (!body_.isFree()) {
-        Vector f;
-        T value;
-        const typename G::Element g = G::element(known_);
-        body_.potential(body_.model.get(), G::rotation(g), G::position(g), &value, f.data(), nullptr);
-        torque += f;
-    }
-    const Vector slope = torque.cwiseQuotient(inertia_), third = G::bracket(w, slope) / T(12);
-    Columns& values = R_;
+bool LieStep<T, G>::predict() {
+    poses_[0] = known_;
+    poses_[0].momentum = mu_.template head<3>();
+    const T step = isAdjoint_ ? T(-h_) : h_;
     for (int k = 0; k < m(); ++k) {
-        const T t = guessTimes_[static_cast<std::size_t>(k)] * h_;
-        if (isAdjoint_)
-            // From the end at t = -h_ back: the start's curve reversed, shifted to second order.
-            values.col(k) = t * (w + slope * (t / T(2) - h_));
-        else
-            values.col(k) = t * (w + t * (slope / T(2) + t * third));
+        const auto at = static_cast<std::size_t>(k);
+        poses_[at + 1] = guessedAfter(body_, poses_[at], T((times_[at] - (k > 0 ? times_[at - 1] : T(0))) * step));
     }
-    Y_.noalias() = values.lazyProduct(fit_.transpose());
+    // The points are symmetric in time: the adjoint step sees the same ones from the end.
+    const auto last = static_cast<std::size_t>(m());
+    const Pose<T>& foot = poses_[isAdjoint_ ? last : 0];
+    const so3::Vector<T> w = mu_.template head<3>().cwiseQuotient(inertia_.template head<3>());
+    for (int k = 0; k < m(); ++k) {
+        const auto at = static_cast<std::size_t>(k + 1);
+        const Pose<T>& place = poses_[isAdjoint_ ? last - at : at];
+        const so3::Vector<T> near = (h_ * times_[at - 1]) * w;
+        points_.col(k) = G::coordinates(foot, place, turnBetween(foot.attitude, place.attitude, near));
+    }
+    Y_.noalias() = points_.lazyProduct(fit_.transpose());
+    using std::isfinite;
+    return isfinite(Y_.squaredNorm());
 }
 
 /// R, the equations at the present Y; fills force_ (as momenta at the foot) and W.
@@ -98,8 +100,7 @@ void LieStep<T, G>::residual() {
             Vector f = Vector::Zero();
             if (!body_.isFree()) {
                 const typename G::Element g = G::times(footElement_, at);
-                T value;
-                body_.potential(body_.model.get(), G::rotation(g), G::position(g), &value, f.data(), nullptr);
+                body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), nullptr);
             }
             forXi += at.dexpTransposed(f);
             force_.col(i) = at.rotateMomentum(f);
@@ -121,11 +122,11 @@ void LieStep<T, G>::residual() {
 template <class T, class G>
 void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A, Matrix& xiXi) {
     const typename G::Element g = G::times(footElement_, at);
-    T value;
     Vector f;
     Matrix slope;
-    body_.potential(body_.model.get(), G::rotation(g), G::position(g), &value, f.data(), slope.data());
+    body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), slope.data());
     xiXi += at.derivativeOfTransposed(f) + A.transpose() * slope * A;
+    auto jacobian = this->jacobian();
     const int last = n * (m() - 1);
     const Vector xiEnd = Y_.col(m() - 1);
     const typename G::template Chart<0> end(xiEnd), opposite(-xiEnd);
@@ -136,21 +137,22 @@ void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& a
         for (int k = 0; k < n; ++k) moved.col(k) = -at.rotateBack(foot.col(k));
         const Matrix change = A.transpose() * slope * moved;
         for (int a = 0; a < m(); ++a)
-            jacobian_.block(n * a, last, n, n) += (table_.weight(i) * h_ * table_.value(i, a)) * change;
+            jacobian.template block<n, n>(n * a, last) += (table_.weight(i) * h_ * table_.value(i, a)) * change;
     } else {
         // dexp(-xi_s)^T dW/dxi_i
         const Matrix turned = (slope - G::precessionMatrix(f)) * A;
         Matrix change;
         for (int k = 0; k < n; ++k) change.col(k) = end.dexpRightTransposed(at.rotateMomentum(turned.col(k)));
         for (int a = 0; a < m(); ++a)
-            jacobian_.block(last, n * a, n, n) -= (table_.weight(i) * h_ * table_.value(i, a)) * change;
+            jacobian.template block<n, n>(last, n * a) -= (table_.weight(i) * h_ * table_.value(i, a)) * change;
     }
 }
 
 /// dR/dY at the present Y, and its factorisation.
 template <class T, class G>
-bool LieStep<T, G>::assembleJacobian() {
-    jacobian_.setZero();
+typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
+    auto jacobian = this->jacobian();
+    jacobian.setZero();
     if (hasPotential_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
         const typename G::template Chart<2> at(xi_.col(i));
@@ -167,32 +169,29 @@ bool LieStep<T, G>::assembleJacobian() {
             const Matrix forXi = (h_ * value) * xiXi + slope * vXi;
             const Matrix forV = value * vXi.transpose() + (slope / h_) * vv;
             for (int c = 0; c < m(); ++c)
-                jacobian_.block(n * a, n * c, n, n) += table_.value(i, c) * forXi + table_.derivative(i, c) * forV;
+                jacobian.template block<n, n>(n * a, n * c) += table_.value(i, c) * forXi + table_.derivative(i, c) * forV;
         }
     }
     const typename G::template Chart<1> end(Y_.col(m() - 1));
     const int last = n * (m() - 1);
-    jacobian_.block(last, last, n, n) -=
+    jacobian.template block<n, n>(last, last) -=
         isAdjoint_ ? end.derivativeOfTransposed(mu_) : end.derivativeOfRightTransposed(mu_ - W_);
     report_->evaluations += nodes();
-    lu_.compute(jacobian_);
     ++report_->linearSolves;
-    using std::abs;
-    T smallest = abs(lu_.matrixLU()(0, 0)), largest = smallest;
-    for (int k = 1; k < lu_.matrixLU().rows(); ++k) {
-        const T pivot = abs(lu_.matrixLU()(k, k));
-        if (!(pivot >= smallest)) smallest = pivot;
-        if (pivot > largest) largest = pivot;
-    }
     // Inertias far apart make pivots far apart; only what is lost in round-off is singular.
-    return smallest > T(0) && largest <= std::numeric_limits<T>::max();
+    switch (lu_.factorise()) {
+        case SmallLu<T>::Result::regular: break;
+        case SmallLu<T>::Result::singular: return Attempt::singular;
+        case SmallLu<T>::Result::notFinite: return Attempt::notFinite;
+    }
+    return Attempt::solved;
 }
 
 /// Solves for the correction of Y from R, in flat_; returns its size relative to the unknowns.
 template <class T, class G>
-T LieStep<T, G>::correct() {
+T LieStep<T, G>::correction() {
     for (int a = 0; a < m(); ++a) flat_.template segment<n>(n * a) = -R_.col(a);
-    flat_ = lu_.solve(flat_);
+    lu_.solve(flat_.data());
     ++report_->linearSolves;
     T size(0), scale(0);
     using std::abs;
@@ -206,29 +205,81 @@ T LieStep<T, G>::correct() {
     return scale > T(0) ? T(size / scale) : size;
 }
 
+/// What round-off in the equations leaves of the corrections: they are momenta of the heaviest axis, or of the whole body on
+/// its way, and move the lightest axis.
+template <class T, class G>
+T LieStep<T, G>::floor() const {
+    T heaviest = inertia_.template head<3>().maxCoeff();
+    if constexpr (n == 6)
+        for (int a = 0; a < m(); ++a)
+            heaviest = std::max(heaviest, T(inertia_(3) * Y_.col(a).template tail<3>().squaredNorm()));
+    return std::numeric_limits<T>::epsilon() * heaviest / inertia_.template head<3>().minCoeff();
+}
+
+template <class T, class G>
+void LieStep<T, G>::correct() {
+    if constexpr (n == 3) {
+        for (int a = 0; a < m(); ++a) Y_.col(a) += flat_.template segment<n>(n * a);
+    } else {
+        points_.noalias() = Y_.lazyProduct(atPoints_.transpose());
+        for (int k = 0; k < m(); ++k) {
+            Vector change = Vector::Zero();
+            for (int a = 0; a < m(); ++a) change += atPoints_(k, a) * flat_.template segment<n>(n * a);
+            points_.col(k) = G::corrected(points_.col(k), change);
+        }
+        Y_.noalias() = points_.lazyProduct(fit_.transpose());
+    }
+    placeNodes();
+}
+
+/// force_ and W at the present Y.
+template <class T, class G>
+void LieStep<T, G>::updateImpulse() {
+    W_.setZero();
+    placeFoot();
+    if (body_.isFree()) return;
+    for (int i = 0; i < nodes(); ++i) {
+        const typename G::template Chart<0> at(xi_.col(i));
+        const typename G::Element g = G::times(footElement_, at);
+        Vector f;
+        body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), nullptr);
+        force_.col(i) = at.rotateMomentum(f);
+        W_ -= (h_ * table_.weight(i)) * force_.col(i);
+    }
+    report_->evaluations += nodes();
+}
+
 template <class T, class G>
 typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& stop) {
     const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
     T last = std::numeric_limits<T>::infinity();
     int growing = 0, sinceJacobian = 0;
     placeNodes();
-    if (!assembleJacobian()) return Attempt::singular;
+    Attempt attempt = assembleJacobian();
+    if (attempt != Attempt::solved) return attempt;
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop.stop_requested()) return Attempt::stopped;
         residual();
-        const T size = correct();
+        const T size = correction();
         ++report_->iterations;
         report_->residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
-        // At round-off, or no longer shrinking within a few digits of it: what is at hand is the solution, with its W.
-        if (size <= tolerance_ || (size < stagnation && size >= last * T(0.25))) return Attempt::solved;
-        for (int a = 0; a < m(); ++a) Y_.col(a) += flat_.template segment<n>(n * a);
-        placeNodes();
+        correct();
+        // At round-off, or no longer shrinking within a few digits of it, or so fast that the next correction would be.
+        // Light axes stop further away from it: there a new Jacobian must not have helped either.
+        const bool isStalled = size >= last * T(0.25), isAtFloor = sinceJacobian == 0 && size < floor();
+        const bool isSmall = size <= tolerance_ || (isStalled && (size < stagnation || isAtFloor));
+        const bool isNextSmall = iteration > 0 && size < last && size * (size / last) < T(0.25) * tolerance_;
+        if (isSmall || isNextSmall) {
+            updateImpulse();
+            return Attempt::solved;
+        }
         ++sinceJacobian;
         growing = size >= last ? growing + 1 : 0;
         if (growing >= 4) return Attempt::failed;
         if (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation) {
-            if (!assembleJacobian()) return Attempt::singular;
+            attempt = assembleJacobian();
+            if (attempt != Attempt::solved) return attempt == Attempt::notFinite ? Attempt::failed : attempt;
             sinceJacobian = 0;
         }
         last = size;
@@ -242,7 +293,7 @@ Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::sto
     known_ = foot_ = pose;
     footElement_ = G::element(known_);
     mu_ = G::bodyMomentum(footElement_, known_);
-    predict();
+    if (!predict()) return Outcome::diverged;
     switch (iterate(stop)) {
         case Attempt::solved: break;
         case Attempt::failed: return Outcome::diverged;
@@ -255,7 +306,6 @@ Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::sto
     using std::sqrt;
     if (end.template head<3>().squaredNorm() > T(25)) return Outcome::diverged;
     if (isAdjoint_) {
-        placeFoot();
         G::fetch(foot_, footElement_, W_, known_);
         pose = foot_;
     } else {

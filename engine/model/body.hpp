@@ -20,8 +20,8 @@ struct BodyMechanics {
     std::array<T, 6> inertia{};     ///< diagonal of M: moments of inertia, then three times the mass
     std::shared_ptr<const void> model;  ///< first argument of the call below
 
-    /// U at (R, x) (x: null on SO(3)); the force f, with dU(g zeta) = -f . zeta for every twist zeta; and, unless null,
-    /// its slope along g exp(eps zeta), f + eps slope zeta, column after column. Empty: no potential.
+    /// Unless null: U at (R, x) (x: null on SO(3)); the force f, with dU(g zeta) = -f . zeta for every twist zeta; its
+    /// slope along g exp(eps zeta), f + eps slope zeta, column after column. Empty: no potential.
     void (*potential)(const void*, const T* R, const T* x, T* value, T* force, T* slope) = nullptr;
 
     bool isFree() const { return potential == nullptr; }

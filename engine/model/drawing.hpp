@@ -1,8 +1,9 @@
 /// What the stage shows of a state, as plain shapes in the model's own coordinates; no graphics library here.
-/// Planar systems draw in the plane z = 0, y up.
+/// Planar systems draw in the plane z = 0, y up; systems in space (System::isSpatial) are seen from a corner, y up.
 #pragma once
 
 #include <array>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -32,7 +33,16 @@ struct Support {  ///< a hatched ceiling: a line with strokes on its upper side
     Point centre;
     double width = 1;  ///< model units
 };
-using Shape = std::variant<Segment, Disc, Spring, Support>;
+struct Solid {  ///< a convex body with flat faces, drawn shaded
+    std::vector<Point> corners;
+    std::vector<std::vector<int>> faces;  ///< corners of each, counterclockwise as seen from outside
+};
+struct Word {  ///< the name of an axis, in the middle of this place; of bodies those of the first scheme alone are shown
+    Point centre;
+    std::string text;
+    ShapeRole role = ShapeRole::scenery;
+};
+using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word>;
 
 /// One state of one scheme as shapes, and the point whose path makes the trail.
 struct Drawing {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "engine/core/problem.hpp"
@@ -59,9 +60,8 @@ void rate(const BodyMechanics<double>& body, const double* x, double* dx) {
     const Quaternion q = attitude(x), dq = so3::product(q, Quaternion(0, w(0), w(1), w(2))) / 2;
     const Matrix R = so3::matrix(q);
     std::array<double, 6> f{};
-    double value = 0;
     if (!body.isFree())
-        body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, &value, f.data(), nullptr);
+        body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, nullptr, f.data(), nullptr);
     const Vector torque = Map(f.data()), dPi = so3::cross(momentum, w) + torque, dpi = R * torque;
     for (int i = 0; i < 4; ++i) dx[i] = dq(i);
     for (int i = 0; i < 3; ++i) {
@@ -81,10 +81,8 @@ double frequency(const BodyMechanics<double>& body, const double* x) {
     const double turning = omega(body, x).norm();
     if (body.isFree()) return turning;
     const Matrix R = so3::matrix(attitude(x));
-    std::array<double, 6> f{};
     std::array<double, 36> slope{};
-    double value = 0;
-    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, &value, f.data(), slope.data());
+    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, nullptr, nullptr, slope.data());
     double stiffest = 0;
     for (int row = 0; row < body.dimension; ++row)
         for (int column = 0; column < body.dimension; ++column)
@@ -139,9 +137,8 @@ FieldInfo optionalVector(const char* key, const char* title, const char* symbol,
 double bodyPotential(const BodyMechanics<double>& body, const double* x) {
     if (body.isFree()) return 0;
     const Matrix R = so3::matrix(attitude(x));
-    std::array<double, 6> f{};
     double value = 0;
-    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, &value, f.data(), nullptr);
+    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, &value, nullptr, nullptr);
     return value;
 }
 
@@ -164,6 +161,7 @@ void describeBody(System& system) {
     };
     system.frequency = [body](double, const double* x) { return frequency(body, x); };
     system.start = [body](const Settings& initial) { return startOf(body, initial); };
+    system.isSpatial = true;
     system.phaseX = "momentum.body.1";
     system.phaseY = "momentum.body.2";
     system.trajectoryX = "t";
@@ -208,22 +206,38 @@ std::array<double, 3> boxOf(const BodyMechanics<double>& body) {
     return half;
 }
 
+void drawSpaceAxes(double length, Drawing& drawing) {
+    const char* names[] = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::array<double, 3> tip{}, word{};
+        tip[i] = length;
+        word[i] = 1.06 * length;
+        drawing.shapes.push_back(Segment{{0, 0, 0}, onStage(tip[0], tip[1], tip[2]), 1, ShapeRole::scenery});
+        drawing.shapes.push_back(Word{onStage(word[0], word[1], word[2]), names[i]});
+    }
+}
+
 void drawBox(const std::array<double, 3>& half, const std::array<double, 3>& centre, const double* x, Drawing& drawing) {
     const Matrix R = so3::matrix(so3::normalised(attitude(x)));
     const auto at = [&](double a, double b, double c) {
         const Vector r = R * Vector(a, b, c);
         return onStage(centre[0] + r(0), centre[1] + r(1), centre[2] + r(2));
     };
-    for (int axis = 0; axis < 3; ++axis)
-        for (int corner = 0; corner < 4; ++corner) {
-            std::array<double, 3> from = half;
-            const auto i = static_cast<std::size_t>(axis), j = (i + 1) % 3, k = (i + 2) % 3;
-            if (corner % 2) from[j] = -from[j];
-            if (corner / 2) from[k] = -from[k];
-            std::array<double, 3> to = from;
-            to[i] = -to[i];
-            drawing.shapes.push_back(Segment{at(from[0], from[1], from[2]), at(to[0], to[1], to[2]), 2});
-        }
+    Solid box;
+    for (int corner = 0; corner < 8; ++corner)
+        box.corners.push_back(at(corner & 1 ? half[0] : -half[0], corner & 2 ? half[1] : -half[1],
+                                 corner & 4 ? half[2] : -half[2]));
+    box.faces = {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
+    drawing.shapes.push_back(std::move(box));
+    const double size = std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::array<double, 3> from{}, to{}, word{};
+        from[i] = half[i];
+        to[i] = half[i] + 0.3 * size;
+        word[i] = half[i] + 0.38 * size;
+        drawing.shapes.push_back(Segment{at(from[0], from[1], from[2]), at(to[0], to[1], to[2]), 1.2});
+        drawing.shapes.push_back(Word{at(word[0], word[1], word[2]), std::to_string(i + 1), ShapeRole::body});
+    }
 }
 
 }  // namespace extremal

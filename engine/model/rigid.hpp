@@ -30,7 +30,11 @@ std::array<double, 3> boxOf(const BodyMechanics<double>& body);
 /// A space vector as the stage shows it: z up, x to the right, y away from the viewer.
 inline Point onStage(double x, double y, double z) { return {x, z, -y}; }
 
-/// Adds the box around `centre` (space axes), turned by the attitude of x, and the body's axes through it.
+/// Adds space's axes with their names as scenery.
+void drawSpaceAxes(double length, Drawing& drawing);
+
+/// Adds the box around `centre` (space axes), turned by the attitude of x, and the body's axes where they leave it, with
+/// their numbers.
 void drawBox(const std::array<double, 3>& half, const std::array<double, 3>& centre, const double* x, Drawing& drawing);
 
 }  // namespace extremal

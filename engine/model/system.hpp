@@ -89,6 +89,7 @@ struct System {
     std::function<ExactSolution(const State& initial)> exact;
     /// Shapes of one state, for the stage.
     std::function<void(const double* x, Drawing& drawing)> draw;
+    bool isSpatial = false;  ///< the drawing fills space: seen from a corner, and turned by dragging
     /// The default phase portrait and trajectory: names of state columns.
     std::string phaseX, phaseY, trajectoryX, trajectoryY;
     bool hasPlanarTrajectory = false;  ///< the two trajectory columns are lengths in one plane

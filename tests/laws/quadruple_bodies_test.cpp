@@ -17,12 +17,13 @@ using Group = RotationGroup<Quad>;
 /// Heavy top of weight 1 with its centre of mass at (0.3, 0, 1).
 void topPotential(const void*, const Quad* R, const Quad*, Quad* value, Quad* force, Quad* slope) {
     const so3::Vector<Quad> gamma(R[2], R[5], R[8]), arm(Quad(3) / 10, Quad(0), Quad(1));
-    *value = so3::dot(arm, gamma);
+    const Quad U = so3::dot(arm, gamma);
+    if (value) *value = U;
     const so3::Vector<Quad> torque = so3::cross(gamma, arm);
     for (int i = 0; i < 3; ++i) force[i] = torque(i);
     if (!slope) return;
     for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) slope[3 * c + r] = (r == c ? *value : Quad(0)) - gamma(r) * arm(c);
+        for (int r = 0; r < 3; ++r) slope[3 * c + r] = (r == c ? U : Quad(0)) - gamma(r) * arm(c);
 }
 
 Pose<Quad> run(bool isTop, int degree, bool isGauss, int n) {

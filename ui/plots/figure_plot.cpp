@@ -123,6 +123,12 @@ void FigurePlot::prepare(QSize size) {
     QCPAxis &x = *s.plot.xAxis, &y = *s.plot.yAxis;
     styleAxis(x, s.theme, isSmall);
     styleAxis(y, s.theme, isSmall);
+    for (QCPAxis* axis : {&x, &y}) {
+        axis->setTicks(s.figure.hasTicks);
+        axis->setTickLabels(s.figure.hasTicks);
+        axis->grid()->setVisible(s.figure.hasTicks);
+        if (!s.figure.hasTicks) axis->setBasePen(Qt::NoPen);
+    }
     x.setLabel(QString::fromStdString(s.figure.x.title));
     y.setLabel(QString::fromStdString(s.figure.y.title));
     x.setScaleType(s.figure.x.isLog ? QCPAxis::stLogarithmic : QCPAxis::stLinear);

@@ -80,6 +80,7 @@ void drawCross(QCPPainter& painter, QPointF at) {
 void CurvesLayer::draw(QCPPainter* painter) {
     const PixelMap map = shared_.map();
     drawFloor(*painter, map);
+    drawGuides(*painter, map);
     const Series* highlighted = nullptr;
     for (const Series& s : shared_.figure.series) {
         if (!shared_.isShown(s)) continue;
@@ -103,6 +104,20 @@ void CurvesLayer::drawFloor(QCPPainter& painter, const PixelMap& map) const {
         const double y = std::round(level(*floor)) + 0.5;
         painter.drawLine(QPointF(map.rect.left(), y), QPointF(map.rect.right(), y));
         painter.setOpacity(1);
+    }
+}
+
+void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
+    for (const Guide& guide : shared_.figure.guides) {
+        const QPen pen(guide.isStrong ? shared_.theme.muted : shared_.theme.line, 1, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
+        for (const QPolygonF& line : visiblePolylines(guide.x, guide.y, map, true, shared_.density))
+            drawPieces(painter, pen, line);
+    }
+    painter.setFont(shared_.theme.caption());
+    painter.setPen(shared_.theme.muted);
+    for (const Label& label : shared_.figure.labels) {
+        const QPointF at = map(label.x, label.y);
+        painter.drawText(QRectF(at.x() - 40, at.y() - 12, 80, 24), Qt::AlignCenter, QString::fromStdString(label.text));
     }
 }
 

@@ -24,7 +24,7 @@ struct FigurePlot::Shared {
     QColor colorOf(int style) const;
 };
 
-/// Floor and doubtful band below the curves, curves, then marks of failures and the message above them.
+/// Floor, doubtful band, guides and labels below the curves, curves, then marks of failures and the message above them.
 class CurvesLayer : public QCPLayerable {
 public:
     explicit CurvesLayer(const FigurePlot::Shared& shared);
@@ -36,6 +36,7 @@ protected:
 
 private:
     void drawFloor(QCPPainter& painter, const PixelMap& map) const;
+    void drawGuides(QCPPainter& painter, const PixelMap& map) const;
     void drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const;
     void drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const;
     const FigurePlot::Shared& shared_;

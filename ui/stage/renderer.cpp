@@ -67,24 +67,31 @@ std::array<float, 16> viewMatrix(const Camera& camera, const RenderTarget& targe
 
 struct Renderer::Impl {
     const GlFunctions& gl;
-    GLuint strokeProgram = 0, layerProgram = 0, vertexArray = 0, emptyArray = 0, buffer = 0;
+    GLuint strokeProgram = 0, fillProgram = 0, layerProgram = 0;
+    GLuint vertexArray = 0, fillArray = 0, emptyArray = 0, buffer = 0, fillBuffer = 0;
     GLuint layerTexture = 0, layerFramebuffer = 0;
     int layerWidth = 0, layerHeight = 0;
 
     explicit Impl(const GlFunctions& functions) : gl(functions) {
         strokeProgram = link(gl, shaders::strokeVertex, shaders::strokeFragment);
+        fillProgram = link(gl, shaders::fillVertex, shaders::fillFragment);
         layerProgram = link(gl, shaders::layerVertex, shaders::layerFragment);
         gl.GenVertexArrays(1, &vertexArray);
+        gl.GenVertexArrays(1, &fillArray);
         gl.GenVertexArrays(1, &emptyArray);
         gl.GenBuffers(1, &buffer);
+        gl.GenBuffers(1, &fillBuffer);
     }
 
     ~Impl() {
         dropLayer();
+        gl.DeleteBuffers(1, &fillBuffer);
         gl.DeleteBuffers(1, &buffer);
         gl.DeleteVertexArrays(1, &emptyArray);
+        gl.DeleteVertexArrays(1, &fillArray);
         gl.DeleteVertexArrays(1, &vertexArray);
         gl.DeleteProgram(layerProgram);
+        gl.DeleteProgram(fillProgram);
         gl.DeleteProgram(strokeProgram);
     }
 
@@ -128,8 +135,35 @@ struct Renderer::Impl {
         attribute(4, 2, offsetof(Stroke, alphaA));
     }
 
+    void drawFills(const StrokeBatch& batch) const {
+        if (batch.fillCount == 0) return;
+        gl.BindVertexArray(fillArray);
+        gl.UseProgram(fillProgram);
+        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(batch.fillFirst), static_cast<GLsizei>(batch.fillCount));
+    }
+
+    /// The corners of all triangles, in a buffer of their own.
+    void loadFills(const StrokeList& list) const {
+        if (list.fills.empty()) return;
+        gl.BindVertexArray(fillArray);
+        gl.BindBuffer(GL_ARRAY_BUFFER, fillBuffer);
+        gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.fills.size() * sizeof(FillCorner)), list.fills.data(),
+                      GL_STREAM_DRAW);
+        const auto attribute = [&](GLuint location, GLint size, std::size_t offset) {
+            gl.EnableVertexAttribArray(location);
+            gl.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(sizeof(FillCorner)),
+                                   reinterpret_cast<const void*>(offset));
+        };
+        attribute(0, 3, offsetof(FillCorner, r));
+        attribute(1, 3, offsetof(FillCorner, colour));
+        attribute(2, 1, offsetof(FillCorner, alpha));
+    }
+
     void drawStrokes(const StrokeBatch& batch) const {
+        drawFills(batch);
+        if (batch.count == 0) return;
         gl.BindVertexArray(vertexArray);
+        gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
         gl.UseProgram(strokeProgram);
         pointAt(batch.first);
         gl.DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(batch.count));
@@ -184,8 +218,11 @@ struct Renderer::Impl {
         gl.UniformMatrix4fv(gl.GetUniformLocation(strokeProgram, "view"), 1, GL_FALSE, matrix.data());
         gl.Uniform2f(gl.GetUniformLocation(strokeProgram, "halfSize"), static_cast<float>(target.width) / 2,
                      static_cast<float>(target.height) / 2);
+        gl.UseProgram(fillProgram);
+        gl.UniformMatrix4fv(gl.GetUniformLocation(fillProgram, "view"), 1, GL_FALSE, matrix.data());
         gl.UseProgram(layerProgram);
         gl.Uniform1i(gl.GetUniformLocation(layerProgram, "layer"), 0);
+        loadFills(list);
 
         gl.BindVertexArray(vertexArray);
         gl.BindBuffer(GL_ARRAY_BUFFER, buffer);

@@ -53,6 +53,27 @@ void main() {
 }
 )";
 
+/// Flat triangles.
+inline constexpr const char* fillVertex = R"(#version 330 core
+layout(location = 0) in vec3 place;
+layout(location = 1) in vec3 colour;
+layout(location = 2) in float alpha;
+uniform mat4 view;
+out vec4 tint;
+void main() {
+    tint = vec4(colour * alpha, alpha);
+    gl_Position = view * vec4(place, 1.0);
+}
+)";
+
+inline constexpr const char* fillFragment = R"(#version 330 core
+in vec4 tint;
+out vec4 result;
+void main() {
+    result = tint;
+}
+)";
+
 /// One triangle that covers the picture.
 inline constexpr const char* layerVertex = R"(#version 330 core
 void main() {

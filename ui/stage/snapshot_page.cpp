@@ -59,14 +59,16 @@ void drawStagePicture(QPainter& painter, const QRectF& area, double scale, const
                  height = std::floor(area.bottom() * scale) - top;
     if (width < 8 || height < 8) return;
     const StageFrame frame = player.frame(page.time, stageStyle(theme));
-    const Camera camera = fitCamera(player.bounds(), width / scale, height / scale, stageMargin);
+    const Camera camera = player.fittedCamera(width / scale, height / scale, stageMargin);
     QImage image = drawStage(frame, camera, QSizeF(width / scale, height / scale), scale * finer);
     image.setDevicePixelRatio(1);
     painter.save();
     painter.scale(1 / scale, 1 / scale);
     painter.drawImage(QRectF(left, top, width, height), image);
     painter.restore();
-    paintOverlay(painter, area, frame, player, theme, overlay);
+    OverlayOptions options = overlay;
+    options.camera = camera;
+    paintOverlay(painter, area, frame, player, theme, options);
 }
 
 void drawStageCard(QPainter& painter, const QRectF& place, double scale, const StagePlayer& player,

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
+#include "engine/core/text.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/stage/stage_player.hpp"
 
@@ -66,6 +68,26 @@ void paintLegend(QPainter& painter, const QRectF& area, const StageFrame& frame,
     }
 }
 
+void paintWord(QPainter& painter, const QRectF& area, const Camera& camera, const Word& word, const QColor& colour) {
+    const Point seen = camera.project(word.centre);
+    const QPointF at(area.center().x() + seen[0], area.center().y() - seen[1]);
+    if (!area.adjusted(8, 8, -8, -8).contains(at)) return;
+    painter.setPen(colour);
+    painter.drawText(QRectF(at - QPointF(60, 12), QSizeF(120, 24)), Qt::AlignCenter, QString::fromStdString(word.text));
+}
+
+/// Names of axes: space's, and those of the first scheme's body.
+void paintWords(QPainter& painter, const QRectF& area, const Camera& camera, const StageFrame& frame, const Theme& theme) {
+    painter.setFont(theme.caption());
+    for (const Shape& shape : frame.scenery)
+        if (const auto* word = std::get_if<Word>(&shape)) paintWord(painter, area, camera, *word, theme.muted);
+    if (frame.layers.empty()) return;
+    const StageLayer& first = frame.layers.front();
+    const QColor colour = QColor::fromRgbF(first.colour.r, first.colour.g, first.colour.b);
+    for (const Shape& shape : first.shapes)
+        if (const auto* word = std::get_if<Word>(&shape)) paintWord(painter, area, camera, *word, colour);
+}
+
 }  // namespace
 
 StageStyle stageStyle(const Theme& theme) {
@@ -110,12 +132,13 @@ void paintOverlay(QPainter& painter, const QRectF& area, const StageFrame& frame
     const QString now = timeText(frame.t, player);
     painter.setPen(theme.text);
     painter.drawText(QPointF(area.left() + 12, baseline), now);
-    const QString trail = withUnit(QStringLiteral("trail %1").arg(player.trailSpan(), 0, 'g', 2), player);
+    const QString trail = withUnit(QStringLiteral("trail %1").arg(QString::fromStdString(formatNumber(player.trailSpan(), 3))), player);
     const double x = area.left() + 12 + metrics.horizontalAdvance(now) + 16;
     if (player.trailSpan() > 0 && x + metrics.horizontalAdvance(trail) < area.right()) {
         painter.setPen(theme.muted);
         painter.drawText(QPointF(x, baseline), trail);
     }
+    if (options.camera) paintWords(painter, area, *options.camera, frame, theme);
     if (options.hasLegend) paintLegend(painter, area, frame, theme);
     paintNotes(painter, area, frame, theme);
     painter.restore();

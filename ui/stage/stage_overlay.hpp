@@ -7,6 +7,8 @@
 
 #include "ui/stage/stage_frame.hpp"
 
+#include <optional>
+
 class QPainter;
 
 namespace extremal {
@@ -19,6 +21,8 @@ StageStyle stageStyle(const Theme& theme);
 
 struct OverlayOptions {
     bool hasLegend = false;
+    /// The camera of the picture, for words at places of the model; without it they are left out.
+    std::optional<Camera> camera = {};
 };
 
 /// Logical pixels kept free around the bodies for these words.

@@ -15,12 +15,23 @@ constexpr std::size_t maxBoundsRows = 500;  // per scheme
 double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 bool isFinite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
 
+/// Where systems in space are seen from, at one pixel per unit.
+Camera cornerView() {
+    Camera camera;
+    camera.pixelsPerUnit = 1;
+    camera.azimuth = 0.55;
+    camera.elevation = 0.32;
+    return camera;
+}
+
 /// The points that make up the extent of one shape.
 void addExtent(const Shape& shape, std::vector<Point>& points) {
     if (const auto* segment = std::get_if<Segment>(&shape))
         points.insert(points.end(), {segment->a, segment->b});
     if (const auto* spring = std::get_if<Spring>(&shape)) points.insert(points.end(), {spring->a, spring->b});
     if (const auto* disc = std::get_if<Disc>(&shape)) points.push_back(disc->centre);
+    if (const auto* solid = std::get_if<Solid>(&shape))
+        points.insert(points.end(), solid->corners.begin(), solid->corners.end());
     if (const auto* support = std::get_if<Support>(&shape)) {
         Point left = support->centre, right = support->centre;
         left[0] -= support->width / 2;
@@ -33,6 +44,8 @@ bool isScenery(const Shape& shape) {
     if (const auto* segment = std::get_if<Segment>(&shape)) return segment->role == ShapeRole::scenery;
     if (const auto* spring = std::get_if<Spring>(&shape)) return spring->role == ShapeRole::scenery;
     if (const auto* disc = std::get_if<Disc>(&shape)) return disc->role == ShapeRole::scenery;
+    if (const auto* word = std::get_if<Word>(&shape)) return word->role == ShapeRole::scenery;
+    if (std::holds_alternative<Solid>(shape)) return false;
     return true;
 }
 
@@ -95,17 +108,20 @@ void StagePlayer::prepare() {
     if (tracks_.empty()) return;
 
     // Schemes that failed, or that reach far beyond the others, do not set the scale of the picture.
-    std::vector<Bounds> all;
+    std::vector<Extent> all;
     for (const Track& track : tracks_)
         if (!track.hasFailed) all.push_back(findBounds(track));
     if (all.empty())
         for (const Track& track : tracks_) all.push_back(findBounds(track));
     std::vector<double> sizes;
-    for (const Bounds& b : all) sizes.push_back(b.diagonal());
+    for (const Extent& e : all) sizes.push_back(e.bounds.diagonal());
     std::sort(sizes.begin(), sizes.end());
     const double typical = sizes[(sizes.size() - 1) / 2];
-    for (const Bounds& b : all)
-        if (b.diagonal() <= 2.5 * typical) bounds_.add(b);
+    for (const Extent& e : all)
+        if (e.bounds.diagonal() <= 2.5 * typical) {
+            bounds_.add(e.bounds);
+            seen_.add(e.seen);
+        }
     trailSpan_ = findTrailSpan();
 }
 
@@ -141,7 +157,7 @@ Point StagePlayer::tracer(const std::vector<double>& x) const {
     return drawing.tracer;
 }
 
-Bounds StagePlayer::findBounds(const Track& track) const {
+StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
     const std::size_t stride = (track.t.size() + maxBoundsRows - 1) / maxBoundsRows;
     std::vector<Point> points;
     std::vector<double> x;
@@ -154,7 +170,14 @@ Bounds StagePlayer::findBounds(const Track& track) const {
         points.push_back(drawing.tracer);
     }
     std::erase_if(points, [](const Point& p) { return !isFinite(p); });
-    return robustBounds(points);
+    Extent extent;
+    extent.bounds = robustBounds(points);
+    if (isSpatial()) {
+        const Camera corner = cornerView();
+        for (Point& p : points) p = corner.project(p);
+        extent.seen = robustBounds(points);
+    }
+    return extent;
 }
 
 /// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed,
@@ -275,6 +298,18 @@ std::string StagePlayer::failureNote(const Track& track, const std::string& labe
     const double when = std::isfinite(summary.failedAt) ? summary.failedAt : track.t.back();
     return label + (cause.empty() ? " ended" : ": " + cause) +
            " at t = " + formatNumber(when, 3) + (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
+}
+
+/// What is seen from a corner fits the picture closer than the box of what is there.
+Camera StagePlayer::fittedCamera(double width, double height, double margin) const {
+    if (!isSpatial()) return fitCamera(bounds_, width, height, margin);
+    const Camera flat = fitCamera(seen_, width, height, margin);
+    Camera camera = cornerView();
+    const auto axes = camera.axes();
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k) camera.centre[i] += axes[k][i] * flat.centre[k];
+    camera.pixelsPerUnit = flat.pixelsPerUnit;
+    return camera;
 }
 
 StageFrame StagePlayer::frame(double t, const StageStyle& style) const {

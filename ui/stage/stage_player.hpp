@@ -34,6 +34,10 @@ public:
     double start() const;
     double end() const;  ///< time of the last row of any scheme
     double trailSpan() const { return trailSpan_; }
+    /// The picture has depth: it can be turned.
+    bool isSpatial() const { return system_.isSpatial; }
+    /// The camera that shows everything.
+    Camera fittedCamera(double width, double height, double margin) const;
 
     StageFrame frame(double t, const StageStyle& style) const;
 
@@ -46,9 +50,14 @@ private:
         bool hasFailed = false;
     };
 
+    struct Extent {
+        Bounds bounds;
+        Bounds seen;  ///< right, up and towards the viewer, as the fitted camera of a system in space sees it
+    };
+
     void prepare();
     void addTrack(const std::shared_ptr<const SchemeResult>& result);
-    Bounds findBounds(const Track& track) const;
+    Extent findBounds(const Track& track) const;
     double findTrailSpan() const;
     void rowState(const Track& track, std::size_t row, std::vector<double>& x) const;
     bool stateBetween(const Track& track, std::size_t row, double t, std::vector<double>& x) const;
@@ -61,7 +70,7 @@ private:
     std::shared_ptr<const Comparison> comparison_;
     System system_;
     std::vector<Track> tracks_;
-    Bounds bounds_;
+    Bounds bounds_, seen_;
     double trailSpan_ = 0;
 };
 

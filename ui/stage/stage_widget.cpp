@@ -57,7 +57,7 @@ struct StageWidget::Impl {
     bool hasGrid = false;
 
     Camera camera() const {
-        return chosen ? *chosen : fitCamera(player.bounds(), self->width(), self->height(), stageMargin);
+        return chosen ? *chosen : player.fittedCamera(self->width(), self->height(), stageMargin);
     }
     const StageFrame& currentFrame() {
         if (!isFrameCurrent) {
@@ -74,7 +74,7 @@ struct StageWidget::Impl {
             painter.fillRect(area, theme.panel);
             paintMessage(painter, failure);
         } else if (player.hasStage())
-            paintOverlay(painter, area, currentFrame(), player, theme, overlay);
+            paintOverlay(painter, area, currentFrame(), player, theme, {overlay.hasLegend, camera()});
         else
             paintMessage(painter, player.comparison() && !player.comparison()->schemes.empty()
                                       ? QStringLiteral("Waiting for the first step")
@@ -106,7 +106,7 @@ struct StageWidget::Impl {
         const double x = place.x() - self->width() / 2.0, y = self->height() / 2.0 - place.y();
         const Point under = next.unproject(x, y);
         const double least =
-            1e-6 * fitCamera(player.bounds(), self->width(), self->height(), stageMargin).pixelsPerUnit;
+            1e-6 * player.fittedCamera(self->width(), self->height(), stageMargin).pixelsPerUnit;
         next.pixelsPerUnit = std::clamp(next.pixelsPerUnit * factor, 1e5 * least, 1e12 * least);
         const Point moved = next.unproject(x, y);
         for (std::size_t i = 0; i < 3; ++i) next.centre[i] += under[i] - moved[i];
@@ -205,7 +205,14 @@ void StageWidget::mouseMoveEvent(QMouseEvent* event) {
     if (by.manhattanLength() < 1) return;
     impl_->dragged = event->position();
     Camera next = impl_->camera();
-    next.centre = next.unproject(-by.x(), by.y());
+    const bool turns = impl_->player.isSpatial() && !(event->modifiers() & Qt::ShiftModifier);
+    if (turns) {
+        constexpr double perPixel = 0.008;  // rad
+        next.azimuth -= perPixel * by.x();
+        next.elevation = std::clamp(next.elevation + perPixel * by.y(), -1.55, 1.55);
+    } else {
+        next.centre = next.unproject(-by.x(), by.y());
+    }
     impl_->choose(next);
 }
 

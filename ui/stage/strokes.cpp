@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace extremal {
 namespace {
@@ -20,6 +22,7 @@ public:
     void open(bool isUnited, double opacity) {
         StrokeBatch batch;
         batch.first = list_.strokes.size();
+        batch.fillFirst = list_.fills.size();
         batch.isUnited = isUnited;
         batch.opacity = static_cast<float>(opacity);
         list_.batches.push_back(batch);
@@ -46,6 +49,26 @@ public:
         grow(pb, width);
     }
 
+    /// A convex polygon.
+    void fill(const std::vector<Point>& corners, const Rgb& colour, double alpha) {
+        for (const Point& p : corners) {
+            const Point seen = camera_.project(p);
+            for (std::size_t i = 0; i < 2; ++i)
+                if (!(std::abs(seen[i]) < farAway)) return;
+        }
+        for (std::size_t k = 2; k < corners.size(); ++k)
+            for (const std::size_t c : {std::size_t(0), k - 1, k}) {
+                FillCorner f{};
+                for (std::size_t i = 0; i < 3; ++i) f.r[i] = static_cast<float>(corners[c][i] - camera_.centre[i]);
+                f.colour[0] = colour.r;
+                f.colour[1] = colour.g;
+                f.colour[2] = colour.b;
+                f.alpha = static_cast<float>(alpha);
+                list_.fills.push_back(f);
+                grow(camera_.project(corners[c]), 0);
+            }
+    }
+
     void disc(const Point& centre, double radius, const Rgb& colour) {
         stroke(centre, centre, 2 * radius, colour);
     }
@@ -60,7 +83,7 @@ public:
     const Camera& camera() const { return camera_; }
 
     StrokeList take() {
-        std::erase_if(list_.batches, [](const StrokeBatch& b) { return b.count == 0; });
+        std::erase_if(list_.batches, [](const StrokeBatch& b) { return b.count == 0 && b.fillCount == 0; });
         return std::move(list_);
     }
 
@@ -71,10 +94,12 @@ private:
         for (std::size_t i = 0; i < 2; ++i) {
             const auto low = static_cast<float>(p[i] * ratio_ - reach);
             const auto high = static_cast<float>(p[i] * ratio_ + reach);
-            batch.low[i] = batch.count == 0 ? low : std::min(batch.low[i], low);
-            batch.high[i] = batch.count == 0 ? high : std::max(batch.high[i], high);
+            const bool isFirst = batch.count == 0 && batch.fillCount == 0;
+            batch.low[i] = isFirst ? low : std::min(batch.low[i], low);
+            batch.high[i] = isFirst ? high : std::max(batch.high[i], high);
         }
         batch.count = list_.strokes.size() - batch.first;
+        batch.fillCount = list_.fills.size() - batch.fillFirst;
     }
 
     Camera camera_;
@@ -192,6 +217,44 @@ void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
     }
 }
 
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Faces towards the viewer are tinted by how they stand to the light, their edges drawn; hidden edges shine through. Of
+/// several schemes only the first is tinted: where they differ, their edges tell.
+void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength, double width, bool isFilled) {
+    const auto axes = pen.camera().axes();
+    constexpr Point light = {-0.36, 0.72, 0.6};  // right, up, towards
+    std::map<std::pair<int, int>, bool> edges;   // seen or not
+    for (const std::vector<int>& face : solid.faces) {
+        std::vector<Point> corners;
+        for (const int c : face) corners.push_back(solid.corners[static_cast<std::size_t>(c)]);
+        Point normal{};  // Newell's
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const Point &a = corners[i], &b = corners[(i + 1) % corners.size()];
+            for (std::size_t k = 0; k < 3; ++k)
+                normal[k] += (a[(k + 1) % 3] - b[(k + 1) % 3]) * (a[(k + 2) % 3] + b[(k + 2) % 3]);
+        }
+        const double length = std::sqrt(dot(normal, normal));
+        if (!(length > 0)) continue;
+        const Point seen = {dot(axes[0], normal) / length, dot(axes[1], normal) / length, dot(axes[2], normal) / length};
+        const bool isFront = seen[2] > 0;
+        for (std::size_t i = 0; i < face.size(); ++i) {
+            const int a = face[i], b = face[(i + 1) % face.size()];
+            bool& isSeen = edges[{std::min(a, b), std::max(a, b)}];
+            isSeen = isSeen || isFront;
+        }
+        if (isFront && isFilled) pen.fill(corners, colour, strength * (0.14 + 0.34 * std::max(0.0, dot(light, seen))));
+    }
+    for (const bool wantsSeen : {false, true})
+        for (const auto& [edge, isSeen] : edges) {
+            if (isSeen != wantsSeen) continue;
+            const double alpha = strength * (isSeen ? 1 : 0.22);
+            pen.stroke(solid.corners[static_cast<std::size_t>(edge.first)],
+                       solid.corners[static_cast<std::size_t>(edge.second)], isSeen ? width : 0.7 * width, colour, alpha,
+                       alpha);
+        }
+}
+
 void drawDiscs(Pen& pen, const StageFrame& frame, const StageLayer& layer, double scale, bool isFirst) {
     // A faint scheme is mixed with the background, so that its outline does not shine through.
     const double strength = layer.hasEnded ? 0.35 : 1;
@@ -227,6 +290,10 @@ StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double wid
     }
     for (std::size_t i = count; i-- > 0;) {
         const StageLayer& layer = frame.layers[i];
+        pen.open(false, 1);
+        for (const Shape& shape : layer.shapes)
+            if (const auto* solid = std::get_if<Solid>(&shape))
+                drawSolid(pen, *solid, layer.colour, layer.hasEnded ? 0.3 : 1, i == 0 ? 1.8 : 1.4, i == 0);
         pen.open(true, layer.hasEnded ? 0.3 : 1);
         drawBodies(pen, layer, i == 0);
     }

@@ -1,7 +1,7 @@
 /// A StageFrame turned into what the renderer draws: round-ended strokes in batches.
 ///
-/// Everything on the stage is a stroke: a rod, a piece of a spring or trail, a hatch line, and a disc, which
-/// is a stroke of length zero. Widths are in pixels of the picture, ends in model units relative to the
+/// Nearly everything on the stage is a stroke: a rod, a piece of a spring or trail, a hatch line, and a disc, which
+/// is a stroke of length zero. Faces of solids are filled triangles. Widths are in pixels of the picture, ends in model units relative to the
 /// camera's centre (subtracted in double precision, so that zooming far in stays exact).
 #pragma once
 
@@ -21,8 +21,16 @@ struct Stroke {
     float alphaA, alphaB;
 };
 
+/// A corner of a filled triangle, three in a row; the layout of the renderer.
+struct FillCorner {
+    float r[3];
+    float colour[3];
+    float alpha;
+};
+
 struct StrokeBatch {
-    std::size_t first = 0, count = 0;
+    std::size_t first = 0, count = 0;          ///< strokes, drawn after the fills
+    std::size_t fillFirst = 0, fillCount = 0;  ///< corners of triangles
     /// True: the strokes are of one colour and are united before they meet the picture, so that overlapping
     /// half-transparent pieces do not show their joints. False: each is drawn over what is there.
     bool isUnited = false;
@@ -32,6 +40,7 @@ struct StrokeBatch {
 
 struct StrokeList {
     std::vector<Stroke> strokes;
+    std::vector<FillCorner> fills;
     std::vector<StrokeBatch> batches;  ///< from the back to the front
 };
 

@@ -23,8 +23,7 @@ struct QuaternionEquation {
         if (!body.isFree()) {
             const so3::Matrix<double> R = so3::matrix(so3::normalised(q));
             std::array<double, 6> f{};
-            double value = 0;
-            body.potential(body.model.get(), R.data(), body.dimension == 6 ? y + 7 : nullptr, &value, f.data(), nullptr);
+                body.potential(body.model.get(), R.data(), body.dimension == 6 ? y + 7 : nullptr, nullptr, f.data(), nullptr);
             dPi += Vector(f[0], f[1], f[2]);
             if (body.dimension == 6) Eigen::Map<Vector>(dy + 10) = R * Vector(f[3], f[4], f[5]);
         } else if (body.dimension == 6) {

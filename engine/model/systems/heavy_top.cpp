@@ -23,17 +23,21 @@ void potential(const void* model, const double* R, const double*, double* value,
     const Top& top = *static_cast<const Top*>(model);
     const Vector gamma(R[2], R[5], R[8]);
     const Vector arm = Vector(top.centre[0], top.centre[1], top.centre[2]) * top.weight;
-    *value = so3::dot(arm, gamma);
+    const double U = so3::dot(arm, gamma);
+    if (value) *value = U;
     const Vector torque = so3::cross(gamma, arm);
-    for (int i = 0; i < 3; ++i) force[i] = torque(i);
+    if (force)
+        for (int i = 0; i < 3; ++i) force[i] = torque(i);
     if (!slope) return;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            slope[3 * column + row] = (row == column ? *value : 0.0) - gamma(row) * arm(column);
+            slope[3 * column + row] = (row == column ? U : 0.0) - gamma(row) * arm(column);
 }
 
-void draw(const Top& top, const std::array<double, 3>& half, const double* x, Drawing& drawing) {
+void draw(const Top& top, std::array<double, 3> half, const double* x, Drawing& drawing) {
     const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
+    drawSpaceAxes(2.2, drawing);
+    for (double& h : half) h *= 0.6;
     Vector arm(top.centre[0], top.centre[1], top.centre[2]);
     arm *= arm.norm() > 0 ? 1.6 / arm.norm() : 0;
     const Vector c = R * arm;

@@ -1,6 +1,7 @@
 /// Free rigid body on SO(3): L = 1/2 eta . I eta, eta the angular velocity in body axes. SI units.
 #include <algorithm>
 
+#include "engine/group/so3.hpp"
 #include "engine/model/free_body_motion.hpp"
 #include "engine/model/rigid.hpp"
 
@@ -8,6 +9,25 @@ namespace extremal::systems {
 namespace {
 
 using Three = std::array<double, 3>;
+
+/// The box, and the axis it turns about, up to the plane that the angular velocity never leaves: its tip draws the
+/// herpolhode there.
+void draw(const BodyMechanics<double>& body, const std::array<double, 3>& half, const double* x, Drawing& drawing) {
+    drawSpaceAxes(1.5, drawing);
+    drawBox(half, {0, 0, 0}, x, drawing);
+    const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
+    const so3::Vector<double> Pi(x[4], x[5], x[6]);
+    const so3::Vector<double> w = R * so3::Vector<double>(Pi(0) / body.inertia[0], Pi(1) / body.inertia[1], Pi(2) / body.inertia[2]);
+    const double L = Pi.norm(), alongL = L > 0 ? w.dot(R * Pi) / L : 0;
+    if (!(alongL > 0)) return;
+    // The plane is at 1.25; an axis that leans far away is cut to the size of the picture.
+    const so3::Vector<double> tip = w * std::min(1.25 / alongL, 2.5 / w.norm());
+    drawing.tracer = onStage(tip(0), tip(1), tip(2));
+    drawing.shapes.push_back(Segment{onStage(0, 0, 0), drawing.tracer, 1.6});
+    drawing.shapes.push_back(Disc{drawing.tracer, 4});
+    const so3::Vector<double> axis = R * Pi * (1.25 / L);
+    drawing.shapes.push_back(Segment{onStage(0, 0, 0), onStage(axis(0), axis(1), axis(2)), 1.4, ShapeRole::scenery});
+}
 
 System make(const Settings& settings) {
     System s;
@@ -22,7 +42,7 @@ System make(const Settings& settings) {
         s.momenta.push_back({names[i], symbols[i], "kg m²/s", [i](const double* x, const double*) { return x[7 + i]; }});
     s.exact = [I = Three{inertia[0], inertia[1], inertia[2]}](const State& initial) { return freeBodyMotion(I, initial); };
     s.casimir = [](double, const double* x) { return x[4] * x[4] + x[5] * x[5] + x[6] * x[6]; };
-    s.draw = [half = boxOf(s.body)](const double* x, Drawing& drawing) { drawBox(half, {0, 0, 0}, x, drawing); };
+    s.draw = [half = boxOf(s.body), body = s.body](const double* x, Drawing& drawing) { draw(body, half, x, drawing); };
     return s;
 }
 
