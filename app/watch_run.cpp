@@ -32,6 +32,8 @@ void printFailures(const Comparison& comparison, const std::string& scene) {
             printProblem(s.label,
                          "failed at t = " + formatNumber(s.failedAt, 6) + ": " + std::string(name(s.cause)),
                          s.advice);
+        else if (!s.caution.empty())
+            printProblem(s.label, "warning: " + s.caution);
     }
 }
 

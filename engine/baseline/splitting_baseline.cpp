@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "engine/baseline/partitioned.hpp"
+#include "engine/baseline/wave_splitting.hpp"
 #include "engine/integrator/stability.hpp"
 
 namespace extremal {
@@ -27,10 +28,13 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
     BaselineEntry e;
     e.item = {std::move(id), std::move(title), std::move(description), {},
               Claims{splitting.order, true, true, {"momentum"}}, splitting.isNystrom ? "a separable Lagrangian" : ""};
-    if (splitting.isNystrom) e.applies = [](const System& system) { return system.mechanics.isSeparable; };
+    e.applies = [isNystrom = splitting.isNystrom](const System& system) {
+        return system.hasWave() || (isNystrom ? system.mechanics.isSeparable : system.hasMechanics());
+    };
     // At z = pi these products come near -1 and leave the unit circle in intervals as short as 0.001.
     e.stabilityLimit = firstInstability([&](double z) { return halfTrace(splitting.stages, z); }, 0.0005);
     e.make = [splitting](const System& system, const BaselineOptions& options) {
+        if (system.hasWave()) return makeWaveSplitting(system, options.clock, splitting);
         return makePartitioned(system.mechanics, options.clock,
                                partitionedStages(splitting, system.mechanics.isSeparable));
     };

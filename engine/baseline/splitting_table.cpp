@@ -1,5 +1,6 @@
 #include "engine/baseline/splitting_table.hpp"
 
+#include <cmath>
 #include <numeric>
 
 namespace extremal {
@@ -29,6 +30,13 @@ Splitting alternating(int order, bool isNystrom, bool isKickFirst, const std::ve
 }
 
 }  // namespace
+
+Splitting strang() { return alternating(2, false, true, {0.5, 0.5}, {1}); }
+
+Splitting suzuki4() {
+    const double g = 1 / (4 - std::cbrt(4.0)), m = 1 - 4 * g;
+    return alternating(4, false, true, {g / 2, g, (g + m) / 2, (g + m) / 2, g, g / 2}, {g, g, m, g, g});
+}
 
 Splitting blanesMoanS6() {
     return alternating(4, false, true,

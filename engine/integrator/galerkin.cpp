@@ -9,6 +9,7 @@
 #include "engine/integrator/lie.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/table_of.hpp"
+#include "engine/integrator/wave.hpp"
 
 namespace extremal {
 namespace {
@@ -53,11 +54,12 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 }  // namespace
 
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+    if (isWaveSpace(pair.space)) return makeWaveIntegrator(system, pair, clock);
     const SolverPolicy policy = solverPolicy(pair.solver, system);
     if (pair.space.type == "lie-polynomial") return makeLieIntegrator(system, pair, clock, policy);
     if (!system.hasMechanics())
         throw InvalidScene("/space/type", pair.space.type + " needs coordinates, and " + system.id + " has none",
-                           system.hasBody() ? "take lie-polynomial" : "another space: extremal list spaces");
+                           system.hasBody() ? "take lie-polynomial" : system.hasWave() ? "take fourier" : "another space: extremal list spaces");
     Table<double> table = tableOf(pair.space, pair.quadrature);
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(table), clock, policy);

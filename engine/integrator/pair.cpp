@@ -14,6 +14,7 @@
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/integrator/table_of.hpp"
+#include "engine/integrator/wave.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal {
@@ -82,7 +83,13 @@ int orderOf(const Table<double>& table) {
 }
 
 PairProperties makeDescription(const Settings& space, const Settings& quadrature) {
+    if (isWaveSpace(space)) return describeWave(space, quadrature);
     PairProperties p;
+    if (quadrature.type == "exact") {
+        p.refusal = "the integral of the action is not known";
+        p.hint = "quadrature auto";
+        return p;
+    }
     const Rule<double> rule = makeRule<double>(quadrature);
     p.claims.isSymmetric = rule.isSymmetric;
     p.claims.isSymplectic = true;
@@ -175,8 +182,9 @@ Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
     };
     if (q.type.empty() || q.type == "auto") {
         q = Settings{};
-        q.type = "gauss";
+        q.type = space.text("form") == "three-level" ? "exact" : "gauss";
     }
+    if (q.type == "exact") return q;
     if (q.type == "gauss" || q.type == "radau") set("nodes", degree);
     if (q.type == "lobatto" || q.type == "clenshaw-curtis") set("nodes", degree + 1);
     if (q.type == "radau") set("end", "right");
@@ -218,6 +226,12 @@ Discretization trustedPair(const System& system) {
         pair.quadrature = {"gauss", {{"nodes", 8.0}}, {}};
         return pair;
     }
+    if (system.hasWave()) {
+        pair.space = {"fourier",
+                      {{"degree", 8.0}, {"energy_shift", "mean"}, {"form", "one-step"}, {"start", "gauss"}}, {}};
+        pair.quadrature = {"gauss", {{"nodes", 8.0}}, {}};
+        return pair;
+    }
     constexpr double degree = 12;
     pair.space = {"polynomial", {{"degree", degree}, {"basis", "lobatto"}}, {}};
     pair.quadrature = {"gauss", {{"nodes", degree}}, {}};
@@ -225,6 +239,7 @@ Discretization trustedPair(const System& system) {
 }
 
 std::string trustedName(const System& system) {
+    if (system.hasWave()) return "Gauss of degree 8";
     return system.hasBody() ? "Lie group Gauss of degree 8" : "Gauss collocation of degree 12";
 }
 

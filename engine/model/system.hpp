@@ -61,6 +61,18 @@ struct ErrorMeasure {
 /// The energy at (t, x).
 using EnergyFunction = std::function<double(double t, const double* x)>;
 
+/// What a field is sampled as, at nodes in space: for files, profiles and carpets. Rows do not hold it; runs keep a bounded
+/// number of frames.
+struct FieldSampling {
+    std::vector<double> x;                ///< the nodes
+    std::vector<std::string> components;  ///< "re", "im"
+    /// Component after component, each at all nodes.
+    std::function<void(const double* state, double* values)> sample;
+    explicit operator bool() const { return static_cast<bool>(sample); }
+};
+
+class Hamiltonian;
+
 struct System {
     std::string id;
     std::string timeUnit;    ///< "s", or empty if dimensionless
@@ -73,6 +85,9 @@ struct System {
     /// Rigid bodies.
     BodyMechanics<double> body;
 
+    /// Wave functions: the operator that moves the state (wave/hamiltonian.hpp).
+    std::shared_ptr<const Hamiltonian> wave;
+
     // Systems with another state.
     std::vector<Quantity> columns;  ///< what the first entries of x are: the state columns of every row
     EnergyFunction energy;
@@ -83,6 +98,10 @@ struct System {
     /// x at the start, from the checked keys of /initial (ModelEntry::initial). Throws InvalidScene, with pointers
     /// relative to /initial.
     std::function<std::vector<double>(const Settings& initial)> start;
+
+    FieldSampling field;
+    /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be empty.
+    std::function<std::string(const double* x)> caution;
 
     std::vector<MomentumMap> momenta;
     /// Makes the exact solution through the initial state (t, x), or returns an empty function where there is none.
@@ -99,6 +118,7 @@ struct System {
     int dimension() const { return static_cast<int>(coordinates.size()); }
     bool hasMechanics() const { return mechanics.dimension > 0; }
     bool hasBody() const { return body.dimension > 0; }
+    bool hasWave() const { return wave != nullptr; }
 };
 
 /// Names of the first entries of the state: the system's own, else q.<name>, then p.<name>.

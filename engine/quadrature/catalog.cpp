@@ -47,6 +47,7 @@ const std::vector<CatalogItem>& quadratureCatalog() {
          {panels}, {}, ""},
         {"trapezoid", "trapezoid", "The two ends of the step, or of each of several equal panels.",
          {panels}, {}, ""},
+        {"exact", "exact", "The integral itself, where it is known: wave functions in three-level form.", {}, {}, ""},
         {"auto", "automatic", "Chosen for the space: Gauss with as many nodes as the degree.", {}, {}, ""},
     };
     return all;

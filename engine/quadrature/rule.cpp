@@ -1,5 +1,7 @@
 #include "engine/quadrature/rule.hpp"
 
+#include "engine/core/problem.hpp"
+
 #include <boost/multiprecision/float128.hpp>
 
 #include <algorithm>
@@ -240,6 +242,9 @@ void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share) {
 
 template <class T>
 Rule<T> makeRule(const Settings& q) {
+    if (q.type == "exact")
+        throw InvalidScene("/quadrature/type", "the integral of this action is not known: exact is for wave functions in "
+                                               "three-level form", "gauss");
     const int n = q.integer("nodes"), panels = std::max(1, q.integer("panels"));
     if (q.type == "gauss") return composite(gauss<T>(n), panels);
     if (q.type == "lobatto") return composite(lobatto<T>(n), panels);

@@ -16,6 +16,8 @@ std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, co
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an earlier end.";
     // A state that has blown up says nothing of frequencies: the start counts as well.
+    if (system.hasWave() && outcome == Outcome::notFinite)
+        return "Beyond its stability limit a three-level scheme grows without bound. Try a smaller step.";
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
     double limit = 0;
     if (const auto pair = pairOf(scheme))

@@ -12,6 +12,7 @@
 #include "engine/integrator/action_defect.hpp"
 #include "engine/integrator/kkt_pattern.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/trajectory/frames.hpp"
 #include "engine/trajectory/trajectory.hpp"
 
 namespace extremal {
@@ -44,6 +45,7 @@ struct Summary {
     int orderClaimed = 0;          ///< 0: no claim
     double orderMeasured = unknown;
     std::string advice;            ///< after a failure: what to try; for the window, not exported
+    std::string caution;           ///< what is doubtful in a result that looks sound ("under-resolved: .."); not exported
 };
 
 struct SchemeResult {
@@ -52,6 +54,7 @@ struct SchemeResult {
     double fraction = 0;      ///< of the time interval covered, 0..1
     Trajectory trajectory;
     Trajectory curve;  ///< t and state of a run of few steps, several times in each, from the scheme's own curve; for plots
+    std::vector<Frame> frames;  ///< of fields: at rows, all of them while they fit into their memory
     Summary summary;
     /// Of pairs, where a view of the scene shows them; else null.
     std::shared_ptr<const KktPattern> pattern = {};

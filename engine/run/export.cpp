@@ -1,9 +1,11 @@
 #include "engine/run/export.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include "engine/core/text.hpp"
 #include "engine/run/file_batch.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
 
@@ -80,9 +82,43 @@ std::string cellText(const Value& value) {
     return value.isString() ? csvCell(value.asString()) : std::string();
 }
 
+/// "slug.csv" -> "slug.field.csv".
+std::string fieldName(const std::string& csv) { return csv.substr(0, csv.size() - 4) + ".field.csv"; }
+
+/// t, x and the components of the field: a row for each node of each frame.
+template <class Sink>
+void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, Sink&& sink) {
+    constexpr std::size_t blockSize = 1 << 16;
+    std::string block = "t,x";
+    for (const std::string& name : field.components) block += ',' + csvCell(name);
+    block += '\n';
+    const std::size_t n = field.x.size();
+    for (const Frame& frame : frames) {
+        const std::string t = formatNumber(frame.t);
+        for (std::size_t j = 0; j < n; ++j) {
+            block.append(t).append(",").append(formatNumber(field.x[j]));
+            for (std::size_t c = 0; c < field.components.size(); ++c) {
+                const double value = (*frame.values)[c * n + j];
+                block += ',';
+                if (std::isfinite(value)) block += formatNumber(value);
+            }
+            block += '\n';
+        }
+        if (block.size() > blockSize) {
+            sink(block);
+            block.clear();
+        }
+    }
+    sink(block);
+}
+
 std::vector<std::string> fileNames(const Comparison& comparison) {
     std::vector<std::string> names{"scene.json"};
-    for (const std::string& csv : csvNames(comparison)) names.push_back(csv);
+    const auto csv = csvNames(comparison);
+    for (std::size_t i = 0; i < csv.size(); ++i) {
+        names.push_back(csv[i]);
+        if (!comparison.schemes[i]->frames.empty()) names.push_back(fieldName(csv[i]));
+    }
     names.insert(names.end(), {"summary.csv", "summary.json"});
     return names;
 }
@@ -150,10 +186,16 @@ std::vector<std::string> exportComparison(const Comparison& comparison, const st
     prepareFolder(folder);
     FileBatch batch(folder);
     const auto csv = csvNames(comparison);
+    std::optional<System> system;
     batch.write("scene.json", writeScene(comparison.scene));
     for (std::size_t i = 0; i < csv.size(); ++i) {
         batch.open(csv[i]);
         writeRows(comparison.schemes[i]->trajectory, [&](const std::string& block) { batch.append(block); });
+        batch.close();
+        if (comparison.schemes[i]->frames.empty()) continue;
+        if (!system) system = makeSystem(comparison.scene);
+        batch.open(fieldName(csv[i]));
+        writeFrames(system->field, comparison.schemes[i]->frames, [&](const std::string& block) { batch.append(block); });
         batch.close();
     }
     batch.write("summary.csv", summaryCsv(comparison));

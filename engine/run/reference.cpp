@@ -201,9 +201,10 @@ Reference makeReference(const Scene& scene, const System& system, const State& i
             for (const double v : initial.x) scale = std::max(scale, std::abs(v));
             Reference reference;
             // An angle that grows by w t cannot be known better than to round-off of w t.
-            const double turns = system.hasBody() ? 0.25 * highestFrequency(system, initial) *
+            const bool turnsInPhase = system.hasBody() || system.hasWave();
+            const double turns = turnsInPhase ? 0.25 * highestFrequency(system, initial) *
                                                         (scene.end.value - scene.start.value) : 0;
-            reference.info = {"exact", 2e-15 * std::max(system.hasBody() ? 1.0 : scale, turns), "exact solution"};
+            reference.info = {"exact", 2e-15 * std::max(turnsInPhase ? 1.0 : scale, turns), "exact solution"};
             reference.make = [exact = system.exact, initial] { return exact(initial); };
             return reference;
         }

@@ -83,6 +83,7 @@ struct SchemeRun::Pass {
     bool isLastNodeRow = false;
     StepReport lastReport;
     std::vector<double> values;
+    FrameKeeper frames;
     std::size_t stateWidth = 0;  ///< entries of the state that every row holds
 
     Pass(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
@@ -153,6 +154,18 @@ struct SchemeRun::Pass {
         row[0] = nodes.t(i);
         std::copy_n(nodes.x(i), stateWidth, row + 1);
         for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
+        if (system.field) keepFrame(nodes.t(i), nodes.x(i), false);
+        if (system.caution && result.summary.caution.empty()) {
+            result.summary.caution = system.caution(nodes.x(i));
+            if (!result.summary.caution.empty()) result.summary.caution += ", at t = " + formatNumber(nodes.t(i), 3);
+        }
+    }
+    void keepFrame(double t, const double* x, bool isLast) {
+        frames.offer(t, isLast, [&] {
+            auto picture = std::make_shared<std::vector<double>>(system.field.x.size() * system.field.components.size());
+            system.field.sample(x, picture->data());
+            return picture;
+        }, result.frames);
     }
     /// A row off the nodes, or at the last of them.
     void keepAlone(const State& at, const StepReport& report) {
@@ -209,6 +222,7 @@ struct SchemeRun::Pass {
     /// Points inside a step for plots: enough to bend where steps are few, none where they are many.
     int pointsPerStep() const {
         constexpr long long fewSteps = 500, points = 2000;
+        if (stateWidth == 0) return 0;  // no row holds a state: there is no curve to draw
         if (isAdaptiveScheme) return 8;
         return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
     }
@@ -290,6 +304,7 @@ struct SchemeRun::Pass {
             if (hasOverflown) {
                 // More nodes than can be held: count on, keep nothing; a second pass knows the stride.
                 for (Column& c : result.trajectory.columns) c.values.clear();
+                result.frames.clear();
             }
             result.fraction = fraction();
             result.summary.tEnd = state.t;
@@ -303,6 +318,7 @@ struct SchemeRun::Pass {
     void run(Publish&& publish) {
         const Outcome outcome = integrate(publish);
         if (!isLastNodeRow) keepAlone(state, lastReport);
+        if (system.field) keepFrame(state.t, state.x.data(), true);
         finish(outcome);
     }
 };

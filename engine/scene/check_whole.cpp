@@ -4,6 +4,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
+#include "engine/integrator/wave.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/cost.hpp"
 #include "engine/scene/pointer.hpp"
@@ -56,6 +57,23 @@ void checkStability(Reader& reader, const System& system, const Scene& scene, co
                    "a smaller step, or another scheme");
 }
 
+/// Three-level schemes of wave functions: known exactly, so a step beyond the limit is not a doubt but an error.
+void checkWaveStep(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+                   const std::optional<Discretization>& pair, double stabilityLimit, const std::string& pointer) {
+    if (std::isinf(stabilityLimit) || !(stabilityLimit > 0)) return;
+    const Settings unshifted{"fourier", {{"energy_shift", 0.0}}, {}};
+    const double frequency = waveFrequency(system, pair ? pair->space : unshifted, initialState(scene, system));
+    const double h = scheme.step.value, limit = stabilityLimit / frequency;
+    if (!(h > limit)) return;
+    const std::string message = formatNumber(h) + " is beyond the stability limit " + formatNumber(limit, 6) +
+                                ": the largest energy turns by " + formatNumber(h * frequency, 4) + " a step, the limit is " +
+                                formatNumber(stabilityLimit, 4);
+    if (scheme.allowsUnstable)
+        reader.warning(pointer + "/step", message);
+    else
+        reader.error(pointer + "/step", message, "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true");
+}
+
 /// Refused and unstable pairs. False: the scheme cannot be made.
 bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
                const std::string& pointer) {
@@ -105,7 +123,10 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
     const BaselineEntry* baseline = findBaseline(scheme.baseline.type);
     const double limit =
         pair ? describe(pair->space, pair->quadrature).stabilityLimit : baseline->stabilityLimit;
-    checkStability(reader, system, scene, scheme, limit, pointer);
+    if (system.hasWave())
+        checkWaveStep(reader, system, scene, scheme, pair, limit, pointer);
+    else
+        checkStability(reader, system, scene, scheme, limit, pointer);
     checkCost(reader, system, scene, scheme, pointer);
 }
 
@@ -133,12 +154,20 @@ bool checkStart(Reader& reader, const System& system, const Scene& scene) {
     }
 }
 
+/// What is doubtful about the start itself.
+void checkCaution(Reader& reader, const System& system, const Scene& scene) {
+    if (!system.caution || !reader.errors.empty()) return;
+    const std::string caution = system.caution(initialState(scene, system).x.data());
+    if (!caution.empty()) reader.warning("/initial", "is " + caution, "raise /model/modes");
+}
+
 }  // namespace
 
 void checkWhole(Reader& reader, const System* system, const Scene& scene,
                 const std::vector<std::size_t>& places) {
     if (system && !checkStart(reader, *system, scene)) return;
     if (scene.end.value > scene.start.value) checkRows(reader, scene);
+    if (system) checkCaution(reader, *system, scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i)
         checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", places[i]));
     for (const SchemeSpec& scheme : scene.reference.scheme)

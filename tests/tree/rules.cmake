@@ -7,7 +7,7 @@
 # A folder may include itself, folders of its own level, and every level before it.
 set(levels
     "core"
-    "group quadrature space model"
+    "group quadrature space wave model"
     "action"
     "solve"
     "integrator baseline"

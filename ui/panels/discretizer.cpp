@@ -31,9 +31,22 @@ constexpr std::array<RuleColumn, 6> columns = {{{"midpoint", "mid", "M"},
 struct SpaceRow {
     const char *id, *heading;
     int degree;
+    const char* form = nullptr;  ///< of wave functions, where it is not the usual one
 };
-/// The rows for models with coordinates, and for bodies.
+Settings spaceOfRow(const SpaceRow& row) {
+    Settings space = spaceOf(row.id, row.degree);
+    for (auto& [key, value] : space.keys)
+        if (row.form && key == "form") value = row.form;
+    return space;
+}
+/// The rows for models with coordinates, for bodies, and for wave functions.
 std::vector<SpaceRow> rowsFor(const std::string& space) {
+    if (space == "fourier") {
+        std::vector<SpaceRow> waves;
+        for (const int degree : {1, 2, 3, 4, 6, 8, 12}) waves.push_back({"fourier", "Fourier", degree});
+        waves.push_back({"fourier", "3-level", 1, "three-level"});
+        return waves;
+    }
     const bool isLie = space == "lie-polynomial";
     std::vector<SpaceRow> rows;
     for (const int degree : {1, 2, 3, 4, 6, 8})
@@ -48,6 +61,8 @@ QString spaceText(const Settings& space) {
     const QString degree = QString::number(space.integer("degree"));
     if (space.type == "spline")
         return QObject::tr("splines of degree %1 with %2 cells").arg(degree).arg(space.integer("cells"));
+    if (space.text("form") == "three-level") return QObject::tr("lines in time over Fourier modes, in three levels");
+    if (space.type == "fourier") return QObject::tr("polynomials of degree %1 in time over Fourier modes").arg(degree);
     if (space.type == "lie-polynomial") return QObject::tr("polynomials of degree %1 in the algebra").arg(degree);
     return QObject::tr("polynomials of degree %1").arg(degree);
 }
@@ -183,7 +198,7 @@ void Discretizer::fill(const std::string& space) {
         grid->setColumnStretch(column, 1);
         int row = 1;
         for (const SpaceRow& line : rows) {
-            const Settings ofRow = spaceOf(line.id, line.degree);
+            const Settings ofRow = spaceOfRow(line);
             auto* cell = new DiscretizerCell(ofRow, ruleFor(rule.id, ofRow));
             if (theme_) cell->setTheme(*theme_);
             connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
@@ -195,7 +210,7 @@ void Discretizer::fill(const std::string& space) {
     int row = 1;
     for (const SpaceRow& line : rows) {
         QLabel* name = makeLabel(QString("%1 %2").arg(line.heading).arg(line.degree), "caption");
-        name->setToolTip(tr("On each step: %1").arg(spaceText(spaceOf(line.id, line.degree))));
+        name->setToolTip(tr("On each step: %1").arg(spaceText(spaceOfRow(line))));
         grid->addWidget(name, row++, 0);
     }
     body()->addWidget(grid_);

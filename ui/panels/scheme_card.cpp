@@ -149,13 +149,14 @@ void SchemeCard::showFailure(const Summary& summary) {
         repolish(*this);
     }
     failure_->setVisible(hasFailed);
-    advice_->setVisible(hasFailed && !summary.advice.empty());
+    const std::string& words = hasFailed ? summary.advice : summary.caution;
+    advice_->setVisible(!words.empty());
+    advice_->setText(QString::fromStdString(words));
     if (!hasFailed) return;
     const std::string_view cause = name(summary.cause);
     QString text = QString::fromUtf8(cause.data(), static_cast<qsizetype>(cause.size())).replace('-', ' ');
     if (std::isfinite(summary.failedAt)) text += tr(" at t = %1").arg(shortNumber(summary.failedAt, 3));
     failure_->setText(text);
-    advice_->setText(QString::fromStdString(summary.advice));
 }
 
 void SchemeCard::showResult(const SchemeResult* result, bool isStale) {

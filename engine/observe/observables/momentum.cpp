@@ -4,15 +4,31 @@
 #include <cmath>
 
 #include "engine/observe/catalog.hpp"
+#include "engine/wave/spectrum.hpp"
 
 namespace extremal::observables {
+namespace {
+
+/// <p>, which a potential changes.
+Observer meanOfWave(const Hamiltonian& h) {
+    Observer o;
+    o.columns = {{"momentum", "⟨p⟩", "", {}, {}}};
+    o.evaluate = [h](const NodeBlock& nodes, double* values, std::size_t stride) {
+        for (std::size_t i = 0; i < nodes.size(); ++i, values += stride)
+            values[0] = meanMomentum(h, coefficients(nodes.x(i)));
+    };
+    return o;
+}
+
+}  // namespace
 
 ObservableEntry momentum() {
     ObservableEntry e;
     e.item = {"momentum", "momentum", "Conserved momenta and the norm of their change; for systems with a symmetry.", {},
               {}, "a symmetry"};
-    e.applies = [](const System& system) { return !system.momenta.empty(); };
+    e.applies = [](const System& system) { return !system.momenta.empty() || system.hasWave(); };
     e.bind = [](const ObserveContext& context) {
+        if (context.system.hasWave()) return meanOfWave(*context.system.wave);
         Observer o;
         const auto& momenta = context.system.momenta;
         const auto d = static_cast<std::size_t>(context.system.dimension());

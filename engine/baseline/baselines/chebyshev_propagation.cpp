@@ -1,0 +1,114 @@
+/// Chebyshev propagation: exp(-i dt H/hbar) as a Chebyshev series over the whole spectrum of H, cut where its coefficients
+/// reach round-off (Tal-Ezer and Kosloff, J. Chem. Phys. 81 (1984) 3967):
+///     exp(-i dt H/hbar) = e^{-i dt Em/hbar} sum_k (2 - delta_k0) (-i)^k J_k(R) T_k((H - Em)/W),
+/// Em and W the middle and half the width of the spectrum, R = dt W/hbar. About R + 30 products with H a step, however
+/// little of the spectrum the wave function uses. Not unitary, but its norm is off by no more than its error.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/wave_step.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+/// J_0(R) .. up to where they stay below 1e-17, by Miller's recurrence from far above: J_0 + 2 (J_2 + J_4 + ..) = 1.
+std::vector<double> besselJ(double R) {
+    R = std::max(R, 1e-8);
+    const int top = static_cast<int>(R + 30 * std::cbrt(R + 1)) + 40;
+    std::vector<double> J(static_cast<std::size_t>(top) + 2);
+    J[static_cast<std::size_t>(top)] = 1e-280;
+    double sum = 0;
+    for (int k = top; k > 0; --k) {
+        const auto i = static_cast<std::size_t>(k);
+        J[i - 1] = 2 * k / R * J[i] - J[i + 1];
+        if (std::abs(J[i - 1]) > 1e250) {
+            for (double& value : J) value *= 1e-250;
+            sum *= 1e-250;
+        }
+        if (k % 2 == 1) sum += (k == 1 ? 1 : 2) * J[i - 1];
+    }
+    std::size_t last = 0;
+    for (std::size_t k = 0; k < J.size(); ++k) {
+        J[k] /= sum;
+        if (std::abs(J[k]) > 1e-17) last = k;
+    }
+    J.resize(last + 1);
+    return J;
+}
+
+class ChebyshevWave final : public WaveStep {
+public:
+    ChebyshevWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock)
+        : WaveStep(std::move(hamiltonian), clock, 0),
+          middle_((shared()->highest() + shared()->lowest()) / 2),
+          width_((shared()->highest() - shared()->lowest()) / 2 * 1.0001 + 1e-300),
+          series_(besselJ(clock.step * width_ / shared()->hbar())),
+          turn_(std::polar(1.0, -clock.step * middle_ / shared()->hbar())) {
+        for (auto* v : {&sum_, &before_, &now_, &next_, &work_}) v->resize(static_cast<std::size_t>(n()));
+    }
+    double products() const { return static_cast<double>(series_.size()); }
+
+private:
+    void step(double, Complex* v, StepReport& report) override {
+        const auto size = sum_.size();
+        Complex power = 1;  // (-i)^k
+        for (std::size_t i = 0; i < size; ++i) {
+            before_[i] = v[i];
+            sum_[i] = series_[0] * v[i];
+        }
+        for (std::size_t k = 1; k < series_.size(); ++k) {
+            shared()->apply(shared()->potential().data(), k == 1 ? before_.data() : now_.data(), next_.data(), work_.data());
+            ++report.evaluations;
+            power *= Complex(0, -1);
+            const Complex weight = 2 * series_[k] * power;
+            const double scale = (k == 1 ? 1 : 2) / width_;
+            const std::vector<Complex>& at = k == 1 ? before_ : now_;
+            for (std::size_t i = 0; i < size; ++i) {
+                Complex value = scale * (next_[i] - middle_ * at[i]);
+                if (k > 1) value -= before_[i];
+                next_[i] = value;
+                sum_[i] += Complex(weight.real() * value.real() - weight.imag() * value.imag(),
+                                   weight.real() * value.imag() + weight.imag() * value.real());
+            }
+            if (k > 1) before_.swap(now_);
+            now_.swap(next_);
+        }
+        for (std::size_t i = 0; i < size; ++i) v[i] = turn_ * sum_[i];
+    }
+    std::unique_ptr<WaveStep> withStep(const Clock& clock, double) const override {
+        return std::make_unique<ChebyshevWave>(shared(), clock);
+    }
+
+    double middle_, width_;
+    std::vector<double> series_;
+    Complex turn_;
+    std::vector<Complex> sum_, before_, now_, next_, work_;
+};
+
+}  // namespace
+
+BaselineEntry chebyshev_propagation() {
+    BaselineEntry e;
+    e.item = {"chebyshev-propagation", "Chebyshev propagation",
+              "The exponential of H as a Chebyshev series over its whole spectrum, to round-off at any step.", {},
+              Claims{0, true, false, {"norm", "energy"}}, "a wave function"};
+    e.applies = [](const System& system) { return system.hasWave(); };
+    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
+        if (system.wave->isTimeDependent())
+            throw InvalidScene("/baseline", "chebyshev-propagation needs a potential that does not depend on t", "strang");
+        const double R = options.clock.step * (system.wave->highest() - system.wave->lowest()) / (2 * system.wave->hbar());
+        if (R > 1e6)
+            throw InvalidScene("/step", "needs " + formatNumber(R, 2) + " products with H for each step, the limit is 1e6",
+                               "a smaller step, or fewer modes");
+        return std::make_unique<ChebyshevWave>(system.wave, options.clock);
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

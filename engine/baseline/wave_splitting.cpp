@@ -1,0 +1,104 @@
+#include "engine/baseline/wave_splitting.hpp"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/integrator/wave_step.hpp"
+
+namespace extremal {
+namespace {
+
+class WaveSplitting final : public WaveStep {
+public:
+    WaveSplitting(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, const Splitting& splitting)
+        : WaveStep(std::move(hamiltonian), clock, 0), splitting_(splitting), psi_(static_cast<std::size_t>(n())) {
+        const Hamiltonian& h = *shared();
+        const double unit = clock.step / h.hbar();
+        for (const SplittingStage& s : splitting.stages) {
+            if (s.isKick && h.isTimeDependent()) {
+                phases_.emplace_back();
+                continue;
+            }
+            // Equal fractions share their phases: a table has each twice.
+            std::size_t same = 0;
+            while (same < phases_.size() && !(splitting.stages[same].isKick == s.isKick &&
+                                              splitting.stages[same].fraction == s.fraction && !phases_[same]->empty()))
+                ++same;
+            if (same < phases_.size()) {
+                phases_.push_back(phases_[same]);
+                continue;
+            }
+            auto phases = std::make_shared<std::vector<Complex>>();
+            for (const double E : s.isKick ? h.potential() : h.kinetic())
+                phases->push_back(std::polar(s.isKick ? 1.0 / h.size() : 1.0, -s.fraction * unit * E));
+            phases_.push_back(std::move(phases));
+        }
+        if (h.isTimeDependent()) V_.resize(psi_.size());
+    }
+
+private:
+    void restart() override { hasNodes_ = false; }
+    void step(double t, Complex* v, StepReport& report) override {
+        const auto& stages = splitting_.stages;
+        for (std::size_t k = 0; k < stages.size(); ++k) {
+            if (!stages[k].isKick) {
+                multiply(v, *phases_[k]);
+                t += stages[k].fraction * dt();
+                continue;
+            }
+            if (k > 0 || !hasNodes_) shared()->fourier().rawToNodes(v, psi_.data());
+            kick(k, t);
+            shared()->fourier().rawToCoefficients(psi_.data(), v);
+            ++report.evaluations;
+        }
+        hasNodes_ = stages.front().isKick && stages.back().isKick;
+        // What goes through both transforms once more gains a factor N.
+        if (hasNodes_)
+            for (Complex& x : psi_) x *= static_cast<double>(n());
+    }
+    void kick(std::size_t k, double t) {
+        if (!shared()->isTimeDependent()) return multiply(psi_.data(), *phases_[k]);
+        shared()->potentialAt(t, V_.data());
+        const double factor = -splitting_.stages[k].fraction * dt() / shared()->hbar();
+        for (std::size_t j = 0; j < psi_.size(); ++j) psi_[j] *= std::polar(1.0 / n(), factor * V_[j]);
+    }
+    static void multiply(Complex* v, const std::vector<Complex>& phases) {
+        double* x = reinterpret_cast<double*>(v);
+        const double* p = reinterpret_cast<const double*>(phases.data());
+        for (std::size_t i = 0; i < 2 * phases.size(); i += 2) {
+            const double re = x[i], im = x[i + 1];
+            x[i] = re * p[i] - im * p[i + 1];
+            x[i + 1] = re * p[i + 1] + im * p[i];
+        }
+    }
+    std::unique_ptr<WaveStep> withStep(const Clock& clock, double) const override {
+        return std::make_unique<WaveSplitting>(shared(), clock, splitting_);
+    }
+
+    Splitting splitting_;
+    std::vector<std::shared_ptr<const std::vector<Complex>>> phases_;
+    std::vector<Complex> psi_;  ///< at the nodes, without the factor of the transform
+    std::vector<double> V_;
+    bool hasNodes_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock, const Splitting& splitting) {
+    return std::make_unique<WaveSplitting>(system.wave, clock, splitting);
+}
+
+BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description, const Splitting& splitting) {
+    BaselineEntry e;
+    e.item = {std::move(id), std::move(title), std::move(description), {},
+              Claims{splitting.order, true, true, {"norm"}}, "a wave function"};
+    e.applies = [](const System& system) { return system.hasWave(); };
+    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.make = [splitting](const System& system, const BaselineOptions& options) {
+        return makeWaveSplitting(system, options.clock, splitting);
+    };
+    return e;
+}
+
+}  // namespace extremal

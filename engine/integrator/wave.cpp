@@ -1,0 +1,164 @@
+#include "engine/integrator/wave.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/wave_step.hpp"
+#include "engine/integrator/wave_three_level.hpp"
+#include "engine/quadrature/rule.hpp"
+#include "engine/solve/banded_poles.hpp"
+#include "engine/wave/eigen.hpp"
+
+namespace extremal {
+namespace {
+
+/// Ec: NaN where it is the mean energy of the start.
+double shiftOf(const Settings& space) {
+    const Value* shift = space.find("energy_shift");
+    if (!shift || (shift->isString() && shift->asString() == "mean")) return std::numeric_limits<double>::quiet_NaN();
+    if (shift->isNumber() && std::isfinite(shift->asNumber())) return shift->asNumber();
+    throw InvalidScene("/space/energy_shift", "must be a number or \"mean\"", "mean: the energy of the start");
+}
+
+/// Microseconds of one transform there and back.
+double transforms(double n) { return 0.0006 * n * std::log2(n); }
+
+double costOf(WaveSolver solver, const Hamiltonian& h, int degree, double step) {
+    const double n = h.size(), s = degree;
+    if (solver == WaveSolver::banded) return 0.0035 * n * s * std::max(1, h.harmonics()) + 0.002 * n;
+    if (solver == WaveSolver::dense) return 0.0006 * n * n + transforms(n);
+    // Iterations grow with the part of the potential that the preconditioner does not see.
+    const auto [low, high] = std::minmax_element(h.potential().begin(), h.potential().end());
+    const double strength = step * (*high - *low) / (2 * h.hbar() * s);
+    return s * (5 + 8 * std::sqrt(strength)) * (transforms(n) + 0.01 * n);
+}
+
+void checkSolver(WaveSolver solver, const Hamiltonian& h) {
+    if (solver != WaveSolver::krylov && h.isTimeDependent())
+        throw InvalidScene("/solver/method", std::string(name(solver)) + " needs a potential that does not depend on t",
+                           "krylov");
+    if (solver == WaveSolver::banded && !BandedPoles::isPossible(h.size(), std::max(1, h.harmonics())))
+        throw InvalidScene("/solver/method",
+                           "banded needs a potential of at most 8 harmonics and at least 4 modes for each and 4 more, got " +
+                               std::to_string(h.harmonics()) + " harmonics and " + std::to_string(h.size()) + " modes",
+                           "auto, dense or krylov");
+    if (solver == WaveSolver::dense && h.size() > Eigenstates::denseLimit)
+        throw InvalidScene("/solver/method", "dense takes at most " + std::to_string(Eigenstates::denseLimit) +
+                                                 " modes, got " + std::to_string(h.size()), "auto or krylov");
+}
+
+PairProperties describeThreeLevel(const Settings& space, const Settings& quadrature) {
+    PairProperties p;
+    if (space.integer("degree") != 1) {
+        p.refusal = "the three-level form has degree 1, got " + std::to_string(space.integer("degree"));
+        p.hint = "degree 1, or the one-step form";
+        return p;
+    }
+    const double alpha = threeLevelAlpha(quadrature);
+    const bool isExact = alpha == 1.0 / 6, isSymmetric = quadrature.type == "exact" || makeRule<double>(quadrature).isSymmetric;
+    p.claims = {isExact && space.text("start") != "variational" ? 4 : 2, true, true, {"bilinear form"}};
+    p.curveOrder = p.claims.order;
+    p.shortName = "3L" + std::to_string(p.claims.order);
+    p.knownAs = isExact ? "Milne-Simpson" : alpha == 0 ? "leapfrog" : "";
+    p.isExplicit = alpha == 0;
+    p.stabilityLimit = threeLevelLimit(alpha);
+    if (!isSymmetric || !(alpha >= 0 && alpha <= 0.25 + 1e-14)) {
+        p.refusal = "the three-level form takes symmetric rules with a weight of 0 to 1/4 on the outer levels";
+        p.hint = "exact, trapezoid or midpoint";
+    }
+    return p;
+}
+
+}  // namespace
+
+WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step) {
+    const Hamiltonian& h = *system.wave;
+    const int degree = space.integer("degree");
+    WavePlan plan;
+    for (const WaveSolver s : {WaveSolver::banded, WaveSolver::dense, WaveSolver::krylov})
+        if (solver.type == name(s)) {
+            checkSolver(s, h);
+            return {s, true, costOf(s, h, degree, step)};
+        }
+    if (!solver.type.empty() && solver.type != "auto")
+        throw InvalidScene("/solver/method", solver.type + " does not solve the linear systems of a wave function",
+                           "auto, banded, dense or krylov");
+    plan.microseconds = std::numeric_limits<double>::infinity();
+    for (const WaveSolver s : {WaveSolver::banded, WaveSolver::dense, WaveSolver::krylov}) {
+        try {
+            checkSolver(s, h);
+        } catch (const InvalidScene&) {
+            continue;
+        }
+        if (const double cost = costOf(s, h, degree, step); cost < plan.microseconds) plan = {s, false, cost};
+    }
+    return plan;
+}
+
+double waveFrequency(const System& system, const Settings& space, const State& start) {
+    const Hamiltonian& h = *system.wave;
+    double shift = shiftOf(space);
+    if (std::isnan(shift)) shift = h.energy(start.t, coefficients(start.x.data()));
+    double low = h.lowest(), high = h.highest();
+    if (h.size() <= Eigenstates::denseLimit && !h.isTimeDependent()) {
+        const auto& energies = Eigenstates::of(system.wave)->energies();
+        low = energies.front();
+        high = energies.back();
+    }
+    return std::max(std::abs(low - shift), std::abs(high - shift)) / h.hbar();
+}
+
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+    if (!system.hasWave())
+        throw InvalidScene("/space/type", pair.space.type + " needs a wave function, and " + system.id + " has none",
+                           "another space: extremal list spaces");
+    const int degree = pair.space.integer("degree");
+    const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
+    if (system.wave->isTimeDependent())
+        throw InvalidScene("/space/type", pair.space.type + " needs a potential that does not depend on t",
+                           "a baseline: extremal list baselines");
+    const WaveSolver solver = planWave(system, pair.space, pair.solver, clock.step).solver;
+    const int iterations = pair.solver.integer("max_iterations") > 0 ? pair.solver.integer("max_iterations") : 600;
+    const double tolerance = given > 0 ? given : 1e-14;
+    if (pair.space.text("form") == "three-level") {
+        const std::string start = pair.space.text("start");
+        return makeThreeLevelWave(system.wave, clock, shift,
+                                  {threeLevelAlpha(pair.quadrature),
+                                   start == "variational" ? WaveStart::variational
+                                                          : start == "exact" ? WaveStart::exact : WaveStart::gauss,
+                                   solver, tolerance, iterations});
+    }
+    switch (solver) {
+        case WaveSolver::banded:
+            // Pairs keep the norm to round-off; fours are faster, and good to 1e-11 or so.
+            return makeBandedWave(system.wave, clock, shift, degree, given >= 1e-11 ? 4 : 2);
+        case WaveSolver::dense:
+            return makeDenseWave(system.wave, clock, shift, degree);
+        case WaveSolver::krylov:
+            break;
+    }
+    return makeKrylovWave(system.wave, clock, shift, degree, tolerance, iterations);
+}
+
+PairProperties describeWave(const Settings& space, const Settings& quadrature) {
+    PairProperties p;
+    const int s = space.integer("degree");
+    if (space.text("form") == "three-level") return describeThreeLevel(space, quadrature);
+    p.claims = {2 * s, true, true, {"norm", "energy"}};
+    p.curveOrder = 2 * s;
+    p.shortName = "G" + std::to_string(2 * s);
+    p.knownAs = s == 1 ? "Crank-Nicolson" : "";
+    p.stabilityLimit = std::numeric_limits<double>::infinity();
+    const bool isGauss = quadrature.type == "gauss" && quadrature.integer("nodes") == s && quadrature.integer("panels") <= 1;
+    if (!isGauss) {
+        p.refusal = "the one-step form of degree " + std::to_string(s) + " takes Gauss with " + std::to_string(s) +
+                    (s == 1 ? " node" : " nodes");
+        p.hint = "quadrature auto";
+    }
+    return p;
+}
+
+}  // namespace extremal

@@ -1,0 +1,47 @@
+/// Integrators of wave functions: the space `fourier` in space and polynomials of degree s in time.
+///
+/// One-step form: R_s(-i dt (H - Ec)/hbar), see integrator/pade.hpp; order 2s, unitary for every step. Ec, the energy
+/// shift, is a choice of gauge: the exact motion does not know it, the scheme's error grows with (E - Ec) dt. `mean` takes
+/// <H> of the start. The phase e^{-i Ec t/hbar} is put back at every node from t itself, so nothing accumulates.
+///
+/// Three-level form, degree 1: integrator/wave_three_level.hpp.
+///
+/// How the solves are done, whichever is the cheapest by an estimate from N, s and the potential:
+///     banded   elimination in Fourier space, where V has few harmonics (solve/banded_poles.hpp)
+///     dense    the eigenstates of H, once; N <= 512
+///     krylov   GMRES with two transforms an iteration, preconditioned by the kinetic part; any V
+/// A potential that depends on time couples the stages of the Gauss nodes: it has no factors, and is refused.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/integrator/scheme.hpp"
+
+namespace extremal {
+
+enum class WaveSolver { banded, dense, krylov };
+constexpr const char* name(WaveSolver s) {
+    return s == WaveSolver::banded ? "banded" : s == WaveSolver::dense ? "dense" : "krylov";
+}
+
+/// What was chosen, and why.
+struct WavePlan {
+    WaveSolver solver = WaveSolver::krylov;
+    bool isForced = false;
+    double microseconds = 0;  ///< predicted, a step
+};
+/// Throws InvalidScene (pointer relative to the scheme) where a forced solver cannot be used.
+WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step);
+
+/// Largest |E - Ec|/hbar: what the stability limit of a three-level scheme counts. By the eigenstates up to 512 modes, else by
+/// the bounds of kinetic and potential energy.
+double waveFrequency(const System& system, const Settings& space, const State& start);
+
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, const Clock& clock);
+
+/// What is known of a pair with the space fourier before it runs.
+PairProperties describeWave(const Settings& space, const Settings& quadrature);
+inline bool isWaveSpace(const Settings& space) { return space.type == "fourier"; }
+
+}  // namespace extremal

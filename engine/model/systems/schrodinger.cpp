@@ -1,0 +1,157 @@
+/// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain.
+///
+/// The state is the coefficients of the wave function (wave/hamiltonian.hpp): no column of a row, but what fields are
+/// sampled from. hbar and m are free; nothing else has a unit.
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/system.hpp"
+#include "engine/wave/eigen.hpp"
+#include "engine/wave/hamiltonian.hpp"
+#include "engine/wave/packet.hpp"
+#include "engine/wave/spectrum.hpp"
+
+namespace extremal::systems {
+namespace {
+
+using Shared = std::shared_ptr<const Hamiltonian>;
+
+ErrorMeasure errorOf(int n) {
+    ErrorMeasure m;
+    m.columns = {{"error", "", "‖ψ - ψ ref‖", ""}};
+    m.evaluate = [n](const double* x, const double* reference, double* values) {
+        double sum = 0;
+        for (int i = 0; i < 2 * n; ++i) sum += (x[i] - reference[i]) * (x[i] - reference[i]);
+        values[0] = std::sqrt(sum);
+    };
+    return m;
+}
+
+FieldSampling samplingOf(const Shared& h) {
+    FieldSampling f;
+    f.x = h->x();
+    f.components = {"re", "im"};
+    f.sample = [h](const double* x, double* values) {
+        const auto n = static_cast<std::size_t>(h->size());
+        std::vector<Complex> psi(n);
+        h->fourier().toNodes(coefficients(x), psi.data());
+        for (std::size_t j = 0; j < n; ++j) {
+            values[j] = psi[j].real();
+            values[n + j] = psi[j].imag();
+        }
+    };
+    return f;
+}
+
+/// How fast the phases of its parts move apart: six widths of the energy distribution.
+double frequencyOf(const Hamiltonian& h, double t, const double* x) {
+    const auto n = static_cast<std::size_t>(h.size());
+    const Complex* c = coefficients(x);
+    std::vector<double> V(n);
+    std::vector<Complex> Hc(n), work(n);
+    h.potentialAt(t, V.data());
+    h.apply(V.data(), c, Hc.data(), work.data());
+    const double norm = squaredNorm(c, h.size()), E = innerProduct(c, Hc.data(), h.size()).real() / norm;
+    const double width = std::sqrt(std::max(0.0, squaredNorm(Hc.data(), h.size()) / norm - E * E));
+    return std::isfinite(width) ? 6 * width / h.hbar() : 0;
+}
+
+Shared hamiltonianOf(const Settings& settings) {
+    const std::vector<double> domain = settings.numbers("domain");
+    if (!(domain[1] > domain[0]))
+        throw InvalidScene("/domain", "must go from left to right, got " + formatNumber(domain[0]) + " to " +
+                                          formatNumber(domain[1]));
+    const int n = settings.integer("modes");
+    if (n % 2 != 0) throw InvalidScene("/modes", "must be even, got " + std::to_string(n), std::to_string(n + 1));
+    const wave::Domain where{domain[0], domain[1] - domain[0]};
+    const double hbar = settings.number("hbar"), m = settings.number("m");
+    const Value* potential = settings.find("potential");
+    return std::make_shared<const Hamiltonian>(
+        n, where, hbar, m, wave::makePotential(*potential, "/potential", where, {{"hbar", hbar}, {"m", m}}));
+}
+
+System make(const Settings& settings) {
+    System s;
+    s.id = "schrodinger";
+    const Shared h = hamiltonianOf(settings);
+    s.wave = h;
+    s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };
+    s.error = errorOf(h->size());
+    s.field = samplingOf(h);
+    s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
+    s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
+    s.start = [h](const Settings& initial) {
+        const std::vector<Complex> c = wave::makePacket(*initial.find("psi"), "/psi", initial.flag("normalise"), h,
+                                                        {{"hbar", h->hbar()}, {"m", h->mass()}});
+        const double* numbers = reinterpret_cast<const double*>(c.data());
+        return std::vector<double>(numbers, numbers + 2 * c.size());
+    };
+    if (!h->isTimeDependent() && h->size() <= Eigenstates::denseLimit)
+        s.exact = [h](const State& initial) { return exactWave(h, initial); };
+    return s;
+}
+
+std::vector<FieldInfo> parameters() {
+    FieldInfo hbar = positive("hbar", "Planck constant", "", 1, "The reduced Planck constant.");
+    hbar.symbol = "ħ";
+    FieldInfo potential;
+    potential.key = potential.title = "potential";
+    potential.symbol = "V";
+    potential.type = FieldType::json;
+    potential.fallback = "free";
+    potential.description =
+        "An expression in x, t, hbar and m, or a name: free, harmonic, lattice, double-well, barrier, morse, random.";
+    FieldInfo domain = numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, "2*pi"}, "Ends of the interval.");
+    domain.fallback = Value::Array{0.0, 2 * std::numbers::pi};
+    FieldInfo boundary;
+    boundary.key = boundary.title = "boundary";
+    boundary.type = FieldType::choice;
+    boundary.choices = {"periodic"};
+    boundary.fallback = "periodic";
+    boundary.description = "What holds at the ends of the interval.";
+    FieldInfo modes;
+    modes.key = modes.title = "modes";
+    modes.symbol = "N";
+    modes.type = FieldType::integer;
+    modes.fallback = 128;
+    modes.min = 8;
+    modes.max = 65536;
+    modes.description = "Number of Fourier modes and of nodes, even.";
+    return {hbar, positive("m", "mass", "", 1, "The mass."), potential, domain, boundary, modes};
+}
+
+std::vector<FieldInfo> initialFields() {
+    FieldInfo psi;
+    psi.key = "psi";
+    psi.title = "wave function";
+    psi.symbol = "ψ";
+    psi.type = FieldType::json;
+    psi.description = "re and im as expressions in x, a packet by name with its keys, or values at the nodes.";
+    psi.example = Value::Object{{"packet", "gaussian"}};
+    FieldInfo normalise;
+    normalise.key = normalise.title = "normalise";
+    normalise.type = FieldType::boolean;
+    normalise.fallback = true;
+    normalise.description = "Scale the wave function to norm 1.";
+    return {psi, normalise};
+}
+
+}  // namespace
+
+ModelEntry schrodinger() {
+    ModelEntry e;
+    e.item = {"schrodinger", "Schrödinger equation", "A wave function in one dimension, periodic; potential typed or by name.",
+              parameters(), {}, ""};
+    e.initial = initialFields();
+    e.exampleInitial = {{"psi", Value::Object{{"packet", "gaussian"}, {"wave_number", 5.0}}}, {"normalise", true}};
+    e.exampleEnd = 2;
+    e.exampleStep = 0.01;
+    e.make = make;
+    return e;
+}
+
+}  // namespace extremal::systems

@@ -1,0 +1,30 @@
+/// The mean position <x> of a wave function, and <cos x>, which a periodic domain knows without a cut.
+#include <vector>
+
+#include "engine/observe/catalog.hpp"
+#include "engine/wave/spectrum.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry position() {
+    ObservableEntry e;
+    e.item = {"position", "position", "Mean position of the wave function; on a periodic domain the mean of cos x too.", {}, {},
+              "a wave function"};
+    e.applies = [](const System& system) { return system.hasWave(); };
+    e.bind = [](const ObserveContext& context) {
+        Observer o;
+        o.columns = {{"position", "⟨x⟩", "", {}, {}}, {"cos_x", "⟨cos x⟩", "", {}, {}}};
+        o.evaluate = [h = context.system.wave, work = std::vector<Complex>(static_cast<std::size_t>(context.system.wave->size()))](
+                         const NodeBlock& nodes, double* values, std::size_t stride) mutable {
+            for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
+                const NodeMeans means = nodeMeans(*h, coefficients(nodes.x(i)), work.data());
+                values[0] = means.x;
+                values[1] = means.cosine;
+            }
+        };
+        return o;
+    };
+    return e;
+}
+
+}  // namespace extremal::observables

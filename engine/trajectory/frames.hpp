@@ -1,0 +1,51 @@
+/// Pictures of a field along a run, at most as many as fit into a fixed memory.
+///
+/// Every row is offered. While all fit, all are kept; beyond the budget every second one is dropped and from then on only
+/// every second (fourth, ..) row is taken, so that the frames stay evenly spread over the rows. The first row always stays,
+/// and the last one offered is always there.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace extremal {
+
+/// Values of a field at its nodes (model/system.hpp, FieldSampling), shared: copies are cheap.
+struct Frame {
+    double t = 0;
+    std::shared_ptr<const std::vector<double>> values;
+};
+
+class FrameKeeper {
+public:
+    static constexpr std::size_t budget = std::size_t{1} << 20;  ///< numbers: 8 MB a scheme
+
+    /// Whether the next row offered would be kept.
+    bool wantsNext() const { return offered_ % stride_ == 0; }
+
+    /// Offers a row: `make` fills the values if they are wanted, or if this is the last row.
+    void offer(double t, bool isLast, const std::function<std::shared_ptr<const std::vector<double>>()>& make,
+               std::vector<Frame>& frames) {
+        const bool isRegular = wantsNext();
+        if (isRegular || isLast) {
+            if (frames.empty() || frames.back().t < t) frames.push_back({t, make()});
+            if (isRegular) thin(frames);
+        }
+        ++offered_;
+    }
+
+private:
+    void thin(std::vector<Frame>& frames) {
+        const std::size_t size = frames.back().values->size();
+        if (frames.size() <= 2 || frames.size() * size <= budget) return;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < frames.size(); i += 2) frames[kept++] = frames[i];
+        frames.resize(kept);
+        stride_ *= 2;
+    }
+    std::size_t offered_ = 0, stride_ = 1;
+};
+
+}  // namespace extremal

@@ -1,0 +1,122 @@
+#include "engine/wave/eigen.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <deque>
+#include <mutex>
+#include <utility>
+
+namespace extremal {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using ConstMatrix = Eigen::Map<const Matrix>;
+using Vector = Eigen::Map<Eigen::VectorXd>;
+using ConstVector = Eigen::Map<const Eigen::VectorXd>;
+
+/// K_jl = (1/N) sum_a T_a cos(k_a (x_j - x_l)), which depends on j - l alone, and V on the diagonal.
+Matrix matrixAtNodes(const Hamiltonian& h) {
+    const int n = h.size();
+    const auto size = static_cast<std::size_t>(n);
+    std::vector<Complex> T(size), row(size);
+    for (std::size_t i = 0; i < size; ++i) T[i] = h.kinetic()[i] / n;
+    h.fourier().rawToNodes(T.data(), row.data());
+    Matrix H(n, n);
+    for (int j = 0; j < n; ++j)
+        for (int l = 0; l <= j; ++l) H(j, l) = H(l, j) = row[static_cast<std::size_t>(j - l)].real();
+    for (int j = 0; j < n; ++j) H(j, j) += h.potential()[static_cast<std::size_t>(j)];
+    return H;
+}
+
+bool isSame(const Hamiltonian& a, const Hamiltonian& b) {
+    return a.size() == b.size() && a.kinetic() == b.kinetic() && a.potential() == b.potential() &&
+           a.domain().length == b.domain().length;
+}
+
+}  // namespace
+
+Eigenstates::Eigenstates(const Hamiltonian& h) : fourier_(h.fourier()) {
+    const auto n = static_cast<std::size_t>(h.size());
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrixAtNodes(h));
+    energies_.assign(solver.eigenvalues().data(), solver.eigenvalues().data() + n);
+    states_.assign(solver.eigenvectors().data(), solver.eigenvectors().data() + n * n);
+    for (std::size_t k = 0; k < n; ++k) {
+        // A sign that does not depend on the library: the largest entry is positive.
+        Vector v(states_.data() + k * n, static_cast<Eigen::Index>(n));
+        Eigen::Index largest = 0;
+        v.cwiseAbs().maxCoeff(&largest);
+        if (v(largest) < 0) v = -v;
+    }
+}
+
+std::shared_ptr<const Eigenstates> Eigenstates::of(const std::shared_ptr<const Hamiltonian>& hamiltonian) {
+    using Known = std::pair<std::shared_ptr<const Hamiltonian>, std::shared_ptr<const Eigenstates>>;
+    static std::mutex mutex;
+    static std::deque<Known> known;
+    const std::lock_guard lock(mutex);
+    for (const Known& k : known)
+        if (isSame(*k.first, *hamiltonian)) return k.second;
+    if (known.size() >= 8) known.pop_front();
+    return known.emplace_back(hamiltonian, std::make_shared<const Eigenstates>(*hamiltonian)).second;
+}
+
+std::vector<Complex> Eigenstates::coefficients(int n) const {
+    const std::size_t size = energies_.size();
+    std::vector<Complex> psi(size), c(size);
+    for (std::size_t j = 0; j < size; ++j) psi[j] = states_[static_cast<std::size_t>(n) * size + j];
+    fourier_.rawToCoefficients(psi.data(), c.data());
+    for (Complex& v : c) v /= std::sqrt(static_cast<double>(size));
+    return c;
+}
+
+void Eigenstates::toStates(const double* psi, double* d) const {
+    const auto n = static_cast<Eigen::Index>(size());
+    const ConstMatrix U(states_.data(), n, n);
+    for (const Eigen::Index part : {Eigen::Index{0}, n}) Vector(d + part, n).noalias() = U.transpose() * ConstVector(psi + part, n);
+}
+
+void Eigenstates::fromStates(const double* d, double* psi) const {
+    const auto n = static_cast<Eigen::Index>(size());
+    const ConstMatrix U(states_.data(), n, n);
+    for (const Eigen::Index part : {Eigen::Index{0}, n}) Vector(psi + part, n).noalias() = U * ConstVector(d + part, n);
+}
+
+ExactSolution exactWave(const std::shared_ptr<const Hamiltonian>& hamiltonian, const State& initial) {
+    const auto states = Eigenstates::of(hamiltonian);
+    const int n = states->size();
+    const auto size = static_cast<std::size_t>(n);
+    const double root = std::sqrt(static_cast<double>(n));
+    std::vector<Complex> psi(size);
+    hamiltonian->fourier().rawToNodes(coefficients(initial.x.data()), psi.data());
+    Matrix split(n, 2), d(n, 2);
+    for (int j = 0; j < n; ++j) {
+        split(j, 0) = psi[static_cast<std::size_t>(j)].real() / root;
+        split(j, 1) = psi[static_cast<std::size_t>(j)].imag() / root;
+    }
+    states->toStates(split.data(), d.data());
+    // Many times at once are one matrix product.
+    return [states, hamiltonian, d, root, start = initial.t](std::span<const double> t, double* x) {
+        const Eigen::Index N = d.rows();
+        const auto columns = static_cast<Eigen::Index>(t.size());
+        Matrix turned(N, 2 * columns);
+        for (Eigen::Index k = 0; k < columns; ++k)
+            for (Eigen::Index i = 0; i < N; ++i) {
+                const double angle = -states->energies()[static_cast<std::size_t>(i)] *
+                                     (t[static_cast<std::size_t>(k)] - start) / hamiltonian->hbar();
+                const Complex value = Complex(d(i, 0), d(i, 1)) * std::polar(1.0, angle);
+                turned(i, 2 * k) = value.real();
+                turned(i, 2 * k + 1) = value.imag();
+            }
+        const Matrix nodes = ConstMatrix(states->states().data(), N, N) * turned;
+        std::vector<Complex> values(static_cast<std::size_t>(N));
+        for (Eigen::Index k = 0; k < columns; ++k) {
+            for (Eigen::Index j = 0; j < N; ++j)
+                values[static_cast<std::size_t>(j)] = Complex(nodes(j, 2 * k), nodes(j, 2 * k + 1)) / root;
+            hamiltonian->fourier().rawToCoefficients(values.data(), extremal::coefficients(x + 2 * N * k));
+        }
+    };
+}
+
+}  // namespace extremal

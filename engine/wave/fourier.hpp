@@ -1,0 +1,44 @@
+/// The discrete Fourier transform between a wave function's values and its coefficients, unitary in both directions.
+///
+/// On N equally spaced nodes x_j = left + j L/N of a periodic interval, N even,
+///     psi(x_j) = (1/sqrt L) sum_a c_a exp(i k_a (x_j - left)),   k_a = 2 pi a/L,  a = -N/2 .. N/2 - 1,
+/// so that (L/N) sum_j |psi_j|^2 = sum_a |c_a|^2. Coefficients stand in FFT order: a = 0, 1, .., N/2 - 1, -N/2, .., -1.
+/// With the seed's v_k (psi = (1/2pi) sum v_k e^{ikx}, v_k = h sum_j e^{-ik x_j} psi_j: the printed 1/2pi in front of
+/// that sum is one too many) c_k = v_k/sqrt(2 pi); the two coefficients at k = +-N/2, which the seed keeps apart, are one.
+/// Plans are made once per N (FFTW, estimated: a measured plan would change the last bits from run to run) and shared by
+/// all threads. Arrays must be 16-byte aligned, as vectors are.
+#pragma once
+
+#include <complex>
+#include <memory>
+
+namespace extremal {
+
+using Complex = std::complex<double>;
+
+class Fourier {
+public:
+    Fourier(int n, double length);
+
+    int size() const { return n_; }
+    double length() const { return length_; }
+    /// The signed number a of the coefficient in place i.
+    int number(int i) const { return i < n_ / 2 ? i : i - n_; }
+    /// Its wave number.
+    double waveNumber(int i) const;
+
+    /// Not in place. c and psi have size() entries.
+    void toNodes(const Complex* c, Complex* psi) const;
+    void toCoefficients(const Complex* psi, Complex* c) const;
+    /// The same without the factors: nodes = sum_a c_a exp(..), coefficients = sum_j .. : their product is N.
+    void rawToNodes(const Complex* c, Complex* psi) const;
+    void rawToCoefficients(const Complex* psi, Complex* c) const;
+
+private:
+    struct Plans;
+    int n_;
+    double length_;
+    std::shared_ptr<const Plans> plans_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,69 @@
+/// The Schroedinger operator on a Fourier grid, pseudo-spectrally: i hbar c' = H c,
+///     H = diag(hbar^2 k^2/2m) + F diag(V(x_j, t)) F^{-1},   F unitary (wave/fourier.hpp),
+/// Hermitian at any N, the coefficient at k = -N/2 included (the printed Nyquist rows of the seed are not). hbar^2 k^2/2m is
+/// the right kinetic term; the printed one lacks the mass. Against the exact convolution of the seed it differs by
+/// aliasing alone, which vanishes spectrally with N.
+///
+/// The state of a run is c, as 2N numbers (re, im in turn): |c|^2 = h sum |psi_j|^2 is the norm squared.
+/// A Hamiltonian is immutable and shared; work arrays come from the caller and hold N numbers.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/wave/fourier.hpp"
+#include "engine/wave/potential.hpp"
+
+namespace extremal {
+
+class Hamiltonian {
+public:
+    /// n even. Throws InvalidScene (pointer /potential) where V is not finite at a node.
+    Hamiltonian(int n, const wave::Domain& domain, double hbar, double mass, wave::Potential potential);
+
+    int size() const { return fourier_.size(); }
+    double hbar() const { return hbar_; }
+    double mass() const { return mass_; }
+    const wave::Domain& domain() const { return domain_; }
+    const Fourier& fourier() const { return fourier_; }
+    const std::vector<double>& x() const { return x_; }
+    /// hbar^2 k^2/2m by place in c.
+    const std::vector<double>& kinetic() const { return kinetic_; }
+    bool isTimeDependent() const { return potential_.isTimeDependent(); }
+    /// V at the nodes, at t = 0 where it depends on time.
+    const std::vector<double>& potential() const { return V_; }
+    /// V at the nodes and t.
+    void potentialAt(double t, double* V) const;
+    /// The largest a for which V has a harmonic exp(2 pi i a x/L) above round-off; of the samples, so at most N/2.
+    int harmonics() const { return harmonics_; }
+    /// Coefficients of V: V(x_j) = sum_a Vhat_a exp(2 pi i a j/N), in FFT order.
+    const std::vector<Complex>& potentialHarmonics() const { return Vhat_; }
+
+    /// out = H c with these values of V.
+    void apply(const double* V, const Complex* c, Complex* out, Complex* work) const;
+    /// <H>/<1> at t.
+    double energy(double t, const Complex* c) const;
+    /// Bounds of the spectrum: min V and max V + max kinetic.
+    double lowest() const { return lowest_; }
+    double highest() const { return highest_; }
+
+private:
+    wave::Domain domain_;
+    double hbar_, mass_;
+    wave::Potential potential_;
+    Fourier fourier_;
+    std::vector<double> x_, kinetic_, V_;
+    std::vector<Complex> Vhat_;
+    int harmonics_ = 0;
+    double lowest_ = 0, highest_ = 0;
+};
+
+inline const Complex* coefficients(const double* x) { return reinterpret_cast<const Complex*>(x); }
+inline Complex* coefficients(double* x) { return reinterpret_cast<Complex*>(x); }
+
+/// sum |c_i|^2.
+double squaredNorm(const Complex* c, int n);
+/// sum conj(a_i) b_i.
+Complex innerProduct(const Complex* a, const Complex* b, int n);
+
+}  // namespace extremal

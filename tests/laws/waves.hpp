@@ -1,0 +1,50 @@
+/// What the laws of wave functions share: the page problems, schemes by degree and solver, readings.
+///
+/// A: hbar = m = 1, V = 50 (1 - cos x), a packet of width 0.16 in the well, T = 1. S: hbar = 0.01, V = 1 - cos x, T = 2.
+#pragma once
+
+#include <complex>
+#include <string>
+
+#include "engine/wave/hamiltonian.hpp"
+#include "tests/laws/laws.hpp"
+
+namespace extremal::laws {
+
+inline System waveSystem(int modes, const Value& potential = "50*(1 - cos(x))", double hbar = 1) {
+    return systemNamed("schrodinger", {{"modes", static_cast<double>(modes)}, {"potential", potential}, {"hbar", hbar}});
+}
+
+inline State waveStart(const System& system, double kappa = 20, double centre = 1.2, double waveNumber = 5) {
+    Settings given;
+    given.keys.emplace_back("psi", Value::Object{{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", centre},
+                                                 {"wave_number", waveNumber}});
+    given.keys.emplace_back("normalise", true);
+    return {0, 0, system.start(given)};
+}
+
+inline System systemA(int modes = 256) { return waveSystem(modes); }
+inline State startA(const System& system) { return waveStart(system); }
+inline System systemS(int modes = 512) { return waveSystem(modes, "1 - cos(x)", 0.01); }
+inline State startS(const System& system) { return waveStart(system, 50, 1.2, 50); }
+
+inline Discretization wavePair(int degree, const std::string& solver = "auto", const Value& shift = "mean",
+                               Value::Object limits = {}) {
+    Discretization pair;
+    pair.space = {"fourier", {{"degree", static_cast<double>(degree)}, {"energy_shift", shift}, {"form", "one-step"}, {"start", "gauss"}}, {}};
+    pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
+    pair.solver = {solver, std::move(limits), {}};
+    return pair;
+}
+
+inline double waveDistance(const State& a, const State& b) { return distance(a.x, b.x, 0, a.x.size()); }
+
+/// The wave function at node j.
+inline std::complex<double> atNode(const System& system, const State& state, int j) {
+    std::vector<double> values(state.x.size());
+    system.field.sample(state.x.data(), values.data());
+    const auto n = values.size() / 2, i = static_cast<std::size_t>(j);
+    return {values[i], values[n + i]};
+}
+
+}  // namespace extremal::laws
