@@ -5,6 +5,7 @@
 #include "app/verbs.hpp"
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -47,6 +48,7 @@ std::vector<Kind> kinds() {
             {"quadratures", quadratureCatalog()},
             {"schemes", itemsOf(schemeCatalog())},
             {"baselines", itemsOf(baselineCatalog())},
+            {"compositions", compositionCatalog()},
             {"observables", observableCatalog()},
             {"studies", {}},
             {"views", viewCatalog()},

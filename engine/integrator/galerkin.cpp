@@ -29,6 +29,7 @@ public:
     void curve(double tau, std::span<double> x) const override {
         step_.curve(tau, x.data(), x.data() + d_);
     }
+    void restart() override { step_.restart(); }
 
 private:
     Clock clock_;

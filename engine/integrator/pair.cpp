@@ -82,6 +82,16 @@ int orderOf(const Table<double>& table) {
     return std::min({2 * table.space.degree, table.rule.degree + 1, 2 * table.consistency});
 }
 
+/// Which of the three bounds on the order is the rule's doing.
+std::string shortfallOf(const Table<double>& table) {
+    const int order = orderOf(table), ofSpace = 2 * table.space.degree;
+    if (order >= ofSpace) return {};
+    const std::string bound = "order " + std::to_string(order) + ", not the " + std::to_string(ofSpace) + " of the space: ";
+    const std::string exact = "the rule is exact to degree " + std::to_string(table.rule.degree);
+    if (table.rule.degree + 1 <= order) return bound + exact;
+    return bound + exact + ", too little for the equations inside the step";
+}
+
 PairProperties makeDescription(const Settings& space, const Settings& quadrature) {
     if (isWaveSpace(space)) return describeWave(space, quadrature);
     PairProperties p;
@@ -102,6 +112,7 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
         p.stabilityLimit = firstInstability([&](double z) { return halfTrace(table, z); });
         // A limit of the oscillator says nothing of a turning body.
         if (isLie && p.stabilityLimit > 0) p.stabilityLimit = std::numeric_limits<double>::infinity();
+        p.shortfall = shortfallOf(table);
         if (table.consistency == 0) {
             p.refusal = "the rule does not integrate the velocities of the space: not even a free particle would keep its speed";
             p.hint = "a rule that is exact for degree " + std::to_string(std::max(0, table.space.degree - 1)) +

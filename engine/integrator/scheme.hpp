@@ -31,6 +31,7 @@ struct PairProperties {
     std::string knownAs;      ///< "implicit midpoint", "Störmer-Verlet", "Lobatto IIIA-IIIB", ...; may be empty
     std::string shortName;    ///< for a cell of a grid: "mid", "SV", "G4", "L6"
     bool isExplicit = false;  ///< for separable systems
+    std::string shortfall;    ///< why the order is below that of the space; empty if it is not
     std::string refusal;      ///< why the pair makes no sense (too few nodes, ...); empty if it does
     std::string hint;         ///< the remedy for a refusal
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity if none

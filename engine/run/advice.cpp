@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/scene/bind.hpp"
@@ -19,11 +18,7 @@ std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, co
     if (system.hasWave() && outcome == Outcome::notFinite)
         return "Beyond its stability limit a three-level scheme grows without bound. Try a smaller step.";
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
-    double limit = 0;
-    if (const auto pair = pairOf(scheme))
-        limit = describe(pair->space, pair->quadrature).stabilityLimit;
-    else if (const BaselineEntry* entry = findBaseline(scheme.baseline.type))
-        limit = entry->stabilityLimit;
+    const double limit = stabilityLimitOf(scheme);
     if (w > 0 && std::isfinite(limit) && limit > 0 && step * w > limit)
         return "h ω = " + formatNumber(step * w, 2) + " is beyond its stability limit " + formatNumber(limit, 3) +
                ". Try h ≤ " + formatNumber(limit / w, 2) + ".";

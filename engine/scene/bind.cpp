@@ -5,6 +5,8 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/composition.hpp"
+#include "engine/scene/composed_stability.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -40,6 +42,10 @@ State initialState(const Scene& scene, const System& system) {
 }
 
 std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
+    return scheme.composition.type.empty() ? innerPairOf(scheme) : std::nullopt;
+}
+
+std::optional<Discretization> innerPairOf(const SchemeSpec& scheme) {
     if (scheme.kind == SchemeSpec::Kind::pair)
         return Discretization{scheme.space, completeQuadrature(scheme.space, scheme.quadrature), scheme.solver};
     if (scheme.kind != SchemeSpec::Kind::named) return {};
@@ -48,10 +54,15 @@ std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
     return pair;
 }
 
-Claims claimsOf(const SchemeSpec& scheme) {
-    if (const auto pair = pairOf(scheme)) return describe(pair->space, pair->quadrature).claims;
+Claims innerClaimsOf(const SchemeSpec& scheme) {
+    if (const auto pair = innerPairOf(scheme)) return describe(pair->space, pair->quadrature).claims;
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
     return entry ? claimsOf(*entry, scheme.baseline) : Claims{};
+}
+
+Claims claimsOf(const SchemeSpec& scheme) {
+    const Claims inner = innerClaimsOf(scheme);
+    return scheme.composition.type.empty() ? inner : composedClaims(scheme.composition, inner);
 }
 
 bool isAdaptive(const SchemeSpec& scheme) {
@@ -60,10 +71,10 @@ bool isAdaptive(const SchemeSpec& scheme) {
     return entry && entry->isAdaptive;
 }
 
-std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, double start,
-                                       double end) {
-    const Clock clock{start, step};
-    if (const auto pair = pairOf(scheme)) return makeIntegrator(system, *pair, clock);
+namespace {
+
+std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& scheme, const Clock& clock, double end) {
+    if (const auto pair = innerPairOf(scheme)) return makeIntegrator(system, *pair, clock);
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
     if (!entry) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
     if (!appliesTo(*entry, system)) {
@@ -80,6 +91,23 @@ std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& s
     options.tolerance = scheme.tolerance.value_or(0);
     options.settings = scheme.baseline;
     return entry->make(system, options);
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, double start,
+                                       double end) {
+    const Clock clock{start, step};
+    if (scheme.composition.type.empty()) return makeInner(system, scheme, clock, end);
+    return composed(compositionParts(scheme.composition, innerClaimsOf(scheme).order), clock,
+                    [system, scheme, end](const Clock& part) { return makeInner(system, scheme, part, end); });
+}
+
+double stabilityLimitOf(const SchemeSpec& scheme) {
+    if (const auto pair = pairOf(scheme)) return describe(pair->space, pair->quadrature).stabilityLimit;
+    const BaselineEntry* entry = findBaseline(scheme.baseline.type);
+    if (scheme.composition.type.empty()) return entry ? entry->stabilityLimit : 0;
+    return composedStabilityLimit(scheme);
 }
 
 long long stepCount(double start, double end, double step) {

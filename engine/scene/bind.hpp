@@ -17,11 +17,17 @@ System makeSystem(const Scene& scene);
 /// the exact motion between them. Schemes start from schemeStart (scene/two_positions.hpp).
 State initialState(const Scene& scene, const System& system);
 
-/// The pair that a scheme stands for; none for baselines.
+/// The pair that a scheme stands for; none for baselines and compositions.
 std::optional<Discretization> pairOf(const SchemeSpec& scheme);
+/// The pair that it is, or is composed of; none for baselines.
+std::optional<Discretization> innerPairOf(const SchemeSpec& scheme);
 
-/// What the scheme promises.
+/// What the scheme promises; and what it does without its composition.
 Claims claimsOf(const SchemeSpec& scheme);
+Claims innerClaimsOf(const SchemeSpec& scheme);
+
+/// Largest step times frequency at which the scheme is stable on the harmonic oscillator; infinity: none; 0: not known.
+double stabilityLimitOf(const SchemeSpec& scheme);
 
 bool isAdaptive(const SchemeSpec& scheme);
 

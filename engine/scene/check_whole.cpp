@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/wave.hpp"
@@ -74,6 +73,17 @@ void checkWaveStep(Reader& reader, const System& system, const Scene& scene, con
         reader.error(pointer + "/step", message, "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true");
 }
 
+/// A rule with fewer nodes than it would have by itself, which costs the pair its order.
+void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties, const std::string& pointer) {
+    const Settings usual = completeQuadrature(scheme.space, {scheme.quadrature.type, {}, {}});
+    if (!usual.find("nodes")) {
+        reader.warning(pointer + "/quadrature", "falls short: " + properties.shortfall, "gauss has the order of the space");
+    } else if (scheme.quadrature.integer("nodes") < usual.integer("nodes")) {
+        reader.warning(pointer + "/quadrature/nodes", "falls short: " + properties.shortfall,
+                       "usual are " + std::to_string(usual.integer("nodes")));
+    }
+}
+
 /// Refused and unstable pairs. False: the scheme cannot be made.
 bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
                const std::string& pointer) {
@@ -87,6 +97,7 @@ bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& p
                      "another quadrature, or \"allow_unstable\": true");
         return false;
     }
+    if (!properties.shortfall.empty() && scheme.kind == SchemeSpec::Kind::pair) warnOfFewNodes(reader, scheme, properties, pointer);
     return true;
 }
 
@@ -112,7 +123,7 @@ void checkCost(Reader& reader, const System& system, const Scene& scene, const S
 
 /// The makers know best what they cannot do.
 void tryToMake(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-               const std::optional<Discretization>& pair, const std::string& pointer) {
+               const std::string& pointer) {
     try {
         makeScheme(system, scheme, scheme.step.value, scene.start.value, scene.end.value);
         schemeStart(scene, system, scheme, scheme.step.value, initialState(scene, system));
@@ -120,13 +131,10 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
         return;
     }
-    const BaselineEntry* baseline = findBaseline(scheme.baseline.type);
-    const double limit =
-        pair ? describe(pair->space, pair->quadrature).stabilityLimit : baseline->stabilityLimit;
     if (system.hasWave())
-        checkWaveStep(reader, system, scene, scheme, pair, limit, pointer);
+        checkWaveStep(reader, system, scene, scheme, innerPairOf(scheme), stabilityLimitOf(scheme), pointer);
     else
-        checkStability(reader, system, scene, scheme, limit, pointer);
+        checkStability(reader, system, scene, scheme, stabilityLimitOf(scheme), pointer);
     checkCost(reader, system, scene, scheme, pointer);
 }
 
@@ -135,10 +143,10 @@ void checkScheme(Reader& reader, const System* system, const Scene& scene, const
     const std::size_t errorsBefore = reader.errors.size();
     const bool isTimeKnown = scene.end.value > scene.start.value;
     if (isTimeKnown) checkStepCount(reader, scene, scheme, pointer);
-    const auto pair = pairOf(scheme);
+    const auto pair = innerPairOf(scheme);
     if (pair && !checkPair(reader, scheme, describe(pair->space, pair->quadrature), pointer)) return;
     if (system && isTimeKnown && reader.errors.size() == errorsBefore)
-        tryToMake(reader, *system, scene, scheme, pair, pointer);
+        tryToMake(reader, *system, scene, scheme, pointer);
 }
 
 /// False: the system cannot start from the initial data.

@@ -17,7 +17,7 @@ inline const std::vector<std::string> reference = {"type", "scheme", "path"};
 inline const std::vector<std::string> view = {"view", "x", "y", "scheme"};
 inline const std::vector<std::string> scheme = {"label",  "enabled",       "step",     "tolerance",
                                                 "space",  "quadrature",    "baseline", "scheme",
-                                                "solver", "allow_unstable"};
+                                                "solver", "allow_unstable", "composition"};
 inline const std::vector<std::string> solver = {"method", "tolerance", "max_iterations"};
 
 }  // namespace extremal::format

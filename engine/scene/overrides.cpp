@@ -4,6 +4,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/model/system.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/format.hpp"
@@ -59,6 +60,7 @@ std::vector<std::string> schemeKeys(const Value& object, const std::vector<std::
     if (inScheme[0] == "space") return typedKeys(object, spaceCatalog());
     if (inScheme[0] == "quadrature") return typedKeys(object, quadratureCatalog());
     if (inScheme[0] == "baseline") return typedKeys(object, baselineCatalog());
+    if (inScheme[0] == "composition") return typedKeys(object, compositionCatalog());
     return inScheme[0] == "solver" ? format::solver : std::vector<std::string>{};
 }
 

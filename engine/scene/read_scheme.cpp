@@ -4,8 +4,10 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
@@ -142,6 +144,24 @@ bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, S
     return reader.errors.size() == errorsBefore;
 }
 
+/// A scheme in parts of its step, for a higher order.
+void readComposition(Reader& reader, const Value& value, const std::string& pointer, bool isAdaptive, SchemeSpec& spec) {
+    auto composition = readSettings(reader, value, pointer, "composition", itemsOf(compositionCatalog()));
+    if (!composition) return;
+    if (isAdaptive)
+        return reader.error(pointer, "needs a fixed step, and " + spec.baseline.type + " chooses its own",
+                            "a scheme with a fixed step, or no composition");
+    if (const auto pair = innerPairOf(spec); pair && !describe(pair->space, pair->quadrature).refusal.empty()) return;
+    const Claims claims = innerClaimsOf(spec);
+    const bool isGiven = composition->find("order");
+    if (!isGiven) composition->keys.emplace_back("order", static_cast<double>(defaultOrder(claims)));
+    std::string hint;
+    const std::string refusal = compositionRefusal(*composition, claims, hint);
+    if (!refusal.empty())
+        return reader.error(claims.isSymmetric && isGiven ? childPointer(pointer, "order") : pointer, refusal, hint);
+    spec.composition = *composition;
+}
+
 void readStep(Reader& reader, const Value& scheme, const std::string& pointer, bool isAdaptive,
               SchemeSpec& spec) {
     const char* wanted = isAdaptive ? "tolerance" : "step";
@@ -165,7 +185,7 @@ void readStep(Reader& reader, const Value& scheme, const std::string& pointer, b
         spec.step = *number;
 }
 
-std::string partsLabel(const SchemeSpec& scheme) {
+std::string innerLabel(const SchemeSpec& scheme) {
     if (scheme.kind == SchemeSpec::Kind::named) return scheme.named;
     const auto text = [](const Settings& s, const char* key) {
         std::string label = s.type;
@@ -176,6 +196,11 @@ std::string partsLabel(const SchemeSpec& scheme) {
     std::string basis = scheme.space.text("basis");
     basis = basis.empty() || basis == "lobatto" ? "" : " " + basis;
     return text(scheme.space, "degree") + basis + ", " + text(scheme.quadrature, "nodes");
+}
+
+std::string partsLabel(const SchemeSpec& scheme) {
+    const Settings& c = scheme.composition;
+    return innerLabel(scheme) + (c.type.empty() ? "" : ", " + c.type + " " + formatNumber(c.number("order")));
 }
 
 }  // namespace
@@ -201,6 +226,8 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     readFlag("allow_unstable", spec.allowsUnstable);
     const bool isKindKnown = readKind(reader, value, pointer, spec);
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
+    if (const Value* composition = value.find("composition"); composition && isKindKnown)
+        readComposition(reader, *composition, childPointer(pointer, "composition"), baseline && baseline->isAdaptive, spec);
     if (isKindKnown || value.find("step"))
         readStep(reader, value, pointer, baseline && baseline->isAdaptive, spec);
     readSolver(reader, value, childPointer(pointer, "solver"), spec);

@@ -32,6 +32,7 @@ struct SchemeSpec {
     Settings space, quadrature;       ///< pair
     Settings baseline;                ///< baseline: type = its name, keys = its options
     std::string named;                ///< named: id from the scheme catalogue
+    Settings composition;             ///< type = "yoshida", ...; empty: the scheme as it is
     Settings solver;                  ///< type = method ("auto", "newton", "fixed-point"); keys tolerance, max_iterations
     bool allowsUnstable = false;
     bool operator==(const SchemeSpec&) const = default;

@@ -6,6 +6,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
@@ -164,6 +165,7 @@ Value schemeDefinition() {
     p.set("quadrature", typedChoice(quadratureCatalog()));
     p.set("baseline", typedChoice(baselineCatalog()));
     p.set("scheme", namedSchemes());
+    p.set("composition", typedChoice(compositionCatalog()));
     p.set("solver", object(solver, {}));
     p.set("allow_unstable", typed("boolean", "Accept a pair that is unstable for every step."));
     return object(p, {}, "A row of the comparison: a space and a quadrature, a baseline, or a named scheme.");

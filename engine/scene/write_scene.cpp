@@ -73,6 +73,7 @@ Value schemeValue(const SchemeSpec& scheme) {
             value.set("scheme", scheme.named);
             break;
     }
+    if (!scheme.composition.type.empty()) value.set("composition", settingsValue(scheme.composition));
     value.set("solver", settingsValue(scheme.solver, "method"));
     value.set("allow_unstable", scheme.allowsUnstable);
     return value;

@@ -1,6 +1,7 @@
 /// What the laws share: systems by name, every scheme and baseline of the catalogues, end states, slopes.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -54,11 +55,13 @@ inline std::vector<Settings> variantsOf(const CatalogItem& item, int maxStages) 
 /// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline, that fit the system.
 inline std::vector<Case> everyScheme(int maxDegree, const System& system = systemNamed("kepler")) {
     std::vector<Case> cases;
+    std::vector<Discretization> known;  // some names are of the same pair
     for (const SchemeEntry& e : schemeCatalog()) {
         const int low = e.maxDegree == 0 ? 0 : e.minDegree, high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
         for (int degree = low; degree <= high; ++degree) {
             const Discretization pair = e.make(degree);
-            if (!isPairFor(pair, system)) continue;
+            if (!isPairFor(pair, system) || std::find(known.begin(), known.end(), pair) != known.end()) continue;
+            known.push_back(pair);
             std::string name = e.item.id;
             if (const auto at = name.find('<'); at != std::string::npos) name = name.substr(0, at) + std::to_string(degree);
             cases.push_back({name, describe(pair.space, pair.quadrature).claims,

@@ -6,6 +6,7 @@
 #include <QTest>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
@@ -84,6 +85,7 @@ private slots:
         QTest::newRow("spaces") << missingFrom("spaces.md", spaceCatalog());
         QTest::newRow("quadratures") << missingFrom("quadratures.md", quadratureCatalog());
         QTest::newRow("schemes") << missingFrom("schemes.md", itemsOf(schemeCatalog()));
+        QTest::newRow("compositions") << missingFrom("schemes.md", compositionCatalog());
         QTest::newRow("baselines") << missingFrom("baselines.md", itemsOf(baselineCatalog()));
         QTest::newRow("observables") << missingFrom("observables.md", observableCatalog());
         QTest::newRow("views") << missingFrom("observables.md", viewCatalog());

@@ -117,6 +117,7 @@ QString DiscretizerCell::tooltip(const PairProperties& known) const {
     if (known.claims.isSymmetric) badges << tr("symmetric");
     badges << (known.isExplicit ? tr("explicit where the model is separable") : tr("implicit"));
     text += "<br>" + badges.join(" · ");
+    if (!known.shortfall.empty()) text += "<br>" + QString::fromStdString(known.shortfall).toHtmlEscaped();
     if (!known.claims.conserves.empty()) {
         QStringList kept;
         for (const std::string& c : known.claims.conserves) kept << QString::fromStdString(c);

@@ -7,6 +7,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/json.hpp"
 
@@ -46,7 +47,9 @@ QString ruleTitle(const std::string& id) {
     return QString::fromStdString(id);
 }
 
-QString schemeText(const SchemeSpec& spec) {
+namespace {
+
+QString innerText(const SchemeSpec& spec) {
     if (spec.kind == SchemeSpec::Kind::baseline) {
         const BaselineEntry* entry = findBaseline(spec.baseline.type);
         const QString title = QString::fromStdString(entry ? entry->item.title : spec.baseline.type);
@@ -62,6 +65,17 @@ QString schemeText(const SchemeSpec& spec) {
     if (spec.quadrature.find("nodes")) text += QString(" %1").arg(spec.quadrature.integer("nodes"));
     if (const int panels = spec.quadrature.integer("panels"); panels > 1) text += QStringLiteral(" (%1 panels)").arg(panels);
     return text;
+}
+
+}  // namespace
+
+QString schemeText(const SchemeSpec& spec) {
+    const Settings& c = spec.composition;
+    if (c.type.empty()) return innerText(spec);
+    for (const CatalogItem& item : compositionCatalog())
+        if (item.id == c.type)
+            return QStringLiteral("%1 %2 of %3").arg(QString::fromStdString(item.title)).arg(c.integer("order")).arg(innerText(spec));
+    return innerText(spec);
 }
 
 QString stepText(const SchemeSpec& spec) {

@@ -8,8 +8,10 @@
 #include <algorithm>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/integrator/composition.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/space/catalog.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/shell/fitting.hpp"
@@ -135,7 +137,8 @@ const SchemeSpec& SchemeEditor::spec() const {
 /// Changes when other fields are needed.
 std::string SchemeEditor::signature() const {
     const SchemeSpec& s = spec();
-    return std::to_string(static_cast<int>(s.kind)) + s.space.type + "/" + s.quadrature.type + "/" + s.baseline.type + "/" + s.named;
+    return std::to_string(static_cast<int>(s.kind)) + s.space.type + "/" + s.quadrature.type + "/" + s.baseline.type + "/" + s.named + "/" +
+           s.composition.type;
 }
 
 void SchemeEditor::refresh() {
@@ -175,7 +178,24 @@ void SchemeEditor::rebuild() {
         method.choices = {"auto", "newton", "fixed-point"};
         fields.push_back({method, place() + "/solver/method", {}, {}});
     }
+    addComposition(fields);
     form_->setFields(std::move(fields));
+}
+
+/// Symmetric schemes with fixed steps can be composed.
+void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
+    const SchemeSpec& s = spec();
+    if (s.tolerance || !innerClaimsOf(s).isSymmetric) return;
+    FieldInfo type = field("composition", "composed", "", "none", "Steps of the scheme over parts of the step, for a higher order.");
+    type.type = FieldType::choice;
+    type.choices = {"none"};
+    for (const CatalogItem& item : compositionCatalog()) type.choices.push_back(item.id);
+    const std::string at = place() + "/composition";
+    fields.push_back({type, at + "/type", {}, [at](const Value& chosen) -> std::vector<Edit> {
+                          if (chosen == Value("none")) return {{at, std::nullopt}};
+                          return {{at, Value(Value::Object{{"type", chosen}})}};
+                      }});
+    if (const CatalogItem* item = itemNamed(compositionCatalog(), s.composition.type)) addFields(fields, item->parameters, at);
 }
 
 void SchemeEditor::changeKind(int kind) {

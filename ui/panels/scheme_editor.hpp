@@ -4,6 +4,7 @@
 
 #include <QWidget>
 #include <string>
+#include <vector>
 
 #include "engine/core/catalog.hpp"
 #include "engine/core/settings.hpp"
@@ -15,6 +16,7 @@ namespace extremal {
 
 class Form;
 class Workspace;
+struct FormField;
 struct SchemeSpec;
 
 class SchemeEditor : public QWidget {
@@ -31,6 +33,7 @@ private:
     void changeKind(int kind);
     void change(const Value& scheme);
     QComboBox* addChoice(const QString& title, const QString& name);
+    void addComposition(std::vector<FormField>& fields) const;
     std::string signature() const;
     const SchemeSpec& spec() const;
     std::string place() const { return "/schemes/" + std::to_string(index_); }

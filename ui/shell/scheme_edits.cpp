@@ -174,7 +174,7 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
     const Value document = toValue(scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const SchemeSpec& spec = scene.schemes[i];
-        const auto pair = pairOf(spec);
+        const auto pair = innerPairOf(spec);
         const BaselineEntry* baseline = findBaseline(spec.baseline.type);
         const bool fits = pair ? isPairFor(*pair, system) : baseline && appliesTo(*baseline, system);
         if (!fits && !pair) continue;

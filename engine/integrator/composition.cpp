@@ -1,0 +1,178 @@
+#include "engine/integrator/composition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace extremal {
+namespace {
+
+constexpr int highestOrder = 24, mostLevels = 4;
+
+FieldInfo orderField() {
+    FieldInfo f;
+    f.key = f.title = "order";
+    f.type = FieldType::integer;
+    f.isOptional = true;
+    f.min = 4;
+    f.max = highestOrder;
+    f.description = "order of the composition, even; left out: two more than the scheme has";
+    f.whyLimits = "compositions of order 2 gain nothing, and above 24 round-off hides what is gained";
+    return f;
+}
+
+class Composition final : public Integrator {
+public:
+    using Make = std::function<std::unique_ptr<Integrator>(const Clock&)>;
+
+    Composition(std::vector<double> parts, const Clock& clock, Make make)
+        : parts_(std::move(parts)), clock_(clock), make_(std::move(make)) {
+        for (const double g : parts_) schemes_.push_back(make_({clock.start, g * clock.step}));
+    }
+
+    StepReport advance(State& state) override {
+        work_ = state;
+        const StepReport report = compose(work_);
+        if (report.outcome != Outcome::converged) return report;
+        start_ = state;
+        std::swap(state.x, work_.x);
+        state.t = clock_.at(++state.node);
+        end_ = state;
+        return report;
+    }
+
+    void curve(double tau, std::span<double> x) const override {
+        constexpr std::size_t most = 64;
+        if (tau <= 0 || tau >= 1) {
+            const std::vector<double>& at = tau <= 0 ? start_.x : end_.x;
+            std::copy(at.begin(), at.end(), x.begin());
+            return;
+        }
+        // Those who look inside every step tend to ask for the same places.
+        if (shorter_.size() >= most) shorter_.clear();
+        std::unique_ptr<Composition>& part = shorter_[tau];
+        if (!part)
+            part = std::make_unique<Composition>(parts_, Clock{clock_.start, tau * clock_.step}, make_);
+        State at = start_;
+        const bool isFound = part->compose(at).outcome == Outcome::converged;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            x[i] = isFound ? at.x[i] : (1 - tau) * start_.x[i] + tau * end_.x[i];
+    }
+
+    void restart() override {
+        for (const auto& scheme : schemes_) scheme->restart();
+    }
+
+private:
+    /// All parts, from state.t on; state.node is that of the composition.
+    StepReport compose(State& state) {
+        StepReport report;
+        report.step = clock_.step;
+        const double start = state.t;
+        const long long node = state.node;
+        double passed = 0;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            Integrator& scheme = *schemes_[i];
+            scheme.setStop(stop());
+            scheme.restart();  // its last step ended elsewhere
+            state.t = start + passed * clock_.step;
+            const StepReport part = scheme.advance(state);
+            report.iterations += part.iterations;
+            report.evaluations += part.evaluations;
+            report.linearSolves += part.linearSolves;
+            report.rejected += part.rejected;
+            report.residual = std::max(report.residual, part.residual);
+            report.outcome = part.outcome;
+            if (report.outcome != Outcome::converged) break;
+            state.node = node;
+            passed += parts_[i];
+        }
+        return report;
+    }
+
+    std::vector<double> parts_;
+    Clock clock_;
+    Make make_;
+    std::vector<std::unique_ptr<Integrator>> schemes_;
+    State work_, start_, end_;
+    mutable std::map<double, std::unique_ptr<Composition>> shorter_;
+};
+
+}  // namespace
+
+const std::vector<CatalogItem>& compositionCatalog() {
+    static const std::vector<CatalogItem> catalog = {
+        {"yoshida",
+         "Yoshida",
+         "three steps of a symmetric scheme for two orders more, the middle one backwards",
+         {orderField()},
+         {},
+         "a symmetric scheme with a fixed step"},
+        {"suzuki",
+         "Suzuki",
+         "five shorter steps of a symmetric scheme for two orders more, with a smaller error",
+         {orderField()},
+         {},
+         "a symmetric scheme with a fixed step"}};
+    return catalog;
+}
+
+int defaultOrder(const Claims& scheme) { return scheme.order + 2; }
+
+std::string compositionRefusal(const Settings& composition, const Claims& scheme, std::string& hint) {
+    const int order = composition.integer("order");
+    if (!scheme.isSymmetric) {
+        hint =
+            "compose a symmetric scheme, or two that are adjoint as one: stormer-verlet in place of "
+            "symplectic-euler";
+        return "needs a symmetric scheme: the error of others has odd powers of the step, which these parts "
+               "do not remove";
+    }
+    if (order % 2 != 0) {
+        hint = "take " + std::to_string(order + 1);
+        return "must be even, as the order of every symmetric scheme, got " + std::to_string(order);
+    }
+    if (order <= scheme.order) {
+        hint = "from " + std::to_string(scheme.order + 2) + " on";
+        return "must be above the order of the scheme, which is " + std::to_string(scheme.order) + ", got " +
+               std::to_string(order);
+    }
+    if (order > scheme.order + 2 * mostLevels || order > highestOrder) {
+        hint = "a scheme of higher order";
+        return "is too far above the order of the scheme, which is " + std::to_string(scheme.order) +
+               ": at most " + std::to_string(std::min(highestOrder, scheme.order + 2 * mostLevels)) +
+               ", got " + std::to_string(order);
+    }
+    return {};
+}
+
+std::vector<double> compositionParts(const Settings& composition, int from) {
+    const bool isYoshida = composition.type == "yoshida";
+    const double twins = isYoshida ? 2 : 4;
+    std::vector<double> parts{1};
+    for (int p = from; p < composition.integer("order"); p += 2) {
+        const double outer = 1 / (twins - std::pow(twins, 1.0 / (p + 1))), middle = 1 - twins * outer;
+        std::vector<double> next;
+        const auto append = [&](double factor) {
+            for (const double g : parts) next.push_back(factor * g);
+        };
+        for (int i = 0; i < static_cast<int>(twins) / 2; ++i) append(outer);
+        append(middle);
+        for (int i = 0; i < static_cast<int>(twins) / 2; ++i) append(outer);
+        parts = std::move(next);
+    }
+    return parts;
+}
+
+Claims composedClaims(const Settings& composition, Claims scheme) {
+    scheme.order = composition.integer("order");
+    return scheme;
+}
+
+std::unique_ptr<Integrator> composed(const std::vector<double>& parts, const Clock& clock,
+                                     const std::function<std::unique_ptr<Integrator>(const Clock&)>& make) {
+    return std::make_unique<Composition>(parts, clock, make);
+}
+
+}  // namespace extremal
