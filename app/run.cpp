@@ -55,7 +55,7 @@ int printResult(const Comparison& comparison, const std::string& folder, int cod
     if (options.isJson) return print(writeJson(summaryValue(comparison)), code);
     if (options.isQuiet) return code;
     std::string text = summaryTable(comparison);
-    text.append("\n").append(std::to_string(comparison.schemes.size() + 3));
+    text.append("\n").append(std::to_string(summaryValue(comparison).find("files")->asArray().size()));
     text.append(code == interrupted ? " files with partial results in " : " files in ")
         .append(folder)
         .append("\n");

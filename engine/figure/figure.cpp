@@ -86,7 +86,7 @@ std::vector<View> plotViews(const Scene& scene) {
         if (!entry || !entry->make) continue;
         if (view.id == "sparsity" && view.scheme.empty()) {
             const std::vector<std::string> pairs = pairLabels(scene, system);
-            for (const std::string& label : pairs) result.push_back({view.id, "", "", label});
+            for (const std::string& label : pairs) result.push_back({view.id, "", "", "", label});
             if (pairs.empty()) result.push_back(view);
             continue;
         }

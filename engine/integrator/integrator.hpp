@@ -35,7 +35,8 @@ public:
     /// Only valid after a converged advance().
     virtual void curve(double tau, std::span<double> x) const = 0;
 
-    /// Forgets the last step: the state given next does not continue it. Only guesses depend on what is remembered.
+    /// Forgets the last step: the state given next does not continue it. Only guesses depend on what is
+    /// remembered.
     virtual void restart() {}
 
     /// Asks the iteration inside advance() to give up with Outcome::stopped. Polled in every iteration.

@@ -86,7 +86,8 @@ int orderOf(const Table<double>& table) {
 std::string shortfallOf(const Table<double>& table) {
     const int order = orderOf(table), ofSpace = 2 * table.space.degree;
     if (order >= ofSpace) return {};
-    const std::string bound = "order " + std::to_string(order) + ", not the " + std::to_string(ofSpace) + " of the space: ";
+    const std::string bound =
+        "order " + std::to_string(order) + ", not the " + std::to_string(ofSpace) + " of the space: ";
     const std::string exact = "the rule is exact to degree " + std::to_string(table.rule.degree);
     if (table.rule.degree + 1 <= order) return bound + exact;
     return bound + exact + ", too little for the equations inside the step";

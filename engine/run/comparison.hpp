@@ -55,6 +55,13 @@ struct SchemeResult {
     Trajectory trajectory;
     Trajectory curve;  ///< t and state of a run of few steps, several times in each, from the scheme's own curve; for plots
     std::vector<Frame> frames;  ///< of fields: at rows, all of them while they fit into their memory
+    /// States where a column passes zero upwards, found on the scheme's own curve: one for each view
+    /// "section".
+    struct Section {
+        std::string column;
+        Trajectory events;  ///< t and the state
+    };
+    std::vector<Section> sections = {};
     Summary summary;
     /// Of pairs, where a view of the scene shows them; else null.
     std::shared_ptr<const KktPattern> pattern = {};

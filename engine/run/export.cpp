@@ -112,6 +112,20 @@ void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, S
     sink(block);
 }
 
+/// "<slug>.section.csv", and "<slug>.section-2.csv" for further sections.
+std::vector<std::pair<std::string, const Trajectory*>> sectionFiles(const Comparison& comparison) {
+    std::vector<std::pair<std::string, const Trajectory*>> files;
+    const std::vector<std::string> csv = csvNames(comparison);
+    for (std::size_t i = 0; i < csv.size(); ++i) {
+        const auto& sections = comparison.schemes[i]->sections;
+        for (std::size_t k = 0; k < sections.size(); ++k) {
+            const std::string end = k == 0 ? ".section.csv" : ".section-" + std::to_string(k + 1) + ".csv";
+            files.emplace_back(csv[i].substr(0, csv[i].size() - 4) + end, &sections[k].events);
+        }
+    }
+    return files;
+}
+
 std::vector<std::string> fileNames(const Comparison& comparison) {
     std::vector<std::string> names{"scene.json"};
     const auto csv = csvNames(comparison);
@@ -119,6 +133,7 @@ std::vector<std::string> fileNames(const Comparison& comparison) {
         names.push_back(csv[i]);
         if (!comparison.schemes[i]->frames.empty()) names.push_back(fieldName(csv[i]));
     }
+    for (const auto& [name, events] : sectionFiles(comparison)) names.push_back(name);
     names.insert(names.end(), {"summary.csv", "summary.json"});
     return names;
 }
@@ -196,6 +211,11 @@ std::vector<std::string> exportComparison(const Comparison& comparison, const st
         if (!system) system = makeSystem(comparison.scene);
         batch.open(fieldName(csv[i]));
         writeFrames(system->field, comparison.schemes[i]->frames, [&](const std::string& block) { batch.append(block); });
+        batch.close();
+    }
+    for (const auto& [file, events] : sectionFiles(comparison)) {
+        batch.open(file);
+        writeRows(*events, [&](const std::string& block) { batch.append(block); });
         batch.close();
     }
     batch.write("summary.csv", summaryCsv(comparison));

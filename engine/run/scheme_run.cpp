@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/advice.hpp"
+#include "engine/run/inside_step.hpp"
 #include "engine/run/look_at_pair.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/scene/bind.hpp"
@@ -45,13 +47,6 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
     return sxx > 0 ? sxy / sxx : Summary::unknown;
 }
 
-/// t and the state; observables follow.
-std::vector<Column> leadingColumns(const System& system) {
-    std::vector<Column> columns{{"t", "t", system.timeUnit, {}, {}}};
-    for (const Quantity& c : stateColumns(system)) columns.push_back({c.name, c.symbol, c.unit, {}, {}});
-    return columns;
-}
-
 void growTo(double& extreme, double value) {
     if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
 }
@@ -75,6 +70,7 @@ struct SchemeRun::Pass {
     long long maxRows = 0;     ///< adaptive: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
     bool isCurveWanted = false;
+    Observer curveError;  ///< measured along the curve as well, where a view shows it
     std::unique_ptr<Integrator> integrator;
     RowSampler sampler;
     std::vector<Bound> observers;
@@ -219,42 +215,19 @@ struct SchemeRun::Pass {
         }
     }
 
-    /// Points inside a step for plots: enough to bend where steps are few, none where they are many.
-    int pointsPerStep() const {
-        constexpr long long fewSteps = 500, points = 2000;
-        if (stateWidth == 0) return 0;  // no row holds a state: there is no curve to draw
-        if (isAdaptiveScheme) return 8;
-        return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
-    }
-    void keepCurve(double before, int points) {
-        constexpr std::size_t most = 20000;
-        std::vector<Column>& columns = result.curve.columns;
-        std::vector<double> x(state.x.size());
-        for (int j = 1; j <= points; ++j) {
-            const double tau = static_cast<double>(j) / points;
-            if (j < points)
-                integrator->curve(tau, x);
-            else
-                x = state.x;
-            columns[0].values.push_back(before + tau * (state.t - before));
-            for (std::size_t c = 0; c < stateWidth; ++c) columns[c + 1].values.push_back(x[c]);
-        }
-        if (columns[0].values.size() > most) columns.clear();  // an adaptive code with many steps: its rows are dense
-    }
-
     /// Integrates to the end or the first trouble; `publish` is called between blocks.
     template <class Publish>
     Outcome integrate(Publish&& publish) {
         // Long enough to be worth the clock, short enough for the cache and for a stop.
         const bool isDense = scene.isDense && scene.every;
-        const int points = isCurveWanted ? pointsPerStep() : 0;
-        if (points > 0) {
-            result.curve.columns = leadingColumns(system);
-            result.curve.columns[0].values.push_back(state.t);
-            for (std::size_t c = 0; c < stateWidth; ++c) result.curve.columns[c + 1].values.push_back(state.x[c]);
-        }
+        std::optional<InsideStep> inside;
+        if (isCurveWanted && stateWidth > 0)  // else no row holds a state, and there is no curve to draw
+            inside.emplace(result, scene, system, isAdaptiveScheme, steps, std::move(curveError));
+        if (inside && !inside->isWanted()) inside.reset();
+        if (inside) inside->start(state);
         // The curve is that of the last step alone.
-        const std::size_t blockMax = isDense || points > 0 ? 1 : std::clamp<std::size_t>(16384 / state.x.size(), 1, 512);
+        const std::size_t blockMax =
+            isDense || inside ? 1 : std::clamp<std::size_t>(16384 / state.x.size(), 1, 512);
         NodeBlock nodes(state.x.size(), blockMax);
         nodes.push(state, {});
         look(nodes);
@@ -298,7 +271,7 @@ struct SchemeRun::Pass {
                 }
                 lastReport = nodes.report(nodes.size() - 1);
                 if (isDense) lookDense(start.t, lastReport, nextMultiple);
-                if (!result.curve.columns.empty()) keepCurve(start.t, points);
+                if (inside) inside->look(*integrator, start, state, lastReport);
             }
             if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows) hasOverflown = true;
             if (hasOverflown) {
@@ -352,6 +325,9 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
         Pass p(scene_, spec_, system, own, reference, scene_.observe, spec_.step.value, stride, style, stop);
         p.maxRows = maxRows;
         p.isCurveWanted = true;
+        const ObservableEntry* error = findObservable("error");
+        if (showsView(scene_, "curve-error") && reference.make && error)
+            p.curveError = error->bind({system, own, reference.make(), nullptr, spec_.step.value});
         auto last = Clock_::now();
         auto pause = std::chrono::milliseconds(30);
         p.run([&] {

@@ -73,7 +73,8 @@ bool isAdaptive(const SchemeSpec& scheme) {
 
 namespace {
 
-std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& scheme, const Clock& clock, double end) {
+std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& scheme, const Clock& clock,
+                                      double end) {
     if (const auto pair = innerPairOf(scheme)) return makeIntegrator(system, *pair, clock);
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
     if (!entry) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
@@ -95,12 +96,13 @@ std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& sc
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, double start,
-                                       double end) {
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step,
+                                       double start, double end) {
     const Clock clock{start, step};
     if (scheme.composition.type.empty()) return makeInner(system, scheme, clock, end);
-    return composed(compositionParts(scheme.composition, innerClaimsOf(scheme).order), clock,
-                    [system, scheme, end](const Clock& part) { return makeInner(system, scheme, part, end); });
+    return composed(
+        compositionParts(scheme.composition, innerClaimsOf(scheme).order), clock,
+        [system, scheme, end](const Clock& part) { return makeInner(system, scheme, part, end); });
 }
 
 double stabilityLimitOf(const SchemeSpec& scheme) {

@@ -26,7 +26,8 @@ std::optional<Discretization> innerPairOf(const SchemeSpec& scheme);
 Claims claimsOf(const SchemeSpec& scheme);
 Claims innerClaimsOf(const SchemeSpec& scheme);
 
-/// Largest step times frequency at which the scheme is stable on the harmonic oscillator; infinity: none; 0: not known.
+/// Largest step times frequency at which the scheme is stable on the harmonic oscillator; infinity: none; 0:
+/// not known.
 double stabilityLimitOf(const SchemeSpec& scheme);
 
 bool isAdaptive(const SchemeSpec& scheme);

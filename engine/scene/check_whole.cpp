@@ -74,10 +74,12 @@ void checkWaveStep(Reader& reader, const System& system, const Scene& scene, con
 }
 
 /// A rule with fewer nodes than it would have by itself, which costs the pair its order.
-void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties, const std::string& pointer) {
+void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
+                    const std::string& pointer) {
     const Settings usual = completeQuadrature(scheme.space, {scheme.quadrature.type, {}, {}});
     if (!usual.find("nodes")) {
-        reader.warning(pointer + "/quadrature", "falls short: " + properties.shortfall, "gauss has the order of the space");
+        reader.warning(pointer + "/quadrature", "falls short: " + properties.shortfall,
+                       "gauss has the order of the space");
     } else if (scheme.quadrature.integer("nodes") < usual.integer("nodes")) {
         reader.warning(pointer + "/quadrature/nodes", "falls short: " + properties.shortfall,
                        "usual are " + std::to_string(usual.integer("nodes")));
@@ -97,7 +99,8 @@ bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& p
                      "another quadrature, or \"allow_unstable\": true");
         return false;
     }
-    if (!properties.shortfall.empty() && scheme.kind == SchemeSpec::Kind::pair) warnOfFewNodes(reader, scheme, properties, pointer);
+    if (!properties.shortfall.empty() && scheme.kind == SchemeSpec::Kind::pair)
+        warnOfFewNodes(reader, scheme, properties, pointer);
     return true;
 }
 

@@ -36,6 +36,12 @@ std::vector<std::string> availableObservables(const System& system) {
 }
 
 /// The columns of a CSV of this scene: what a phase portrait can show.
+std::vector<std::string> stateNames(const System& system) {
+    std::vector<std::string> names{"t"};
+    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
+    return names;
+}
+
 std::vector<std::string> columnNames(const System& system, const Scene& scene) {
     std::vector<std::string> names{"t"};
     for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
@@ -190,10 +196,22 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             if (!column) continue;
             const std::string at = childPointer(pointer, key);
             *target = reader.text(*column, at).value_or("");
-            if (view.id != "phase")
-                reader.error(at, "is only for phase portraits");
+            const bool isSection = view.id == "section";
+            if (view.id != "phase" && !isSection)
+                reader.error(at, "is only for phase portraits and sections");
+            else if (system && isSection && column->isString() && !contains(stateNames(*system), *target))
+                reader.unknownName(at, "state column", *target, stateNames(*system));
             else if (system && column->isString() && !contains(columnNames(*system, scene), *target))
                 reader.unknownName(at, "column", *target, columnNames(*system, scene));
+        }
+        if (const Value* column = object.find("at")) {
+            const std::string at = childPointer(pointer, "at");
+            view.at = reader.text(*column, at).value_or("");
+            if (view.id != "section")
+                reader.error(at, "is only for sections");
+            else if (system && column->isString() &&
+                     (view.at == "t" || !contains(stateNames(*system), view.at)))
+                reader.unknownName(at, "state column", view.at, stateNames(*system));
         }
         if (const Value* label = object.find("scheme")) {
             const std::string at = childPointer(pointer, "scheme");
@@ -205,6 +223,8 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             else if (label->isString() && reader.errors.empty() && !contains(labels, view.scheme))
                 reader.unknownName(at, "scheme", view.scheme, labels);
         }
+        if (view.id == "curve-error" && !contains(scene.observe, "error"))
+            reader.warning(pointer, "shows nothing: error is not observed", "add it to /observe");
         for (const char* id : {"energy", "momentum", "error"})
             if (view.id == id && !contains(scene.observe, id))
                 reader.warning(pointer, "shows nothing: " + view.id + " is not observed",

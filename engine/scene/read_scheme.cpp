@@ -145,20 +145,23 @@ bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, S
 }
 
 /// A scheme in parts of its step, for a higher order.
-void readComposition(Reader& reader, const Value& value, const std::string& pointer, bool isAdaptive, SchemeSpec& spec) {
+void readComposition(Reader& reader, const Value& value, const std::string& pointer, bool isAdaptive,
+                     SchemeSpec& spec) {
     auto composition = readSettings(reader, value, pointer, "composition", itemsOf(compositionCatalog()));
     if (!composition) return;
     if (isAdaptive)
         return reader.error(pointer, "needs a fixed step, and " + spec.baseline.type + " chooses its own",
                             "a scheme with a fixed step, or no composition");
-    if (const auto pair = innerPairOf(spec); pair && !describe(pair->space, pair->quadrature).refusal.empty()) return;
+    if (const auto pair = innerPairOf(spec); pair && !describe(pair->space, pair->quadrature).refusal.empty())
+        return;
     const Claims claims = innerClaimsOf(spec);
     const bool isGiven = composition->find("order");
     if (!isGiven) composition->keys.emplace_back("order", static_cast<double>(defaultOrder(claims)));
     std::string hint;
     const std::string refusal = compositionRefusal(*composition, claims, hint);
     if (!refusal.empty())
-        return reader.error(claims.isSymmetric && isGiven ? childPointer(pointer, "order") : pointer, refusal, hint);
+        return reader.error(claims.isSymmetric && isGiven ? childPointer(pointer, "order") : pointer, refusal,
+                            hint);
     spec.composition = *composition;
 }
 
@@ -227,7 +230,8 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     const bool isKindKnown = readKind(reader, value, pointer, spec);
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
     if (const Value* composition = value.find("composition"); composition && isKindKnown)
-        readComposition(reader, *composition, childPointer(pointer, "composition"), baseline && baseline->isAdaptive, spec);
+        readComposition(reader, *composition, childPointer(pointer, "composition"),
+                        baseline && baseline->isAdaptive, spec);
     if (isKindKnown || value.find("step"))
         readStep(reader, value, pointer, baseline && baseline->isAdaptive, spec);
     readSolver(reader, value, childPointer(pointer, "solver"), spec);

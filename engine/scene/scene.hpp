@@ -60,6 +60,7 @@ struct ReferenceSpec {
 struct View {
     std::string id;          ///< "energy", "phase", ...
     std::string x, y;        ///< columns of a phase portrait; empty: default
+    std::string at = {};     ///< column whose zeros make a section; empty: the first coordinate
     std::string scheme = {}; ///< label, for pictures of one scheme; empty: of each
     bool operator==(const View&) const = default;
 };

@@ -210,6 +210,7 @@ Value viewChoice() {
     p.set("view", enumeration(idsOf(viewCatalog())));
     p.set("x", typed("string", "A column, for phase portraits."));
     p.set("y", typed("string", "A column, for phase portraits."));
+    p.set("at", typed("string", "The column whose zeros make a section."));
     p.set("scheme", typed("string", "The label of a scheme, for the view sparsity."));
     return anyOf({enumeration(idsOf(viewCatalog())), object(p, {"view"})});
 }

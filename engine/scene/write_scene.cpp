@@ -35,10 +35,11 @@ Value referenceValue(const ReferenceSpec& reference) {
 }
 
 Value viewValue(const View& view) {
-    if (view.x.empty() && view.y.empty() && view.scheme.empty()) return view.id;
+    if (view.x.empty() && view.y.empty() && view.at.empty() && view.scheme.empty()) return view.id;
     Value value(Value::Object{{"view", view.id}});
     if (!view.x.empty()) value.set("x", view.x);
     if (!view.y.empty()) value.set("y", view.y);
+    if (!view.at.empty()) value.set("at", view.at);
     if (!view.scheme.empty()) value.set("scheme", view.scheme);
     return value;
 }

@@ -45,6 +45,12 @@ private slots:
         check(picture(modal, Theme::dark()), "plot-kkt-modal-dark");
         QVERIFY(!isWithin(compareImages(picture(nodal), picture(modal), 8), GoldenLimits::plot()));
     }
+    void theSectionLooksAsKept() {
+        const Scene scene = readScene(loadSceneText("preset:poincare-section")).scene;
+        const Comparison comparison = run(scene);
+        const System system = makeSystem(scene);
+        check(picture(makeFigure(comparison, scene.views[0], &system)), "plot-section");
+    }
     void aMissingEntryOfTheMatrixIsSeen() {
         const Figure right = frameworkFigure("sparsity", "tents");
         Figure wrong = right;

@@ -1,5 +1,5 @@
-/// Compositions of any symmetric scheme, pairs and baselines alike: order, symmetry, symplecticity, momentum, and what
-/// is lost where the parts are wrong or the scheme is not symmetric.
+/// Compositions of any symmetric scheme, pairs and baselines alike: order, symmetry, symplecticity, momentum,
+/// and what is lost where the parts are wrong or the scheme is not symmetric.
 #include <QTest>
 
 #include <algorithm>
@@ -13,13 +13,16 @@
 namespace extremal::laws {
 namespace {
 
-Settings to(const std::string& type, int order) { return {type, {{"order", static_cast<double>(order)}}, {}}; }
+Settings to(const std::string& type, int order) {
+    return {type, {{"order", static_cast<double>(order)}}, {}};
+}
 
 Case composedCase(const Case& scheme, const Settings& composition) {
     Case c = scheme;
     c.name = composition.type + "-" + std::to_string(composition.integer("order")) + " of " + scheme.name;
     c.claims = composedClaims(composition, scheme.claims);
-    c.make = [make = scheme.make, parts = compositionParts(composition, scheme.claims.order)](const System& s, const Clock& clock) {
+    c.make = [make = scheme.make, parts = compositionParts(composition, scheme.claims.order)](
+                 const System& s, const Clock& clock) {
         return composed(parts, clock, [make, s](const Clock& part) { return make(s, part); });
     };
     return c;
@@ -31,7 +34,8 @@ std::vector<Case> everyComposition() {
     for (const Case& c : everyScheme(2)) {
         if (!c.claims.isSymmetric || c.claims.order > 4) continue;
         for (const char* type : {"yoshida", "suzuki"})
-            for (int order = c.claims.order + 2; order <= 6; order += 2) cases.push_back(composedCase(c, to(type, order)));
+            for (int order = c.claims.order + 2; order <= 6; order += 2)
+                cases.push_back(composedCase(c, to(type, order)));
     }
     return cases;
 }
@@ -68,7 +72,8 @@ class CompositionTest : public QObject {
 
     void addCases() {
         QTest::addColumn<int>("index");
-        for (std::size_t i = 0; i < cases_.size(); ++i) QTest::addRow("%s", cases_[i].name.c_str()) << static_cast<int>(i);
+        for (std::size_t i = 0; i < cases_.size(); ++i)
+            QTest::addRow("%s", cases_[i].name.c_str()) << static_cast<int>(i);
     }
     const Case& current() const {
         QFETCH(int, index);
@@ -96,10 +101,13 @@ private slots:
     void everyCompositionHasItsOrder_data() { addCases(); }
     void everyCompositionHasItsOrder() {
         for (const bool isKepler : {true, false}) {
-            const Orders o = orderOf(current(), isKepler ? kepler_ : pendulum_, isKepler ? keplerStart : State{0, 0, {2.0, 0.5}});
-            qInfo("claimed %d, measured q %.3f, p %.3f (%d points)", current().claims.order, o.q, o.p, o.points);
+            const Orders o = orderOf(current(), isKepler ? kepler_ : pendulum_,
+                                     isKepler ? keplerStart : State{0, 0, {2.0, 0.5}});
+            qInfo("claimed %d, measured q %.3f, p %.3f (%d points)", current().claims.order, o.q, o.p,
+                  o.points);
             QVERIFY2(o.points >= 3, "no window");
-            // On Kepler 5.97 to 6.07 for order 6; on the pendulum, where four points from 1e-9 on are all there is, 5.78 to 6.1.
+            // On Kepler 5.97 to 6.07 for order 6; on the pendulum, where four points from 1e-9 on are all
+            // there is, 5.78 to 6.1.
             QVERIFY(std::abs(o.q - current().claims.order) < (isKepler ? 0.15 : 0.3));
             QVERIFY(std::abs(o.p - current().claims.order) < (isKepler ? 0.15 : 0.3));
         }
@@ -109,7 +117,8 @@ private slots:
         const Case midpoint = named("midpoint");
         Case broken = midpoint;
         broken.make = [make = midpoint.make](const System& s, const Clock& clock) {
-            return composed(compositionParts(to("yoshida", 6), 4), clock, [make, s](const Clock& part) { return make(s, part); });
+            return composed(compositionParts(to("yoshida", 6), 4), clock,
+                            [make, s](const Clock& part) { return make(s, part); });
         };
         const Orders o = orderOf(broken, kepler_, keplerStart);
         qInfo("measured %.3f", o.q);
@@ -122,7 +131,8 @@ private slots:
         QVERIFY(!compositionRefusal(to("yoshida", 4), euler.claims, hint).empty() && !hint.empty());
         Case forced = euler;
         forced.make = [make = euler.make](const System& s, const Clock& clock) {
-            return composed(compositionParts(to("yoshida", 4), 2), clock, [make, s](const Clock& part) { return make(s, part); });
+            return composed(compositionParts(to("yoshida", 4), 2), clock,
+                            [make, s](const Clock& part) { return make(s, part); });
         };
         const Orders o = measure(kepler_, keplerStart, 3, 3e-2, [&](double h) {
             return [step = std::shared_ptr<Integrator>(forced.make(kepler_, {0, h}))](State& state) {
@@ -195,8 +205,10 @@ private slots:
     }
     void scenesSayWhatIsComposed() {
         const auto read = [](const std::string& scheme) {
-            return readScene(std::string_view(R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},)"
-                                              R"("time":{"end":1},"schemes":[{"step":0.05,)" + scheme + "}]}"));
+            return readScene(std::string_view(
+                R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},)"
+                R"("time":{"end":1},"schemes":[{"step":0.05,)" +
+                scheme + "}]}"));
         };
         const ReadScene plain = read(R"("baseline":"stormer-verlet","composition":"yoshida")");
         QVERIFY(plain.errors.empty());
@@ -208,12 +220,16 @@ private slots:
             const ReadScene r = read(scheme);
             return r.errors.size() == 1 ? r.errors[0].pointer : std::string("?");
         };
-        QCOMPARE(pointerOf(R"("baseline":"rk4","composition":"yoshida")"), std::string("/schemes/0/composition"));
-        QCOMPARE(pointerOf(R"("scheme":"midpoint","composition":{"type":"yoshida","order":5})"), std::string("/schemes/0/composition/order"));
+        QCOMPARE(pointerOf(R"("baseline":"rk4","composition":"yoshida")"),
+                 std::string("/schemes/0/composition"));
+        QCOMPARE(pointerOf(R"("scheme":"midpoint","composition":{"type":"yoshida","order":5})"),
+                 std::string("/schemes/0/composition/order"));
         QCOMPARE(pointerOf(R"("scheme":"galerkin-gauss-3","composition":{"type":"suzuki","order":4})"),
                  std::string("/schemes/0/composition/order"));
-        QCOMPARE(pointerOf(R"("scheme":"midpoint","composition":{"type":"suzuki","order":12})"), std::string("/schemes/0/composition/order"));
-        QCOMPARE(pointerOf(R"("scheme":"midpoint","composition":"yosida")"), std::string("/schemes/0/composition"));
+        QCOMPARE(pointerOf(R"("scheme":"midpoint","composition":{"type":"suzuki","order":12})"),
+                 std::string("/schemes/0/composition/order"));
+        QCOMPARE(pointerOf(R"("scheme":"midpoint","composition":"yosida")"),
+                 std::string("/schemes/0/composition"));
     }
     void stabilityLimitsAreThoseOfTheParts() {
         const auto limit = [](const std::string& scheme) {

@@ -63,7 +63,8 @@ Subject subjectOf(const std::string& name, const Scene& scene) {
         }
     }
     if (!(s.scaleP > 0)) s.scaleP = 1;
-    // Coordinates that hardly leave zero are lost in the round-off of the others; Pluto's momentum, 3e-6 of Jupiter's, is not.
+    // Coordinates that hardly leave zero are lost in the round-off of the others; Pluto's momentum, 3e-6 of
+    // Jupiter's, is not.
     for (std::size_t i = 0; i < s.own.size(); ++i) s.own[i] = std::max(s.own[i], 1e-4 * s.scaleOf(i));
     return s;
 }
@@ -146,8 +147,9 @@ double returnDefect(const Subject& on, const Case& scheme, int each) {
     return home ? distanceOn(on, *home, on.start) : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Size of M^T J M - J over the largest entry of M, for the derivative M of one step by central differences of order 6.
-/// Every coordinate is measured in its own size, every entry (i, j) in the root of the actions of i and j.
+/// Size of M^T J M - J over the largest entry of M, for the derivative M of one step by central differences
+/// of order 6. Every coordinate is measured in its own size, every entry (i, j) in the root of the actions of
+/// i and j.
 double symplecticDefect(const Subject& on, const Case& scheme) {
     constexpr std::array<double, 3> weight = {45. / 60, -9. / 60, 1. / 60};
     const double h = on.time / 12, delta = 5e-4;
@@ -164,7 +166,8 @@ double symplecticDefect(const Subject& on, const Case& scheme) {
                 const auto end = after(*integrator, s, 1);
                 if (!end) return std::numeric_limits<double>::quiet_NaN();
                 for (std::size_t i = 0; i < n; ++i)
-                    M[i * n + j] += sign * weight[static_cast<std::size_t>(k - 1)] * end->x[i] / (delta * on.own[i]);
+                    M[i * n + j] +=
+                        sign * weight[static_cast<std::size_t>(k - 1)] * end->x[i] / (delta * on.own[i]);
             }
     double largest = 0, defect = 0;
     for (std::size_t i = 0; i < n; ++i)

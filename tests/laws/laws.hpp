@@ -60,7 +60,8 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
         const int low = e.maxDegree == 0 ? 0 : e.minDegree, high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
         for (int degree = low; degree <= high; ++degree) {
             const Discretization pair = e.make(degree);
-            if (!isPairFor(pair, system) || std::find(known.begin(), known.end(), pair) != known.end()) continue;
+            if (!isPairFor(pair, system) || std::find(known.begin(), known.end(), pair) != known.end())
+                continue;
             known.push_back(pair);
             std::string name = e.item.id;
             if (const auto at = name.find('<'); at != std::string::npos) name = name.substr(0, at) + std::to_string(degree);

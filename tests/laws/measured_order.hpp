@@ -14,8 +14,9 @@ struct Orders {
     int points = 0;
 };
 
-/// Slopes over h of the largest errors at the nodes up to T, from the four finest runs whose errors are in the window
-/// [2e-11, highest] where they say something. The largest over the nodes, because the error at one time may pass zero.
+/// Slopes over h of the largest errors at the nodes up to T, from the four finest runs whose errors are in
+/// the window [2e-11, highest] where they say something. The largest over the nodes, because the error at one
+/// time may pass zero.
 template <class Make>
 Orders measure(const System& system, const State& start, double T, double highest, Make&& make) {
     const std::size_t d = system.coordinates.size();

@@ -1,5 +1,5 @@
-/// Which pairs make sense is decided by a table made in quadruple precision; here it is decided again, from scratch: from
-/// the rank of what the nodes see of the curve, and from what a step does to a free particle.
+/// Which pairs make sense is decided by a table made in quadruple precision; here it is decided again, from
+/// scratch: from the rank of what the nodes see of the curve, and from what a step does to a free particle.
 #include <QTest>
 
 #include <Eigen/SVD>
@@ -14,14 +14,17 @@
 namespace extremal::laws {
 namespace {
 
-/// Rank of the velocities at the nodes, of monomials t, t^2, ..., t^s: s where no motion inside the step is free of cost.
+/// Rank of the velocities at the nodes, of monomials t, t^2, ..., t^s: s where no motion inside the step is
+/// free of cost.
 int rankAtNodes(int degree, const Rule<double>& rule) {
     Eigen::MatrixXd velocity(rule.size(), degree);
     for (int i = 0; i < rule.size(); ++i)
-        for (int a = 1; a <= degree; ++a) velocity(i, a - 1) = a * std::pow(2 * rule.c[static_cast<std::size_t>(i)] - 1, a - 1);
+        for (int a = 1; a <= degree; ++a)
+            velocity(i, a - 1) = a * std::pow(2 * rule.c[static_cast<std::size_t>(i)] - 1, a - 1);
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(velocity);
     int rank = 0;
-    for (int k = 0; k < svd.singularValues().size(); ++k) rank += svd.singularValues()(k) > 1e-10 * svd.singularValues()(0) ? 1 : 0;
+    for (int k = 0; k < svd.singularValues().size(); ++k)
+        rank += svd.singularValues()(k) > 1e-10 * svd.singularValues()(0) ? 1 : 0;
     return rank;
 }
 
@@ -29,7 +32,8 @@ int rankAtNodes(int degree, const Rule<double>& rule) {
 int exactness(const Rule<double>& rule) {
     for (int k = 0;; ++k) {
         double sum = 0;
-        for (int i = 0; i < rule.size(); ++i) sum += rule.b[static_cast<std::size_t>(i)] * std::pow(rule.c[static_cast<std::size_t>(i)], k);
+        for (int i = 0; i < rule.size(); ++i)
+            sum += rule.b[static_cast<std::size_t>(i)] * std::pow(rule.c[static_cast<std::size_t>(i)], k);
         if (std::abs(sum - 1.0 / (k + 1)) > 1e-12) return k - 1;
     }
 }
@@ -49,22 +53,25 @@ private slots:
         int refused = 0, accepted = 0;
         for (int s = 1; s <= 10; ++s)
             for (const char* type : {"gauss", "lobatto", "radau", "clenshaw-curtis"})
-                for (int n = std::string(type) == "gauss" || std::string(type) == "radau" ? 1 : 2; n <= 13; ++n) {
+                for (int n = std::string(type) == "gauss" || std::string(type) == "radau" ? 1 : 2; n <= 13;
+                     ++n) {
                     const Settings rule = withNodes(type, n);
                     const Discretization pair = polynomialPair(s, rule);
                     const Rule<double> r = makeRule<double>(pair.quadrature);
-                    // Solvable: every motion costs; and a free particle keeps its speed: int phi' = 0 is seen for all phi
-                    // that vanish at both ends, which have degree s.
+                    // Solvable: every motion costs; and a free particle keeps its speed: int phi' = 0 is seen
+                    // for all phi that vanish at both ends, which have degree s.
                     const bool isSound = rankAtNodes(s, r) == s && exactness(r) >= s - 1;
                     const bool isRefused = !describe(pair.space, pair.quadrature).refusal.empty();
-                    QVERIFY2(isSound != isRefused, qPrintable(QString("degree %1, %2 %3").arg(s).arg(type).arg(n)));
+                    QVERIFY2(isSound != isRefused,
+                             qPrintable(QString("degree %1, %2 %3").arg(s).arg(type).arg(n)));
                     ++(isRefused ? refused : accepted);
                 }
         qInfo("%d refused, %d accepted", refused, accepted);
         QVERIFY(refused > 100 && accepted > 100);
     }
     void aRefusedPairIsSingularIndeed() {
-        // Made all the same: the step of degree 3 with two Gauss nodes fails, or the solution is not determined.
+        // Made all the same: the step of degree 3 with two Gauss nodes fails, or the solution is not
+        // determined.
         const System kepler = systemNamed("kepler");
         const Discretization pair = polynomialPair(3, withNodes("gauss", 2));
         QVERIFY(!describe(pair.space, pair.quadrature).refusal.empty());
@@ -104,7 +111,8 @@ private slots:
         const auto read = [](int degree, const std::string& rule) {
             return readScene(std::string_view(
                 R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[1,0],"p":[0,1]},"time":{"end":1},"schemes":[{"step":0.1,
-                    "space":{"type":"polynomial","degree":)" + std::to_string(degree) + R"(},"quadrature":)" + rule + "}]}"));
+                    "space":{"type":"polynomial","degree":)" +
+                std::to_string(degree) + R"(},"quadrature":)" + rule + "}]}"));
         };
         const ReadScene few = read(3, R"({"type":"lobatto","nodes":3})");
         QVERIFY(few.errors.empty());
@@ -115,7 +123,8 @@ private slots:
         QVERIFY(read(3, R"({"type":"lobatto","nodes":4})").warnings.empty());
         QVERIFY(read(3, R"("clenshaw-curtis")").warnings.empty());  // its usual nodes: the claim says it
         for (int s = 1; s <= 8; ++s) {
-            const Discretization gauss = polynomialPair(s, {"gauss", {}, {}}), curtis = polynomialPair(s, {"clenshaw-curtis", {}, {}});
+            const Discretization gauss = polynomialPair(s, {"gauss", {}, {}}),
+                                 curtis = polynomialPair(s, {"clenshaw-curtis", {}, {}});
             QVERIFY(describe(gauss.space, gauss.quadrature).shortfall.empty());
             const PairProperties p = describe(curtis.space, curtis.quadrature);
             QCOMPARE(p.shortfall.empty(), p.claims.order == 2 * s);

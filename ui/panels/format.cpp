@@ -74,7 +74,10 @@ QString schemeText(const SchemeSpec& spec) {
     if (c.type.empty()) return innerText(spec);
     for (const CatalogItem& item : compositionCatalog())
         if (item.id == c.type)
-            return QStringLiteral("%1 %2 of %3").arg(QString::fromStdString(item.title)).arg(c.integer("order")).arg(innerText(spec));
+            return QStringLiteral("%1 %2 of %3")
+                .arg(QString::fromStdString(item.title))
+                .arg(c.integer("order"))
+                .arg(innerText(spec).remove(QStringLiteral("baseline: ")).remove(QStringLiteral("scheme ")));
     return innerText(spec);
 }
 

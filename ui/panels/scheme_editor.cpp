@@ -137,8 +137,8 @@ const SchemeSpec& SchemeEditor::spec() const {
 /// Changes when other fields are needed.
 std::string SchemeEditor::signature() const {
     const SchemeSpec& s = spec();
-    return std::to_string(static_cast<int>(s.kind)) + s.space.type + "/" + s.quadrature.type + "/" + s.baseline.type + "/" + s.named + "/" +
-           s.composition.type;
+    return std::to_string(static_cast<int>(s.kind)) + s.space.type + "/" + s.quadrature.type + "/" +
+           s.baseline.type + "/" + s.named + "/" + s.composition.type;
 }
 
 void SchemeEditor::refresh() {
@@ -186,7 +186,8 @@ void SchemeEditor::rebuild() {
 void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
     const SchemeSpec& s = spec();
     if (s.tolerance || !innerClaimsOf(s).isSymmetric) return;
-    FieldInfo type = field("composition", "composed", "", "none", "Steps of the scheme over parts of the step, for a higher order.");
+    FieldInfo type = field("composition", "composed", "", "none",
+                           "Steps of the scheme over parts of the step, for a higher order.");
     type.type = FieldType::choice;
     type.choices = {"none"};
     for (const CatalogItem& item : compositionCatalog()) type.choices.push_back(item.id);
@@ -195,7 +196,8 @@ void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
                           if (chosen == Value("none")) return {{at, std::nullopt}};
                           return {{at, Value(Value::Object{{"type", chosen}})}};
                       }});
-    if (const CatalogItem* item = itemNamed(compositionCatalog(), s.composition.type)) addFields(fields, item->parameters, at);
+    if (const CatalogItem* item = itemNamed(compositionCatalog(), s.composition.type))
+        addFields(fields, item->parameters, at);
 }
 
 void SchemeEditor::changeKind(int kind) {

@@ -133,9 +133,11 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
     }
     if (series.isCells) drawCells(painter, map, series);
     if (series.hasMarkers) {
-        painter.setPen(QPen(shared_.theme.panel, 1.2));
+        constexpr std::size_t few = 100;  // more are dots: a cloud, not points to be told apart
+        const bool isCloud = series.x.size() > few && !series.hasLine;
+        painter.setPen(isCloud ? QPen(Qt::NoPen) : QPen(shared_.theme.panel, 1.2));
         painter.setBrush(color);
-        const double radius = isHighlighted ? 6 : 4.5;
+        const double radius = (isCloud ? 1.7 : 4.5) + (isHighlighted ? 1 : 0) * (isCloud ? 0.6 : 1.5);
         for (std::size_t i = 0; i < series.x.size(); ++i) {
             const QPointF p = map(series.x[i], series.y[i]);
             const bool isKnown = std::isfinite(p.x()) && std::isfinite(p.y());

@@ -82,7 +82,8 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         x += width + space;
     }
-    const bool isNamed = std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) { return !s.isCells; });
+    const bool isNamed =
+        std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) { return !s.isCells; });
     return isNamed ? y + rowHeight - rect.top() : 0;
 }
 

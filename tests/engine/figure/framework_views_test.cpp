@@ -1,4 +1,5 @@
-/// The views of the equations themselves: the pattern of the KKT matrix, the defect of the discrete Lagrangian.
+/// The views of the equations themselves: the pattern of the KKT matrix, the defect of the discrete
+/// Lagrangian.
 #include <QTest>
 
 #include <algorithm>
@@ -13,8 +14,10 @@ namespace extremal {
 namespace {
 
 ReadScene pendulum(const std::string& views, const std::string& schemes) {
-    const std::string text = R"({"extremal":1,"model":{"type":"pendulum"},"initial":{"q":[1],"p":[0.7]},"time":{"end":1},)"
-                             R"("schemes":[)" + schemes + R"(],"views":)" + views + "}";
+    const std::string text =
+        R"({"extremal":1,"model":{"type":"pendulum"},"initial":{"q":[1],"p":[0.7]},"time":{"end":1},)"
+        R"("schemes":[)" +
+        schemes + R"(],"views":)" + views + "}";
     return readScene(std::string_view(text));
 }
 const std::string gauss2 = R"({"label":"nodal","step":0.1,"scheme":"galerkin-gauss-2"})";
@@ -48,7 +51,8 @@ private slots:
             // Rows grow downwards: row r of the matrix is at size - 1 - r.
             QCOMPARE(f.series[0].y[0], static_cast<double>(p.size - 1 - p.action[0].first));
         }
-        // Four elements of three functions, five multipliers; modes reach both ends of an element with all of their functions.
+        // Four elements of three functions, five multipliers; modes reach both ends of an element with all of
+        // their functions.
         QCOMPARE(c.schemes[0]->pattern->size, 17);
         QCOMPARE(c.schemes[0]->pattern->continuity.size(), std::size_t(16));
         QCOMPARE(c.schemes[1]->pattern->continuity.size(), std::size_t(48));
@@ -68,8 +72,7 @@ private slots:
         QCOMPARE(f.series.size(), std::size_t(2));
         QVERIFY2(f.subtitle == "slope 4.98 of 5, 4.98 of 5", f.subtitle.c_str());
         // The same action, whatever the basis: to the round-off of the action.
-        for (std::size_t i = 0; i < 6; ++i)
-            QVERIFY(std::abs(f.series[0].y[i] / f.series[1].y[i] - 1) < 1e-6);
+        for (std::size_t i = 0; i < 6; ++i) QVERIFY(std::abs(f.series[0].y[i] / f.series[1].y[i] - 1) < 1e-6);
     }
     void labelsOfOtherSchemesAreErrors() {
         const ReadScene wrong = pendulum(R"([{"view":"sparsity","scheme":"nodl"}])", gauss2);

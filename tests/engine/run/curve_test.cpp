@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/figure/figure.hpp"
 #include "engine/run/run.hpp"
@@ -13,13 +14,15 @@ namespace extremal {
 namespace {
 
 Scene kepler(const std::string& scheme, double step, double end) {
-    const std::string text = R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},"time":{"end":)" +
-                             std::to_string(end) + R"(},"schemes":[{"label":"s","step":)" + std::to_string(step) +
-                             ",\"scheme\":\"" + scheme + "\"}]}";
+    const std::string text =
+        R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},"time":{"end":)" +
+        std::to_string(end) + R"(},"schemes":[{"label":"s","step":)" + std::to_string(step) +
+        ",\"scheme\":\"" + scheme + "\"}]}";
     return readScene(std::string_view(text)).scene;
 }
 
-/// Largest distance from the exact orbit: along what plots are drawn through, and along straight lines between nodes.
+/// Largest distance from the exact orbit: along what plots are drawn through, and along straight lines
+/// between nodes.
 struct Off {
     double curve = 0, chord = 0;
 };
@@ -53,7 +56,8 @@ private slots:
     void theCurveHasTheOrderOfTheSpacePlusOne() {
         // Degree 4: 5. A chord has order 2, whatever the scheme: what this test would see in its place.
         const Off coarse = offOrbit("galerkin-gauss-4", 0.2), fine = offOrbit("galerkin-gauss-4", 0.1);
-        const double order = std::log2(coarse.curve / fine.curve), ofChords = std::log2(coarse.chord / fine.chord);
+        const double order = std::log2(coarse.curve / fine.curve),
+                     ofChords = std::log2(coarse.chord / fine.chord);
         qInfo("curve %.2e, order %.2f; chords %.2e, order %.2f", fine.curve, order, fine.chord, ofChords);
         QVERIFY(order > 4.5 && order < 5.8);
         QVERIFY(ofChords < 2.5 && fine.chord > 100 * fine.curve);
@@ -65,6 +69,75 @@ private slots:
         QCOMPARE(f.series[0].x.size(), c.schemes[0]->curve.rows());
         QVERIFY(f.series[0].x.size() > 10 * c.schemes[0]->trajectory.rows());
         QCOMPARE(f.series[0].t.size(), f.series[0].x.size());
+    }
+    void errorsAlongTheCurveAreShownBesideThoseAtNodes() {
+        Scene scene = kepler("galerkin-gauss-6", 0.25, 6);
+        scene.observe = {"error"};
+        scene.views = {{"curve-error", "", ""}};
+        const Comparison c = run(scene);
+        const std::span<const double> error = c.schemes[0]->curve["error"];
+        QCOMPARE(error.size(), c.schemes[0]->curve.rows());
+        const double most = *std::max_element(error.begin(), error.end());
+        qInfo("largest on the curve %.2e, at nodes %.2e", most, c.schemes[0]->summary.maxError);
+        QVERIFY(most > 3 * c.schemes[0]->summary.maxError);  // order 7 between nodes of order 12
+        const Figure f = makeFigure(c, scene.views[0]);
+        QCOMPARE(f.series.size(), std::size_t(1));
+        QVERIFY(f.subtitle.starts_with("largest on the curve"));
+        scene.views.clear();
+        QVERIFY(!run(scene).schemes[0]->curve.find("error"));  // no view shows it
+    }
+    void eventsAreFoundOnTheCurve() {
+        // Kepler's orbit passes y = 0 upwards at every multiple of its period.
+        const double period = 2 * std::numbers::pi;
+        std::vector<double> worst, ofChords;
+        for (const double h : {0.2, 0.1, 0.05}) {
+            Scene scene = kepler("galerkin-gauss-3", h, 33);
+            scene.views = {{"section", "", "", "q.y"}};
+            const Comparison c = run(scene);
+            const Trajectory& events = c.schemes[0]->sections.at(0).events;
+            QCOMPARE(events.rows(), std::size_t(5));
+            double w = 0, chord = 0;
+            const Trajectory& nodes = c.schemes[0]->trajectory;
+            for (std::size_t k = 0; k < events.rows(); ++k) {
+                QVERIFY(std::abs(events["q.y"][k]) < 1e-13);
+                w = std::max(w, std::abs(events["t"][k] - static_cast<double>(k + 1) * period));
+            }
+            std::size_t found = 0;
+            for (std::size_t i = 0; i + 1 < nodes.rows(); ++i) {
+                const double a = nodes["q.y"][i], b = nodes["q.y"][i + 1];
+                if (!(a < 0 && b >= 0)) continue;
+                chord = std::max(
+                    chord, std::abs(nodes["t"][i] + a / (a - b) * h - static_cast<double>(++found) * period));
+            }
+            worst.push_back(w);
+            ofChords.push_back(chord);
+        }
+        const double order = std::log2(worst[1] / worst[2]);
+        qInfo("times off by %.2e, %.2e, order %.2f; by chords %.2e, %.2e", worst[1], worst[2], order,
+              ofChords[1], ofChords[2]);
+        QVERIFY(order > 3.5 && worst[2] < 1e-5);
+        QVERIFY(ofChords[2] > 10 * worst[2]);
+    }
+    void sectionsThatNoMotionPassesAreEmpty() {
+        Scene scene = kepler("midpoint", 0.1, 2);
+        scene.views = {{"section", "", "", "q.y"}};  // y grows from zero: at the start it does not pass
+        const Comparison c = run(scene);
+        QCOMPARE(c.schemes[0]->sections.at(0).events.rows(), std::size_t(0));
+        QVERIFY(!makeFigure(c, scene.views[0]).message.empty());
+    }
+    void columnsOfSectionsAreChecked() {
+        const auto read = [](const std::string& view) {
+            return readScene(std::string_view(
+                R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},"time":{"end":1},)"
+                R"("schemes":[{"step":0.1,"scheme":"midpoint"}],"views":[)" +
+                view + "]}"));
+        };
+        QVERIFY(read(R"({"view":"section","at":"q.y","x":"t","y":"p.y"})").errors.empty());
+        QCOMPARE(read(R"({"view":"section","at":"q.z"})").errors.at(0).pointer, std::string("/views/0/at"));
+        QCOMPARE(read(R"({"view":"section","at":"t"})").errors.at(0).pointer, std::string("/views/0/at"));
+        QCOMPARE(read(R"({"view":"phase","at":"q.y"})").errors.at(0).pointer, std::string("/views/0/at"));
+        const Scene scene = read(R"({"view":"section","at":"q.y"})").scene;
+        QCOMPARE(readScene(std::string_view(writeScene(scene))).scene.views, scene.views);
     }
     void longRunsKeepTheirRowsAlone() {
         const Comparison c = run(kepler("midpoint", 0.01, 6));

@@ -1,14 +1,18 @@
 /// The window as a user drives it, on the offscreen platform.
+#include <QComboBox>
 #include <QLineEdit>
 #include <QMenu>
 #include <QSet>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTemporaryDir>
 #include <QTest>
 
 #include <algorithm>
 
+#include "engine/scene/bind.hpp"
 #include "ui/panels/discretizer.hpp"
+#include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/value_edit.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
@@ -105,6 +109,45 @@ private slots:
         entry("KKT matrix")->trigger();
         QVERIFY(waitForResults(window));
         QCOMPARE(shown("sparsity"), 0);
+    }
+    void schemesAreComposedInTheEditor() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        const auto& schemes = window.workspace().scene().schemes;
+        const auto indexOf = [&](bool isSymmetric) {
+            const auto found = std::find_if(schemes.begin(), schemes.end(), [&](const SchemeSpec& s) {
+                return !s.tolerance && innerClaimsOf(s).isSymmetric == isSymmetric;
+            });
+            return static_cast<int>(found - schemes.begin());
+        };
+        const int symmetric = indexOf(true), other = indexOf(false);
+        QVERIFY(symmetric < static_cast<int>(schemes.size()) && other < static_cast<int>(schemes.size()));
+        QVERIFY(!SchemeEditor(window.workspace(), other).findChild<QComboBox*>("field.composition"));
+
+        SchemeEditor editor(window.workspace(), symmetric);
+        const auto choose = [&](const QString& what) {
+            auto* box = editor.findChild<QComboBox*>("field.composition");
+            const int at = box ? box->findText(what) : -1;
+            if (at < 0) return false;
+            box->setCurrentIndex(at);
+            emit box->activated(at);
+            return true;
+        };
+        const auto spec = [&]() -> const SchemeSpec& {
+            return window.workspace().scene().schemes[static_cast<std::size_t>(symmetric)];
+        };
+        const int order = claimsOf(spec()).order;
+        QVERIFY(choose("suzuki"));
+        QCOMPARE(spec().composition.type, std::string("suzuki"));
+        QCOMPARE(claimsOf(spec()).order, order + 2);
+        QVERIFY(editor.findChild<QSpinBox*>("field.order") || editor.findChild<QLineEdit*>("field.order"));
+        QVERIFY(waitForResults(window));
+        QVERIFY(window.runControl().results()->schemes[static_cast<std::size_t>(symmetric)]->summary.status ==
+                RunStatus::done);
+        QVERIFY(choose("none"));
+        QVERIFY(spec().composition.type.empty());
     }
     void aRefusedEditKeepsTheScene() {
         MainWindow window(Theme::light(), false);

@@ -1,0 +1,116 @@
+#include "engine/run/inside_step.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/run/look_at_pair.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr std::size_t mostPoints = 20000;
+
+/// Points inside a step: enough to bend where steps are few, none where they are many.
+int pointsPerStep(bool isAdaptive, long long steps) {
+    constexpr long long fewSteps = 500, points = 2000;
+    if (isAdaptive) return 8;
+    return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
+}
+
+void append(Trajectory& trajectory, double t, const std::vector<double>& x, std::size_t width) {
+    trajectory.columns[0].values.push_back(t);
+    for (std::size_t c = 0; c < width; ++c) trajectory.columns[c + 1].values.push_back(x[c]);
+}
+
+}  // namespace
+
+std::vector<Column> leadingColumns(const System& system) {
+    std::vector<Column> columns{{"t", "t", system.timeUnit, {}, {}}};
+    for (const Quantity& c : stateColumns(system)) columns.push_back({c.name, c.symbol, c.unit, {}, {}});
+    return columns;
+}
+
+std::string sectionColumn(const View& view, const System& system) {
+    if (!view.at.empty()) return view.at;
+    const std::vector<Quantity> columns = stateColumns(system);
+    return columns.empty() ? std::string() : columns.front().name;
+}
+
+InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const System& system, bool isAdaptive,
+                       long long steps, Observer error)
+    : result_(result), error_(std::move(error)), points_(pointsPerStep(isAdaptive, steps)) {
+    const std::vector<Column> columns = leadingColumns(system);
+    width_ = columns.size() - 1;
+    for (const View& view : scene.views) {
+        if (view.id != "section") continue;
+        const std::string name = sectionColumn(view, system);
+        const auto found =
+            std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
+        if (found == columns.end() || found == columns.begin()) continue;
+        sections_.push_back({static_cast<std::size_t>(found - columns.begin()) - 1, result_.sections.size()});
+        result_.sections.push_back({name, {columns}});
+    }
+    if (points_ == 0) return;
+    result_.curve.columns = columns;
+    if (!error_.evaluate) return;
+    errorValues_.resize(error_.columns.size());
+    result_.curve.columns.push_back(error_.columns.front());
+}
+
+void InsideStep::start(const State& state) {
+    at_ = state;
+    if (points_ > 0) keep(state, {});
+}
+
+void InsideStep::look(const Integrator& integrator, const State& before, const State& after,
+                      const StepReport& report) {
+    if (!sections_.empty()) cross(integrator, before, after);
+    if (points_ == 0) return;
+    for (int j = 1; j <= points_; ++j) {
+        const double tau = static_cast<double>(j) / points_;
+        at_.t = j < points_ ? before.t + tau * (after.t - before.t) : after.t;
+        if (j < points_)
+            integrator.curve(tau, at_.x);
+        else
+            at_.x = after.x;
+        keep(at_, report);
+    }
+    if (result_.curve.rows() <= mostPoints) return;
+    result_.curve.columns.clear();  // an adaptive code with many steps: its rows are dense
+    points_ = 0;
+}
+
+void InsideStep::keep(const State& at, const StepReport& report) {
+    append(result_.curve, at.t, at.x, width_);
+    if (!error_.evaluate) return;
+    error_.evaluate(NodeBlock(at, report), errorValues_.data(), errorValues_.size());
+    result_.curve.columns.back().values.push_back(errorValues_.front());
+}
+
+void InsideStep::cross(const Integrator& integrator, const State& before, const State& after) {
+    for (const Section& section : sections_) {
+        const double first = before.x[section.column], last = after.x[section.column];
+        Trajectory& events = result_.sections[section.index].events;
+        if (!(first < 0 && last >= 0) || events.rows() >= mostPoints) continue;
+        const auto value = [&](double tau) {
+            integrator.curve(tau, at_.x);
+            return at_.x[section.column];
+        };
+        double tau = 1;
+        // The curve meets the nodes to round-off only: an end that is on the plane to round-off is the place.
+        if (last > 0 && value(0) < 0 && value(1) > 0) {
+            std::uintmax_t evaluations = 100;
+            const auto found =
+                boost::math::tools::toms748_solve(value, 0.0, 1.0, value(0), value(1),
+                                                  boost::math::tools::eps_tolerance<double>(), evaluations);
+            tau = (found.first + found.second) / 2;
+        }
+        integrator.curve(tau, at_.x);
+        append(events, before.t + tau * (after.t - before.t), at_.x, width_);
+    }
+}
+
+}  // namespace extremal

@@ -1,0 +1,50 @@
+/// What is looked at inside the steps of a run, on the scheme's own curve: points for plots, their distance
+/// from the reference, and the events of sections.
+///
+/// A section is the set of states where one column passes zero upwards: the sign is seen at the nodes, the
+/// place is found on the curve, to round-off of tau. An event that passes zero twice within one step is not
+/// seen.
+#pragma once
+
+#include <vector>
+
+#include "engine/integrator/integrator.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/run/comparison.hpp"
+
+namespace extremal {
+
+/// t and the state, as columns without values.
+std::vector<Column> leadingColumns(const System& system);
+
+/// The column whose zeros make a section: the view's own, or the first coordinate.
+std::string sectionColumn(const View& view, const System& system);
+
+class InsideStep {
+public:
+    /// Writes into `result`. `steps`: planned; curves are kept for few. `error`: may be empty.
+    InsideStep(SchemeResult& result, const Scene& scene, const System& system, bool isAdaptive,
+               long long steps, Observer error);
+
+    bool isWanted() const { return points_ > 0 || !sections_.empty(); }
+    void start(const State& state);
+    void look(const Integrator& integrator, const State& before, const State& after,
+              const StepReport& report);
+
+private:
+    void keep(const State& at, const StepReport& report);
+    void cross(const Integrator& integrator, const State& before, const State& after);
+
+    struct Section {
+        std::size_t column, index;  ///< of the state; of result.sections
+    };
+    SchemeResult& result_;
+    Observer error_;
+    int points_ = 0;
+    std::size_t width_ = 0;
+    std::vector<Section> sections_;
+    State at_;
+    std::vector<double> errorValues_;
+};
+
+}  // namespace extremal
