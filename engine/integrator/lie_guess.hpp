@@ -43,6 +43,14 @@ Pose<T> rateOf(const BodyMechanics<T>& body, const Pose<T>& p) {
     return rate;
 }
 
+/// False where the potential has no force: in a singularity.
+template <class T>
+bool isRateFinite(const BodyMechanics<T>& body, const Pose<T>& p) {
+    using std::isfinite;
+    const Pose<T> rate = rateOf(body, p);
+    return isfinite(T(rate.momentum.squaredNorm() + rate.linear.squaredNorm()));
+}
+
 /// The pose after the time t.
 template <class T>
 Pose<T> guessedAfter(const BodyMechanics<T>& body, const Pose<T>& p, const T& t) {

@@ -64,10 +64,7 @@ private:
     bool predict();
     void residual();
     /// The matrix of lu_, to be filled.
-    auto jacobian() {
-        using Rows = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-        return Eigen::Map<Rows>(lu_.row(0), n * m(), n * m());
-    }
+    auto jacobian() { return Eigen::Map<Square>(lu_.column(0), n * m(), n * m()); }
     Attempt assembleJacobian();
     void addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A, Matrix& xiXi);
     T correction();

@@ -293,7 +293,7 @@ Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::sto
     known_ = foot_ = pose;
     footElement_ = G::element(known_);
     mu_ = G::bodyMomentum(footElement_, known_);
-    if (!predict()) return Outcome::diverged;
+    if (!predict()) return isRateFinite(body_, poses_[0]) ? Outcome::diverged : Outcome::notFinite;
     switch (iterate(stop)) {
         case Attempt::solved: break;
         case Attempt::failed: return Outcome::diverged;

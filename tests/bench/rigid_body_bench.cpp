@@ -106,7 +106,7 @@ std::vector<double> geometric(double from, double to, double factor) {
 int main() {
     using namespace extremal::laws;
     const extremal::System system = standard().system();
-    const std::vector<double> steps = geometric(40, 40000, 1.04), tolerances = geometric(1e-3, 1e-14, 0.8);
+    const std::vector<double> steps = geometric(20, 40000, 1.04), tolerances = geometric(1e-3, 1e-14, 0.8);
     std::printf("%-22s %8s  %10s  %10s  %10s\n", "code", "wanted", "error", "setting", "seconds");
     for (const double wanted : {1e-3, 1e-6, 1e-9, 1e-12}) {
         const auto show = [&](const char* name, const Result& r) {

@@ -63,6 +63,13 @@ private slots:
         check(picture(frameworkFigure("discrete-lagrangian", "")), "plot-discrete-lagrangian");
         check(picture(frameworkFigure("discrete-lagrangian", ""), Theme::dark()), "plot-discrete-lagrangian-dark");
     }
+    void thePolhodeLooksAsKept() {
+        const Scene scene = readScene(loadSceneText("preset:free-body")).scene;
+        const System system = makeSystem(scene);
+        View v;
+        v.id = "polhode";
+        check(picture(makeFigure(run(scene), v, &system)), "plot-polhode");
+    }
     void aCurveShiftedByOnePixelIsSeen() {
         const Figure straight = figure("phase");
         Figure shifted = straight;

@@ -18,10 +18,10 @@ class StageGoldenTest : public QObject {
         const StagePlayer player(fake::comparison(film));
         const QSizeF size(520, 300);
         const StageFrame frame = player.frame(t, stageStyle(theme));
-        const Camera camera = fitCamera(player.bounds(), size.width(), size.height(), stageMargin);
+        const Camera camera = player.fittedCamera(size.width(), size.height(), stageMargin);
         QImage image = drawStage(frame, camera, size, 1);
         QPainter painter(&image);
-        paintOverlay(painter, QRectF(QPointF(0, 0), size), frame, player, theme, {true});
+        paintOverlay(painter, QRectF(QPointF(0, 0), size), frame, player, theme, {true, camera});
         return image;
     }
     static void check(const QImage& image, const QString& name) {
@@ -39,6 +39,10 @@ private slots:
     void pendulumLooksAsKept() { check(stage(fake::pendulum(), 2.6, Theme::light()), "stage-pendulum"); }
     void keplerLooksAsKept() { check(stage(fake::kepler(), 11.3, Theme::light()), "stage-kepler"); }
     void oscillatorLooksAsKept() { check(stage(fake::oscillator(), 2, Theme::light()), "stage-oscillator"); }
+
+    void aBodyLooksAsKept() { check(stage(fake::freeBody(), 6.2, Theme::light()), "stage-body"); }
+    void aBodyLooksAsKeptInTheDark() { check(stage(fake::freeBody(), 3.1, Theme::dark()), "stage-body-dark"); }
+    void aTopLooksAsKept() { check(stage(fake::heavyTop(), 4.4, Theme::light()), "stage-top"); }
 
     void theLimitsSeeASwappedColourAndAMovedBody() {
         const QImage right = stage(fake::pendulum(), 2.6, Theme::light());

@@ -57,7 +57,7 @@ Eigen::Matrix<double, 6, 1> between(const State& s, const State& x) {
     v << so3::log(so3::normalised(d)), x.x[4] - s.x[4], x.x[5] - s.x[5], x.x[6] - s.x[6];
     return v;
 }
-/// The canonical form in the left trivialisation, w(u, v) = u_z . v_Pi - u_Pi . v_z + Pi . [v_z, u_z], as a matrix.
+/// The canonical form in the left trivialisation, w(u, v) = u_z . v_Pi - u_Pi . v_z + Pi . [u_z, v_z], as a matrix.
 Eigen::Matrix<double, 6, 6> canonicalForm(const State& s) {
     Eigen::Matrix<double, 6, 6> w = Eigen::Matrix<double, 6, 6>::Zero();
     w.topLeftCorner<3, 3>() = -so3::hat(so3::Vector<double>(s.x[4], s.x[5], s.x[6]));

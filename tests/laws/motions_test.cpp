@@ -33,6 +33,10 @@ State satelliteStart() {
     return motionState({std::cos(0.15), 0, 0, std::sin(0.15)}, {0.05 * 0.0012, 0.02 * 0.0058, 1.25 * 0.0061}, {0.8, 0, 0},
                        {0, 1.2, 0.1});
 }
+/// On a nearly round orbit, its long axis swinging about the direction of the centre: a regular motion, where drift shows.
+State librating() {
+    return motionState({std::cos(0.05), 0, 0, std::sin(0.05)}, {0, 0.02 * 0.0058, 0.0061}, {1, 0, 0}, {0, 1.02, 0});
+}
 State freeStart() {
     return motionState({0.5, 0.5, -0.5, 0.5}, {std::cos(1.1), 0, std::sin(1.1)}, {0.3, -0.4, 0.1}, {1.1, 0.6, -0.8});
 }
@@ -119,11 +123,11 @@ private slots:
         QCOMPARE(system.momenta.size(), std::size_t(3));
         const EnergyFunction energy = energyOf(system);
         for (int degree = 1; degree <= 4; ++degree) {
-            const State start = satelliteStart();
+            const State start = librating();
             const auto integrator = makeIntegrator(system, liePair(degree), {0, 0.05});
             State s = start;
-            double momentum = 0, exchanged = 0, worst = 0;
-            std::array<double, 2> mean{};  ///< of the energy error in both halves
+            double momentum = 0, exchanged = 0;
+            std::array<double, 4> worst{};  ///< energy error in each quarter
             constexpr int steps = 40000;
             for (int k = 0; k < steps; ++k) {
                 QVERIFY(integrator->advance(s).outcome == Outcome::converged);
@@ -131,20 +135,19 @@ private slots:
                     momentum = std::max(momentum, std::abs(map.value(s.x.data(), nullptr) - map.value(start.x.data(), nullptr)));
                 exchanged = std::max(exchanged, std::abs(s.x[9] - start.x[9]));
                 const double error = energy(0, s.x.data()) - energy(0, start.x.data());
-                worst = std::max(worst, std::abs(error));
-                mean[static_cast<std::size_t>(2 * k / steps)] += error / (steps / 2);
+                auto& quarter = worst[static_cast<std::size_t>(4 * k / steps)];
+                quarter = std::max(quarter, std::abs(error));
             }
-            const double drift = std::abs(mean[1] - mean[0]) / worst;
-            qInfo("degree %d: momentum %.1e, the spin alone %.1e; energy %.2e, of which drift %.3f", degree, momentum, exchanged,
-                  worst, drift);
+            qInfo("degree %d: momentum %.1e, the spin alone %.1e; energy %.3e %.3e %.3e %.3e", degree, momentum, exchanged,
+                  worst[0], worst[1], worst[2], worst[3]);
             QVERIFY(momentum < 1e-12);
             QVERIFY(exchanged > 1e-4);  // neither part is kept by itself: the law can fail
-            QVERIFY(drift < 0.25 || worst < 1e-12);
+            QVERIFY(worst[3] <= 1.05 * worst[0] + 1e-12);
         }
         // The law can fail: RK4 drifts away.
         Settings keys{"rk4-quaternion", {{"projection", true}}, {}};
         const auto kutta = findBaseline("rk4-quaternion")->make(system, {{0, 0.05}, 0, 0, keys});
-        const State start = satelliteStart();
+        const State start = librating();
         std::array<double, 2> error{};
         State s = start;
         for (double& e : error) {
@@ -221,6 +224,13 @@ private slots:
             QVERIFY(central < 1e-12);
             QVERIFY(pulled > 1e-3);  // the law can fail
         }
+    }
+    void aStartInASingularityIsNoNumber() {
+        const System system = systemNamed("rigid-body-se3", {{"potential", "-1/sqrt(x^2+y^2+z^2)"}});
+        State s = motionState({1, 0, 0, 0}, {0.1, 0.2, 0.3}, {0, 0, 0}, {0, 0, 0});
+        const State start = s;
+        QVERIFY(makeIntegrator(system, liePair(2), {0, 0.1})->advance(s).outcome == Outcome::notFinite);
+        QCOMPARE(s.x, start.x);
     }
     void symmetrisedStepsReturn() {
         for (int degree = 2; degree <= 4; ++degree)

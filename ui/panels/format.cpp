@@ -99,6 +99,26 @@ QString fieldText(const Value& value) {
     return QString::fromStdString(writeCompactJson(value));
 }
 
+QString constantsText(const Value& value) {
+    if (!value.isObject()) return fieldText(value);
+    QStringList entries;
+    for (const auto& [name, number] : value.asObject())
+        entries << QString::fromStdString(name) + QStringLiteral(" = ") + fieldText(number);
+    return entries.join(QStringLiteral(", "));
+}
+
+Value constantsFrom(const QString& text) {
+    Value constants{Value::Object{}};
+    if (text.trimmed().isEmpty()) return constants;
+    for (const QString& entry : text.split(',')) {
+        const qsizetype at = entry.indexOf('=');
+        const Value number = at < 0 ? Value() : numberOrExpression(entry.mid(at + 1));
+        if (number.isNull()) return text.toStdString();  // the scene's own check says what is wrong with it
+        constants.set(entry.left(at).trimmed().toStdString(), number);
+    }
+    return constants;
+}
+
 Value numbersOrExpressions(const QString& text) {
     Value::Array entries;
     for (const QString& entry : text.split(',')) entries.push_back(numberOrExpression(entry));

@@ -24,6 +24,9 @@ QString fieldText(const Value& value);
 Value numberOrExpression(const QString& text);
 /// An array of them from a text with commas.
 Value numbersOrExpressions(const QString& text);
+/// "a = 1, b = 2" for an object of numbers, and the opposite; what cannot be read stays a text.
+QString constantsText(const Value& value);
+Value constantsFrom(const QString& text);
 /// "Gauss" for "gauss".
 QString ruleTitle(const std::string& id);
 

@@ -28,10 +28,10 @@ FieldInfo numberField(std::string key, std::string title, std::string unit, doub
     return f;
 }
 
-/// Its parameters are named by the user, and have an editor of their own.
+/// Its coordinates are named by the user, and it has an editor of its own.
 bool isTyped(const ModelEntry& entry) {
     return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
-                       [](const FieldInfo& field) { return field.type == FieldType::constants; });
+                       [](const FieldInfo& field) { return field.type == FieldType::names; });
 }
 
 std::vector<FormField> parameterFields(const ModelEntry& entry) {

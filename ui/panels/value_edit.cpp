@@ -61,6 +61,7 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
         for (const std::string& component : info.components) names << QString::fromStdString(component);
         tip += tr("\nNumbers or expressions, separated by commas: %1.").arg(names.join(", "));
     }
+    if (info.type == FieldType::constants) tip += tr("\nNames and numbers, separated by commas: a = 1, b = 2.");
     input->setToolTip(tip.trimmed());
     input->setAccessibleName(QString::fromStdString(info.title));
     input->setObjectName("field." + QString::fromStdString(info.key));
@@ -83,6 +84,8 @@ void ValueEdit::submitText() {
         emit edited(Value(shown_.toStdString()));
     } else if (info_.type == FieldType::numbers) {
         emit edited(numbersOrExpressions(shown_));
+    } else if (info_.type == FieldType::constants) {
+        emit edited(constantsFrom(shown_));
     } else if (info_.type == FieldType::json) {
         try {
             emit edited(parseJson(shown_.toStdString()));
@@ -123,7 +126,7 @@ void ValueEdit::show(const Value& value) {
     if (spin_ && value.isNumber()) spin_->setValue(static_cast<int>(value.asNumber()));
     if (choice_) choice_->setCurrentText(fieldText(value));
     if (!text_) return;
-    const QString text = fieldText(value);
+    const QString text = info_.type == FieldType::constants ? constantsText(value) : fieldText(value);
     const bool isTyping = text_->hasFocus() && text_->text() != shown_;
     if (isTyping || text == text_->text()) {
         if (!isTyping) shown_ = text;

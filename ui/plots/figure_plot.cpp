@@ -126,7 +126,6 @@ void FigurePlot::prepare(QSize size) {
     for (QCPAxis* axis : {&x, &y}) {
         axis->setTicks(s.figure.hasTicks);
         axis->setTickLabels(s.figure.hasTicks);
-        axis->grid()->setVisible(s.figure.hasTicks);
         if (!s.figure.hasTicks) axis->setBasePen(Qt::NoPen);
     }
     x.setLabel(QString::fromStdString(s.figure.x.title));
@@ -150,8 +149,8 @@ void FigurePlot::prepare(QSize size) {
         };
         x.setTicker(ticker(s.figure.x, xRoom, x.range().size() / std::max(1.0, width)));
         y.setTicker(ticker(s.figure.y, yRoom, y.range().size() / std::max(1.0, height)));
-        x.grid()->setVisible(s.figure.x.ticks.empty());
-        y.grid()->setVisible(s.figure.y.ticks.empty());
+        x.grid()->setVisible(s.figure.hasTicks && s.figure.x.ticks.empty());
+        y.grid()->setVisible(s.figure.hasTicks && s.figure.y.ticks.empty());
         s.plot.plotLayout()->update(QCPLayoutElement::upPreparation);
         s.plot.plotLayout()->update(QCPLayoutElement::upMargins);
         s.plot.plotLayout()->update(QCPLayoutElement::upLayout);

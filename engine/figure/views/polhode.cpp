@@ -90,7 +90,9 @@ void addAxes(Figure& figure, const Eye& eye) {
         Three n{};
         n[i] = std::copysign(1.0, eye.towards[i]);
         const std::string sign = n[i] > 0 ? "" : "−";
-        figure.labels.push_back({1.1 * dot(eye.right, n), 1.1 * dot(eye.up, n), sign + names[i]});
+        // Beyond the end of the mark as it is seen, however much it points at the viewer.
+        const double x = dot(eye.right, n), y = dot(eye.up, n), away = 1.06 + 0.09 / std::max(std::hypot(x, y), 1e-3);
+        figure.labels.push_back({away * x, away * y, sign + names[i]});
         Guide axis;
         for (const double s : {1.0, 1.06}) {
             axis.x.push_back(s * dot(eye.right, n));
@@ -119,9 +121,14 @@ Figure make(const FigureContext& context) {
         return figure;
     }
     Three start{};
+    bool hasStart = false;
     for (const auto& scheme : context.comparison.schemes)
-        if (const auto p = momenta(*scheme); !p[0].empty() && dot(start, start) == 0) start = {p[0][0], p[1][0], p[2][0]};
+        if (const auto p = momenta(*scheme); !p[0].empty() && !hasStart) {
+            start = {p[0][0], p[1][0], p[2][0]};
+            hasStart = true;
+        }
     const double size = std::sqrt(dot(start, start));
+    if (hasStart && size == 0) figure.message = "The body starts at rest: it has no momentum";
     const Eye eye(start);
     const bool isFree = context.system->body.isFree();
     if (size > 0) {

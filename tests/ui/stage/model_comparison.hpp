@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/group/so3.hpp"
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
 
 namespace extremal::fake {
 
-/// The state (q, p) of scheme number k at time t.
+/// The state of scheme number k at time t.
 using Motion = std::function<std::vector<double>(int k, double t)>;
 
 struct Film {
@@ -33,7 +34,8 @@ inline std::shared_ptr<Comparison> comparison(const Film& film) {
     result->scene.observe = {"energy"};
     result->isFinished = true;
     const System system = findModel(film.model.type)->make(film.model);
-    const int d = system.dimension(), rows = static_cast<int>(std::lround(film.end / film.spacing));
+    const std::vector<Quantity> state = stateColumns(system);
+    const int rows = static_cast<int>(std::lround(film.end / film.spacing));
     for (int k = 0; k < static_cast<int>(film.labels.size()); ++k) {
         auto scheme = std::make_shared<SchemeResult>();
         scheme->style = k;
@@ -42,10 +44,7 @@ inline std::shared_ptr<Comparison> comparison(const Film& film) {
         scheme->summary.status = RunStatus::done;
         auto& columns = scheme->trajectory.columns;
         columns.push_back({"t", "t", system.timeUnit, {}});
-        for (const Coordinate& c : system.coordinates)
-            columns.push_back({"q." + c.name, c.symbol, c.unit, {}});
-        for (const Coordinate& c : system.coordinates)
-            columns.push_back({"p." + c.name, "p" + c.symbol, c.momentumUnit, {}});
+        for (const Quantity& q : state) columns.push_back({q.name, q.symbol, q.unit, {}});
         columns.push_back({"energy", "H", system.energyUnit, {}});
         columns.push_back({"energy_error", "H − H(0)", system.energyUnit, {}});
         for (int row = 0; row <= rows; ++row) {
@@ -59,7 +58,7 @@ inline std::shared_ptr<Comparison> comparison(const Film& film) {
             const std::vector<double> x = film.motion(k, t);
             columns[0].values.push_back(t);
             for (std::size_t c = 0; c < x.size(); ++c) columns[c + 1].values.push_back(x[c]);
-            const std::size_t energy = 1 + 2 * static_cast<std::size_t>(d);
+            const std::size_t energy = 1 + state.size();
             columns[energy].values.push_back(1);
             columns[energy + 1].values.push_back(1e-4 * std::pow(0.1, k) * std::sin(3 * t + k));
         }
@@ -121,6 +120,41 @@ inline Film oscillator() {
     film.labels = {"midpoint", "symplectic Euler"};
     film.motion = [](int k, double t) {
         return std::vector<double>{std::cos(t - 0.3 * k), -std::sin(t - 0.3 * k)};
+    };
+    return film;
+}
+
+/// A body that tumbles about an axis which itself turns; the second scheme lags behind.
+inline Film freeBody() {
+    Film film;
+    film.title = "Free rigid body";
+    film.model = settings("rigid-body", {{"inertia", Value::Array{1.0, 2.0, 3.0}}});
+    film.labels = {"Lie Gauss 4", "Moser-Veselov"};
+    film.motion = [](int k, double t) {
+        using Vector = so3::Vector<double>;
+        const double s = t - 0.25 * k;
+        const auto q = so3::product(so3::quaternionExp(Vector(0, 0.3, 0.5 * s)),
+                                    so3::quaternionExp(Vector(0.4 * std::cos(s), 0.4 * std::sin(s), 0.2)));
+        const Vector pi(0.3, 0.2, 1), Pi = so3::matrix(q).transpose() * pi;
+        return std::vector<double>{q(0), q(1), q(2), q(3), Pi(0), Pi(1), Pi(2), pi(0), pi(1), pi(2)};
+    };
+    return film;
+}
+/// A top that precesses, and nods as it does.
+inline Film heavyTop() {
+    Film film = freeBody();
+    film.title = "Heavy top";
+    film.model = settings("heavy-top", {{"inertia", Value::Array{1.0, 1.0, 0.5}},
+                                        {"weight", 1.0},
+                                        {"centre", Value::Array{0.0, 0.0, 1.0}}});
+    film.labels = {"Lie Gauss 4"};
+    film.motion = [](int, double t) {
+        using Vector = so3::Vector<double>;
+        const auto q = so3::product(so3::quaternionExp(Vector(0, 0, 0.6 * t)),
+                                    so3::product(so3::quaternionExp(Vector(0.7 + 0.1 * std::cos(4 * t), 0, 0)),
+                                                 so3::quaternionExp(Vector(0, 0, 5 * t))));
+        const Vector pi(0.2, 0.1, 2), Pi = so3::matrix(q).transpose() * pi;
+        return std::vector<double>{q(0), q(1), q(2), q(3), Pi(0), Pi(1), Pi(2), pi(0), pi(1), pi(2)};
     };
     return film;
 }

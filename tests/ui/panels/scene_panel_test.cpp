@@ -1,0 +1,62 @@
+/// The form of a model whose potential is typed, driven as a user does, in the whole window.
+#include <QLineEdit>
+#include <QTest>
+
+#include "ui/panels/format.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+class ScenePanelTest : public QObject {
+    Q_OBJECT
+
+    static void enter(QLineEdit* edit, const QString& text) {
+        edit->setFocus();
+        edit->selectAll();
+        QTest::keyClicks(edit, text);
+        QTest::keyClick(edit, Qt::Key_Return);
+    }
+
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void aPotentialAndItsConstantsAreFieldsOfTheForm() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:satellite");
+        QTest::qWait(300);
+        auto* potential = window.findChild<QLineEdit*>("field.potential");
+        auto* constants = window.findChild<QLineEdit*>("field.parameters");
+        QVERIFY(potential && potential->isVisible());
+        QVERIFY(constants && constants->isVisible());
+        QVERIFY(potential->text().startsWith("-mu*mass"));
+        QCOMPARE(constants->text(), QString("mu = 1"));
+        enter(constants, "mu = 1.2, k = 0.01");
+        const auto value = [&](const char* pointer) { return valueAt(window.workspace().document(), pointer); };
+        QCOMPARE(value("/model/parameters/mu")->asNumber(), 1.2);
+        QCOMPARE(value("/model/parameters/k")->asNumber(), 0.01);
+        enter(potential, "-mu*mass/sqrt(x^2+y^2+z^2) + k*R33");
+        QVERIFY(value("/model/potential")->asString().ends_with("k*R33"));
+        QVERIFY(!potential->property("invalid").toBool());
+        // What has no meaning is refused and marked; the scene stays as it was.
+        enter(potential, "-mu*mass/sqrt(x^2+y^2+z^2) + k*Q33");
+        QVERIFY(potential->property("invalid").toBool());
+        QVERIFY(value("/model/potential")->asString().ends_with("k*R33"));
+    }
+    void constantsAreReadAsTheyAreShown() {
+        const Value value = constantsFrom(" a=1 , b = 2e3,c = pi/2");
+        QCOMPARE(constantsText(value), QString("a = 1, b = 2000, c = pi/2"));
+        QVERIFY(constantsFrom("").isObject());
+        QVERIFY(constantsFrom("a = 1, b").isString());
+        QVERIFY(constantsFrom("a = ").isString());
+    }
+};
+
+}  // namespace extremal
+
+QTEST_MAIN(extremal::ScenePanelTest)
+#include "scene_panel_test.moc"

@@ -1,0 +1,88 @@
+/// The stage of bodies in space: it is seen from a corner, fills its picture and can be turned.
+#include <QMouseEvent>
+#include <QtTest>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/ui/stage/model_comparison.hpp"
+#include "ui/stage/stage_player.hpp"
+#include "ui/stage/stage_widget.hpp"
+#include "ui/stage/strokes.hpp"
+
+using namespace extremal;
+
+class SpatialStageTest : public QObject {
+    Q_OBJECT
+private slots:
+    void whatIsInSpaceFillsThePictureFromItsCorner() {
+        const StagePlayer player(fake::comparison(fake::freeBody()));
+        QVERIFY(player.isSpatial());
+        const Camera camera = player.fittedCamera(400, 300, 20);
+        QVERIFY(camera.azimuth != 0);
+        double widest = 0, highest = 0;
+        for (double t = 0; t < 10; t += 0.25) {
+            const StageFrame frame = player.frame(t, {});
+            std::vector<Shape> shapes = frame.scenery;
+            shapes.insert(shapes.end(), frame.layers[0].shapes.begin(), frame.layers[0].shapes.end());
+            for (const Shape& shape : shapes) {
+                std::vector<Point> points;
+                if (const auto* solid = std::get_if<Solid>(&shape)) points = solid->corners;
+                if (const auto* segment = std::get_if<Segment>(&shape)) points = {segment->a, segment->b};
+                for (const Point& p : points) {
+                    const Point seen = camera.project(p);
+                    widest = std::max(widest, std::abs(seen[0]));
+                    highest = std::max(highest, std::abs(seen[1]));
+                }
+            }
+        }
+        QVERIFY(widest <= 180.5 && highest <= 130.5);
+        QVERIFY(widest > 170 || highest > 120);  // one of the two is filled
+        QVERIFY(!StagePlayer(fake::comparison(fake::pendulum())).isSpatial());
+    }
+    void facesTurnedAwayAreNotFilled() {
+        // A box shows three faces of six: two triangles each, for the first scheme alone.
+        const StagePlayer player(fake::comparison(fake::freeBody()));
+        StageStyle style;
+        style.series = {rgb(0x0000ff), rgb(0xff0000)};
+        const StrokeList list = makeStrokes(player.frame(2, style), player.fittedCamera(400, 300, 20), 400, 300, 1);
+        QCOMPARE(list.fills.size(), std::size_t(3 * 2 * 3));
+        for (const FillCorner& corner : list.fills) QCOMPARE(corner.colour[2], 1.f);
+    }
+    void draggingTurnsItAndShiftMovesIt() {
+        StageWidget stage;
+        stage.resize(400, 300);
+        stage.setComparison(fake::comparison(fake::freeBody()));
+        stage.setTime(2);
+        const QImage whole = stage.grab().toImage();
+        const auto drag = [&](Qt::KeyboardModifiers keys) {
+            QTest::mousePress(&stage, Qt::LeftButton, keys, {150, 150});
+            // QTest::mouseMove knows no modifiers.
+            QMouseEvent move(QEvent::MouseMove, {190, 150}, stage.mapToGlobal(QPointF(190, 150)), Qt::NoButton,
+                             Qt::LeftButton, keys);
+            QCoreApplication::sendEvent(&stage, &move);
+            QTest::mouseRelease(&stage, Qt::LeftButton, keys, {190, 150});
+            const QImage after = stage.grab().toImage();
+            stage.fit();
+            return after;
+        };
+        const QImage turned = drag({}), moved = drag(Qt::ShiftModifier);
+        QVERIFY(turned != whole);
+        // Moved by 40 pixels it is the same picture; turned it is not.
+        const QRect part(60, 40, 280, 200);
+        const auto changed = [&](const QImage& image) {
+            int count = 0;
+            for (int y = part.top(); y <= part.bottom(); ++y)
+                for (int x = part.left(); x <= part.right(); ++x)
+                    count += std::abs(image.pixelColor(x + 40, y).lightness() - whole.pixelColor(x, y).lightness()) > 24;
+            return 100.0 * count / (part.width() * part.height());
+        };
+        qInfo("percent of the pixels that differ: moved %.2f, turned %.2f", changed(moved), changed(turned));
+        QVERIFY(changed(moved) < 0.3);
+        QVERIFY(changed(turned) > 1.5);
+        QCOMPARE(stage.grab().toImage(), whole);
+    }
+};
+
+QTEST_MAIN(SpatialStageTest)
+#include "spatial_stage_test.moc"
