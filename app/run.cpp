@@ -30,15 +30,15 @@ std::string order(const Summary& s) {
 
 std::string summaryTable(const Comparison& comparison) {
     Table table;
-    table.isRightAligned = {false, false, true, true, true, true, true, true, true, true};
+    table.isRightAligned = {false, false, true, true, true, true, true, true, true, true, false};
     table.rows.push_back({"scheme", "status", "steps", "cpu", "evaluations", "energy error", "momentum error",
-                          "max error", "final error", "order"});
+                          "max error", "final error", "order", "solver"});
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         table.rows.push_back({s.label, name(s.status), std::to_string(s.steps), duration(s.cpuSeconds),
                               std::to_string(s.evaluations), number(s.maxEnergyError),
                               number(s.maxMomentumError), number(s.maxError), number(s.finalError),
-                              order(s)});
+                              order(s), s.about});
     }
     // A column that no scheme fills says nothing.
     for (std::size_t c = table.rows[0].size(); c-- > 0;) {

@@ -170,7 +170,7 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
     fitAxis(figure.x, figure, &Series::x);
     fitAxis(figure.y, figure, &Series::y);
 
-    const bool hasPoints = std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
+    const bool hasPoints = figure.heat || std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
         return std::any_of(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });
     });
     if (!hasPoints && figure.message.empty()) {

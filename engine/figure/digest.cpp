@@ -53,6 +53,9 @@ std::string digest(const Figure& figure) {
                 (s.hasLine ? ", line" : "") + (s.isCells ? ", cells" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " +
                 nineDigits(maxMagnitude(s.y)) + "\n";
     }
+    if (figure.heat)
+        text += "heat " + std::to_string(figure.heat->columns) + " x " + std::to_string(figure.heat->rows) + ", " +
+                nineDigits(figure.heat->low) + " .. " + nineDigits(figure.heat->high) + ", " + hash(figure.heat->values) + "\n";
     for (const FailureMark& f : figure.failures)
         text += "failure " + std::to_string(f.style) + " " + f.label + ": " + f.text + ", " + nineDigits(f.x) + "\n";
     if (figure.floor) text += "floor " + nineDigits(*figure.floor) + "\n";

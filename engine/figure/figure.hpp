@@ -44,6 +44,15 @@ struct Label {
     std::string text;
 };
 
+/// A field as colours over a rectangle: columns from left to right, each from the bottom up.
+struct HeatMap {
+    double left = 0, right = 1, bottom = 0, top = 1;
+    int columns = 0, rows = 0;
+    double low = 0, high = 1;    ///< of the values; below and above them colours stay
+    std::vector<double> values;  ///< value (row, column) at column * rows + row; NaN is a gap
+    std::vector<double> hues;    ///< the colour in turns, of values that have a phase; empty: one scale for all
+};
+
 /// A scheme that ended early: where, and why.
 struct FailureMark {
     std::string label;
@@ -58,6 +67,7 @@ struct Figure {
     std::string subtitle;  ///< muted: "bounded: 3 of 4"
     Axis x, y;
     std::vector<Series> series;
+    std::optional<HeatMap> heat;  ///< behind the series
     std::vector<FailureMark> failures;
     std::vector<Guide> guides;
     std::vector<Label> labels;

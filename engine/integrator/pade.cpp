@@ -1,5 +1,7 @@
 #include "engine/integrator/pade.hpp"
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,17 +12,21 @@
 namespace extremal {
 namespace {
 
-using Wide = __float128;
+using Quad = __float128;
+/// The zeros lose 0.6 digits for each degree: up to 24 quadruple precision is enough, and fast.
+using Long = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>, boost::multiprecision::et_off>;
+constexpr int mostForQuad = 24;
 
-/// Complex numbers in quadruple precision: as much as is needed here.
+/// Complex numbers in more than double precision: as much as is needed here.
+template <class Wide>
 struct WideComplex {
     Wide re = 0, im = 0;
-    friend WideComplex operator+(WideComplex a, WideComplex b) { return {a.re + b.re, a.im + b.im}; }
-    friend WideComplex operator-(WideComplex a, WideComplex b) { return {a.re - b.re, a.im - b.im}; }
-    friend WideComplex operator*(WideComplex a, WideComplex b) {
+    friend WideComplex operator+(const WideComplex& a, const WideComplex& b) { return {a.re + b.re, a.im + b.im}; }
+    friend WideComplex operator-(const WideComplex& a, const WideComplex& b) { return {a.re - b.re, a.im - b.im}; }
+    friend WideComplex operator*(const WideComplex& a, const WideComplex& b) {
         return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
     }
-    friend WideComplex operator/(WideComplex a, WideComplex b) {
+    friend WideComplex operator/(const WideComplex& a, const WideComplex& b) {
         const Wide d = b.re * b.re + b.im * b.im;
         return {(a.re * b.re + a.im * b.im) / d, (a.im * b.re - a.re * b.im) / d};
     }
@@ -28,45 +34,53 @@ struct WideComplex {
     std::complex<double> rounded() const { return {static_cast<double>(re), static_cast<double>(im)}; }
 };
 
-/// All zeros at once by Aberth's iteration, on sum_j a_j z^j.
-std::vector<WideComplex> zerosOf(const std::vector<Wide>& a) {
-    const std::size_t s = a.size() - 1;
-    std::vector<WideComplex> z(s);
+/// All zeros of Q_s at once by Aberth's iteration. Q_s(z) is, up to a factor, the reverse Bessel polynomial theta_s(x) at
+/// x = -z/2, theta_n = (2n - 1) theta_{n-1} + x^2 theta_{n-2}: the sum of powers would lose all digits from s = 40 on.
+template <class Wide>
+std::vector<WideComplex<Wide>> zerosOf(std::size_t s) {
+    using Number = WideComplex<Wide>;
+    std::vector<Number> x(s);
     for (std::size_t j = 0; j < s; ++j) {
-        // On an arc of the right half-plane, where they are known to be; off symmetry, so that no two move alike.
+        // On an arc of the left half-plane, where they are known to be; off symmetry, so that no two move alike.
         const double angle = 2.2 * ((static_cast<double>(j) + 0.4) / static_cast<double>(s) - 0.5);
-        z[j] = {1.2 * static_cast<double>(s) * std::cos(angle) + 1, 1.2 * static_cast<double>(s) * std::sin(angle)};
+        x[j] = {-0.6 * static_cast<double>(s) * std::cos(angle) - 0.5, -0.6 * static_cast<double>(s) * std::sin(angle)};
     }
+    double last = 1e300;
     for (int iteration = 0; iteration < 400; ++iteration) {
         double largest = 0;
         for (std::size_t j = 0; j < s; ++j) {
-            WideComplex p{a[s], 0}, dp{};
-            for (std::size_t k = s; k-- > 0;) {
-                dp = dp * z[j] + p;
-                p = p * z[j] + WideComplex{a[k], 0};
+            const Number square = x[j] * x[j], twice = x[j] + x[j];
+            Number before{1, 0}, now = x[j] + Number{1, 0}, slopeBefore{}, slope{1, 0};
+            for (std::size_t n = 2; n <= s; ++n) {
+                const Number odd{Wide(static_cast<double>(2 * n - 1)), 0};
+                const Number next = odd * now + square * before;
+                const Number nextSlope = odd * slope + square * slopeBefore + twice * before;
+                before = now;
+                now = next;
+                slopeBefore = slope;
+                slope = nextSlope;
             }
-            const WideComplex newton = p / dp;
-            WideComplex repulsion;
+            const Number newton = now / slope;
+            Number repulsion;
             for (std::size_t m = 0; m < s; ++m)
-                if (m != j) repulsion = repulsion + WideComplex{1, 0} / (z[j] - z[m]);
-            const WideComplex move = newton / (WideComplex{1, 0} - newton * repulsion);
-            z[j] = z[j] - move;
+                if (m != j) repulsion = repulsion + Number{1, 0} / (x[j] - x[m]);
+            const Number move = newton / (Number{1, 0} - newton * repulsion);
+            x[j] = x[j] - move;
             largest = std::max(largest, std::abs(move.rounded()));
         }
-        if (largest < 1e-28) break;
+        if (largest < 1e-15 && largest > 0.5 * last) break;  // round-off
+        last = largest;
     }
-    return z;
+    for (Number& value : x) value = Number{-2, 0} * value;
+    return x;
 }
 
-std::vector<WideComplex> wideZeros(int s) {
-    std::vector<Wide> a(static_cast<std::size_t>(s) + 1);
-    a[0] = 1;
-    for (int j = 0; j < s; ++j)  // ratio of consecutive coefficients
-        a[static_cast<std::size_t>(j) + 1] = -a[static_cast<std::size_t>(j)] * (s - j) / (static_cast<Wide>(2 * s - j) * (j + 1));
-    std::vector<WideComplex> z = zerosOf(a), ordered;
-    std::sort(z.begin(), z.end(), [](const WideComplex& x, const WideComplex& y) { return x.im > y.im; });
-    // Pairs from the real axis outwards; exact conjugates of each other.
+/// Pairs from the real axis outwards, exact conjugates of each other, then the real one of odd degrees.
+template <class Wide>
+std::vector<WideComplex<Wide>> orderedZeros(int s) {
     const auto size = static_cast<std::size_t>(s);
+    std::vector<WideComplex<Wide>> z = zerosOf<Wide>(size), ordered;
+    std::sort(z.begin(), z.end(), [](const auto& a, const auto& b) { return a.im > b.im; });
     for (std::size_t j = size / 2; j-- > 0;) {
         ordered.push_back(z[j]);
         ordered.push_back(z[j].conjugate());
@@ -75,38 +89,15 @@ std::vector<WideComplex> wideZeros(int s) {
     return ordered;
 }
 
-struct Known {
-    std::vector<WideComplex> wide;
-    std::vector<std::complex<double>> zeros;
-};
-
-const Known& known(int s) {
-    static std::array<Known, 65> all;
-    static std::mutex mutex;
-    const std::lock_guard lock(mutex);
-    Known& k = all.at(static_cast<std::size_t>(s));
-    if (k.wide.empty()) {
-        k.wide = wideZeros(s);
-        for (const WideComplex& z : k.wide) k.zeros.push_back(z.rounded());
-    }
-    return k;
-}
-
-}  // namespace
-
-const std::vector<std::complex<double>>& padeZeros(int s) { return known(s).zeros; }
-
-namespace {
-
-std::vector<PoleGroup> makeGroups(int s, int together) {
-    const std::vector<WideComplex>& zeros = known(s).wide;
+template <class Wide>
+std::vector<PoleGroup> makeGroups(const std::vector<WideComplex<Wide>>& zeros, int together) {
     std::vector<PoleGroup> groups;
     for (std::size_t first = 0; first < zeros.size();) {
         const std::size_t count = std::min(static_cast<std::size_t>(together), zeros.size() - first);
         PoleGroup g;
         for (std::size_t j = 0; j < count; ++j) {
-            const WideComplex zeta = zeros[first + j];
-            WideComplex r{1, 0};
+            const WideComplex<Wide> zeta = zeros[first + j];
+            WideComplex<Wide> r{1, 0};
             for (std::size_t m = 0; m < count; ++m) {
                 r = r * (zeros[first + m].conjugate() + zeta);
                 if (m != j) r = r / (zeros[first + m] - zeta);
@@ -121,16 +112,30 @@ std::vector<PoleGroup> makeGroups(int s, int together) {
     return groups;
 }
 
-}  // namespace
+/// What is known of a degree: its zeros, and their groups of 1, 2 and 4.
+struct Known {
+    std::vector<std::complex<double>> zeros;
+    std::map<int, std::vector<PoleGroup>> groups;
+};
 
-const std::vector<PoleGroup>& padeGroups(int s, int together) {
-    static std::map<std::pair<int, int>, std::vector<PoleGroup>> all;
+const Known& known(int s) {
+    static std::array<Known, 65> all;
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
-    auto& groups = all[{s, together}];
-    if (groups.empty()) groups = makeGroups(s, together);
-    return groups;
+    Known& k = all.at(static_cast<std::size_t>(s));
+    const auto fill = [&](const auto& zeros) {
+        for (const auto& z : zeros) k.zeros.push_back(z.rounded());
+        for (const int count : {1, 2, 4}) k.groups[count] = makeGroups(zeros, count);
+    };
+    if (k.zeros.empty()) s <= mostForQuad ? fill(orderedZeros<Quad>(s)) : fill(orderedZeros<Long>(s));
+    return k;
 }
+
+}  // namespace
+
+const std::vector<std::complex<double>>& padeZeros(int s) { return known(s).zeros; }
+
+const std::vector<PoleGroup>& padeGroups(int s, int together) { return known(s).groups.at(together); }
 
 std::complex<double> padeTurn(int s, double y) {
     // The phases of the factors add up; their moduli are 1.

@@ -26,7 +26,7 @@ struct PoleGroup {
 /// The zeros for degree s, 1 <= s <= 64: conjugate pairs together, then a real one where s is odd. Good to round-off.
 const std::vector<std::complex<double>>& padeZeros(int s);
 
-/// The factors in groups of at most `together` (1: one after the other).
+/// The factors in groups of at most `together`: 1 (one after the other), 2 or 4.
 const std::vector<PoleGroup>& padeGroups(int s, int together);
 
 /// R_s(-i y) for real y: a number of modulus 1.

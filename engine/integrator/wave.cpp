@@ -6,6 +6,8 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/wave_collocation.hpp"
+#include "engine/integrator/wave_slabs.hpp"
 #include "engine/integrator/wave_step.hpp"
 #include "engine/integrator/wave_three_level.hpp"
 #include "engine/quadrature/rule.hpp"
@@ -26,14 +28,15 @@ double shiftOf(const Settings& space) {
 /// Microseconds of one transform there and back.
 double transforms(double n) { return 0.0006 * n * std::log2(n); }
 
+/// Measured on one machine at N = 256 and 512; it is the ratios that choose.
 double costOf(WaveSolver solver, const Hamiltonian& h, int degree, double step) {
-    const double n = h.size(), s = degree;
-    if (solver == WaveSolver::banded) return 0.0035 * n * s * std::max(1, h.harmonics()) + 0.002 * n;
-    if (solver == WaveSolver::dense) return 0.0006 * n * n + transforms(n);
+    const double n = h.size(), s = degree, band = std::max(1, h.harmonics());
+    if (solver == WaveSolver::banded) return 0.0018 * n * s * (band > 1 ? 1.6 * band : 1) + 0.003 * n;
+    if (solver == WaveSolver::dense) return 0.00035 * n * n + transforms(n);
     // Iterations grow with the part of the potential that the preconditioner does not see.
     const auto [low, high] = std::minmax_element(h.potential().begin(), h.potential().end());
     const double strength = step * (*high - *low) / (2 * h.hbar() * s);
-    return s * (5 + 8 * std::sqrt(strength)) * (transforms(n) + 0.01 * n);
+    return s * (5 + 8 * std::sqrt(strength)) * (transforms(n) + 0.018 * n);
 }
 
 void checkSolver(WaveSolver solver, const Hamiltonian& h) {
@@ -111,16 +114,13 @@ double waveFrequency(const System& system, const Settings& space, const State& s
     return std::max(std::abs(low - shift), std::abs(high - shift)) / h.hbar();
 }
 
-std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
-    if (!system.hasWave())
-        throw InvalidScene("/space/type", pair.space.type + " needs a wave function, and " + system.id + " has none",
-                           "another space: extremal list spaces");
+namespace {
+
+std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& pair, const Clock& clock, WaveSolver solver) {
     const int degree = pair.space.integer("degree");
     const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
-    if (system.wave->isTimeDependent())
-        throw InvalidScene("/space/type", pair.space.type + " needs a potential that does not depend on t",
-                           "a baseline: extremal list baselines");
-    const WaveSolver solver = planWave(system, pair.space, pair.solver, clock.step).solver;
+    if (system.wave->isTimeDependent() && pair.space.text("form") == "three-level")
+        throw InvalidScene("/space/form", "three-level needs a potential that does not depend on t", "one-step");
     const int iterations = pair.solver.integer("max_iterations") > 0 ? pair.solver.integer("max_iterations") : 600;
     const double tolerance = given > 0 ? given : 1e-14;
     if (pair.space.text("form") == "three-level") {
@@ -131,6 +131,9 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
                                                           : start == "exact" ? WaveStart::exact : WaveStart::gauss,
                                    solver, tolerance, iterations});
     }
+    // A potential that depends on time has no factors: its stages are solved together.
+    if (system.wave->isTimeDependent())
+        return makeCollocationWave(system.wave, clock, shift, gauss<double>(degree), tolerance, iterations);
     switch (solver) {
         case WaveSolver::banded:
             // Pairs keep the norm to round-off; fours are faster, and good to 1e-11 or so.
@@ -143,6 +146,27 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
     return makeKrylovWave(system.wave, clock, shift, degree, tolerance, iterations);
 }
 
+}  // namespace
+
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+    if (!system.hasWave())
+        throw InvalidScene("/space/type", pair.space.type + " needs a wave function, and " + system.id + " has none",
+                           "another space: extremal list spaces");
+    const int slabs = std::max(1, pair.space.integer("slabs"));
+    const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
+    const auto make = [system, pair, plan, slabs](const Clock& of) -> std::unique_ptr<Integrator> {
+        const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
+        auto step = isChebyshev ? makeCollocationWave(system.wave, of, std::numeric_limits<double>::quiet_NaN(),
+                                                      chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
+                                : makeWave(system, pair, of, plan.solver);
+        step->setAbout(isChebyshev ? "all stages together by GMRES"
+                                   : std::string(name(plan.solver)) + (plan.isForced ? " as wanted, about " : ", about ") +
+                                         formatNumber(slabs * plan.microseconds, 2) + " µs a step");
+        return step;
+    };
+    return slabs > 1 ? makeSlabs(make, clock, slabs) : make(clock);
+}
+
 PairProperties describeWave(const Settings& space, const Settings& quadrature) {
     PairProperties p;
     const int s = space.integer("degree");
@@ -152,6 +176,14 @@ PairProperties describeWave(const Settings& space, const Settings& quadrature) {
     p.shortName = "G" + std::to_string(2 * s);
     p.knownAs = s == 1 ? "Crank-Nicolson" : "";
     p.stabilityLimit = std::numeric_limits<double>::infinity();
+    if (space.text("time_basis") == "chebyshev") {
+        // The interpolatory rule of s symmetric nodes; as a space it is tested at its own nodes, whatever the rule.
+        p.claims.order = s + s % 2;
+        p.curveOrder = s;
+        p.claims.conserves = {"norm"};
+        p.claims.isSymplectic = false;
+        p.shortName = "C" + std::to_string(p.claims.order);
+    }
     const bool isGauss = quadrature.type == "gauss" && quadrature.integer("nodes") == s && quadrature.integer("panels") <= 1;
     if (!isGauss) {
         p.refusal = "the one-step form of degree " + std::to_string(s) + " takes Gauss with " + std::to_string(s) +

@@ -10,7 +10,8 @@
 ///     banded   elimination in Fourier space, where V has few harmonics (solve/banded_poles.hpp)
 ///     dense    the eigenstates of H, once; N <= 512
 ///     krylov   GMRES with two transforms an iteration, preconditioned by the kinetic part; any V
-/// A potential that depends on time couples the stages of the Gauss nodes: it has no factors, and is refused.
+/// A potential that depends on time couples the stages of the Gauss nodes: it has no factors, and krylov solves for all of them
+/// together (integrator/wave_collocation.hpp).
 #pragma once
 
 #include <memory>
@@ -42,6 +43,6 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
 
 /// What is known of a pair with the space fourier before it runs.
 PairProperties describeWave(const Settings& space, const Settings& quadrature);
-inline bool isWaveSpace(const Settings& space) { return space.type == "fourier"; }
+inline bool isWaveSpace(const Settings& space) { return space.type == "fourier" || space.type == "space-time"; }
 
 }  // namespace extremal

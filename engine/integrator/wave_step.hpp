@@ -4,7 +4,8 @@
 /// out last, v goes on as it is: the phase is computed from t at every node. Internal to engine/integrator.
 #pragma once
 
-#include <functional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/integrator/integrator.hpp"
@@ -20,12 +21,14 @@ public:
     StepReport advance(State& state) final;
     /// A shorter step from the state before: as accurate as the scheme itself. Makes it on first use.
     void curve(double tau, std::span<double> x) const override;
+    /// Also called when the state was replaced from outside: what is remembered of the last step no longer belongs to it.
+    void restart() override {}
+    std::string about() const override { return about_; }
+    void setAbout(std::string about) { about_ = std::move(about); }
 
 protected:
     /// Called once, when the shift is known.
     virtual void prepare() {}
-    /// Called when v was replaced from outside: what is remembered of the last step no longer belongs to it.
-    virtual void restart() {}
     /// v(t) -> v(t + dt).
     virtual void step(double t, Complex* v, StepReport& report) = 0;
     /// The same scheme with another step.
@@ -46,6 +49,7 @@ private:
     std::vector<Complex> v_, before_;
     std::vector<double> handedOut_;
     double startTime_ = 0;
+    std::string about_;
 };
 
 /// The three ways. Groups of `together` poles: 1, 2 or 4.

@@ -42,7 +42,12 @@ struct Word {  ///< the name of an axis, in the middle of this place; of bodies 
     std::string text;
     ShapeRole role = ShapeRole::scenery;
 };
-using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word>;
+struct Curtain {  ///< a field over a line: the area between its curve and the ground
+    std::vector<Point> top;
+    double ground = 0;         ///< y of the ground
+    std::vector<double> hues;  ///< colours along the curve, in turns; empty: that of the scheme
+};
+using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word, Curtain>;
 
 /// One state of one scheme as shapes, and the point whose path makes the trail.
 struct Drawing {

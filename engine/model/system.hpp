@@ -106,7 +106,7 @@ struct System {
     std::vector<MomentumMap> momenta;
     /// Makes the exact solution through the initial state (t, x), or returns an empty function where there is none.
     std::function<ExactSolution(const State& initial)> exact;
-    /// Shapes of one state, for the stage.
+    /// Shapes of one state, for the stage; of a field, x is a sample of it (FieldSampling).
     std::function<void(const double* x, Drawing& drawing)> draw;
     bool isSpatial = false;  ///< the drawing fills space: seen from a corner, and turned by dragging
     /// The default phase portrait and trajectory: names of state columns.

@@ -45,6 +45,7 @@ struct Summary {
     int orderClaimed = 0;          ///< 0: no claim
     double orderMeasured = unknown;
     std::string advice;            ///< after a failure: what to try; for the window, not exported
+    std::string about;             ///< how the scheme solves its equations, where that was a choice; not exported
     std::string caution;           ///< what is doubtful in a result that looks sound ("under-resolved: .."); not exported
 };
 

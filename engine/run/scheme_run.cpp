@@ -104,6 +104,7 @@ struct SchemeRun::Pass {
         stateWidth = result.trajectory.columns.size() - 1;
         integrator = makeScheme(system, spec, step, initial.t, scene.end.value);
         integrator->setStop(stop);
+        result.summary.about = integrator->about();
         bindObservers(reference, observe, initial);
     }
 

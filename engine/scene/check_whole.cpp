@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/wave.hpp"
@@ -59,6 +60,9 @@ void checkStability(Reader& reader, const System& system, const Scene& scene, co
 /// Three-level schemes of wave functions: known exactly, so a step beyond the limit is not a doubt but an error.
 void checkWaveStep(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                    const std::optional<Discretization>& pair, double stabilityLimit, const std::string& pointer) {
+    // Split-step is unitary: the limit of a splitting is that of mechanics.
+    const BaselineEntry* baseline = findBaseline(scheme.baseline.type);
+    if (baseline && claimsOf(*baseline, scheme.baseline).conserves != std::vector<std::string>{"bilinear form"}) return;
     if (std::isinf(stabilityLimit) || !(stabilityLimit > 0)) return;
     const Settings unshifted{"fourier", {{"energy_shift", 0.0}}, {}};
     const double frequency = waveFrequency(system, pair ? pair->space : unshifted, initialState(scene, system));

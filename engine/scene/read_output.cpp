@@ -218,8 +218,8 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             view.scheme = reader.text(*label, at).value_or("");
             std::vector<std::string> labels;
             for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
-            if (view.id != "sparsity")
-                reader.error(at, "is only for pictures of one scheme", "the view sparsity");
+            if (view.id != "sparsity" && view.id != "carpet")
+                reader.error(at, "is only for pictures of one scheme", "the views sparsity and carpet");
             else if (label->isString() && reader.errors.empty() && !contains(labels, view.scheme))
                 reader.unknownName(at, "scheme", view.scheme, labels);
         }

@@ -39,6 +39,11 @@ public:
     /// Coefficients of V: V(x_j) = sum_a Vhat_a exp(2 pi i a j/N), in FFT order.
     const std::vector<Complex>& potentialHarmonics() const { return Vhat_; }
 
+    /// The same operator on another grid.
+    std::shared_ptr<const Hamiltonian> withModes(int n) const {
+        return std::make_shared<const Hamiltonian>(n, domain_, hbar_, mass_, potential_);
+    }
+
     /// out = H c with these values of V.
     void apply(const double* V, const Complex* c, Complex* out, Complex* work) const;
     /// <H>/<1> at t.

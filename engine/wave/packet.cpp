@@ -86,9 +86,23 @@ std::vector<Complex> eigenstate(const Context& context, const Value& psi) {
         throw InvalidScene(context.pointer + "/n",
                            "must be a whole number from 0 to " + std::to_string(limit / 2 - 1) + ", got " + formatNumber(n));
     if (h.size() <= limit) return Eigenstates::of(context.hamiltonian)->coefficients(static_cast<int>(n));
-    throw InvalidScene(context.pointer, "eigenstates are computed up to " + std::to_string(limit) + " modes, got " +
-                                            std::to_string(h.size()),
-                       "fewer modes, or another packet");
+    // From the finest grid that is small enough, if the state is resolved there: then more modes do not change it.
+    const auto coarse = h.withModes(limit);
+    const std::vector<Complex> found = Eigenstates::of(coarse)->coefficients(static_cast<int>(n));
+    const auto size = static_cast<std::size_t>(h.size());
+    std::vector<Complex> c(size), Hc(size), work(size);
+    for (int i = 0; i < limit; ++i) {
+        const int a = coarse->fourier().number(i);
+        c[static_cast<std::size_t>(a >= 0 ? a : h.size() + a)] = found[static_cast<std::size_t>(i)];
+    }
+    h.apply(h.potential().data(), c.data(), Hc.data(), work.data());
+    const double E = innerProduct(c.data(), Hc.data(), h.size()).real();
+    double residual = 0;
+    for (std::size_t i = 0; i < size; ++i) residual += std::norm(Hc[i] - E * c[i]);
+    if (std::sqrt(residual) > 1e-6 * (1 + std::abs(E)))
+        throw InvalidScene(context.pointer, "state " + formatNumber(n) + " is not resolved by " + std::to_string(limit) +
+                                                " modes, up to which eigenstates are computed", "another packet");
+    return c;
 }
 
 std::vector<Complex> packet(const Context& context, const Value& psi, const std::string& name) {

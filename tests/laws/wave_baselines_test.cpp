@@ -1,6 +1,7 @@
 /// Split-step methods and series for wave functions: orders, errors, norms; with a potential that depends on time.
 #include <QTest>
 
+#include "engine/scene/codec.hpp"
 #include "tests/laws/waves.hpp"
 
 namespace extremal::laws {
@@ -85,6 +86,16 @@ private slots:
             const State end = run(id, system, start, 10, 1000);
             QVERIFY(std::abs(std::sqrt(squaredNorm(coefficients(end.x.data()), 256)) - 1) < 1e-12);
         }
+    }
+    void splitStepHasNoLimit() {
+        // The limit that its table has on the oscillator is none of the Schroedinger equation.
+        const char* scene = R"~({"extremal":1,"model":{"type":"schrodinger","potential":"50*(1 - cos(x))","modes":128},
+            "initial":{"psi":{"packet":"gaussian"}},"time":{"end":1},"schemes":[{"baseline":"srkn-14a","step":0.1},
+            {"baseline":"strang","step":0.1},{"baseline":"crank-nicolson","step":0.1}]})~";
+        const ReadScene read = readScene(std::string_view(scene));
+        QVERIFY(read.errors.empty() && read.warnings.empty());
+        ReadScene leapfrog = readScene(std::string_view(scene), {{"/schemes/0/baseline", "leapfrog"}});
+        QCOMPARE(leapfrog.errors.size(), std::size_t{1});
     }
     void aStepFromAnotherStateForgetsTheLastOne() {
         // Kicks at both ends keep the values at the nodes: not those of another state.

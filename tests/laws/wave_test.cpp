@@ -72,6 +72,7 @@ private slots:
         const auto& eight = padeZeros(8);
         QVERIFY(std::abs(eight[0] - std::complex<double>(11.1757720865261704, 1.73522889070557292)) < 4e-15);
         QVERIFY(std::abs(eight[7] - std::complex<double>(5.67796789779526095, -12.7078225972097536)) < 4e-15);
+        QVERIFY(std::abs(padeZeros(64)[0] - std::complex<double>(85.481943292945357, 1.7355178898121834)) < 4e-14);
         // The turn of every degree is exp(-iy) to order 2s: |R - exp| ~ y^(2s+1).
         for (int s = 1; s <= 16; ++s) {
             const auto error = [s](double y) { return std::abs(padeTurn(s, y) - std::polar(1.0, -y)); };

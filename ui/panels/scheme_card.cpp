@@ -166,6 +166,8 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
     figures_->setVisible(result != nullptr);
     progress_->setVisible(isRunning && !isStale);
     if (result) progress_->setValue(static_cast<int>(1000 * result->fraction));
+    if (result && !summary.about.empty())
+        parts_->setText(schemeText(result->spec) + QStringLiteral(" · ") + QString::fromStdString(summary.about));
     cost_.value->setText(summary.cpuSeconds > 0 ? shortTime(summary.cpuSeconds) : QStringLiteral("–"));
     error_.value->setText(shortNumber(summary.maxError));
     QString order = summary.orderClaimed > 0 ? QString::number(summary.orderClaimed) : QStringLiteral("–");

@@ -1,10 +1,12 @@
 #include "ui/plots/plot_layers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/sample.hpp"
+#include "ui/plots/phase_colour.hpp"
 
 namespace extremal {
 
@@ -79,6 +81,7 @@ void drawCross(QCPPainter& painter, QPointF at) {
 
 void CurvesLayer::draw(QCPPainter* painter) {
     const PixelMap map = shared_.map();
+    drawHeat(*painter, map);
     drawFloor(*painter, map);
     drawGuides(*painter, map);
     const Series* highlighted = nullptr;
@@ -88,6 +91,39 @@ void CurvesLayer::draw(QCPPainter* painter) {
         else drawSeries(*painter, map, s);
     }
     if (highlighted) drawSeries(*painter, map, *highlighted);
+}
+
+/// One pixel a cell, stretched: from the ground of the plot at `low` to full colour at `high`.
+void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
+    const auto& heat = shared_.figure.heat;
+    if (!heat || heat->columns <= 0 || heat->rows <= 0) return;
+    QImage image(heat->columns, heat->rows, QImage::Format_RGB32);
+    const QColor ground = shared_.theme.panel, accent = shared_.theme.accent, other = shared_.theme.series(1).color;
+    for (int column = 0; column < heat->columns; ++column)
+        for (int row = 0; row < heat->rows; ++row) {
+            const auto i = static_cast<std::size_t>(column * heat->rows + row);
+            const double value = heat->values[i];
+            QRgb pixel = ground.rgb();
+            if (std::isfinite(value) && heat->high > heat->low) {
+                // Fields of both signs fade to the ground at zero.
+                const bool isSigned = heat->low < 0;
+                const double part = isSigned ? std::min(1.0, std::abs(value) / heat->high)
+                                             : std::clamp((value - heat->low) / (heat->high - heat->low), 0.0, 1.0);
+                std::array<double, 3> full{accent.redF(), accent.greenF(), accent.blueF()};
+                if (isSigned && value < 0) full = {other.redF(), other.greenF(), other.blueF()};
+                if (!heat->hues.empty()) full = phaseColour(heat->hues[i]);
+                const double strength = std::sqrt(part);
+                const auto mix = [&](double from, double to) {
+                    return static_cast<int>(std::lround(255 * (from + strength * (to - from))));
+                };
+                pixel = qRgb(mix(ground.redF(), full[0]), mix(ground.greenF(), full[1]), mix(ground.blueF(), full[2]));
+            }
+            image.setPixel(column, heat->rows - 1 - row, pixel);
+        }
+    painter.setRenderHint(QPainter::SmoothPixmapTransform, true);
+    painter.setOpacity(shared_.isStale ? 0.4 : 1);
+    painter.drawImage(QRectF(map(heat->left, heat->top), map(heat->right, heat->bottom)), image);
+    painter.setOpacity(1);
 }
 
 void CurvesLayer::drawFloor(QCPPainter& painter, const PixelMap& map) const {

@@ -35,6 +35,7 @@ protected:
     void draw(QCPPainter* painter) override;
 
 private:
+    void drawHeat(QCPPainter& painter, const PixelMap& map) const;
     void drawFloor(QCPPainter& painter, const PixelMap& map) const;
     void drawGuides(QCPPainter& painter, const PixelMap& map) const;
     void drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const;

@@ -32,6 +32,8 @@ void addExtent(const Shape& shape, std::vector<Point>& points) {
     if (const auto* disc = std::get_if<Disc>(&shape)) points.push_back(disc->centre);
     if (const auto* solid = std::get_if<Solid>(&shape))
         points.insert(points.end(), solid->corners.begin(), solid->corners.end());
+    if (const auto* curtain = std::get_if<Curtain>(&shape))
+        points.insert(points.end(), curtain->top.begin(), curtain->top.end());
     if (const auto* support = std::get_if<Support>(&shape)) {
         Point left = support->centre, right = support->centre;
         left[0] -= support->width / 2;
@@ -45,7 +47,7 @@ bool isScenery(const Shape& shape) {
     if (const auto* spring = std::get_if<Spring>(&shape)) return spring->role == ShapeRole::scenery;
     if (const auto* disc = std::get_if<Disc>(&shape)) return disc->role == ShapeRole::scenery;
     if (const auto* word = std::get_if<Word>(&shape)) return word->role == ShapeRole::scenery;
-    if (std::holds_alternative<Solid>(shape)) return false;
+    if (std::holds_alternative<Solid>(shape) || std::holds_alternative<Curtain>(shape)) return false;
     return true;
 }
 
@@ -127,6 +129,16 @@ void StagePlayer::prepare() {
 
 void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
     if (!result) return;
+    if (system_.field) {
+        if (result->frames.empty()) return;
+        Track track;
+        track.result = result;
+        for (const Frame& frame : result->frames) track.frameTimes.push_back(frame.t);
+        track.t = track.frameTimes;
+        track.hasFailed = result->summary.status == RunStatus::failed;
+        tracks_.push_back(std::move(track));  // the times stay where they are
+        return;
+    }
     const auto& columns = result->trajectory.columns;
     const std::size_t width = stateColumns(system_).size();
     if (columns.size() < 1 + width) return;
@@ -147,6 +159,10 @@ void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
 }
 
 void StagePlayer::rowState(const Track& track, std::size_t row, std::vector<double>& x) const {
+    if (!track.frameTimes.empty()) {
+        x = *track.result->frames[row].values;
+        return;
+    }
     x.resize(track.state.size());
     for (std::size_t c = 0; c < x.size(); ++c) x[c] = track.state[c][row];
 }
@@ -218,6 +234,7 @@ bool StagePlayer::stateBetween(const Track& track, std::size_t row, double t, st
     std::vector<double> x0, x1, v0(n), v1(n);
     rowState(track, row, x0);
     rowState(track, row + 1, x1);
+    if (!track.frameTimes.empty()) return false;
     if (!rateOf(system_, track.t[row], x0.data(), v0.data()) ||
         !rateOf(system_, track.t[row + 1], x1.data(), v1.data()))
         return false;

@@ -1,5 +1,7 @@
 #include "ui/stage/strokes.hpp"
 
+#include "ui/plots/phase_colour.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -255,6 +257,22 @@ void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength,
         }
 }
 
+/// The area in the colours of the curve, of the first scheme alone; the curve in the colour of its scheme.
+void drawCurtain(Pen& pen, const Curtain& curtain, const Rgb& colour, double strength, double width, bool isFilled) {
+    const std::size_t n = curtain.top.size(), every = std::max<std::size_t>(1, n / 800);
+    for (std::size_t j = 0; isFilled && j + every < n; j += every) {
+        const Point &a = curtain.top[j], &b = curtain.top[j + every];
+        Rgb tint = colour;
+        if (!curtain.hues.empty()) {
+            const auto c = phaseColour(curtain.hues[j]);
+            tint = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+        }
+        pen.fill({{a[0], curtain.ground, a[2]}, {b[0], curtain.ground, b[2]}, b, a}, tint, 0.75 * strength);
+    }
+    for (std::size_t j = 0; j + every < n; j += every)
+        pen.stroke(curtain.top[j], curtain.top[j + every], width, colour, strength, strength);
+}
+
 void drawDiscs(Pen& pen, const StageFrame& frame, const StageLayer& layer, double scale, bool isFirst) {
     // A faint scheme is mixed with the background, so that its outline does not shine through.
     const double strength = layer.hasEnded ? 0.35 : 1;
@@ -294,6 +312,9 @@ StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double wid
         for (const Shape& shape : layer.shapes)
             if (const auto* solid = std::get_if<Solid>(&shape))
                 drawSolid(pen, *solid, layer.colour, layer.hasEnded ? 0.3 : 1, i == 0 ? 1.8 : 1.4, i == 0);
+        for (const Shape& shape : layer.shapes)
+            if (const auto* curtain = std::get_if<Curtain>(&shape))
+                drawCurtain(pen, *curtain, layer.colour, layer.hasEnded ? 0.3 : 1, i == 0 ? 2 : 1.4, i == 0);
         pen.open(true, layer.hasEnded ? 0.3 : 1);
         drawBodies(pen, layer, i == 0);
     }

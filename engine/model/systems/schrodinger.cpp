@@ -2,9 +2,11 @@
 ///
 /// The state is the coefficients of the wave function (wave/hamiltonian.hpp): no column of a row, but what fields are
 /// sampled from. hbar and m are free; nothing else has a unit.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "engine/core/problem.hpp"
@@ -60,6 +62,32 @@ double frequencyOf(const Hamiltonian& h, double t, const double* x) {
     return std::isfinite(width) ? 6 * width / h.hbar() : 0;
 }
 
+/// |psi| over x as a curtain with the phase as its colour, above the potential. A wave spread over the whole domain stands a
+/// tenth of it high.
+void draw(const Hamiltonian& h, const double* values, Drawing& drawing) {
+    const auto n = static_cast<std::size_t>(h.size());
+    const double L = h.domain().length, left = h.domain().left, unit = 0.1 * L * std::sqrt(L);
+    const auto& V = h.potential();
+    const auto [low, high] = std::minmax_element(V.begin(), V.end());
+    if (*high > *low) {
+        const std::size_t every = std::max<std::size_t>(1, n / 256);
+        const auto at = [&](std::size_t j) {
+            const std::size_t k = j % n;
+            return Point{left + L * static_cast<double>(j) / static_cast<double>(n), 0.3 * L * (V[k] - *low) / (*high - *low), 0};
+        };
+        for (std::size_t j = 0; j + every <= n; j += every)
+            drawing.shapes.push_back(Segment{at(j), at(j + every), 1.2, ShapeRole::scenery});
+    }
+    drawing.shapes.push_back(Segment{{left, 0, 0}, {left + L, 0, 0}, 1.2, ShapeRole::scenery});
+    Curtain curtain;
+    for (std::size_t j = 0; j <= n; ++j) {
+        const double re = values[j % n], im = values[n + j % n];
+        curtain.top.push_back({left + L * static_cast<double>(j) / static_cast<double>(n), unit * std::hypot(re, im), 0});
+        curtain.hues.push_back(std::atan2(im, re) / (2 * std::numbers::pi));
+    }
+    drawing.shapes.push_back(std::move(curtain));
+}
+
 Shared hamiltonianOf(const Settings& settings) {
     const std::vector<double> domain = settings.numbers("domain");
     if (!(domain[1] > domain[0]))
@@ -82,6 +110,7 @@ System make(const Settings& settings) {
     s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };
     s.error = errorOf(h->size());
     s.field = samplingOf(h);
+    s.draw = [h](const double* values, Drawing& drawing) { draw(*h, values, drawing); };
     s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
     s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
     s.start = [h](const Settings& initial) {

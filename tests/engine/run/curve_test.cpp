@@ -71,7 +71,7 @@ private slots:
         QCOMPARE(f.series[0].t.size(), f.series[0].x.size());
     }
     void errorsAlongTheCurveAreShownBesideThoseAtNodes() {
-        Scene scene = kepler("galerkin-gauss-6", 0.25, 6);
+        Scene scene = kepler("galerkin-gauss-4", 0.1, 0.5);  // before phase errors grow
         scene.observe = {"error"};
         scene.views = {{"curve-error", "", ""}};
         const Comparison c = run(scene);
@@ -79,7 +79,7 @@ private slots:
         QCOMPARE(error.size(), c.schemes[0]->curve.rows());
         const double most = *std::max_element(error.begin(), error.end());
         qInfo("largest on the curve %.2e, at nodes %.2e", most, c.schemes[0]->summary.maxError);
-        QVERIFY(most > 3 * c.schemes[0]->summary.maxError);  // order 7 between nodes of order 12
+        QVERIFY(most > 3 * c.schemes[0]->summary.maxError);  // order 5 between nodes of order 8: measured 76 times
         const Figure f = makeFigure(c, scene.views[0]);
         QCOMPARE(f.series.size(), std::size_t(1));
         QVERIFY(f.subtitle.starts_with("largest on the curve"));

@@ -1,0 +1,62 @@
+/// Spectral collocation in time, for wave functions: a polynomial of degree s through the start that satisfies the equation at
+/// Chebyshev nodes of the step, s of them: the extrema without the start, or the roots. Not from an action: at the extrema the
+/// norm is off by about the square of the error; the roots are symmetric, which keeps it.
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/wave_collocation.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+Rule<double> nodesOf(int s, bool isExtrema) {
+    Rule<double> rule;
+    for (int j = 1; j <= s; ++j) {
+        const double angle = std::numbers::pi * (isExtrema ? static_cast<double>(j) / s : (j - 0.5) / s);
+        rule.c.push_back(0.5 * (1 - std::cos(angle)));
+        rule.b.push_back(1.0 / s);  // not used
+    }
+    rule.isSymmetric = !isExtrema;
+    return rule;
+}
+
+}  // namespace
+
+BaselineEntry spectral_collocation() {
+    FieldInfo degree;
+    degree.key = degree.title = "degree";
+    degree.symbol = "s";
+    degree.type = FieldType::integer;
+    degree.fallback = 8;
+    degree.min = 1;
+    degree.max = 64;
+    degree.description = "Degree of the polynomial in time on one step.";
+    FieldInfo nodes;
+    nodes.key = nodes.title = "nodes";
+    nodes.type = FieldType::choice;
+    nodes.fallback = "extrema";
+    nodes.choices = {"extrema", "roots"};
+    nodes.description = "Chebyshev extrema without the start of the step, or Chebyshev roots.";
+    BaselineEntry e;
+    e.item = {"spectral-collocation", "spectral collocation",
+              "Wave functions by collocation in time at Chebyshev nodes: spectral, but from no action.", {degree, nodes},
+              Claims{8, false, false, {}}, "a wave function"};
+    e.applies = [](const System& system) { return system.hasWave(); };
+    e.claims = [](const Settings& settings) {
+        const int s = settings.integer("degree");
+        const bool isExtrema = settings.text("nodes") != "roots";
+        // Collocation has the order of its interpolatory rule; symmetric rules gain one for odd s.
+        return Claims{isExtrema ? s : s + s % 2, !isExtrema, false,
+                      isExtrema ? std::vector<std::string>{} : std::vector<std::string>{"norm"}};
+    };
+    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
+        return makeCollocationWave(system.wave, options.clock, std::nan(""),
+                                   nodesOf(options.settings.integer("degree"), options.settings.text("nodes") != "roots"), 1e-13, 600);
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

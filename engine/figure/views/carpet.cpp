@@ -1,0 +1,74 @@
+/// A field over time and space as a heat map; wave functions with their phase as the colour.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/figure/build.hpp"
+
+namespace extremal::views {
+namespace {
+
+constexpr int mostColumns = 800, mostRows = 400;
+
+const SchemeResult* schemeOf(const FigureContext& context) {
+    for (const auto& scheme : context.comparison.schemes)
+        if (!scheme->frames.empty() && (context.view.scheme.empty() || scheme->spec.label == context.view.scheme))
+            return scheme.get();
+    return nullptr;
+}
+
+HeatMap heatOf(const FieldSampling& field, const SchemeResult& scheme, double start, double end) {
+    const auto& frames = scheme.frames;
+    const std::size_t n = field.x.size();
+    HeatMap heat;
+    heat.columns = static_cast<int>(std::min<std::size_t>(frames.size(), mostColumns));
+    heat.rows = static_cast<int>(std::min<std::size_t>(n, mostRows));
+    const double step = n > 1 ? field.x[1] - field.x[0] : 1;
+    heat.left = start;
+    heat.right = end;
+    heat.bottom = field.x.front();
+    heat.top = field.x.back() + step;
+    const bool isComplex = field.components.size() == 2 && field.components[0] == "re";
+    const double last = frames.back().t, seconds = end - start;
+    for (int column = 0; column < heat.columns; ++column) {
+        const double t = start + seconds * (column + 0.5) / heat.columns;
+        auto after = std::lower_bound(frames.begin(), frames.end(), t, [](const Frame& f, double at) { return f.t < at; });
+        if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
+        const bool isThere = t <= last + seconds / heat.columns;
+        for (int row = 0; row < heat.rows; ++row) {
+            const auto j = static_cast<std::size_t>((row + 0.5) * static_cast<double>(n) / heat.rows);
+            const double a = (*after->values)[j], b = isComplex ? (*after->values)[n + j] : 0;
+            heat.values.push_back(!isThere ? Summary::unknown : isComplex ? std::hypot(a, b) : a);
+            if (isComplex) heat.hues.push_back(std::atan2(b, a) / (2 * std::numbers::pi));
+        }
+    }
+    heat.high = maxMagnitude(heat.values);
+    if (!isComplex) heat.low = -heat.high;
+    return heat;
+}
+
+Figure make(const FigureContext& context) {
+    Figure figure = startFigure(context, "Carpet");
+    figure.x = timeAxis(context);
+    figure.y.title = "x";
+    const SchemeResult* scheme = schemeOf(context);
+    if (scheme && context.system && context.system->field) {
+        const auto& time = context.comparison.scene;
+        figure.title = "Carpet of " + scheme->spec.label;
+        figure.heat = heatOf(context.system->field, *scheme, time.start.value, time.end.value);
+        figure.y.range = {figure.heat->bottom, figure.heat->top};
+        if (!figure.heat->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase · at most " + shortNumber(figure.heat->high);
+    } else if (context.system && !context.system->field) {
+        figure.message = "The model is no field";
+    }
+    finishFigure(figure, context, "Field over time and space");
+    return figure;
+}
+
+}  // namespace
+
+ViewEntry carpet() {
+    return {{"carpet", "Carpet", "a field over time and space; of wave functions modulus and phase", {}, {}, {}}, "", make};
+}
+
+}  // namespace extremal::views

@@ -1,0 +1,155 @@
+#include "engine/wave/stationary.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/quadrature/rule.hpp"
+
+namespace extremal {
+namespace {
+
+using Matrix = Eigen::MatrixXcd;
+using Vector = Eigen::VectorXcd;
+
+/// Chebyshev extrema in [-1, 1], ascending.
+Eigen::VectorXd chebyshevPoints(int N) {
+    Eigen::VectorXd x(N + 1);
+    for (int j = 0; j <= N; ++j) x(j) = std::sin(std::numbers::pi * (2 * j - N) / (2.0 * N));
+    return x;
+}
+
+/// Barycentric weights of these points.
+double weightOf(int j, int N) { return (j % 2 == 0 ? 1.0 : -1.0) * (j == 0 || j == N ? 0.5 : 1.0); }
+
+/// (i, j): cardinal polynomial j at point i.
+Eigen::MatrixXd cardinals(const Eigen::VectorXd& points, const Eigen::VectorXd& nodes) {
+    const auto N = static_cast<int>(nodes.size()) - 1;
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(points.size(), N + 1);
+    for (Eigen::Index i = 0; i < points.size(); ++i) {
+        Eigen::Index same = -1;
+        double sum = 0;
+        for (int j = 0; j <= N; ++j) {
+            const double d = points(i) - nodes(j);
+            if (d == 0) {
+                same = j;
+                break;
+            }
+            values(i, j) = weightOf(j, N) / d;
+            sum += values(i, j);
+        }
+        if (same >= 0) {
+            values.row(i).setZero();
+            values(i, same) = 1;
+        } else {
+            values.row(i) /= sum;
+        }
+    }
+    return values;
+}
+
+/// (i, j): derivative of cardinal polynomial j at node i.
+Eigen::MatrixXd differentiation(const Eigen::VectorXd& nodes) {
+    const auto N = static_cast<int>(nodes.size()) - 1;
+    Eigen::MatrixXd D(N + 1, N + 1);
+    for (int i = 0; i <= N; ++i) {
+        double sum = 0;
+        for (int j = 0; j <= N; ++j) {
+            if (i == j) continue;
+            // The difference of two sines as a product keeps the digits near the ends.
+            const double a = std::numbers::pi * (2 * i - N) / (2.0 * N), b = std::numbers::pi * (2 * j - N) / (2.0 * N);
+            D(i, j) = weightOf(j, N) / weightOf(i, N) / (2 * std::cos((a + b) / 2) * std::sin((a - b) / 2));
+            sum += D(i, j);
+        }
+        D(i, i) = -sum;
+    }
+    return D;
+}
+
+}  // namespace
+
+std::vector<StationaryState> lowestStates(const StationaryProblem& problem, int n) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(problem.H, problem.W);
+    std::vector<StationaryState> states;
+    for (int k = 0; k < std::min<int>(n, static_cast<int>(problem.H.rows())); ++k)
+        states.push_back({solver.eigenvalues()(k), solver.eigenvectors().col(k), {}, true});
+    return states;
+}
+
+StationaryState refineState(const StationaryProblem& problem, const Vector& guess, double energy) {
+    const Eigen::Index n = problem.H.rows();
+    StationaryState s{energy, guess, {energy}, false};
+    for (int iteration = 0; iteration < 12 && !s.isConverged; ++iteration) {
+        const Vector Wv = problem.W * s.v;
+        Matrix K = Matrix::Zero(n + 1, n + 1);
+        K.topLeftCorner(n, n) = problem.H - s.energy * problem.W;
+        K.topRightCorner(n, 1) = -Wv;
+        K.bottomLeftCorner(1, n) = -Wv.adjoint();
+        Vector rhs(n + 1);
+        rhs.head(n) = -(problem.H * s.v - s.energy * Wv);
+        rhs(n) = -(1.0 - s.v.dot(Wv).real()) / 2;
+        const Vector d = K.partialPivLu().solve(rhs);
+        if (!d.allFinite()) break;
+        s.v += d.head(n);
+        s.energy += d(n).real();
+        s.history.push_back(s.energy);
+        s.isConverged = std::abs(d(n).real()) <= 1e-15 * std::max(1.0, std::abs(s.energy));
+    }
+    return s;
+}
+
+StationaryProblem pseudoSpectral(const Hamiltonian& h) {
+    const int n = h.size();
+    const auto size = static_cast<std::size_t>(n);
+    std::vector<Complex> T(size), row(size);
+    for (std::size_t i = 0; i < size; ++i) T[i] = h.kinetic()[i] / n;
+    h.fourier().rawToNodes(T.data(), row.data());
+    StationaryProblem p{Matrix::Zero(n, n), Matrix::Identity(n, n)};
+    for (int j = 0; j < n; ++j)
+        for (int l = 0; l <= j; ++l) p.H(j, l) = p.H(l, j) = row[static_cast<std::size_t>(j - l)].real();
+    for (int j = 0; j < n; ++j) p.H(j, j) += h.potential()[static_cast<std::size_t>(j)];
+    return p;
+}
+
+StationaryProblem convolutionGalerkin(const Hamiltonian& h) {
+    const int n = h.size(), half = n / 2;
+    const auto weight = [half](int a) { return std::abs(a) == half ? 0.5 : 1.0; };
+    const auto place = [n](int a) { return (a + n) % n; };  // identifies N/2 with -N/2
+    StationaryProblem p{Matrix::Zero(n, n), Matrix::Zero(n, n)};
+    for (int a = -half; a <= half; ++a) {
+        for (int b = std::max(-half, a - half); b <= std::min(half, a + half); ++b)
+            p.H(place(a), place(b)) +=
+                weight(a) * weight(b) * weight(a - b) * h.potentialHarmonics()[static_cast<std::size_t>(place(a - b))];
+        p.H(place(a), place(a)) += weight(a) * weight(a) * h.kinetic()[static_cast<std::size_t>(place(a))];
+        p.W(place(a), place(a)) += weight(a) * weight(a);
+    }
+    return p;
+}
+
+StationaryProblem chebyshevInterval(int N, const wave::Domain& domain, double hbar, double mass, const wave::Potential& potential) {
+    const Rule<double> rule = clenshawCurtis<double>(2 * N + 1);
+    const Eigen::VectorXd nodes = chebyshevPoints(N);
+    Eigen::VectorXd points(rule.size()), weights(rule.size()), inPotential(rule.size());
+    for (int i = 0; i < rule.size(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        // The rule's nodes are those of degree 2N: every second is one of ours, to the bit.
+        points(i) = std::sin(std::numbers::pi * (i - N) / (2.0 * N));
+        weights(i) = rule.b[k] * domain.length;
+        inPotential(i) = potential.function.value(domain.left + domain.length * rule.c[k], 0) * weights(i);
+    }
+    const Eigen::MatrixXd all = cardinals(points, nodes), slope = all * differentiation(nodes) * (2 / domain.length);
+    // psi vanishes at both ends: the inner nodes alone.
+    const Eigen::MatrixXd phi = all.middleCols(1, N - 1), dphi = slope.middleCols(1, N - 1);
+    const Eigen::MatrixXd M = phi.transpose() * weights.asDiagonal() * phi;
+    const Eigen::MatrixXd H = hbar * hbar / (2 * mass) * dphi.transpose() * weights.asDiagonal() * dphi +
+                              phi.transpose() * inPotential.asDiagonal() * phi;
+    StationaryProblem p;
+    p.H = ((H + H.transpose()) / 2).cast<std::complex<double>>();
+    p.W = ((M + M.transpose()) / 2).cast<std::complex<double>>();
+    return p;
+}
+
+}  // namespace extremal
