@@ -6,82 +6,12 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <set>
 
 #include "engine/integrator/composition.hpp"
-#include "engine/scene/bind.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/preset.hpp"
-#include "tests/laws/laws.hpp"
+#include "tests/laws/subjects.hpp"
 
 namespace extremal::laws {
 namespace {
-
-struct Subject {
-    std::string name;
-    System system;
-    State start;
-    double time = 1;                ///< over which errors are measured: some radians of the fastest motion
-    double scaleQ = 1, scaleP = 1;  ///< sizes of positions and momenta
-    std::vector<double> own;        ///< of each coordinate
-    std::array<State, 4> exact;     ///< at the quarters of `time`
-
-    std::size_t half() const { return start.x.size() / 2; }
-    double scaleOf(std::size_t i) const { return system.hasBody() || i < half() ? scaleQ : scaleP; }
-};
-
-/// Scaled to the sizes of positions and momenta.
-double distanceOn(const Subject& on, const State& a, const State& b) {
-    double worst = 0;
-    for (std::size_t i = 0; i < a.x.size(); ++i)
-        worst = std::max(worst, std::abs(a.x[i] - b.x[i]) / on.scaleOf(i));
-    return worst;
-}
-
-Subject subjectOf(const std::string& name, const Scene& scene) {
-    constexpr int referenceSteps = 32;
-    Subject s{name, makeSystem(scene), {}, 1, 1, 1, {}, {}};
-    s.start = initialState(scene, s.system);
-    const double w = highestFrequency(s.system, s.start);
-    s.time = 0;
-    for (const SchemeSpec& scheme : scene.schemes) s.time = std::max(s.time, 40 * scheme.step.value);
-    if (w > 0) s.time = std::min(s.time, 4 / w);
-    const auto integrator =
-        makeIntegrator(s.system, trustedPair(s.system), {s.start.t, s.time / referenceSteps});
-    State state = s.start;
-    s.scaleQ = s.scaleP = 0;
-    s.own.assign(state.x.size(), 0);
-    for (int k = 1; k <= referenceSteps; ++k) {
-        if (integrator->advance(state).outcome != Outcome::converged)
-            qFatal("%s: no reference", name.c_str());
-        if (k % (referenceSteps / 4) == 0)
-            s.exact[static_cast<std::size_t>(4 * k / referenceSteps - 1)] = state;
-        for (std::size_t i = 0; i < state.x.size(); ++i) {
-            double& scale = s.system.hasBody() || i < s.half() ? s.scaleQ : s.scaleP;
-            scale = std::max(scale, std::abs(state.x[i]));
-            s.own[i] = std::max(s.own[i], std::abs(state.x[i]));
-        }
-    }
-    if (!(s.scaleP > 0)) s.scaleP = 1;
-    // Coordinates that hardly leave zero are lost in the round-off of the others; Pluto's momentum, 3e-6 of
-    // Jupiter's, is not.
-    for (std::size_t i = 0; i < s.own.size(); ++i) s.own[i] = std::max(s.own[i], 1e-4 * s.scaleOf(i));
-    return s;
-}
-
-/// A system for each model, typed Lagrangians each by itself: the first preset of each kind.
-std::vector<Subject> everySystem() {
-    std::vector<Subject> subjects;
-    std::set<std::string> seen;
-    for (const Preset& preset : presets()) {
-        const Scene scene = readScene(preset.json).scene;
-        const bool isTyped = scene.model.type == "lagrangian";
-        if (!seen.insert(isTyped ? std::string(preset.id) : scene.model.type).second) continue;
-        if (const System system = makeSystem(scene); !system.hasMechanics() && !system.hasBody()) continue;
-        subjects.push_back(subjectOf(std::string(preset.id), scene));
-    }
-    return subjects;
-}
 
 std::vector<Case> schemesOn(const System& system) {
     std::vector<Case> cases = everyScheme(3, system);
@@ -90,14 +20,14 @@ std::vector<Case> schemesOn(const System& system) {
         const Case c = cases[i];
         if (!c.claims.isSymmetric || c.claims.order != 2) continue;
         const Settings composition{c.isPair ? "yoshida" : "suzuki", {{"order", 4.0}}, {}};
-        Case composition_ = c;
-        composition_.name = composition.type + " of " + c.name;
-        composition_.claims = composedClaims(composition, c.claims);
-        composition_.make = [make = c.make, parts = compositionParts(composition, 2)](const System& s,
+        Case made = c;
+        made.name = composition.type + " of " + c.name;
+        made.claims = composedClaims(composition, c.claims);
+        made.make = [make = c.make, parts = compositionParts(composition, 2)](const System& s,
                                                                                       const Clock& clock) {
             return composed(parts, clock, [make, s](const Clock& part) { return make(s, part); });
         };
-        cases.push_back(std::move(composition_));
+        cases.push_back(std::move(made));
     }
     return cases;
 }
