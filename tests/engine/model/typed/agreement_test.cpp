@@ -30,6 +30,8 @@ const std::vector<Twins>& twins() {
         {"Kepler", typedKepler(), systemNamed("kepler"), newtonPair(3), 0.05, keplerStart, 1e-9},
         {"spring pendulum", typedSpringPendulum(), systemNamed("spring-pendulum"), newtonPair(3), 0.001,
          {0, 0, {0.05, 1, 0, 0}}, 1e-11},
+        {"double pendulum", typedDoublePendulum(), systemNamed("double-pendulum"), newtonPair(3), 0.01,
+         {0, 0, {0.3, 0.2, 0, 0}}, 1e-11},
     };
     return all;
 }

@@ -21,4 +21,10 @@ inline System typedSpringPendulum() {
                        "m/2*(a_t^2 + (l + a)^2*theta_t^2) + m*g*(l + a)*cos(theta) - k/2*a^2");
 }
 
+inline System typedDoublePendulum() {
+    return typedSystem({"theta1", "theta2"}, {{"m1", 1}, {"m2", 1}, {"l1", 1}, {"l2", 1}, {"g", 9.81}},
+                       "(m1 + m2)/2*l1^2*theta1_t^2 + m2/2*l2^2*theta2_t^2 + m2*l1*l2*theta1_t*theta2_t*cos(theta1 - theta2)"
+                       " + (m1 + m2)*g*l1*cos(theta1) + m2*g*l2*cos(theta2)");
+}
+
 }  // namespace extremal::laws
