@@ -57,8 +57,7 @@ private slots:
         QVERIFY(std::abs(norm * 2 * 3.14159265358979323846 / 64 - 1) < 1e-12);
     }
     void aGridTooCoarseIsSaid() {
-        // Resolved at the start, not later: the packet gains speed on its way down.
-        const Comparison result = run(scene(64, 10));
+        const Comparison result = run(scene(32, 10));
         const std::string& caution = result.schemes.at(0)->summary.caution;
         qInfo("%s", caution.c_str());
         QVERIFY(caution.find("under-resolved") == 0);
