@@ -75,7 +75,10 @@ template Table<Quad> makeTable(const Space<Quad>&, const Rule<Quad>&);
 template <class T>
 std::vector<T> weightsUpTo(const Table<T>& table, const T& tau) {
     std::vector<T> weights(static_cast<std::size_t>(table.nodes()));
-    partialWeights<T>(table.rule, tau, weights);
+    if (table.upTo)
+        table.upTo(tau, weights);
+    else
+        partialWeights<T>(table.rule, tau, weights);
     return weights;
 }
 

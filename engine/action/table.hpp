@@ -19,6 +19,8 @@
 
 #include <Eigen/Core>
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "engine/quadrature/rule.hpp"
@@ -38,6 +40,7 @@ struct Table {
     Matrix testValue;       ///< (i, a): test functions at the nodes; the last column is the start function
     Matrix testDerivative;  ///< (i, a)
     Matrix continuation;    ///< (a, b): coefficients of the curve continued into the next step, relative to its start
+    Matrix cautious;        ///< the same of its smoothest part alone, which swings less far; empty: none
     Matrix change;          ///< (function of the space, a): z = liftCoefficients q_0 + change Y
     Vector lift;            ///< coefficients of the function 1 in the space
     /// Smallest k for which the rule is not exact for some (P_k phi_a)', P_k of degree k and phi_a interior (at most
@@ -45,7 +48,10 @@ struct Table {
     /// integrate the slopes of the space, and not even a free particle keeps its speed.
     int consistency = 0;
     Space<T> space;
-    Rule<T> rule;
+    Rule<T> rule;               ///< empty where the nodes are those of a Filon grid
+    T frequency = T(0);         ///< step * frequency of an oscillatory space; 0: no function oscillates
+    /// share[i] for weightsUpTo, where the rule is not one of panels; else empty.
+    std::function<void(const T& tau, std::span<T> share)> upTo = {};
 
     int nodes() const { return static_cast<int>(node.size()); }
     int unknowns() const { return static_cast<int>(value.cols()); }
@@ -57,8 +63,8 @@ struct Table {
 template <class T>
 Table<T> makeTable(const Space<T>& space, const Rule<T>& rule);
 
-/// Weights b_i(tau) of the integral from 0 to tau of the polynomials through values at the nodes of each panel: those of
-/// the rule itself at tau = 1.
+/// Weights b_i(tau) of the integral from 0 to tau of the polynomials through values at the nodes of each panel, or of
+/// what a Filon grid takes the integrand for: those of the rule itself at tau = 1.
 template <class T>
 std::vector<T> weightsUpTo(const Table<T>& table, const T& tau);
 

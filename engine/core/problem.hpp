@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/value.hpp"
+
 namespace extremal {
 
 /// One finding. `pointer` is a JSON pointer into the scene ("/schemes/1/step"), empty for the whole document.
@@ -14,6 +16,7 @@ struct Problem {
     std::string message;  ///< names the value and the limit: "must be a positive finite number, got -0.1"
     std::string hint;     ///< the remedy, without brackets; may be empty
     std::string origin = {};  ///< the pointer of the override (--set) it comes from; empty: the document itself
+    Value remedy = {};        ///< a value for the pointer that would do, to be offered; null: none
     bool operator==(const Problem&) const = default;
 };
 

@@ -82,6 +82,10 @@ ActionDefect actionDefect(const System& system, const Discretization& pair, doub
                           ExactActions& exact, const std::stop_token& stop) {
     constexpr int mostSteps = 20;
     ActionDefect result;
+    if (!hasOneTable(pair.space)) {
+        result.failure = "its functions change with the step";
+        return result;
+    }
     const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(pair.space, pair.quadrature));
     for (int i = 0; i < mostSteps && !stop.stop_requested(); ++i) {
         const ExactActions::Entry known = exact.at(i);

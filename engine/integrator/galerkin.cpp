@@ -1,12 +1,15 @@
 #include <memory>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "engine/action/table.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/integrator/elliptic.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/lie.hpp"
+#include "engine/integrator/oscillatory.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/table_of.hpp"
 #include "engine/integrator/wave.hpp"
@@ -18,8 +21,9 @@ namespace {
 template <int D>
 class Galerkin final : public Integrator {
 public:
-    Galerkin(const Mechanics<double>& mechanics, Table<double> table, const Clock& clock, SolverPolicy policy)
-        : clock_(clock), d_(mechanics.dimension), step_(mechanics, std::move(table), clock.step, policy) {}
+    Galerkin(const Mechanics<double>& mechanics, std::vector<Table<double>> tables, const Clock& clock,
+             SolverPolicy policy)
+        : clock_(clock), d_(mechanics.dimension), step_(mechanics, std::move(tables), clock.step, policy) {}
 
     StepReport advance(State& state) override {
         const StepReport report = step_.advance(state.t, state.x.data(), state.x.data() + d_, stop());
@@ -58,12 +62,17 @@ std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretiz
     if (isWaveSpace(pair.space)) return makeWaveIntegrator(system, pair, clock);
     const SolverPolicy policy = solverPolicy(pair.solver, system);
     if (pair.space.type == "lie-polynomial") return makeLieIntegrator(system, pair, clock, policy);
+    if (isElliptic(pair.space)) return makeEllipticIntegrator(system, pair, clock);
     if (!system.hasMechanics())
         throw InvalidScene("/space/type", pair.space.type + " needs coordinates, and " + system.id + " has none",
                            system.hasBody() ? "take lie-polynomial" : system.hasWave() ? "take fourier" : "another space: extremal list spaces");
-    Table<double> table = tableOf(pair.space, pair.quadrature);
+    const bool isFast = isOscillatory(pair.space);
+    if (isFast && policy.method == SolverMethod::fixedPoint)
+        throw InvalidScene("/solver/method", "fixed-point iteration diverges on fast oscillations", "use newton or auto");
+    std::vector<Table<double>> tables = isFast ? oscillatoryTables(system, pair, clock.step)
+                                               : std::vector<Table<double>>{tableOf(pair.space, pair.quadrature)};
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(table), clock, policy);
+        return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(tables), clock, policy);
     });
 }
 

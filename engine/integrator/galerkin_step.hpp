@@ -16,18 +16,25 @@
 /// What q and p lose to rounding when a step is added is carried on to the next (compensated summation), so that over
 /// millions of steps the energy error grows like a random walk of the round-off of the increments only.
 ///
+/// Every coordinate k may have a table of its own, with its own functions and m_k of them, on the same nodes: then Y_a and
+/// R_a above are those of one coordinate. A separable Lagrangian on one slow table is solved for all nodes together.
+///
 /// T: scalar; D: dimension d at compile time or Eigen::Dynamic. All buffers are allocated in the constructor.
-/// Array shapes: Y is d x m, node quantities d x n.
+/// Array shapes: Y is coordinate by coordinate, entry a of coordinate k at offset(k) + a; node quantities are n x d.
 #pragma once
 
 #include <Eigen/LU>
 
 #include <optional>
 #include <stop_token>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/integrator/node_iteration.hpp"
+#include "engine/integrator/small_product.hpp"
 #include "engine/model/mechanics.hpp"
 
 namespace extremal {
@@ -45,9 +52,12 @@ template <class T, int D>
 class GalerkinStep {
 public:
     using Vector = Eigen::Matrix<T, D, 1>;
-    using Columns = Eigen::Matrix<T, D, Eigen::Dynamic>;
+    using Columns = Eigen::Matrix<T, Eigen::Dynamic, D>;
 
-    GalerkinStep(Mechanics<T> mechanics, Table<T> table, T step, SolverPolicy policy);
+    /// One table for all coordinates, or one for each; these share nodes and weights.
+    GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step, SolverPolicy policy);
+    GalerkinStep(Mechanics<T> mechanics, Table<T> table, T step, SolverPolicy policy)
+        : GalerkinStep(std::move(mechanics), std::vector<Table<T>>{std::move(table)}, step, policy) {}
 
     /// Moves (q, p), arrays of length d, from t to t + h. On failure they are left as they were.
     StepReport advance(const T& t, T* q, T* p, const std::stop_token& stop);
@@ -65,19 +75,44 @@ private:
     using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
     using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
+    using Wide = std::conditional_t<std::is_same_v<T, double>, long double, T>;
+
     enum class Attempt { solved, failed, notFinite, singular, stopped };
+    enum class Start { continued, cautious, fresh };
+
+    /// The functions of a table, node by node and function by function. Trial and test functions are the same numbers: a
+    /// table rounded differently for the two would not be the gradient of any action, and the energy of stiff systems drifts.
+    struct Functions {
+        Square value, slope;      ///< (i, a): phi_a(c_i), phi_a'(c_i)
+        Square valueAt, slopeAt;  ///< (a, i), with rows of 0 up to a multiple of 8
+        Square kineticInverse;    ///< (a, b): inverse of the kinetic Jacobian for unit mass
+    };
 
     int d() const { return mechanics_.dimension; }
-    int m() const { return table_.unknowns(); }
-    int n() const { return table_.nodes(); }
+    int n() const { return tables_.front().nodes(); }
+    /// Rows of node quantities: n, or, where nodes are taken eight at a time, the next multiple of 8; the last node is repeated
+    /// with weight 0.
+    int rows() const { return rows_; }
+    int m(int k) const { return table(k).unknowns(); }
+    const Table<T>& table(int k) const { return tables_.size() == 1 ? tables_.front() : tables_[static_cast<std::size_t>(k)]; }
+    const Functions& functions(int k) const {
+        return functions_.size() == 1 ? functions_.front() : functions_[static_cast<std::size_t>(k)];
+    }
+    int offset(int k) const { return offset_[static_cast<std::size_t>(k)]; }
+    void addProduct(const Square& A, int height, const T* B, int columns, T* C, int strideC) const;
     void placeNodes();
     void evaluateForces(const T& t);
     void residual();
+    bool evaluateCurvature(const T& t);
+    void assembleNode(int i);
+    void assembleBlock(int k, int l);
+    void bend(int k, int l, bool isSlope);
     bool assembleJacobian(const T& t);
-    bool guess(const T& t);
+    bool guess(const T& t, Start start);
+    Start next(Start start) const;
     bool startVelocity(const T& t);
     T correction();
-    Attempt iterate(const T& t, const std::stop_token& stop);
+    Attempt iterate(const T& t, Start start, const std::stop_token& stop);
     Attempt newton(const T& t, const std::stop_token& stop);
     Attempt fixedPoint(const T& t, const std::stop_token& stop);
     Attempt solve(const T& t, const std::stop_token& stop);
@@ -85,23 +120,35 @@ private:
     void add(T* q, T* p);
 
     Mechanics<T> mechanics_;
-    Table<T> table_;
+    std::vector<Table<T>> tables_;
+    std::vector<Functions> functions_;
+    std::vector<int> offset_;
     T h_;
     SolverPolicy policy_;
     T tolerance_;
 
-    Columns Y_, previousY_, nodeQ_, nodeV_, Lq_, Lv_, R_, delta_, trial_;
+    Flat Y_, previousY_, R_, delta_;
+    int rows_ = 0;
+    bool isRich_ = false;  ///< many nodes: sums go through kernels of this machine
+    NodeSums sums_;
+    Columns nodeQ_, nodeV_;
+    Square gradient_;        ///< (i, k): L_q, then L_v
+    Flat node_, weight_, times_;  ///< c_i, b_i, t_i
     Vector q0_, p0_, v0_, a0_, dq_, dp_;
     Vector carryQ_, carryP_, lastQ_, lastP_;  ///< lost to rounding; and the state it belongs to
+    Vector placeQ_, placeV_;
+    Flat impulse_, thrust_;  ///< at a node: h b L_q and b L_v of one coordinate
     Flat jetGradient_, jetHessian_;
+    Square curvature_;              ///< (i, j): entry j of the Hessian at node i
+    std::vector<bool> isCurved_;    ///< entry j is not 0 at all nodes
+    Square bent_;                   ///< (i, c): a row of the Hessian applied to function c
     Square jacobian_;
     Eigen::PartialPivLU<Square> lu_;
-    Square kineticInverse_;  ///< (a, b): inverse of the kinetic Jacobian for unit mass
-    Flat flatR_, flatDelta_;
-    Square block_;
     bool hasCurve_ = false;                      ///< Y_ of Newton's last step can be continued
     std::optional<NodeIteration<T>> together_;  ///< separable Lagrangians
     bool isTogether_ = false;                   ///< it solved the last step
+    Start boldest_ = Start::continued;  ///< guess to begin with,
+    int waryFor_ = 0;                   ///< for that many steps, after a bolder one was poor
     int newtonSteps_ = 0;  ///< steps for which Newton is preferred after the fixed point was slow
     StepReport report_;
 };

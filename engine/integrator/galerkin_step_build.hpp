@@ -8,103 +8,63 @@
 #include <vector>
 
 #include "engine/integrator/galerkin_step.hpp"
+#include "engine/integrator/galerkin_step_sums.hpp"
 #include "engine/integrator/node_iteration_build.hpp"
 
 namespace extremal {
 
 template <class T, int D>
-GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, Table<T> table, T step, SolverPolicy policy)
-    : mechanics_(std::move(mechanics)), table_(std::move(table)), h_(step), policy_(policy) {
+GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step, SolverPolicy policy)
+    : mechanics_(std::move(mechanics)), tables_(std::move(tables)), h_(step), policy_(policy) {
     const T epsilon = std::numeric_limits<T>::epsilon();
     tolerance_ = policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
-    for (Columns* c : {&Y_, &previousY_, &R_, &delta_, &trial_}) *c = Columns::Zero(d(), m());
-    for (Columns* c : {&nodeQ_, &nodeV_, &Lq_, &Lv_}) *c = Columns::Zero(d(), n());
-    for (Vector* v : {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_}) *v = Vector::Zero(d());
+    int size = 0, widest = 0;
+    for (int k = 0; k < d(); ++k) {
+        offset_.push_back(size);
+        size += m(k);
+        widest = std::max(widest, m(k));
+    }
+    isRich_ = std::is_same_v<T, double> && n() >= 16 && tables_.front().frequency != T(0);
+    rows_ = isRich_ ? (n() + 7) / 8 * 8 : n();
+    if (isRich_) sums_ = nodeSums();
+    const auto padded = [&](const auto& column) {
+        Flat all = Flat::Constant(rows(), column(n() - 1));
+        all.head(n()) = column;
+        return all;
+    };
+    for (const Table<T>& t : tables_) {
+        const int own = t.unknowns(), height = isRich_ ? (own + 7) / 8 * 8 : own;
+        Functions f;
+        f.value = f.slope = Square::Zero(rows(), own);
+        for (int a = 0; a < own; ++a) {
+            f.value.col(a) = padded(t.value.col(a));
+            f.slope.col(a) = padded(t.derivative.col(a));
+        }
+        f.valueAt = f.slopeAt = Square::Zero(height, rows());
+        f.valueAt.topRows(own) = f.value.transpose();
+        f.slopeAt.topRows(own) = f.slope.transpose();
+        f.kineticInverse =
+            Square(t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative / h_).partialPivLu().inverse();
+        functions_.push_back(std::move(f));
+    }
+    node_ = times_ = padded(tables_.front().node);
+    weight_ = padded(tables_.front().weight);
+    weight_.tail(rows() - n()).setZero();
+    impulse_ = thrust_ = Flat::Zero(rows());
+    for (Flat* f : {&Y_, &previousY_, &R_, &delta_}) *f = Flat::Zero(size);
+    for (Columns* c : {&nodeQ_, &nodeV_}) *c = Columns::Zero(rows(), d());
+    gradient_ = Square::Zero(rows(), 2 * d());
+    for (Vector* v : {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_, &placeQ_, &placeV_})
+        *v = Vector::Zero(d());
     jetGradient_ = Flat::Zero(2 * d());
     jetHessian_ = Flat::Zero(4 * d() * d());
-    const int size = m() * d();
+    curvature_ = Square::Zero(rows(), 4 * d() * d());
+    isCurved_.assign(static_cast<std::size_t>(4 * d() * d()), false);
+    bent_ = Square::Zero(rows(), widest);
     jacobian_ = Square::Zero(size, size);
-    block_ = Square::Zero(size, size);
-    flatR_ = flatDelta_ = Flat::Zero(size);
     lu_ = Eigen::PartialPivLU<Square>(size);
-    // Kinetic part of the Jacobian for unit mass: K_ab = sum_i b_i psi_a'(c_i) phi_b'(c_i) / h.
-    const Square kinetic =
-        table_.testDerivative.transpose() * table_.weight.asDiagonal() * table_.derivative / h_;
-    kineticInverse_ = kinetic.partialPivLu().inverse();
-    if (mechanics_.isSeparable) together_.emplace(mechanics_, table_, h_, tolerance_);
-}
-
-/// q(c_i) and v(c_i) from Y.
-template <class T, int D>
-void GalerkinStep<T, D>::placeNodes() {
-    nodeQ_.noalias() = Y_.lazyProduct(table_.value.transpose());
-    nodeQ_.colwise() += q0_;
-    nodeV_.noalias() = Y_.lazyProduct(table_.derivative.transpose());
-    nodeV_ /= h_;
-}
-
-/// L_q and L_v at all nodes.
-template <class T, int D>
-void GalerkinStep<T, D>::evaluateForces(const T& t) {
-    for (int i = 0; i < n(); ++i) {
-        mechanics_.gradient(mechanics_.model.get(), t + table_.node(i) * h_, nodeQ_.col(i).data(), nodeV_.col(i).data(),
-                            jetGradient_.data());
-        for (int k = 0; k < d(); ++k) {
-            Lq_(k, i) = jetGradient_(k);
-            Lv_(k, i) = jetGradient_(d() + k);
-        }
-    }
-    report_.evaluations += n();
-}
-
-/// R from L_q, L_v; column a is the equation of test function a.
-template <class T, int D>
-void GalerkinStep<T, D>::residual() {
-    for (int a = 0; a < m(); ++a) {
-        for (int k = 0; k < d(); ++k) R_(k, a) = a == m() - 1 ? p0_(k) : T(0);
-        for (int i = 0; i < n(); ++i) {
-            const T bv = table_.weight(i) * h_ * table_.testValue(i, a);
-            const T bd = table_.weight(i) * table_.testDerivative(i, a);
-            for (int k = 0; k < d(); ++k) R_(k, a) += bv * Lq_(k, i) + bd * Lv_(k, i);
-        }
-    }
-}
-
-/// dR/dY at the present Y, from the Hessians of L at the nodes, and its factorisation.
-template <class T, int D>
-bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
-    const int dim = d();
-    jacobian_.setZero();
-    T value;
-    for (int i = 0; i < n(); ++i) {
-        mechanics_.jet(mechanics_.model.get(), t + table_.node(i) * h_, nodeQ_.col(i).data(), nodeV_.col(i).data(),
-                       &value, jetGradient_.data(), jetHessian_.data());
-        const T* H = jetHessian_.data();
-        const T b = table_.weight(i);
-        for (int k = 0; k < dim; ++k)
-            for (int l = 0; l < dim; ++l) {
-                const T qq = b * h_ * H[k * 2 * dim + l], qv = b * H[k * 2 * dim + dim + l];
-                const T vq = b * H[(dim + k) * 2 * dim + l], vv = b / h_ * H[(dim + k) * 2 * dim + dim + l];
-                for (int a = 0; a < m(); ++a) {
-                    const T forValue = table_.testValue(i, a) * qq + table_.testDerivative(i, a) * vq;
-                    const T forSlope = table_.testValue(i, a) * qv + table_.testDerivative(i, a) * vv;
-                    for (int c = 0; c < m(); ++c)
-                        jacobian_(a * dim + k, c * dim + l) +=
-                            forValue * table_.value(i, c) + forSlope * table_.derivative(i, c);
-                }
-            }
-    }
-    report_.evaluations += n();
-    lu_.compute(jacobian_);
-    ++report_.linearSolves;
-    using std::abs;
-    T smallest = abs(lu_.matrixLU()(0, 0)), largest = smallest;
-    for (int k = 1; k < lu_.matrixLU().rows(); ++k) {
-        const T pivot = abs(lu_.matrixLU()(k, k));
-        if (!(pivot >= smallest)) smallest = pivot;
-        if (pivot > largest) largest = pivot;
-    }
-    return smallest > std::numeric_limits<T>::epsilon() * T(1e-3) * largest;
+    if (mechanics_.isSeparable && tables_.size() == 1 && tables_.front().frequency == T(0))
+        together_.emplace(mechanics_, tables_.front(), h_, tolerance_);
 }
 
 /// v(q_0, p_0) and the acceleration there: L_vv a = L_q - L_vq v (explicit time dependence of L_v is left out: it only
@@ -124,41 +84,45 @@ bool GalerkinStep<T, D>::startVelocity(const T& t) {
     return a0_.allFinite();
 }
 
-/// Starting guess for Y: the previous curve continued, else q_0 + v_0 t + a_0 t^2 / 2 fitted in the space.
+/// Starting guess for Y: the previous curve continued, or its smoothest part; else q_0 + v_0 t + a_0 t^2 / 2 fitted in the
+/// space; where a step has many periods that says nothing, and it starts from rest.
 template <class T, int D>
-bool GalerkinStep<T, D>::guess(const T& t) {
-    if (hasCurve_) {
-        Y_.noalias() = previousY_.lazyProduct(table_.continuation.transpose());
+bool GalerkinStep<T, D>::guess(const T& t, Start start) {
+    if (start != Start::fresh) {
+        for (int k = 0; k < d(); ++k) {
+            const auto& onward = start == Start::continued ? table(k).continuation : table(k).cautious;
+            Y_.segment(offset(k), m(k)).noalias() = onward.lazyProduct(previousY_.segment(offset(k), m(k)));
+        }
+        return true;
+    }
+    if (tables_.front().frequency != T(0)) {
+        Y_.setZero();
         return true;
     }
     if (!startVelocity(t)) return false;
     // Galerkin projection of the second derivative: K Y = sum_i b_i psi(c_i) (-a_0) h ... for unit mass, with p_0 -> v_0.
-    for (int a = 0; a < m(); ++a) {
-        T moment(0);
-        for (int i = 0; i < n(); ++i) moment += table_.weight(i) * h_ * table_.testValue(i, a);
-        R_.col(a) = moment * a0_;
-        if (a == m() - 1) R_.col(a) += v0_;
+    for (int k = 0; k < d(); ++k) {
+        const Table<T>& own = table(k);
+        auto R = R_.segment(offset(k), m(k));
+        for (int a = 0; a < m(k); ++a) R(a) = -h_ * own.weight.dot(own.testValue.col(a)) * a0_(k);
+        R(m(k) - 1) -= v0_(k);
+        Y_.segment(offset(k), m(k)).noalias() = functions(k).kineticInverse.lazyProduct(R);
     }
-    Y_.noalias() = -R_.lazyProduct(kineticInverse_.transpose());
     return true;
 }
 
-/// Solves for the correction of Y from R; returns its size relative to the unknowns.
+/// Solves J delta = R, Newton's correction being -delta; returns its size relative to the unknowns.
 template <class T, int D>
 T GalerkinStep<T, D>::correction() {
     using std::abs;
-    for (int a = 0; a < m(); ++a)
-        for (int k = 0; k < d(); ++k) flatR_(a * d() + k) = -R_(k, a);
-    flatDelta_ = lu_.solve(flatR_);
-    for (int a = 0; a < m(); ++a)
-        for (int k = 0; k < d(); ++k) delta_(k, a) = flatDelta_(a * d() + k);
+    delta_ = lu_.solve(R_);
     ++report_.linearSolves;
     // Each coordinate is measured against its own increments and the round-off of its own value.
     T worst(0);
     for (int k = 0; k < d(); ++k) {
-        const T scale = Y_.row(k).cwiseAbs().maxCoeff();
+        const T scale = Y_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
         const T roundOff = std::numeric_limits<T>::epsilon() * abs(q0_(k));
-        const T size = delta_.row(k).cwiseAbs().maxCoeff();
+        const T size = delta_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
         if (!(size <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
         const T known = std::max(scale, roundOff);  // 0: at rest in 0 so far
         if (size > roundOff * T(0.01)) worst = std::max(worst, known > T(0) ? T(size / known) : T(1));
@@ -167,11 +131,11 @@ T GalerkinStep<T, D>::correction() {
 }
 
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, const std::stop_token& stop) {
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Start start, const std::stop_token& stop) {
     const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
     const int limit = policy_.maxIterations;
     T last = std::numeric_limits<T>::infinity();
-    int growing = 0, sinceJacobian = 0;
+    int growing = 0, stalls = 0, sinceJacobian = 0;
     placeNodes();
     if (!assembleJacobian(t)) return Attempt::singular;
     for (int iteration = 0; iteration < limit; ++iteration) {
@@ -182,14 +146,17 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, con
         ++report_.iterations;
         report_.residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
+        if (iteration == 0 && start != Start::fresh && size > T(1)) return Attempt::failed;  // rich curves swing far beyond their step
         // At round-off, or no longer shrinking within a few digits of it: the forces at hand are those of the solution.
         if (size <= tolerance_ || (size < stagnation && size >= last * T(0.25))) return Attempt::solved;
-        Y_ += delta_;
+        // An ill-conditioned step stays further from round-off, whatever the Jacobian.
+        if (size < 100 * stagnation && size >= last * T(0.25) && ++stalls >= 3) return Attempt::solved;
+        Y_ -= delta_;
         placeNodes();
         ++sinceJacobian;
         growing = size >= last ? growing + 1 : 0;
         if (growing >= 4) return Attempt::failed;
-        if (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation) {
+        if (size > T(0.1) || (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation)) {
             if (!assembleJacobian(t)) return Attempt::singular;
             sinceJacobian = 0;
         }
@@ -198,17 +165,22 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, con
     return Attempt::failed;
 }
 
-/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from the Taylor guess.
+template <class T, int D>
+typename GalerkinStep<T, D>::Start GalerkinStep<T, D>::next(Start start) const {
+    return start == Start::continued && tables_.front().cautious.size() > 0 ? Start::cautious : Start::fresh;
+}
+
+/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from a more cautious one.
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, const std::stop_token& stop) {
-    for (;;) {
-        if (!guess(t)) return Attempt::singular;
-        const Attempt result = iterate(t, stop);
-        if (result == Attempt::solved || result == Attempt::stopped || !hasCurve_) {
-            if (result == Attempt::solved && together_) together_->remember(Lq_);
-            return result;
-        }
-        hasCurve_ = false;
+    if (waryFor_ > 0 && --waryFor_ == 0) boldest_ = Start::continued;
+    for (Start start = hasCurve_ ? boldest_ : Start::fresh;; start = next(start)) {
+        if (!guess(t, start)) return Attempt::singular;
+        const Attempt result = iterate(t, start, stop);
+        if (result == Attempt::solved && together_) together_->remember(gradient_.leftCols(d()));
+        if (result == Attempt::solved || result == Attempt::stopped || start == Start::fresh) return result;
+        boldest_ = next(start);
+        waryFor_ = 16;
     }
 }
 
@@ -265,10 +237,11 @@ template <class T, int D>
 void GalerkinStep<T, D>::add(T* q, T* p) {
     if (!isTogether_) {
         for (int k = 0; k < d(); ++k) {
-            T impulse(0);
-            for (int i = 0; i < n(); ++i) impulse += table_.weight(i) * Lq_(k, i);
-            dp_(k) = h_ * impulse;
-            dq_(k) = Y_(k, m() - 1);
+            // Stiff forces nearly cancel in this sum.
+            Wide impulse(0);
+            for (int i = 0; i < n(); ++i) impulse += Wide(weight_(i)) * Wide(gradient_(i, k));
+            dp_(k) = static_cast<T>(Wide(h_) * impulse);
+            dq_(k) = Y_(offset(k) + m(k) - 1);
         }
         previousY_ = Y_;
     }
@@ -277,14 +250,9 @@ void GalerkinStep<T, D>::add(T* q, T* p) {
         lost = (a - (s - back)) + (b - back);
         return s;
     };
-    const auto step = [&](const T& from, const T& increment, T& carry) {
-        T lost;
-        const T to = sum(from, increment, lost);
-        return sum(to, lost + carry, carry);
-    };
     for (int k = 0; k < d(); ++k) {
-        q[k] = lastQ_(k) = step(q0_(k), dq_(k), carryQ_(k));
-        p[k] = lastP_(k) = step(p0_(k), dp_(k), carryP_(k));
+        q[k] = lastQ_(k) = sum(q0_(k), dq_(k) + carryQ_(k), carryQ_(k));
+        p[k] = lastP_(k) = sum(p0_(k), dp_(k) + carryP_(k), carryP_(k));
     }
 }
 
@@ -308,21 +276,26 @@ StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_t
 
 template <class T, int D>
 void GalerkinStep<T, D>::curve(const T& tau, T* q, T* p) const {
-    const auto size = static_cast<std::size_t>(table_.space.size);
-    std::vector<T> value(size), slope(size);
-    table_.space.evaluate(tau, value, slope);
-    const Eigen::Map<const Flat> phi(value.data(), table_.space.size);
-    const Flat y = table_.change.transpose() * phi;
-    Square Y = Y_, forces = Lq_;
-    if (isTogether_) together_->coefficients(Y, forces);
+    Square Y, forces = gradient_.leftCols(d());
+    if (isTogether_) {
+        Y.resize(m(0), d());
+        together_->coefficients(Y, forces);
+    }
+    std::vector<T> value, slope;
     for (int k = 0; k < d(); ++k) {
-        q[k] = q0_(k) + Y.row(k).dot(y.transpose());
+        const Table<T>& own = table(k);
+        value.resize(static_cast<std::size_t>(own.space.size));
+        slope.resize(value.size());
+        own.space.evaluate(tau, value, slope);
+        const Eigen::Map<const Flat> phi(value.data(), own.space.size);
+        const Flat y = own.change.transpose() * phi;
+        q[k] = q0_(k) + (isTogether_ ? Flat(Y.col(k)) : Flat(Y_.segment(offset(k), m(k)))).dot(y);
         p[k] = p0_(k);
     }
-    // p(tau) = p_0 + h int_0^tau of the polynomials through the L_q(i) of each panel: at tau = 1 the rule itself.
-    const std::vector<T> share = weightsUpTo(table_, tau);
+    // p(tau) = p_0 + h int_0^tau of what the rule takes L_q for, from its values at the nodes: at tau = 1 the rule itself.
+    const std::vector<T> share = weightsUpTo(tables_.front(), tau);
     for (int k = 0; k < d(); ++k)
-        for (int i = 0; i < n(); ++i) p[k] += h_ * share[static_cast<std::size_t>(i)] * forces(k, i);
+        for (int i = 0; i < n(); ++i) p[k] += h_ * share[static_cast<std::size_t>(i)] * forces(i, k);
 }
 
 }  // namespace extremal

@@ -60,6 +60,10 @@ void countSupports(const Table<double>& table, KktPattern& p) {
 
 KktPattern kktPattern(const System& system, const Discretization& pair, const State& start, double step) {
     KktPattern p;
+    if (!hasOneTable(pair.space)) {
+        p.failure = "each coordinate has functions of its own, which change with the step";
+        return p;
+    }
     const Table<double> table = tableOf(pair.space, pair.quadrature);
     const int d = system.dimension(), each = d * (table.space.size + 1);
     p.dimension = d;

@@ -50,10 +50,10 @@ public:
 
     /// Of the step last solved: the increments of q and p; what rounding takes from them is added to the carries.
     void increments(T* dq, T* dp, T* carryQ, T* carryP) const;
-    /// The same step's Y, d x m, and forces at the nodes, d x n.
+    /// The same step's Y, m x d, and forces at the nodes, n x d.
     void coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> forces) const;
 
-    /// Forces at the nodes, d x n, of a step solved otherwise: the next one starts from them.
+    /// Forces at the nodes, n x d, of a step solved otherwise: the next one starts from them.
     void remember(const Eigen::Ref<const Square>& forces);
     void forget() { hasForces_ = false; }
 

@@ -252,16 +252,16 @@ void NodeIteration<T>::coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> for
         for (int a = 0; a < m_; ++a) {
             T sum(0);
             for (int i = 0; i < n_; ++i) sum += toForces_[at(a, i)] * F_[at(k, i)];
-            Y(k, a) = toVelocity_[static_cast<std::size_t>(a)] * v0_[c] + sum * inverseMass_[c];
+            Y(a, k) = toVelocity_[static_cast<std::size_t>(a)] * v0_[c] + sum * inverseMass_[c];
         }
-        for (int i = 0; i < n_; ++i) forces(k, i) = F_[at(k, i)];
+        for (int i = 0; i < n_; ++i) forces(i, k) = F_[at(k, i)];
     }
 }
 
 template <class T>
 void NodeIteration<T>::remember(const Eigen::Ref<const Square>& forces) {
     for (int k = 0; k < d_; ++k)
-        for (int i = 0; i < n_; ++i) F_[at(k, i)] = forces(k, i);
+        for (int i = 0; i < n_; ++i) F_[at(k, i)] = forces(i, k);
     hasForces_ = true;
 }
 

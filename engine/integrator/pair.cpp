@@ -11,6 +11,8 @@
 #include "engine/action/table.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/elliptic.hpp"
+#include "engine/integrator/oscillatory.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/integrator/table_of.hpp"
@@ -101,6 +103,12 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
         p.hint = "quadrature auto";
         return p;
     }
+    if (isFilon(quadrature)) {
+        p.refusal = "a Filon rule integrates fast oscillations, and " + space.type + " has none";
+        p.hint = "take the space oscillatory, or another rule";
+        p.shortName = "-";
+        return p;
+    }
     const Rule<double> rule = makeRule<double>(quadrature);
     p.claims.isSymmetric = rule.isSymmetric;
     p.claims.isSymplectic = true;
@@ -172,9 +180,13 @@ private:
 }  // namespace
 
 PairProperties describe(const Settings& space, const Settings& quadrature) {
+    if (isOscillatory(space)) return describeOscillatory(space, quadrature);
+    if (isElliptic(space)) return describeElliptic(space);
     static Memory<PairProperties> known;
     return known.get(space, quadrature, [&] { return makeDescription(space, quadrature); });
 }
+
+bool hasOneTable(const Settings& space) { return !isOscillatory(space) && !isElliptic(space); }
 
 Table<double> tableOf(const Settings& space, const Settings& quadrature) {
     static Memory<Table<double>> known;
@@ -182,6 +194,8 @@ Table<double> tableOf(const Settings& space, const Settings& quadrature) {
 }
 
 Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
+    if (isOscillatory(space)) return completeOscillatoryRule(space, quadrature);
+    if (isElliptic(space)) return {"auto", {}, {}};  // integrals over elements are exact to round-off
     Settings q = quadrature;
     const double degree = space.number("degree");
     auto set = [&](const char* key, Value value) {
@@ -197,6 +211,11 @@ Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
         q.type = space.text("form") == "three-level" ? "exact" : "gauss";
     }
     if (q.type == "exact") return q;
+    if (isFilon(q)) {
+        set("nodes", degree + 2);
+        set("phases", 8.0);
+        return q;
+    }
     if (q.type == "gauss" || q.type == "radau") set("nodes", degree);
     if (q.type == "lobatto" || q.type == "clenshaw-curtis") set("nodes", degree + 1);
     if (q.type == "radau") set("end", "right");
@@ -227,8 +246,18 @@ std::optional<Discretization> namedScheme(std::string_view id) {
 
 bool isPairFor(const Discretization& pair, const System& system) {
     for (const SpaceEntry& e : spaceEntries())
-        if (e.item.id == pair.space.type) return appliesTo(e, system);
+        if (e.item.id == pair.space.type)
+            return appliesTo(e, system) &&
+                   (pair.space.text("omega") != "model" || system.fast.frequency > 0);
     return false;
+}
+
+Discretization settled(const Discretization& pair, const System& system, const State& start) {
+    Discretization known = pair;
+    if (isOscillatory(pair.space) && pair.space.text("omega") == "estimate" && system.hasMechanics())
+        for (auto& [key, value] : known.space.keys)
+            if (key == "omega") value = estimateFrequency(system, start);
+    return known;
 }
 
 Discretization trustedPair(const System& system) {

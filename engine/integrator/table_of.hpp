@@ -7,6 +7,9 @@
 
 namespace extremal {
 
+/// Whether a pair has one table, whatever the system and the step. An oscillatory one has not (integrator/oscillatory.hpp).
+bool hasOneTable(const Settings& space);
+
 /// Keys must be checked and complete. Throws InvalidScene where the pair makes no sense. Any thread may ask.
 Table<double> tableOf(const Settings& space, const Settings& quadrature);
 

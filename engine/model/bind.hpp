@@ -17,6 +17,7 @@
 #include "engine/core/jet.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/model/node_forces.hpp"
+#include "engine/model/node_lagrangian.hpp"
 
 namespace extremal {
 
@@ -174,6 +175,9 @@ Mechanics<T> bindMechanics(const M& model) {
         m.force = &C::force;
         if constexpr (NodeParallelModel<M> && std::is_same_v<T, double>) m.forces = NodeForces<M>::call();
         m.masses = bound->masses.data();
+    } else if constexpr (NodeParallelModel<M> && std::is_same_v<T, double>) {
+        m.gradients = NodeLagrangian<M>::gradients();
+        m.hessians = NodeLagrangian<M>::hessians();
     }
     m.jet = &C::jet;
     m.gradient = &C::gradient;

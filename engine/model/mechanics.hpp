@@ -33,6 +33,10 @@ struct Mechanics {
     /// The forces at many nodes together, where the system offers it (null else): coordinate k of node i is q[k * nodes + i],
     /// likewise f; `nodes` is a multiple of 8.
     void (*forces)(const void*, const T* t, int nodes, const T* q, T* f) = nullptr;
+    /// Where the system offers it (null else), for any Lagrangian: gradients and Hessians at many nodes together, entry k of
+    /// node i at k * nodes + i in q, v, gradient (2d entries) and Hessian (4d^2 entries); `nodes` is a multiple of 8.
+    void (*gradients)(const void*, const T* t, int nodes, const T* q, const T* v, T* gradients) = nullptr;
+    void (*hessians)(const void*, const T* t, int nodes, const T* q, const T* v, T* hessians) = nullptr;
     const T* masses = nullptr;                                           ///< length d
     bool isTimeDependent = false;
 };

@@ -73,8 +73,36 @@ struct FieldSampling {
 
 class Hamiltonian;
 
+/// A fast oscillation that a system knows of itself.
+struct FastMotion {
+    double frequency = 0;          ///< rad per unit of time, at rest; 0: none
+    std::vector<int> coordinates;  ///< those that mainly oscillate fast; the others may as well
+    /// At (t, x): energy of the oscillation around its slow mean, and that energy over the frequency of the moment, which
+    /// slow motion changes by a small periodic part only. May be empty.
+    EnergyFunction energy = {}, invariant = {};
+    /// The Hamiltonian in parts, each with its exact flow over a given time: the oscillation alone, and the rest in one or more
+    /// parts. x <- flow(x). May be empty.
+    using Flow = std::function<void(double* x)>;
+    std::function<Flow(double time)> fastFlow = {};
+    std::vector<std::function<Flow(double time)>> slowFlows = {};
+};
+
+/// A slow model in place of the system: fewer unknowns y, their rate, and the state of the system that they stand for.
+struct ReducedMotion {
+    std::vector<double> start;
+    std::function<void(const double* y, double* rate)> rate;
+    std::function<void(const double* y, double* x)> embed;
+};
+struct ReducedModel {
+    std::string id;  ///< of the baseline that integrates it
+    std::function<ReducedMotion(const State& initial)> make;
+};
+
+struct EllipticProblem;
+
 struct System {
     std::string id;
+    std::string independent = "t";  ///< what the schemes go along: time, or a place
     std::string timeUnit;    ///< "s", or empty if dimensionless
     std::string energyUnit;
 
@@ -103,6 +131,11 @@ struct System {
     /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be empty.
     std::function<std::string(const double* x)> caution;
 
+    /// No motion, but a boundary-value problem along x (elliptic.hpp).
+    std::shared_ptr<const EllipticProblem> elliptic;
+
+    FastMotion fast;
+    std::vector<ReducedModel> reduced;
     std::vector<MomentumMap> momenta;
     /// Makes the exact solution through the initial state (t, x), or returns an empty function where there is none.
     std::function<ExactSolution(const State& initial)> exact;

@@ -26,6 +26,14 @@ FieldInfo side() {
     return f;
 }
 
+FieldInfo filonNodes(double min) {
+    return count("nodes", "nodes", min, nullptr, "Number of slow nodes; default: the highest degree in the space plus two.");
+}
+FieldInfo phases() {
+    return count("phases", "phases", 1, nullptr,
+                 "Number of phases at each node; default: 4 H + 4, H the highest harmonic in the space.");
+}
+
 }  // namespace
 
 const std::vector<CatalogItem>& quadratureCatalog() {
@@ -48,7 +56,17 @@ const std::vector<CatalogItem>& quadratureCatalog() {
         {"trapezoid", "trapezoid", "The two ends of the step, or of each of several equal panels.",
          {panels}, {}, ""},
         {"exact", "exact", "The integral itself, where it is known: wave functions in three-level form.", {}, {}, ""},
-        {"auto", "automatic", "Chosen for the space: Gauss with as many nodes as the degree.", {}, {}, ""},
+        {"filon-lobatto", "Filon-Lobatto",
+         "For oscillatory spaces: Lobatto's nodes times equally spaced phases, exact for each harmonic; the cost does not "
+         "depend on the frequency.",
+         {filonNodes(2), phases()}, {}, "an oscillatory space"},
+        {"filon-gauss", "Filon-Gauss", "The same on Gauss' nodes: exact to a higher degree where nothing oscillates, and less "
+                                       "accurate by a factor step * frequency where it does.",
+         {filonNodes(1), phases()}, {}, "an oscillatory space"},
+        {"auto", "automatic",
+         "Chosen for the space: Gauss with as many nodes as the degree; for an oscillatory space the cheaper of Filon-Lobatto "
+         "and 24 Gauss points a period, Filon from some three periods a step on.",
+         {}, {}, ""},
     };
     return all;
 }

@@ -97,6 +97,21 @@ std::vector<Complex> weightsOf(const Expansion& e, double z) {
     return weight;
 }
 
+/// int_0^tau l_i(x) e^{izx} dx: the cardinal polynomials are seen exactly by the same rule on [0, tau].
+std::vector<Complex> weightsUpTo(const Expansion& e, double z, double tau) {
+    const std::vector<Complex> inner = weightsOf(e, tau * z);
+    const std::size_t count = e.node.size();
+    std::vector<Complex> weight(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j) {
+            double cardinal = tau;
+            for (std::size_t l = 0; l < count; ++l)
+                if (l != i) cardinal *= (tau * e.node[j] - e.node[l]) / (e.node[i] - e.node[l]);
+            weight[i] += cardinal * inner[j];
+        }
+    return weight;
+}
+
 }  // namespace
 
 std::vector<double> sphericalBessel(double x, int count) {
@@ -114,7 +129,7 @@ FilonRule filonRule(FilonNodes nodes, int count, double z) {
     return {e.node, weightsOf(e, z)};
 }
 
-FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z) {
+FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z, double tau) {
     const Expansion e = expansionOf(nodes, count);
     FilonGrid grid;
     grid.node = e.node;
@@ -122,7 +137,7 @@ FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z) {
     for (int m = 0; m < phases; ++m) grid.phase.push_back(turn * m);
     const int highest = (phases - 1) / 2;
     for (int k = 0; k <= highest; ++k) {
-        const std::vector<Complex> b = weightsOf(e, k * z);
+        const std::vector<Complex> b = tau == 1 ? weightsOf(e, k * z) : weightsUpTo(e, k * z, tau);
         if (k == 0) grid.weight.resize(b.size() * grid.phase.size());
         for (std::size_t i = 0; i < b.size(); ++i)
             for (int m = 0; m < phases; ++m) {

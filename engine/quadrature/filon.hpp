@@ -41,7 +41,7 @@ struct FilonGrid {
     std::vector<double> phase;   ///< 2 pi m / M
     std::vector<double> weight;  ///< W_im at i * M + m
 };
-/// phases >= 1.
-FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z);
+/// phases >= 1. With tau < 1 the weights are those of the integral from 0 to tau of what the grid takes F for.
+FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z, double tau = 1);
 
 }  // namespace extremal

@@ -19,7 +19,7 @@ void writeRows(const Trajectory& trajectory, Sink&& sink) {
     std::string block;
     for (std::size_t c = 0; c < trajectory.columns.size(); ++c) {
         if (c > 0) block += ',';
-        block += csvCell(trajectory.columns[c].name);
+        block += csvCell(c == 0 ? trajectory.columns[c].symbol : trajectory.columns[c].name);
     }
     block += '\n';
     for (std::size_t r = 0; r < trajectory.rows(); ++r) {

@@ -28,7 +28,7 @@ void append(Trajectory& trajectory, double t, const std::vector<double>& x, std:
 }  // namespace
 
 std::vector<Column> leadingColumns(const System& system) {
-    std::vector<Column> columns{{"t", "t", system.timeUnit, {}, {}}};
+    std::vector<Column> columns{{"t", system.independent, system.timeUnit, {}, {}}};
     for (const Quantity& c : stateColumns(system)) columns.push_back({c.name, c.symbol, c.unit, {}, {}});
     return columns;
 }

@@ -118,7 +118,7 @@ Reference fromScheme(const Scene& scene, const System& system, const State& init
     const SchemeSpec spec = scene.reference.scheme.front();
     // An adaptive code must not be stopped at the very end of the others by round-off.
     const double end = scene.end.value + 1e-6 * (scene.end.value - scene.start.value);
-    auto make = [system, spec, end, start = initial.t, stop](double step) {
+    auto make = [system, spec, end, start = initial, stop](double step) {
         return [=] {
             auto integrator = makeScheme(system, spec, step, start, end);
             integrator->setStop(stop);

@@ -102,7 +102,7 @@ struct SchemeRun::Pass {
         result.summary.orderClaimed = claimsOf(spec).order;
         result.trajectory.columns = leadingColumns(system);
         stateWidth = result.trajectory.columns.size() - 1;
-        integrator = makeScheme(system, spec, step, initial.t, scene.end.value);
+        integrator = makeScheme(system, spec, step, initial, scene.end.value);
         integrator->setStop(stop);
         result.summary.about = integrator->about();
         bindObservers(reference, observe, initial);

@@ -74,8 +74,8 @@ bool isAdaptive(const SchemeSpec& scheme) {
 namespace {
 
 std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& scheme, const Clock& clock,
-                                      double end) {
-    if (const auto pair = innerPairOf(scheme)) return makeIntegrator(system, *pair, clock);
+                                      const State& start, double end) {
+    if (const auto pair = innerPairOf(scheme)) return makeIntegrator(system, settled(*pair, system, start), clock);
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
     if (!entry) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
     if (!appliesTo(*entry, system)) {
@@ -96,13 +96,13 @@ std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& sc
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step,
-                                       double start, double end) {
-    const Clock clock{start, step};
-    if (scheme.composition.type.empty()) return makeInner(system, scheme, clock, end);
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, const State& start,
+                                       double end) {
+    const Clock clock{start.t, step};
+    if (scheme.composition.type.empty()) return makeInner(system, scheme, clock, start, end);
     return composed(
         compositionParts(scheme.composition, innerClaimsOf(scheme).order), clock,
-        [system, scheme, end](const Clock& part) { return makeInner(system, scheme, part, end); });
+        [system, scheme, start, end](const Clock& part) { return makeInner(system, scheme, part, start, end); });
 }
 
 double stabilityLimitOf(const SchemeSpec& scheme) {

@@ -32,8 +32,8 @@ double stabilityLimitOf(const SchemeSpec& scheme);
 
 bool isAdaptive(const SchemeSpec& scheme);
 
-/// The integrator of a scheme with the given step, from `start` to `end`. Throws InvalidScene.
-std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, double start,
+/// The integrator of a scheme with the given step, from a state to `end`. Throws InvalidScene.
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, const State& start,
                                        double end);
 
 /// Number of whole steps from start to the last node not after end + 1e-9 step.

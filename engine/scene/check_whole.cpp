@@ -3,6 +3,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/resonance.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/wave.hpp"
 #include "engine/scene/bind.hpp"
@@ -90,6 +91,20 @@ void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const PairProperti
     }
 }
 
+/// A step of an oscillatory pair near one at which it is singular.
+void checkResonance(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+                    const Discretization& pair, const std::string& pointer) {
+    const double h = scheme.step.value;
+    const auto found = resonanceOf(system, settled(pair, system, initialState(scene, system)), h);
+    if (!found) return;
+    reader.warning(pointer + "/step",
+                   formatNumber(h) + " may be near a resonance of the space: it has " + formatNumber(2 * found->periods, 6) +
+                       " half periods of the fast motion, and only a fractional part from 0.1 to 0.5 is safe; conditioning of "
+                       "the step " + formatNumber(found->conditioning, 2) + ", at the next safe one " +
+                       formatNumber(found->usual, 2),
+                   "the step " + formatNumber(found->near), found->near);
+}
+
 /// Refused and unstable pairs. False: the scheme cannot be made.
 bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
                const std::string& pointer) {
@@ -132,8 +147,9 @@ void checkCost(Reader& reader, const System& system, const Scene& scene, const S
 void tryToMake(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                const std::string& pointer) {
     try {
-        makeScheme(system, scheme, scheme.step.value, scene.start.value, scene.end.value);
-        schemeStart(scene, system, scheme, scheme.step.value, initialState(scene, system));
+        const State initial = initialState(scene, system);
+        makeScheme(system, scheme, scheme.step.value, initial, scene.end.value);
+        schemeStart(scene, system, scheme, scheme.step.value, initial);
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
         return;
@@ -142,6 +158,7 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
         checkWaveStep(reader, system, scene, scheme, innerPairOf(scheme), stabilityLimitOf(scheme), pointer);
     else
         checkStability(reader, system, scene, scheme, stabilityLimitOf(scheme), pointer);
+    if (const auto pair = innerPairOf(scheme)) checkResonance(reader, system, scene, scheme, *pair, pointer);
     checkCost(reader, system, scene, scheme, pointer);
 }
 

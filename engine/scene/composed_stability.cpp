@@ -32,7 +32,7 @@ double measure(const SchemeSpec& scheme) {
     if (!runsOn(system, scheme)) return 0;
     return firstInstability(
         [&](double z) {
-            const auto step = makeScheme(system, scheme, z, 0, z);
+            const auto step = makeScheme(system, scheme, z, State{0, 0, {1, 0}}, z);
             State one{0, 0, {1, 0}}, other{0, 0, {0, 1}};
             const bool isSolved = step->advance(one).outcome == Outcome::converged &&
                                   step->advance(other).outcome == Outcome::converged;

@@ -20,8 +20,9 @@ double predictSeconds(const Scene& scene, const System& system, const SchemeSpec
     constexpr double budget = 3e-3;
     constexpr int largestBlock = 1024;
     const double start = scene.start.value, end = scene.end.value;
-    const auto integrator = makeScheme(system, scheme, scheme.step.value, start, end);
-    State state = schemeStart(scene, system, scheme, scheme.step.value, initialState(scene, system));
+    const State initial = initialState(scene, system);
+    const auto integrator = makeScheme(system, scheme, scheme.step.value, initial, end);
+    State state = schemeStart(scene, system, scheme, scheme.step.value, initial);
     const double begin = threadSeconds();
     double spent = 0;
     // Blocks that double: reading the clock costs as much as a cheap step.

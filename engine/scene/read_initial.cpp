@@ -61,6 +61,7 @@ std::vector<Number> literals(const std::vector<double>& values) {
 void readGiven(Reader& reader, const Value* initial, const System& system, const ModelEntry& entry, Initial& result) {
     Reader quiet;
     readFields(quiet, entry.exampleInitial, "/initial", entry.initial, {}, result.given);
+    if (!initial && entry.initial.empty()) return;  // nothing to say
     if (!initial) return reader.warning("/initial", "is missing: the run starts from the model's example");
     if (!reader.isObject(*initial, "/initial")) return;
     Settings given;

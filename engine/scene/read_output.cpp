@@ -74,6 +74,10 @@ void readReferenceFile(Reader& reader, const Value& object, const std::string& d
 
 void readTime(Reader& reader, const Value& document, Scene& scene) {
     const Value* time = document.find("time");
+    if (!time && scene.model.type == "multiscale-elliptic") {
+        scene.end = Number{1, {}};
+        return;
+    }
     if (!time) return reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
     if (!reader.isObject(*time, "/time")) return;
     reader.checkKeys(*time, "/time", format::time);

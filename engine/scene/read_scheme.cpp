@@ -176,6 +176,16 @@ void readStep(Reader& reader, const Value& scheme, const std::string& pointer, b
                            ? "is not used: " + spec.baseline.type + " chooses its steps by its tolerance"
                            : std::string("is not used: the step is fixed"));
     const Value* value = scheme.find(wanted);
+    if (!value && spec.kind != SchemeSpec::Kind::baseline) {
+        // The length of an element follows from their number.
+        const auto pair = pairOf(spec);
+        const auto model = reader.parameters.find("elements");
+        if (pair && pair->space.type == "elliptic-elements" && model != reader.parameters.end() && model->second) {
+            const double own = pair->space.number("elements");
+            spec.step = Number{1 / (own > 0 ? own : *model->second), {}};
+            return;
+        }
+    }
     if (!value)
         return reader.error(place, "is required: a positive finite number",
                             isAdaptive ? "for example 1e-9" : "");

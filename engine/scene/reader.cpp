@@ -37,8 +37,8 @@ void Reader::error(std::string pointer, std::string message, std::string hint) {
     errors.push_back({std::move(pointer), std::move(message), std::move(hint)});
 }
 
-void Reader::warning(std::string pointer, std::string message, std::string hint) {
-    warnings.push_back({std::move(pointer), std::move(message), std::move(hint)});
+void Reader::warning(std::string pointer, std::string message, std::string hint, Value remedy) {
+    warnings.push_back({std::move(pointer), std::move(message), std::move(hint), {}, std::move(remedy)});
 }
 
 std::optional<double> Reader::evaluateText(const std::string& text, const std::string& pointer) {

@@ -42,7 +42,7 @@ public:
     bool hasUnknownModel = false;  ///< no name can be judged
 
     void error(std::string pointer, std::string message, std::string hint = {});
-    void warning(std::string pointer, std::string message, std::string hint = {});
+    void warning(std::string pointer, std::string message, std::string hint = {}, Value remedy = {});
 
     /// Each returns an empty result after recording an error.
     std::optional<Number> number(const Value& value, const std::string& pointer, const Limits& limits);

@@ -245,7 +245,7 @@ Value rootProperties() {
 
 Value sceneSchema() {
     Value schema =
-        object(rootProperties(), {"extremal", "model", "time", "schemes"}, "A comparison for Extremal.");
+        object(rootProperties(), {"extremal", "model", "schemes"}, "A comparison for Extremal.");
     Value document{Value::Object{}};
     document.set("$schema", "https://json-schema.org/draft/2020-12/schema");
     document.set("title", "Extremal scene");

@@ -73,8 +73,9 @@ Eigen::MatrixXd sampled(const Eigen::MatrixXd& path, int n) {
 Outcome shoot(const Scene& scene, const System& system, const SchemeSpec& scheme, double step, int n, Eigen::VectorXd& p0) {
     const int d = system.dimension();
     const Eigen::VectorXd q1 = valuesOf(scene.initial.pOrV);
+    const State exact = stateOf(scene, p0);
     auto reach = [&](const Eigen::VectorXd& p, Eigen::VectorXd& q) {
-        const auto integrator = makeScheme(system, scheme, step, scene.start.value, scene.end.value);
+        const auto integrator = makeScheme(system, scheme, step, exact, scene.end.value);
         State state = stateOf(scene, p);
         for (int k = 0; k < n; ++k)
             if (integrator->advance(state).outcome != Outcome::converged) return false;
@@ -124,7 +125,7 @@ State schemeStart(const Scene& scene, const System& system, const SchemeSpec& sc
     Eigen::VectorXd p0 = exact.startMomentum;
     Outcome outcome = Outcome::converged;
     const auto pair = pairOf(scheme);
-    if (pair && n <= mostElements) {
+    if (pair && hasOneTable(pair->space) && n <= mostElements) {
         const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(pair->space, pair->quadrature));
         const ActionBetween<double> motion = Ld.between(scene.start.value, at / n, sampled(exact.nodes, n));
         outcome = motion.outcome;

@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QMouseEvent>
 #include <QProgressBar>
+#include <QPushButton>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <cmath>
@@ -30,6 +31,14 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     makeHeader();
     parts_ = makeElidedLabel({}, "caption");
     layout_->addWidget(parts_);
+    caution_ = makeLabel({}, "caption");
+    caution_->setObjectName("caution");
+    caution_->setWordWrap(true);
+    layout_->addWidget(caution_);
+    remedy_ = new QPushButton;
+    remedy_->setObjectName("remedy");
+    connect(remedy_, &QPushButton::clicked, this, &SchemeCard::takeRemedy);
+    layout_->addWidget(remedy_, 0, Qt::AlignLeft);
     makeFigures();
     failure_ = makeLabel({}, "strong");
     advice_ = makeLabel({}, "caption");
@@ -138,6 +147,38 @@ void SchemeCard::showSpec() {
     line_->setToolTip(tr("Switch this scheme on or off (key %1)").arg(index_ + 1));
     line_->setAccessibleName(line_->toolTip());
     if (!s.isEnabled) showResult(nullptr, false);
+    showCaution();
+}
+
+namespace {
+
+/// The first warning that concerns a scheme.
+const Problem* cautionOf(const std::vector<Problem>& warnings, int index) {
+    const std::string place = "/schemes/" + std::to_string(index);
+    for (const Problem& p : warnings)
+        if (p.pointer == place || p.pointer.starts_with(place + "/")) return &p;
+    return nullptr;
+}
+
+}  // namespace
+
+/// A warning of the scene's check stands in the row of its scheme; what would do is offered, never done.
+void SchemeCard::showCaution() {
+    const Problem* caution = spec().isEnabled ? cautionOf(workspace_.warnings(), index_) : nullptr;
+    caution_->setVisible(caution);
+    remedy_->setVisible(caution && !caution->remedy.isNull());
+    if (!caution) return;
+    QString text = QString::fromStdString(caution->message);
+    if (caution->remedy.isNull() && !caution->hint.empty()) text += " (" + QString::fromStdString(caution->hint) + ")";
+    caution_->setText(tr("Warning: %1").arg(text));
+    remedy_->setText(tr("Take %1").arg(QString::fromStdString(caution->hint)));
+}
+
+void SchemeCard::takeRemedy() {
+    const Problem* caution = cautionOf(workspace_.warnings(), index_);
+    if (!caution || caution->remedy.isNull()) return;
+    const Problem taken = *caution;
+    workspace_.edit({{taken.pointer, taken.remedy}}, tr("Take %1").arg(QString::fromStdString(taken.hint)));
 }
 
 void SchemeCard::showFailure(const Summary& summary) {
@@ -174,7 +215,8 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
     QString orderTip = summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claim");
     if (std::isfinite(summary.orderMeasured)) {
         const bool agrees = std::abs(summary.orderMeasured - summary.orderClaimed) < 0.3;
-        order = QString::number(summary.orderMeasured, 'f', 1) + (agrees ? QStringLiteral(" ✓") : QStringLiteral(" ≠"));
+        order = QString::number(summary.orderMeasured, 'f', 1);
+        if (summary.orderClaimed > 0) order += agrees ? QStringLiteral(" ✓") : QStringLiteral(" ≠");
         orderTip += tr(", measured: %1").arg(summary.orderMeasured, 0, 'f', 2);
     }
     order_.value->setText(order);

@@ -10,6 +10,7 @@
 class QLabel;
 class QLineEdit;
 class QProgressBar;
+class QPushButton;
 class QToolButton;
 class QVBoxLayout;
 
@@ -50,6 +51,8 @@ private:
     void makeFigures();
     void makeMenu(QToolButton& dots);
     void showFailure(const Summary& summary);
+    void showCaution();
+    void takeRemedy();
     void finishName();
     const SchemeSpec& spec() const;
 
@@ -58,7 +61,8 @@ private:
     const Theme* theme_;
     QVBoxLayout* layout_;
     LineSample* line_;
-    QLabel *name_, *step_, *parts_, *failure_, *advice_;
+    QLabel *name_, *step_, *parts_, *caution_, *failure_, *advice_;
+    QPushButton* remedy_;
     QLineEdit* nameEdit_;
     QWidget* figures_;
     Figure cost_, error_, order_, steps_;

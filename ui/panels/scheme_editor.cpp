@@ -89,13 +89,13 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
         const Scene& scene = workspace_.scene();
         if (spec().kind == SchemeSpec::Kind::pair) {
             const Settings space = spaceOf(chosen(*first_), std::max(1, spec().space.integer("degree")));
-            return change(newPair(scene, space, ruleFor(spec().quadrature.type, space)));
+            const bool isNewlyFast = space.type == "oscillatory" && spec().space.type != space.type;
+            const std::string rule = isNewlyFast ? "auto" : fittingRule(spec().quadrature.type, space);
+            return change(newPair(scene, space, ruleFor(rule, space)));
         }
         change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_)) : newNamed(scene, chosen(*first_)));
     });
     rule_ = addChoice(tr("rule"), "rule");
-    for (const CatalogItem& item : quadratureCatalog())
-        if (item.id != "auto") rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
     ruleRow_ = rule_->parentWidget();
     connect(rule_, &QComboBox::activated, this, [this] {
         const Settings rule = ruleFor(chosen(*rule_), spec().space);
@@ -155,6 +155,10 @@ void SchemeEditor::rebuild() {
     if (s.kind == SchemeSpec::Kind::pair) {
         fill(*first_, fittingSpaces(workspace_.scene()));
         choose(*first_, s.space.type);
+        rule_->clear();
+        for (const CatalogItem& item : quadratureCatalog())
+            if (fittingRule(item.id, s.space) == item.id)
+                rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
         choose(*rule_, s.quadrature.type);
         if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type)) addFields(fields, space->parameters, place() + "/space");
         if (const CatalogItem* rule = itemNamed(quadratureCatalog(), s.quadrature.type))

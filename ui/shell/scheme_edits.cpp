@@ -239,6 +239,12 @@ Settings spaceOf(const std::string& id, int degree) {
     return space;
 }
 
+std::string fittingRule(const std::string& rule, const Settings& space) {
+    const bool isFast = space.type == "oscillatory", isForFast = rule == "auto" || rule.starts_with("filon-");
+    if (isFast) return isForFast || rule == "gauss" || rule == "lobatto" ? rule : "auto";
+    return isForFast ? "gauss" : rule;
+}
+
 Settings ruleFor(const std::string& id, const Settings& space) {
     const CatalogItem* item = itemOf(quadratureCatalog(), id);
     return completeQuadrature(space, item ? withDefaults(*item) : Settings{});

@@ -41,6 +41,9 @@ std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool i
 
 /// A space of the catalogue with its defaults and this degree.
 Settings spaceOf(const std::string& id, int degree);
+/// The rule, if a space of this kind goes with it, else the usual one of the space: Filon rules and "auto" are for
+/// oscillatory spaces, which seldom go with a plain rule of few nodes.
+std::string fittingRule(const std::string& rule, const Settings& space);
 /// A rule of the catalogue as it fits the space.
 Settings ruleFor(const std::string& id, const Settings& space);
 

@@ -42,6 +42,15 @@ struct FputChain {
             if (i > 0) f[i - 1] += tension;
         });
     }
+    /// Energy of the stiff springs and of the motion along them.
+    double oscillation(const double* x) const {
+        double sum = 0;
+        for (int i = 0; i < dimension(); i += 2) {
+            const double r = x[i + 1] - x[i], rate = (x[dimension() + i + 1] - x[dimension() + i]) / m;
+            sum += m / 4 * rate * rate + kStiff / 2 * r * r;
+        }
+        return sum;
+    }
     void curvature(double, const double* q, double* V) const {
         const int d = dimension();
         for (int i = 0; i < d * d; ++i) V[i] = 0;
@@ -102,6 +111,11 @@ System make(const Settings& settings) {
     for (int i = 1; i <= model.dimension(); ++i)
         s.coordinates.push_back({std::to_string(i), "displacement " + std::to_string(i), "q_" + std::to_string(i), "", ""});
     s.mechanics = bindRuntime(model);
+    // Every displacement has a slow part as well.
+    s.fast = {std::sqrt(2 * model.kStiff / model.m), {}, [model](double, const double* x) { return model.oscillation(x); },
+              [model](double, const double* x) {
+                  return model.oscillation(x) / std::sqrt(2 * model.kStiff / model.m);
+              }};
     s.draw = [d = model.dimension()](const double* x, Drawing& drawing) { draw(d, x, drawing); };
     s.phaseX = "q.1";
     s.phaseY = "p.1";

@@ -57,6 +57,7 @@ System make(const Settings& settings) {
     s.timeUnit = "s";
     s.energyUnit = "J";
     s.mechanics = bindMechanics<double>(model);
+    s.fast = {std::sqrt(model.k / model.m), {0}};
     s.exact = [model](const State& initial) { return exactSolution(model, initial); };
     s.draw = draw;
     s.phaseX = "q.x";

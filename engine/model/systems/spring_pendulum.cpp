@@ -15,6 +15,7 @@ namespace {
 
 struct SpringPendulum {
     static constexpr int dimension = 2;
+    static constexpr bool isNodeParallel = true;
     double m = 1, g = 9.81, l = 1, k = 1e4;
 
     template <class T, class S>
@@ -29,7 +30,90 @@ struct SpringPendulum {
         v[0] = p[0] / m;
         v[1] = p[1] / (m * r * r);
     }
+    /// Energy of the spring's oscillation around the mean it has at this angle and angular momentum.
+    double oscillation(const double* x) const {
+        const double r = x[0] + l, rate = x[3] / (m * r * r), mean = m * (g * std::cos(x[1]) + r * rate * rate) / k;
+        return x[2] * x[2] / (2 * m) + k / 2 * square(x[0] - mean);
+    }
+    /// At fixed angular momentum: w^2 = k/m + 3 p_theta^2 / (m^2 r^4), where sqrt(k/m) is printed.
+    double frequency(const double* x) const {
+        const double r = x[0] + l, rate = x[3] / (m * r * r);
+        return std::sqrt(k / m + 3 * rate * rate);
+    }
 };
+
+/// H = p_a^2/(2m) + k a^2/2 alone: the angle stands still.
+FastMotion::Flow oscillate(const SpringPendulum& s, double time) {
+    const double w = std::sqrt(s.k / s.m), c = std::cos(w * time), z = std::sin(w * time), mass = s.m * w;
+    return [c, z, mass](double* x) {
+        const double a = x[0];
+        x[0] = c * a + z / mass * x[2];
+        x[2] = c * x[2] - z * mass * a;
+    };
+}
+
+/// H = -m g r cos theta alone.
+FastMotion::Flow fall(const SpringPendulum& s, double time) {
+    return [impulse = time * s.m * s.g, l = s.l](double* x) {
+        x[2] += impulse * std::cos(x[1]);
+        x[3] -= impulse * (l + x[0]) * std::sin(x[1]);
+    };
+}
+/// H = p_theta^2/(2 m r^2) alone.
+FastMotion::Flow turn(const SpringPendulum& s, double time) {
+    return [m = s.m, l = s.l, time](double* x) {
+        const double r = l + x[0], rate = x[3] / (m * r * r);
+        x[1] += time * rate;
+        x[2] += time * m * r * rate * rate;
+    };
+}
+
+/// The spring a rod: y = (theta, p_theta).
+ReducedMotion rigidMotion(const SpringPendulum& s, const State& initial) {
+    ReducedMotion r;
+    r.start = {initial.x[1], initial.x[3]};
+    r.rate = [s](const double* y, double* rate) {
+        rate[0] = y[1] / (s.m * s.l * s.l);
+        rate[1] = -s.m * s.g * s.l * std::sin(y[0]);
+    };
+    r.embed = [](const double* y, double* x) {
+        x[0] = x[2] = 0;
+        x[1] = y[0];
+        x[3] = y[1];
+    };
+    return r;
+}
+
+/// The spring at its mean for this motion: k a = m g cos theta + p^2 / (m r^3), r = l + a.
+double meanExtension(const SpringPendulum& s, const double* y) {
+    double a = 0;
+    for (int i = 0; i < 8; ++i) {
+        const double r = s.l + a;
+        a = (s.m * s.g * std::cos(y[0]) + y[1] * y[1] / (s.m * r * r * r)) / s.k;
+    }
+    return a;
+}
+
+/// Averaged over the oscillation, whose invariant I = E/w stays: H = p^2/(2 m r^2) - m g r cos theta + k a^2/2 + I w(p), a the
+/// mean extension, w^2 = k/m + 3 p^2/(m^2 r^4). Fast parts of theta and p_theta, of order 1/w^2, are taken off at the start.
+ReducedMotion averagedMotion(const SpringPendulum& s, const State& initial) {
+    const double* x = initial.x.data();
+    const double w = s.frequency(x), invariant = s.oscillation(x) / w, shift = x[2] / (s.m * w * w);
+    ReducedMotion r;
+    r.start = {x[1] - 2 * x[3] / (s.m * s.l * s.l * s.l) * shift, x[3] - s.m * s.g * std::sin(x[1]) * shift};
+    r.rate = [s, invariant](const double* y, double* rate) {
+        const double R = s.l + meanExtension(s, y), turn = y[1] / (s.m * R * R);
+        rate[0] = turn + invariant * 3 * turn / (s.m * R * R * std::sqrt(s.k / s.m + 3 * turn * turn));
+        rate[1] = -s.m * s.g * R * std::sin(y[0]);
+    };
+    r.embed = [s](const double* y, double* state) {
+        state[0] = meanExtension(s, y);
+        state[1] = y[0];
+        state[2] = 0;
+        state[3] = y[1];
+    };
+    return r;
+}
 
 const std::vector<Field<SpringPendulum>>& fields() {
     static const std::vector<Field<SpringPendulum>> all = {
@@ -49,6 +133,12 @@ System make(const Settings& settings) {
     s.timeUnit = "s";
     s.energyUnit = "J";
     s.mechanics = bindMechanics<double>(model);
+    s.fast = {std::sqrt(model.k / model.m), {0}, [model](double, const double* x) { return model.oscillation(x); },
+              [model](double, const double* x) { return model.oscillation(x) / model.frequency(x); },
+              [model](double time) { return oscillate(model, time); },
+              {[model](double time) { return fall(model, time); }, [model](double time) { return turn(model, time); }}};
+    s.reduced = {{"rigid-pendulum", [model](const State& initial) { return rigidMotion(model, initial); }},
+                 {"averaged", [model](const State& initial) { return averagedMotion(model, initial); }}};
     s.draw = [l = model.l](const double* x, Drawing& drawing) {
         const double r = l + x[0];
         const Point bob{r * std::sin(x[1]), -r * std::cos(x[1]), 0};

@@ -6,6 +6,7 @@ namespace extremal::observables {
 ObservableEntry energy() {
     ObservableEntry e;
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.", {}, {}, ""};
+    e.applies = [](const System& system) { return system.hasMechanics() || system.energy; };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"energy", "H", context.system.energyUnit, {}, {}},

@@ -63,7 +63,7 @@ ObservableEntry multiplier() {
         const std::string unit = coordinates.size() == 1 ? coordinates.front().momentumUnit : "";
         o.columns = {{"multiplier", "|λ|", unit, {}, {}}, {"multiplier_error", "|λ - p|", unit, {}, {}}};
         for (const Coordinate& c : coordinates) o.columns.push_back({"multiplier." + c.name, "λ_" + c.symbol, c.momentumUnit, {}, {}});
-        if (!context.pair || !isPairFor(*context.pair, context.system)) {
+        if (!context.pair || !isPairFor(*context.pair, context.system) || !hasOneTable(context.pair->space)) {
             o.evaluate = [n = o.columns.size()](const State&, const StepReport&, double* values) {
                 std::fill_n(values, n, std::numeric_limits<double>::quiet_NaN());
             };

@@ -1,0 +1,105 @@
+/// Impulse method with the exact oscillator: half a step of the slow forces, the fast oscillation exactly, half a step of the
+/// slow forces (order 2; Garcia-Archilla, Sanz-Serna and Skeel 1999; Deuflhard 1979). Higher orders are symmetric
+/// compositions of it: Suzuki's 5 stages (order 4), Kahan and Li's 9 (order 6) and 17 stages (order 8) (Hairer, Lubich and
+/// Wanner, Geometric Numerical Integration, II.4, V.3.2). The orders hold for steps that resolve the oscillation; beyond,
+/// the fast energy is kept well only away from step * frequency = j pi.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+/// Half of a palindrome, its middle last.
+std::vector<double> stagesOf(int order) {
+    if (order == 4) {
+        const double outer = 1 / (4 - std::cbrt(4.0));
+        return {outer, outer, 1 - 4 * outer};
+    }
+    if (order == 6)
+        return {0.39216144400731413927925056, 0.33259913678935943859974864, -0.70624617255763935980996482,
+                0.08221359629355080023149045, 0.79854399093482996339895035};
+    if (order == 8)
+        return {0.13020248308889008087881763,  0.56116298177510838456196441, -0.38947496264484728640807860,
+                0.15884190655515560089621075,  -0.39590389413323757733623154, 0.18453964097831570709183254,
+                0.25837438768632204729397911,  0.29501172360931029887096624, -0.60550853383003451169892108};
+    return {1};
+}
+
+class Impulse final : public Integrator {
+public:
+    Impulse(const System& system, const Clock& clock, int order) : clock_(clock), fast_(system.fast) {
+        std::vector<double> stages = stagesOf(order);
+        for (std::size_t i = stages.size() - 1; i-- > 0;) stages.push_back(stages[i]);
+        const std::size_t last = fast_.slowFlows.size() - 1;
+        double before = 0;
+        for (const double share : stages) {
+            // The outermost halves of neighbouring stages are one flow.
+            parts_.push_back(fast_.slowFlows[0]((before + share) / 2 * clock.step));
+            for (std::size_t k = 1; k <= last; ++k) parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
+            parts_.push_back(fast_.fastFlow(share * clock.step));
+            for (std::size_t k = last; k > 0; --k) parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
+            before = share;
+        }
+        parts_.push_back(fast_.slowFlows[0](before / 2 * clock.step));
+        evaluations_ = static_cast<int>(stages.size()) + 1;
+    }
+
+    StepReport advance(State& state) override {
+        StepReport report;
+        report.step = clock_.step;
+        start_ = trial_ = state.x;
+        for (const FastMotion::Flow& part : parts_) part(trial_.data());
+        report.evaluations = evaluations_;
+        for (const double x : trial_)
+            if (!std::isfinite(x)) report.outcome = Outcome::notFinite;
+        if (report.outcome != Outcome::converged) return report;
+        state.x = trial_;
+        state.t = clock_.at(++state.node);
+        return report;
+    }
+    /// A shorter step of order 2 from the nearer end: the oscillation is in it.
+    void curve(double tau, std::span<double> x) const override {
+        const bool isLate = tau > 0.5;
+        const double time = (isLate ? tau - 1 : tau) * clock_.step;
+        std::copy((isLate ? trial_ : start_).begin(), (isLate ? trial_ : start_).end(), x.begin());
+        for (const auto& slow : fast_.slowFlows) slow(time / 2)(x.data());
+        fast_.fastFlow(time)(x.data());
+        for (auto slow = fast_.slowFlows.rbegin(); slow != fast_.slowFlows.rend(); ++slow) (*slow)(time / 2)(x.data());
+    }
+
+private:
+    Clock clock_;
+    FastMotion fast_;
+    std::vector<FastMotion::Flow> parts_;
+    int evaluations_ = 0;
+    std::vector<double> start_, trial_;
+};
+
+FieldInfo orderField() {
+    FieldInfo f;
+    f.key = f.title = "order";
+    f.type = FieldType::integer;
+    f.fallback = 2.0;
+    f.choices = {"2", "4", "6", "8"};
+    f.description = "Order, by composition: 1, 5, 9 or 17 stages.";
+    return f;
+}
+
+}  // namespace
+
+BaselineEntry impulse() {
+    BaselineEntry e;
+    e.item = {"impulse", "impulse method", "The fast oscillation exactly between impulses of the slow forces; orders 2, 4, 6, 8.",
+              {orderField()}, Claims{2, true, true, {"momentum"}}, "a fast oscillation of its own, with its flow"};
+    e.applies = [](const System& system) { return system.fast.fastFlow && !system.fast.slowFlows.empty(); };
+    e.claims = [](const Settings& settings) { return Claims{settings.integer("order"), true, true, {"momentum"}}; };
+    e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
+        return std::make_unique<Impulse>(system, options.clock, options.settings.integer("order"));
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

@@ -1,0 +1,69 @@
+#include "engine/integrator/small_product.hpp"
+
+#include <cstring>
+
+#include "engine/core/instruction_set.hpp"
+
+namespace extremal {
+namespace {
+
+/// Eight doubles, in as many registers as the machine needs.
+using Eight = double __attribute__((vector_size(64)));
+
+/// Eight rows from r of `width` columns from c.
+template <int width>
+inline void tile(const SmallProduct& p, int r, int c) {
+    Eight sum[width];
+    for (int j = 0; j < width; ++j) sum[j] = Eight{};
+    const double* A = p.A + r;
+    const double* B = p.B + static_cast<long>(c) * p.strideB;
+    for (int i = 0; i < p.depth; ++i, A += p.stride) {
+        Eight a;
+        std::memcpy(&a, A, sizeof a);
+        for (int j = 0; j < width; ++j) sum[j] += a * B[static_cast<long>(j) * p.strideB + i];
+    }
+    const int count = p.rows - r < 8 ? p.rows - r : 8;
+    for (int j = 0; j < width; ++j) {
+        double* C = p.C + static_cast<long>(c + j) * p.strideC + r;
+        for (int i = 0; i < count; ++i) C[i] += sum[j][i];
+    }
+}
+
+template <int width>
+inline void product(const SmallProduct& p) {
+    for (int r = 0; r < p.rows; r += 8) {
+        int c = 0;
+        for (; c + width <= p.columns; c += width) tile<width>(p, r, c);
+        for (; c < p.columns; ++c) tile<1>(p, r, c);
+    }
+}
+
+inline void combine(const double* p, const double* x, const double* q, const double* y, double* __restrict out, int n) {
+    for (int i = 0; i < n; ++i) out[i] = p[i] * x[i] + q[i] * y[i];
+}
+
+EXTREMAL_FOR_AVX512 void productAvx512(const SmallProduct& p) { product<8>(p); }
+EXTREMAL_FOR_AVX2 void productAvx2(const SmallProduct& p) { product<4>(p); }
+[[gnu::flatten]] void productBaseline(const SmallProduct& p) { product<2>(p); }
+EXTREMAL_FOR_AVX512 void combineAvx512(const double* p, const double* x, const double* q, const double* y, double* out, int n) {
+    combine(p, x, q, y, out, n);
+}
+EXTREMAL_FOR_AVX2 void combineAvx2(const double* p, const double* x, const double* q, const double* y, double* out, int n) {
+    combine(p, x, q, y, out, n);
+}
+[[gnu::flatten]] void combineBaseline(const double* p, const double* x, const double* q, const double* y, double* out, int n) {
+    combine(p, x, q, y, out, n);
+}
+
+}  // namespace
+
+NodeSums nodeSums() {
+    switch (instructionSet()) {
+        case InstructionSet::avx512: return {&productAvx512, &combineAvx512};
+        case InstructionSet::avx2: return {&productAvx2, &combineAvx2};
+        case InstructionSet::baseline: break;
+    }
+    return {&productBaseline, &combineBaseline};
+}
+
+}  // namespace extremal

@@ -1,0 +1,29 @@
+/// Sums over the nodes of steps that have many of them, in the instruction set of this machine: C += A B, and columns weighted
+/// row by row.
+///
+/// Matrices are stored by columns. A is rows x depth with `stride` rows in memory, a multiple of 8; those beyond `rows` may hold
+/// anything finite. B is depth x columns; C is rows x columns. The order of summation does not depend on the instruction set.
+#pragma once
+
+namespace extremal {
+
+struct SmallProduct {
+    const double* A;
+    int stride;
+    const double* B;
+    int strideB;
+    double* C;
+    int strideC;
+    int rows, columns, depth;
+};
+
+struct NodeSums {
+    void (*product)(const SmallProduct&);
+    /// out_i = p_i x_i + q_i y_i, i < n.
+    void (*combine)(const double* p, const double* x, const double* q, const double* y, double* out, int n);
+};
+
+/// The kernels for this machine.
+NodeSums nodeSums();
+
+}  // namespace extremal

@@ -1,0 +1,102 @@
+/// The elliptic problem with a fast coefficient (Leok 2004, sec. 6.1), (a(x/epsilon) u')' = f, u(0) = u(1) = 0: no motion, but
+/// a solution along x, which a scheme gives node by node. State columns u, u_exact at the place x (elliptic.hpp).
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "engine/core/expression.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/elliptic.hpp"
+#include "engine/model/system.hpp"
+
+namespace extremal::systems {
+namespace {
+
+/// A formula in one variable. Throws InvalidScene at `pointer`.
+std::function<double(double)> formula(const Value& value, const std::string& pointer, const std::string& variable) {
+    if (value.isNumber()) return [c = value.asNumber()](double) { return c; };
+    if (!value.isString()) throw InvalidScene(pointer, "must be an expression in " + variable);
+    const std::string text = value.asString();
+    try {
+        const auto expression = std::make_shared<const Expression>(parseExpression(text));
+        for (const Expression::Node& node : expression->nodes)
+            if (node.kind == Operator::name && node.name != variable && node.name != "pi")
+                throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position, "it depends on " + variable);
+        return [expression, variable](double x) {
+            return evaluate(*expression, [&](std::string_view name) -> std::optional<double> {
+                if (name == variable) return x;
+                return std::acos(-1.0);
+            });
+        };
+    } catch (const ExpressionError& e) {
+        throw InvalidScene(pointer, std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
+    }
+}
+
+FieldInfo expressionField(const char* key, const char* fallback, const char* description) {
+    FieldInfo f;
+    f.key = f.title = f.symbol = key;
+    f.type = FieldType::json;
+    f.fallback = fallback;
+    f.description = description;
+    return f;
+}
+
+FieldInfo elements() {
+    FieldInfo f;
+    f.key = f.title = "elements";
+    f.symbol = "N";
+    f.type = FieldType::integer;
+    f.fallback = 10.0;
+    f.min = 2;
+    f.max = 1e5;
+    f.description = "Number of elements of schemes that do not say theirs.";
+    return f;
+}
+
+System make(const Settings& settings) {
+    const EllipticProblem problem{formula(*settings.find("a"), "/a", "s"), settings.number("epsilon"),
+                                  formula(*settings.find("f"), "/f", "x")};
+    System s;
+    s.id = "multiscale-elliptic";
+    s.independent = "x";
+    s.columns = {{"u", "solution", "u", ""}, {"u_exact", "exact solution", "u_exact", ""}};
+    s.elliptic = std::make_shared<const EllipticProblem>(problem);
+    // Positive everywhere, or there is no solution: seen at the places of the quadrature.
+    const auto exact = std::make_shared<const EllipticSolution>(problem, 16);
+    double size = 0;
+    for (int i = 1; i < 200; ++i) size = std::max(size, std::abs(exact->u(i / 200.0)));
+    s.exact = [exact](const State&) -> ExactSolution {
+        return [exact](double x, std::span<double> values) { values[0] = values[1] = exact->u(x); };
+    };
+    s.error.columns = {{"error", "", "|u - u_exact| / max |u|", ""}};
+    s.error.evaluate = [scale = size > 0 ? size : 1](const double* x, const double* reference, double* values) {
+        values[0] = std::abs(x[0] - reference[0]) / scale;
+    };
+    s.start = [](const Settings&) { return std::vector<double>{0, 0}; };
+    s.draw = [](const double*, Drawing&) {};
+    s.phaseX = "t";
+    s.phaseY = "u";
+    s.trajectoryX = "t";
+    s.trajectoryY = "u";
+    return s;
+}
+
+}  // namespace
+
+ModelEntry multiscale_elliptic() {
+    ModelEntry e;
+    FieldInfo epsilon = positive("epsilon", "period", "", 0.025, "Size of the fast scale: a depends on s = x/epsilon.");
+    e.item = {"multiscale-elliptic", "elliptic problem with a fast coefficient",
+              "(a(x/epsilon) u')' = f, u(0) = u(1) = 0: finite elements whose functions know the fast coefficient, and linear ones.",
+              {expressionField("a", "10/(1+0.95*sin(2*pi*s))", "The coefficient, an expression in s = x/epsilon; positive."),
+               epsilon, expressionField("f", "x^2", "The right-hand side, an expression in x."), elements()},
+              {}, ""};
+    e.exampleEnd = 1;
+    e.exampleStep = 0.1;
+    e.make = make;
+    return e;
+}
+
+}  // namespace extremal::systems

@@ -1,0 +1,52 @@
+/// A slow polynomial and harmonics of a fast frequency with polynomial amplitudes; each coordinate its own.
+#include "engine/space/catalog.hpp"
+#include "engine/space/oscillatory.hpp"
+
+namespace extremal::spaces {
+namespace {
+
+FieldInfo json(const char* key, const char* title, const char* symbol, Value fallback, const char* description) {
+    FieldInfo f;
+    f.key = key;
+    f.title = title;
+    f.symbol = symbol;
+    f.type = FieldType::json;
+    f.isOptional = fallback.isNull();
+    f.fallback = std::move(fallback);
+    f.description = description;
+    return f;
+}
+
+FieldInfo degree() {
+    FieldInfo f;
+    f.key = f.title = "degree";
+    f.symbol = "n";
+    f.type = FieldType::integer;
+    f.fallback = 4.0;
+    f.min = 1;
+    f.max = 24;
+    f.description = "Degree of the slow part.";
+    f.whyLimits = "a slow part of degree 0 stands still; above 24 more steps are cheaper than a higher degree";
+    return f;
+}
+
+}  // namespace
+
+SpaceEntry oscillatory() {
+    SpaceEntry e;
+    e.item = {"oscillatory", "oscillatory",
+              "A slow polynomial and harmonics of a fast frequency with polynomial amplitudes: steps of many fast periods.",
+              {json("omega", "frequency", "ω", "model",
+                    "Frequency of the fast motion: a number, \"model\" (what the model says), or \"estimate\" (from a short "
+                    "resolved run)."),
+               degree(),
+               json("harmonics", "harmonics", "m", Value::Array{1.0},
+                    "Degree of the amplitudes of the first harmonic, of the second, ..."),
+               json("fast", "fast coordinates", "", {}, "degree and harmonics of the coordinates the model calls fast."),
+               json("variables", "variables", "", {}, "degree and harmonics of single coordinates, by name.")},
+              {}, ""};
+    e.make = [](const Settings& settings) { return oscillatorySpace({settings.integer("degree"), {}}, 0); };
+    return e;
+}
+
+}  // namespace extremal::spaces
