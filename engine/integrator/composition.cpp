@@ -11,13 +11,9 @@ namespace {
 constexpr int highestOrder = 24, mostLevels = 4;
 
 FieldInfo orderField() {
-    FieldInfo f;
-    f.key = f.title = "order";
-    f.type = FieldType::integer;
+    FieldInfo f = integerField("order", "", 4, highestOrder, nullptr,
+                               "order of the composition, even; left out: two more than the scheme has");
     f.isOptional = true;
-    f.min = 4;
-    f.max = highestOrder;
-    f.description = "order of the composition, even; left out: two more than the scheme has";
     f.whyLimits = "compositions of order 2 gain nothing, and above 24 round-off hides what is gained";
     return f;
 }

@@ -63,6 +63,7 @@ private:
     void place(const T& t, const T* p, const T* carryQ, const T* carryP);
     void evaluateForces();
     void evaluateOneByOne();
+    void weigh();  ///< impulses from forces
     void startFromConstantForce(const T& t, const T* q);
     T largestChange(const T* q) const;
     /// The sums that move q and p go through extended precision: rounded in double they were biased, and the energy of

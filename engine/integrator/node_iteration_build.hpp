@@ -98,6 +98,7 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     typename Table<T>::Vector times = -table.value * inverse.col(m_ - 1);
     for (int i = 0; i < n_; ++i) times(i) = orLinear(times(i), table.node(i));
     const T end = orLinear(T(-inverse(m_ - 1, m_ - 1)), T(1));
+    // From here on multiples of one unit: differences are exact, and so is the condition N_ij - N_ji = s_i - s_j.
     const detail::Grid<T> round(std::max({T(abs(end)), T(N.cwiseAbs().maxCoeff()), T(times.cwiseAbs().maxCoeff())}));
     velocityToEnd_ = round(end);
     for (int i = 0; i < stride_; ++i) {
@@ -136,6 +137,11 @@ void NodeIteration<T>::evaluateForces() {
         mechanics_.forces(model, times_.data(), stride_, Q_.data(), F_.data());
     else
         evaluateOneByOne();
+    weigh();
+}
+
+template <class T>
+void NodeIteration<T>::weigh() {
     for (int k = 0; k < d_; ++k)
         for (int i = 0; i < stride_; ++i) impulse_[at(k, i)] = weight_[at(0, i)] * F_[at(k, i)];
 }
@@ -153,10 +159,8 @@ template <class T>
 void NodeIteration<T>::startFromConstantForce(const T& t, const T* q) {
     mechanics_.force(mechanics_.model.get(), t, q, force_.data());
     for (int k = 0; k < d_; ++k)
-        for (int i = 0; i < n_; ++i) {
-            F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
-            impulse_[at(k, i)] = weight_[at(0, i)] * F_[at(k, i)];
-        }
+        for (int i = 0; i < n_; ++i) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
+    weigh();
 }
 
 /// Size of the last sweep's change: each coordinate against its own increments and the round-off of its own value.
@@ -181,7 +185,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
     place(t, p, carryQ, carryP);
     Sweep<T> s{d_, n_, stride_, start_.data(), base_.data(), F_.data(), inverseMass_.data(), q, Z_.data(), Q_.data(),
                size_.data()};
-    const auto useImpulses = [&] {
+    const auto useImpulses = [&] {  // from here on; the continuation of the last step is in terms of forces
         s.G = N_.data();
         s.F = impulse_.data();
     };
