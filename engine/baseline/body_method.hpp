@@ -16,6 +16,11 @@
 
 namespace extremal {
 
+/// The key of baselines on quaternions.
+inline FieldInfo projectionField() {
+    return flagField("projection", true, "Bring the quaternion back to length 1 after each step.");
+}
+
 class BodyMethod : public Integrator {
 public:
     using Vector = so3::Vector<double>;

@@ -41,40 +41,28 @@ struct Field {
     FieldInfo info;
 };
 
-/// Descriptor of a positive number: the most frequent case.
-inline FieldInfo positive(std::string key, std::string title, std::string unit, double fallback, std::string description) {
-    FieldInfo f;
-    f.symbol = key;
-    f.key = std::move(key);
-    f.title = std::move(title);
-    f.unit = std::move(unit);
-    f.fallback = fallback;
-    f.min = 0;
-    f.isMinExcluded = true;
-    f.description = std::move(description);
-    return f;
-}
+// Descriptors of the usual kinds. What they do not say (symbol, limits, unit, ...) is set on the result.
 
-/// Descriptor of a number that may be zero but not negative.
-inline FieldInfo notNegative(std::string key, std::string title, std::string unit, double fallback, std::string description) {
-    FieldInfo f = positive(std::move(key), std::move(title), std::move(unit), fallback, std::move(description));
-    f.isMinExcluded = false;
-    return f;
-}
-
-/// Descriptor of a few numbers in an array, one per component; every one within min and max.
-inline FieldInfo numbers(std::string key, std::string title, std::string unit, std::vector<std::string> components,
-                         Value fallback, std::string description) {
-    FieldInfo f;
-    f.symbol = key;
-    f.key = std::move(key);
-    f.title = std::move(title);
-    f.unit = std::move(unit);
-    f.type = FieldType::numbers;
-    f.components = std::move(components);
-    f.fallback = std::move(fallback);
-    f.description = std::move(description);
-    return f;
-}
+/// A positive number; the key is the symbol, too.
+FieldInfo positive(std::string key, std::string title, std::string unit, double fallback, std::string description);
+/// A number that may be zero but not negative.
+FieldInfo notNegative(std::string key, std::string title, std::string unit, double fallback, std::string description);
+/// A few numbers in an array, one per component.
+FieldInfo numbers(std::string key, std::string title, std::string unit, std::vector<std::string> components, Value fallback,
+                  std::string description);
+/// An integer from min to max, under the title of its key. Fallback null: required.
+FieldInfo integerField(std::string key, std::string symbol, double min, double max, Value fallback, std::string description);
+/// One of a few integers, under the title of its key.
+FieldInfo integerChoice(std::string key, std::vector<std::string> choices, double fallback, std::string description);
+/// One of a few texts; the first one is the default.
+FieldInfo choiceField(std::string key, std::string title, std::vector<std::string> choices, std::string description);
+/// Yes or no, under the title of its key.
+FieldInfo flagField(std::string key, bool fallback, std::string description);
+/// A text of the user's. Fallback null: required.
+FieldInfo textField(std::string key, std::string symbol, Value fallback, std::string description);
+/// Constants by names of the user's: none, if left out.
+FieldInfo constantsField(std::string key, std::string description);
+/// Any value that the field's owner reads itself. Fallback null: it may be required, or optional (isOptional).
+FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback, std::string description);
 
 }  // namespace extremal

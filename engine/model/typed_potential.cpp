@@ -195,22 +195,13 @@ MomentumMap angularMomentum(std::size_t k, bool movesInSpace) {
 }  // namespace
 
 std::vector<FieldInfo> typedPotentialFields(bool movesInSpace) {
-    FieldInfo potential;
-    potential.key = "potential";
-    potential.title = "potential";
-    potential.symbol = "U";
+    FieldInfo potential =
+        textField("potential", "U", "0",
+                  std::string("U as an expression in ") + (movesInSpace ? "x, y, z, " : "") +
+                      "R11..R33 (Rij: space component i of body axis j), " + (movesInSpace ? "mass, " : "") +
+                      "I1, I2, I3 and the parameters.");
     potential.unit = "J";
-    potential.type = FieldType::text;
-    potential.fallback = "0";
-    potential.description = std::string("U as an expression in ") + (movesInSpace ? "x, y, z, " : "") +
-                            "R11..R33 (Rij: space component i of body axis j), " + (movesInSpace ? "mass, " : "") +
-                            "I1, I2, I3 and the parameters.";
-    FieldInfo parameters;
-    parameters.key = parameters.title = "parameters";
-    parameters.type = FieldType::constants;
-    parameters.fallback = Value(Value::Object{});
-    parameters.description = "Constants by name, for the potential.";
-    return {potential, parameters};
+    return {potential, constantsField("parameters", "Constants by name, for the potential.")};
 }
 
 std::vector<MomentumMap> setTypedPotential(BodyMechanics<double>& body, const Settings& settings) {

@@ -3,54 +3,41 @@
 namespace extremal {
 namespace {
 
-FieldInfo count(std::string key, std::string title, double min, Value fallback, std::string description) {
-    FieldInfo f;
-    f.key = f.symbol = std::move(key);
+FieldInfo count(std::string key, std::string title, double min, std::string description) {
+    FieldInfo f = integerField(key, key, min, 1000, nullptr, std::move(description));
     f.title = std::move(title);
-    f.type = FieldType::integer;
-    f.fallback = std::move(fallback);
-    f.min = min;
-    f.max = 1000;
-    f.description = std::move(description);
     return f;
 }
 
 FieldInfo side() {
-    FieldInfo f;
-    f.key = "end";
-    f.title = "end that is a node";
-    f.type = FieldType::choice;
-    f.fallback = "right";
-    f.choices = {"right", "left"};
-    f.description = "Which end of the step is a node.";
-    return f;
+    return choiceField("end", "end that is a node", {"right", "left"}, "Which end of the step is a node.");
 }
 
 FieldInfo filonNodes(double min) {
-    return count("nodes", "nodes", min, nullptr, "Number of slow nodes; default: the highest degree in the space plus two.");
+    return count("nodes", "nodes", min, "Number of slow nodes; default: the highest degree in the space plus two.");
 }
 FieldInfo phases() {
-    return count("phases", "phases", 1, nullptr,
+    return count("phases", "phases", 1,
                  "Number of phases at each node; default: 4 H + 4, H the highest harmonic in the space.");
 }
 
 }  // namespace
 
 const std::vector<CatalogItem>& quadratureCatalog() {
-    const FieldInfo panels = count("panels", "panels", 1, nullptr,
+    const FieldInfo panels = count("panels", "panels", 1,
                                    "The rule is repeated in equal panels; default: the cells of the space.");
     const std::string default0 = "Number of nodes; default: the degree of the space.";
     const std::string default1 = "Number of nodes; default: the degree of the space plus one.";
     static const std::vector<CatalogItem> all = {
         {"gauss", "Gauss", "Gauss-Legendre: n nodes inside the step, exact to degree 2n - 1.",
-         {count("nodes", "nodes", 1, nullptr, default0), panels}, {}, ""},
+         {count("nodes", "nodes", 1, default0), panels}, {}, ""},
         {"lobatto", "Lobatto", "Gauss-Lobatto: both ends are nodes, exact to degree 2n - 3.",
-         {count("nodes", "nodes", 2, nullptr, default1), panels}, {}, ""},
+         {count("nodes", "nodes", 2, default1), panels}, {}, ""},
         {"radau", "Radau", "Gauss-Radau: one end is a node, exact to degree 2n - 2; not symmetric.",
-         {count("nodes", "nodes", 1, nullptr, default0), side(), panels}, {}, ""},
+         {count("nodes", "nodes", 1, default0), side(), panels}, {}, ""},
         {"clenshaw-curtis", "Clenshaw-Curtis",
          "Chebyshev extrema: both ends are nodes, exact to degree n - 1 (n for odd n).",
-         {count("nodes", "nodes", 2, nullptr, default1), panels}, {}, ""},
+         {count("nodes", "nodes", 2, default1), panels}, {}, ""},
         {"midpoint", "midpoint", "The middle of the step, or of each of several equal panels.",
          {panels}, {}, ""},
         {"trapezoid", "trapezoid", "The two ends of the step, or of each of several equal panels.",

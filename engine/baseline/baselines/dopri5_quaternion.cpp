@@ -88,14 +88,9 @@ private:
 }  // namespace
 
 BaselineEntry dopri5_quaternion() {
-    FieldInfo projection;
-    projection.key = projection.title = "projection";
-    projection.type = FieldType::boolean;
-    projection.fallback = true;
-    projection.description = "Bring the quaternion back to length 1 after each step.";
     BaselineEntry e;
     e.item = {"dopri5-quaternion", "Dormand-Prince 5(4) on quaternions",
-              "Boost.odeint's pair of order 5 under error control, for rigid bodies.", {projection},
+              "Boost.odeint's pair of order 5 under error control, for rigid bodies.", {projectionField()},
               Claims{5, false, false, {}}, "a rigid body"};
     e.isAdaptive = true;
     e.applies = [](const System& system) { return system.hasBody(); };

@@ -241,15 +241,8 @@ Claims claims(int stages) { return {2 * stages, true, true, {"momentum", "quadra
 
 BaselineEntry gauss_collocation() {
     constexpr int usual = 4;
-    FieldInfo stages;
-    stages.key = "stages";
-    stages.title = "stages";
-    stages.symbol = "s";
-    stages.type = FieldType::integer;
-    stages.fallback = usual;
-    stages.min = 1;
-    stages.max = 16;
-    stages.description = "Collocation points; the order is twice their number.";
+    const FieldInfo stages =
+        integerField("stages", "s", 1, 16, usual, "Collocation points; the order is twice their number.");
     BaselineEntry e;
     e.item = {"gauss-collocation", "Gauss collocation",
               "Collocation at Gauss points of Hamilton's equations by fixed-point iteration.", {stages}, claims(usual), ""};

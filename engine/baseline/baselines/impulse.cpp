@@ -78,22 +78,12 @@ private:
     std::vector<double> start_, trial_;
 };
 
-FieldInfo orderField() {
-    FieldInfo f;
-    f.key = f.title = "order";
-    f.type = FieldType::integer;
-    f.fallback = 2.0;
-    f.choices = {"2", "4", "6", "8"};
-    f.description = "Order, by composition: 1, 5, 9 or 17 stages.";
-    return f;
-}
-
 }  // namespace
 
 BaselineEntry impulse() {
     BaselineEntry e;
     e.item = {"impulse", "impulse method", "The fast oscillation exactly between impulses of the slow forces; orders 2, 4, 6, 8.",
-              {orderField()}, Claims{2, true, true, {"momentum"}}, "a fast oscillation of its own, with its flow"};
+              {integerChoice("order", {"2", "4", "6", "8"}, 2, "Order, by composition: 1, 5, 9 or 17 stages.")}, Claims{2, true, true, {"momentum"}}, "a fast oscillation of its own, with its flow"};
     e.applies = [](const System& system) { return system.fast.fastFlow && !system.fast.slowFlows.empty(); };
     e.claims = [](const Settings& settings) { return Claims{settings.integer("order"), true, true, {"momentum"}}; };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

@@ -94,14 +94,8 @@ private:
 }  // namespace
 
 BaselineEntry moser_veselov() {
-    FieldInfo order;
-    order.key = order.title = "order";
-    order.type = FieldType::integer;
-    order.min = 2;
-    order.max = 6;
+    FieldInfo order = integerField("order", "", 2, 6, 2, "The algorithm itself (2), or with preprocessed moments of inertia (4, 6).");
     order.choices = {"2", "4", "6"};
-    order.fallback = 2;
-    order.description = "The algorithm itself (2), or with preprocessed moments of inertia (4, 6).";
     BaselineEntry e;
     e.item = {"moser-veselov", "Moser-Veselov",
               "The discrete free body of Moser and Veselov: keeps momentum and energy, errs in time.", {order},

@@ -72,14 +72,8 @@ private:
 }  // namespace
 
 BaselineEntry rigid_splitting() {
-    FieldInfo order;
-    order.key = order.title = "order";
-    order.type = FieldType::integer;
-    order.min = 2;
-    order.max = 6;
+    FieldInfo order = integerField("order", "", 2, 6, 2, "Strang (2), Suzuki's composition of it (4), or Kahan and Li's (6).");
     order.choices = {"2", "4", "6"};
-    order.fallback = 2;
-    order.description = "Strang (2), Suzuki's composition of it (4), or Kahan and Li's (6).";
     BaselineEntry e;
     e.item = {"rigid-splitting", "rigid splitting",
               "Explicit splitting of a rigid body into rotations about its axes; kicks for a potential.", {order},

@@ -42,14 +42,9 @@ private:
 }  // namespace
 
 BaselineEntry rk4_quaternion() {
-    FieldInfo projection;
-    projection.key = projection.title = "projection";
-    projection.type = FieldType::boolean;
-    projection.fallback = true;
-    projection.description = "Bring the quaternion back to length 1 after each step.";
     BaselineEntry e;
     e.item = {"rk4-quaternion", "RK4 on quaternions",
-              "Classical Runge-Kutta of order 4 for rigid bodies: energy and momentum drift.", {projection},
+              "Classical Runge-Kutta of order 4 for rigid bodies: energy and momentum drift.", {projectionField()},
               Claims{4, false, false, {}}, "a rigid body"};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.applies = [](const System& system) { return system.hasBody(); };

@@ -25,20 +25,9 @@ Rule<double> nodesOf(int s, bool isExtrema) {
 }  // namespace
 
 BaselineEntry spectral_collocation() {
-    FieldInfo degree;
-    degree.key = degree.title = "degree";
-    degree.symbol = "s";
-    degree.type = FieldType::integer;
-    degree.fallback = 8;
-    degree.min = 1;
-    degree.max = 64;
-    degree.description = "Degree of the polynomial in time on one step.";
-    FieldInfo nodes;
-    nodes.key = nodes.title = "nodes";
-    nodes.type = FieldType::choice;
-    nodes.fallback = "extrema";
-    nodes.choices = {"extrema", "roots"};
-    nodes.description = "Chebyshev extrema without the start of the step, or Chebyshev roots.";
+    const FieldInfo degree = integerField("degree", "s", 1, 64, 8, "Degree of the polynomial in time on one step.");
+    const FieldInfo nodes = choiceField("nodes", "nodes", {"extrema", "roots"},
+                                        "Chebyshev extrema without the start of the step, or Chebyshev roots.");
     BaselineEntry e;
     e.item = {"spectral-collocation", "spectral collocation",
               "Wave functions by collocation in time at Chebyshev nodes: spectral, but from no action.", {degree, nodes},

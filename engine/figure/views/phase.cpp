@@ -24,21 +24,12 @@ Figure make(const FigureContext& context) {
     return figure;
 }
 
-FieldInfo column(const char* key, const char* description) {
-    FieldInfo f;
-    f.key = f.title = f.symbol = key;
-    f.type = FieldType::text;
-    f.fallback = Value("");
-    f.description = description;
-    return f;
-}
-
 }  // namespace
 
 ViewEntry phase() {
     return {{"phase", "Phase portrait", "momentum over coordinate, or any two state columns",
-             {column("x", "state column to the right, by default the model's choice"),
-              column("y", "state column upwards, by default the model's choice")}, {}, {}},
+             {textField("x", "x", "", "state column to the right, by default the model's choice"),
+              textField("y", "y", "", "state column upwards, by default the model's choice")}, {}, {}},
             "", make};
 }
 

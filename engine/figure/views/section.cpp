@@ -52,24 +52,15 @@ Figure make(const FigureContext& context) {
     return figure;
 }
 
-FieldInfo column(const char* key, const char* description) {
-    FieldInfo f;
-    f.key = f.title = f.symbol = key;
-    f.type = FieldType::text;
-    f.fallback = Value("");
-    f.description = description;
-    return f;
-}
-
 }  // namespace
 
 ViewEntry section() {
     return {{"section",
              "Section",
              "states where a column passes zero upwards, on each scheme's own curve",
-             {column("at", "state column that passes zero, by default the first coordinate"),
-              column("x", "state column to the right, by default the second coordinate, or t"),
-              column("y", "state column upwards, by default the second momentum, or the first of one")},
+             {textField("at", "at", "", "state column that passes zero, by default the first coordinate"),
+              textField("x", "x", "", "state column to the right, by default the second coordinate, or t"),
+              textField("y", "y", "", "state column upwards, by default the second momentum, or the first of one")},
              {},
              {}},
             "",

@@ -88,22 +88,13 @@ Figure make(const FigureContext& context) {
     return figure;
 }
 
-FieldInfo schemeKey() {
-    FieldInfo f;
-    f.key = f.title = f.symbol = "scheme";
-    f.type = FieldType::text;
-    f.fallback = Value("");
-    f.description = "label of a pair; left out: one picture for each, up to four";
-    return f;
-}
-
 }  // namespace
 
 ViewEntry sparsity() {
     return {{"sparsity",
              "KKT matrix",
              "entries that are not zero in the full equations of a pair over some elements",
-             {schemeKey()},
+             {textField("scheme", "scheme", "", "label of a pair; left out: one picture for each, up to four")},
              {},
              {}},
             "",

@@ -74,23 +74,17 @@ void checkInitial(const Settings& settings, const System& system, const State& i
 }
 
 std::vector<FieldInfo> fields() {
-    FieldInfo coordinates, parameters, lagrangian;
-    coordinates.key = "coordinates";
-    coordinates.title = "coordinates";
+    FieldInfo coordinates;
+    coordinates.key = coordinates.title = "coordinates";
     coordinates.type = FieldType::names;
     coordinates.example = Value(Value::Array{"theta"});
     coordinates.description = "Names of the coordinates, at most 64; the velocity of x is x_t or dot(x).";
-    parameters.key = "parameters";
-    parameters.title = "parameters";
-    parameters.type = FieldType::constants;
-    parameters.fallback = Value(Value::Object{});
+    FieldInfo parameters = constantsField("parameters", "Constants by name; they may be expressions in each other.");
     parameters.example = Value(Value::Object{{"m", 1}, {"l", 1}, {"g", 9.81}});
-    parameters.description = "Constants by name; they may be expressions in each other.";
-    lagrangian.key = "lagrangian";
+    FieldInfo lagrangian = textField("lagrangian", "", nullptr,
+                                     "L as an expression in coordinates, velocities, parameters and the time t.");
     lagrangian.title = "Lagrangian";
-    lagrangian.type = FieldType::text;
     lagrangian.example = "m/2*l^2*theta_t^2 + m*g*l*cos(theta)";
-    lagrangian.description = "L as an expression in coordinates, velocities, parameters and the time t.";
     return {coordinates, parameters, lagrangian};
 }
 

@@ -34,27 +34,6 @@ std::function<double(double)> formula(const Value& value, const std::string& poi
     }
 }
 
-FieldInfo expressionField(const char* key, const char* fallback, const char* description) {
-    FieldInfo f;
-    f.key = f.title = f.symbol = key;
-    f.type = FieldType::json;
-    f.fallback = fallback;
-    f.description = description;
-    return f;
-}
-
-FieldInfo elements() {
-    FieldInfo f;
-    f.key = f.title = "elements";
-    f.symbol = "N";
-    f.type = FieldType::integer;
-    f.fallback = 10.0;
-    f.min = 2;
-    f.max = 1e5;
-    f.description = "Number of elements of schemes that do not say theirs.";
-    return f;
-}
-
 System make(const Settings& settings) {
     const EllipticProblem problem{formula(*settings.find("a"), "/a", "s"), settings.number("epsilon"),
                                   formula(*settings.find("f"), "/f", "x")};
@@ -90,8 +69,9 @@ ModelEntry multiscale_elliptic() {
     FieldInfo epsilon = positive("epsilon", "period", "", 0.025, "Size of the fast scale: a depends on s = x/epsilon.");
     e.item = {"multiscale-elliptic", "elliptic problem with a fast coefficient",
               "(a(x/epsilon) u')' = f, u(0) = u(1) = 0: finite elements whose functions know the fast coefficient, and linear ones.",
-              {expressionField("a", "10/(1+0.95*sin(2*pi*s))", "The coefficient, an expression in s = x/epsilon; positive."),
-               epsilon, expressionField("f", "x^2", "The right-hand side, an expression in x."), elements()},
+              {jsonField("a", "a", "a", "10/(1+0.95*sin(2*pi*s))", "The coefficient, an expression in s = x/epsilon; positive."),
+               epsilon, jsonField("f", "f", "f", "x^2", "The right-hand side, an expression in x."),
+               integerField("elements", "N", 2, 1e5, 10.0, "Number of elements of schemes that do not say theirs.")},
               {}, ""};
     e.exampleEnd = 1;
     e.exampleStep = 0.1;

@@ -127,46 +127,21 @@ System make(const Settings& settings) {
 std::vector<FieldInfo> parameters() {
     FieldInfo hbar = positive("hbar", "Planck constant", "", 1, "The reduced Planck constant.");
     hbar.symbol = "ħ";
-    FieldInfo potential;
-    potential.key = potential.title = "potential";
-    potential.symbol = "V";
-    potential.type = FieldType::json;
-    potential.fallback = "free";
-    potential.description =
-        "An expression in x, t, hbar and m, or a name: free, harmonic, lattice, double-well, barrier, morse, random.";
+    const FieldInfo potential = jsonField(
+        "potential", "potential", "V", "free",
+        "An expression in x, t, hbar and m, or a name: free, harmonic, lattice, double-well, barrier, morse, random.");
     FieldInfo domain = numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, "2*pi"}, "Ends of the interval.");
     domain.fallback = Value::Array{0.0, 2 * std::numbers::pi};
-    FieldInfo boundary;
-    boundary.key = boundary.title = "boundary";
-    boundary.type = FieldType::choice;
-    boundary.choices = {"periodic"};
-    boundary.fallback = "periodic";
-    boundary.description = "What holds at the ends of the interval.";
-    FieldInfo modes;
-    modes.key = modes.title = "modes";
-    modes.symbol = "N";
-    modes.type = FieldType::integer;
-    modes.fallback = 128;
-    modes.min = 8;
-    modes.max = 65536;
-    modes.description = "Number of Fourier modes and of nodes, even.";
-    return {hbar, positive("m", "mass", "", 1, "The mass."), potential, domain, boundary, modes};
+    return {hbar, positive("m", "mass", "", 1, "The mass."), potential, domain,
+            choiceField("boundary", "boundary", {"periodic"}, "What holds at the ends of the interval."),
+            integerField("modes", "N", 8, 65536, 128, "Number of Fourier modes and of nodes, even.")};
 }
 
 std::vector<FieldInfo> initialFields() {
-    FieldInfo psi;
-    psi.key = "psi";
-    psi.title = "wave function";
-    psi.symbol = "ψ";
-    psi.type = FieldType::json;
-    psi.description = "re and im as expressions in x, a packet by name with its keys, or values at the nodes.";
+    FieldInfo psi = jsonField("psi", "wave function", "ψ", nullptr,
+                              "re and im as expressions in x, a packet by name with its keys, or values at the nodes.");
     psi.example = Value::Object{{"packet", "gaussian"}};
-    FieldInfo normalise;
-    normalise.key = normalise.title = "normalise";
-    normalise.type = FieldType::boolean;
-    normalise.fallback = true;
-    normalise.description = "Scale the wave function to norm 1.";
-    return {psi, normalise};
+    return {psi, flagField("normalise", true, "Scale the wave function to norm 1.")};
 }
 
 }  // namespace

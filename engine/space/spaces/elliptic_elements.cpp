@@ -6,20 +6,11 @@ namespace extremal::spaces {
 
 SpaceEntry elliptic_elements() {
     SpaceEntry e;
-    FieldInfo functions;
-    functions.key = functions.title = "functions";
-    functions.type = FieldType::choice;
-    functions.fallback = "multiscale";
-    functions.choices = {"multiscale", "linear"};
-    functions.description = "Solutions of (a phi')' = 0 between the nodes, or straight lines.";
-    FieldInfo elements;
-    elements.key = elements.title = "elements";
-    elements.symbol = "N";
-    elements.type = FieldType::integer;
-    elements.min = 2;
-    elements.max = 1e5;
+    const FieldInfo functions = choiceField("functions", "functions", {"multiscale", "linear"},
+                                            "Solutions of (a phi')' = 0 between the nodes, or straight lines.");
+    FieldInfo elements = integerField("elements", "N", 2, 1e5, nullptr,
+                                      "Number of elements; default: that of the model. The step is 1/N.");
     elements.isOptional = true;
-    elements.description = "Number of elements; default: that of the model. The step is 1/N.";
     e.item = {"elliptic-elements", "elements", "Finite elements of the elliptic problem, with functions that know its coefficient or not.",
               {functions, elements}, {}, "the elliptic problem"};
     e.make = [](const Settings&) { return polynomialSpace<double>(1, PolynomialBasis::lobatto); };

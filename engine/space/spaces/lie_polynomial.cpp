@@ -3,38 +3,15 @@
 #include "engine/space/polynomial.hpp"
 
 namespace extremal::spaces {
-namespace {
-
-FieldInfo degree() {
-    FieldInfo f;
-    f.key = f.title = "degree";
-    f.symbol = "s";
-    f.type = FieldType::integer;
-    f.min = 1;
-    f.max = 8;
-    f.description = "Degree of the polynomials in the algebra on one step.";
-    return f;
-}
-
-FieldInfo flag(const char* key, bool fallback, const char* description) {
-    FieldInfo f;
-    f.key = f.title = key;
-    f.type = FieldType::boolean;
-    f.fallback = fallback;
-    f.description = description;
-    return f;
-}
-
-}  // namespace
 
 SpaceEntry lie_polynomial() {
     SpaceEntry e;
     e.item = {"lie-polynomial", "Lie polynomial",
               "Polynomials in the algebra of SO(3) or SE(3), carried to the group by exp in the chart at the start of each "
               "step.",
-              {degree(),
-               flag("symmetric", false, "Half a step of the adjoint scheme first: self-adjoint at every degree."),
-               flag("reduced", true, "Free bodies: leave the attitude out of the equations (discrete Euler-Poincaré).")},
+              {integerField("degree", "s", 1, 8, nullptr, "Degree of the polynomials in the algebra on one step."),
+               flagField("symmetric", false, "Half a step of the adjoint scheme first: self-adjoint at every degree."),
+               flagField("reduced", true, "Free bodies: leave the attitude out of the equations (discrete Euler-Poincaré).")},
               {}, "a rigid body"};
     e.make = [](const Settings& settings) {
         return polynomialSpace<double>(settings.integer("degree"), PolynomialBasis::lobatto);

@@ -6,26 +6,13 @@ namespace extremal::spaces {
 namespace {
 
 FieldInfo json(const char* key, const char* title, const char* symbol, Value fallback, const char* description) {
-    FieldInfo f;
-    f.key = key;
-    f.title = title;
-    f.symbol = symbol;
-    f.type = FieldType::json;
-    f.isOptional = fallback.isNull();
-    f.fallback = std::move(fallback);
-    f.description = description;
+    FieldInfo f = jsonField(key, title, symbol, std::move(fallback), description);
+    f.isOptional = f.fallback.isNull();
     return f;
 }
 
 FieldInfo degree() {
-    FieldInfo f;
-    f.key = f.title = "degree";
-    f.symbol = "n";
-    f.type = FieldType::integer;
-    f.fallback = 4.0;
-    f.min = 1;
-    f.max = 24;
-    f.description = "Degree of the slow part.";
+    FieldInfo f = integerField("degree", "n", 1, 24, 4.0, "Degree of the slow part.");
     f.whyLimits = "a slow part of degree 0 stands still; above 24 more steps are cheaper than a higher degree";
     return f;
 }

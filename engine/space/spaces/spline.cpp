@@ -7,14 +7,7 @@ namespace {
 
 FieldInfo count(const char* key, const char* symbol, double max, Value fallback, const char* description,
                 const char* whyLimits) {
-    FieldInfo f;
-    f.key = f.title = key;
-    f.symbol = symbol;
-    f.type = FieldType::integer;
-    f.fallback = std::move(fallback);
-    f.min = 1;
-    f.max = max;
-    f.description = description;
+    FieldInfo f = integerField(key, symbol, 1, max, std::move(fallback), description);
     f.whyLimits = whyLimits;
     return f;
 }
