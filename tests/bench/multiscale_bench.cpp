@@ -2,7 +2,6 @@
 /// pendulum to t = 10: CPU time to bring both the angle and the extension (over its amplitude) below an error, at the times
 /// 0.1, 0.2, ..., 10. Prints the cheapest run of each that reaches it, nodes evaluated, and the ratio in one process.
 /// References: the motion in quadruple precision; for k = 1e12 R3 at a quarter of the largest step.
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -18,16 +17,11 @@
 #include "engine/core/instruction_set.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/model/system.hpp"
+#include "tests/bench/cpu_time.hpp"
 
 using namespace extremal;
 
 namespace {
-
-double seconds() {
-    timespec ts{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
-    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
-}
 
 struct Cost {
     double seconds = HUGE_VAL, error = HUGE_VAL, errorTheta = 0, step = 0;
@@ -51,7 +45,7 @@ struct Problem {
 Cost run(const Problem& p, const Make& make, double step) {
     Cost cost;
     cost.step = step;
-    const double begin = seconds();
+    const double begin = cpuSeconds();
     const auto integrator = make(p.system, {0, step});
     State state = p.start();
     std::vector<std::array<double, 3>> nodes;
@@ -63,7 +57,7 @@ Cost run(const Problem& p, const Make& make, double step) {
         cost.evaluations += report.evaluations;
         if (state.node % stride == 0) nodes.push_back({state.t, state.x[0], state.x[1]});
     }
-    cost.seconds = seconds() - begin;
+    cost.seconds = cpuSeconds() - begin;
     double a = 0, theta = 0;
     for (const auto& [t, x, angle] : nodes) {
         const double place = 10 * t;

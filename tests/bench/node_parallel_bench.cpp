@@ -2,7 +2,6 @@
 /// |q - q_ref| = 1e-9 after 100 periods, against Boost.odeint's Fehlberg 7(8) under error control on a hand-written
 /// right-hand side. Prints, for each, the cheapest run that reaches the error, and the ratio of CPU times in one process.
 #include <boost/numeric/odeint.hpp>
-#include <time.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +15,7 @@
 #include "engine/core/instruction_set.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/model/system.hpp"
+#include "tests/bench/cpu_time.hpp"
 
 using namespace extremal;
 
@@ -24,20 +24,14 @@ namespace {
 constexpr double end = 200 * std::numbers::pi;
 constexpr double wanted = 1e-9;
 
-double seconds() {
-    timespec ts{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
-    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
-}
-
 /// Median CPU time of five calls of a run that returns its error.
 std::pair<double, double> measure(const std::function<double()>& run) {
     std::vector<double> times;
     double error = 0;
     for (int i = 0; i < 5; ++i) {
-        const double start = seconds();
+        const double start = cpuSeconds();
         error = run();
-        times.push_back(seconds() - start);
+        times.push_back(cpuSeconds() - start);
     }
     std::sort(times.begin(), times.end());
     return {times[2], error};

@@ -12,6 +12,7 @@
 #include <functional>
 #include <vector>
 
+#include "tests/bench/cpu_time.hpp"
 #include "tests/laws/bodies.hpp"
 
 namespace extremal::laws {
@@ -19,26 +20,20 @@ namespace {
 
 constexpr double T = 100;
 
-double threadSeconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Median CPU seconds of one call, each sample long enough for the clock.
 double seconds(const std::function<void()>& run) {
     double once = 0;
     for (int warm = 0; warm < 2; ++warm) {
-        const double start = threadSeconds();
+        const double start = cpuSeconds();
         run();
-        once = threadSeconds() - start;
+        once = cpuSeconds() - start;
     }
     const int repeats = std::max(1, static_cast<int>(5e-3 / std::max(once, 1e-7)));
     std::vector<double> samples;
     for (int k = 0; k < 9; ++k) {
-        const double start = threadSeconds();
+        const double start = cpuSeconds();
         for (int i = 0; i < repeats; ++i) run();
-        samples.push_back((threadSeconds() - start) / repeats);
+        samples.push_back((cpuSeconds() - start) / repeats);
     }
     std::nth_element(samples.begin(), samples.begin() + 4, samples.end());
     return samples[4];

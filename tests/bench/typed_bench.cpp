@@ -1,11 +1,10 @@
 /// What a typed Lagrangian costs against the built-in system: the same scheme in the same process, best of several
 /// alternating runs, as a ratio. Also single evaluations, and what differentiation itself takes.
-#include <time.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <limits>
 
+#include "tests/bench/cpu_time.hpp"
 #include "tests/engine/model/typed/typed.hpp"
 
 using namespace extremal;
@@ -13,17 +12,11 @@ using namespace extremal::laws;
 
 namespace {
 
-double seconds() {
-    timespec ts{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ts);
-    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
-}
-
 template <class F>
 double timeOf(F&& f) {
-    const double start = seconds();
+    const double start = cpuSeconds();
     f();
-    return seconds() - start;
+    return cpuSeconds() - start;
 }
 
 /// The best of seven runs each, taken in turns.

@@ -2,7 +2,6 @@
 /// node, against (a) a hand-written loop of steps alone and (b) one that computes energy and the exact solution too.
 /// Prints ratios measured in one process, and the growth of memory.
 #include <sys/resource.h>
-#include <time.h>
 
 #include <cmath>
 #include <cstdio>
@@ -11,16 +10,11 @@
 #include "engine/model/system.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/bench/cpu_time.hpp"
 
 using namespace extremal;
 
 namespace {
-
-double seconds() {
-    timespec ts{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
-    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
-}
 
 double megabytes() {
     rusage usage{};
@@ -53,14 +47,14 @@ struct Bare {
 int main() {
     constexpr long long steps = 10'000'000;
     constexpr double h = 0.001;
-    double start = seconds();
+    double start = cpuSeconds();
     Bare bare;
     bare.force();
     for (long long k = 0; k < steps; ++k) bare.step(h);
-    const double alone = seconds() - start;
+    const double alone = cpuSeconds() - start;
 
     // The same work by hand: energy and Kepler's equation (a = 1, e = 0.6, n = 1) at every node.
-    start = seconds();
+    start = cpuSeconds();
     Bare watched;
     watched.force();
     double worstEnergy = 0, worstError = 0, E = 0;
@@ -74,15 +68,15 @@ int main() {
         }
         worstError = std::max(worstError, std::hypot(watched.x - (std::cos(E) - 0.6), watched.y - 0.8 * std::sin(E)));
     }
-    const double byHand = seconds() - start;
+    const double byHand = cpuSeconds() - start;
 
     const std::string text = R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},
         "time":{"end":)" + std::to_string(static_cast<double>(steps) * h) + R"(},
         "schemes":[{"baseline":"stormer-verlet","step":0.001}],"observe":["energy","error"]})";
     const Scene scene = readScene(std::string_view(text)).scene;
-    start = seconds();
+    start = cpuSeconds();
     const Comparison result = run(scene, {1});
-    const double program = seconds() - start;
+    const double program = cpuSeconds() - start;
     const Summary& s = result.schemes.at(0)->summary;
 
     std::printf("bare steps                      %.3f s\n", alone);

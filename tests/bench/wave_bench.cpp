@@ -5,7 +5,6 @@
 /// A: i psi_t = -psi_xx/2 + 50 (1 - cos x) psi, N = 256, T = 1. S: hbar = 0.01, V = 1 - cos x, N = 512, T = 2. G: A with the
 /// potential 50 (1 - exp(cos x - 1) + sin(5 x)/20), which has many harmonics. "bare": a loop of SRKN 14a by hand, whose
 /// neighbouring drifts are one.
-#include <time.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,16 +20,11 @@
 #include "engine/integrator/scheme.hpp"
 #include "engine/wave/eigen.hpp"
 #include "engine/wave/hamiltonian.hpp"
+#include "tests/bench/cpu_time.hpp"
 
 using namespace extremal;
 
 namespace {
-
-double seconds() {
-    timespec ts{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &ts);
-    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
-}
 
 struct Problem {
     const char* name;
@@ -157,9 +151,9 @@ std::vector<Point> curveOf(const Problem& p, const Method& method) {
         if (error > 0.3) continue;
         std::vector<double> times;
         for (int i = 0; i < 5; ++i) {
-            const double start = seconds();
+            const double start = cpuSeconds();
             method(p, steps);
-            times.push_back(seconds() - start);
+            times.push_back(cpuSeconds() - start);
             if (times.back() > 0.05) break;
         }
         std::sort(times.begin(), times.end());

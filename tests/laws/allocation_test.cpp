@@ -1,22 +1,8 @@
 /// The step is the hot loop: after the first one it allocates nothing. Counted by replacing operator new.
 #include <QTest>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
+#include "tests/laws/allocations.hpp"
 #include "tests/laws/laws.hpp"
-
-namespace {
-std::atomic<long long> allocations{0};
-}
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace extremal::laws {
 

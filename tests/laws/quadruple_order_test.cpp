@@ -11,35 +11,9 @@
 #include "engine/model/bind.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/quadruple_kepler.hpp"
 
 namespace extremal::laws {
-namespace {
-
-using Quad = boost::multiprecision::float128;
-
-struct KeplerModel {
-    static constexpr int dimension = 2;
-    template <class T>
-    std::array<T, 2> masses() const {
-        return {T(1), T(1)};
-    }
-    template <class T, class S>
-    S potential(const T&, const std::array<S, 2>& q) const {
-        return T(-1) / sqrt(square(q[0]) + square(q[1]));
-    }
-};
-
-/// Orbit with a = 1, e = 3/5 from its perihelion (2/5, 0) with speed 2.
-std::array<Quad, 4> exactKepler(const Quad& t) {
-    const Quad e = Quad(3) / 5, b = Quad(4) / 5;
-    Quad E = t;
-    for (int i = 0; i < 60; ++i) E -= (E - e * sin(E) - t) / (1 - e * cos(E));
-    const Quad rate = 1 / (1 - e * cos(E));
-    return {cos(E) - e, b * sin(E), -sin(E) * rate, b * cos(E) * rate};
-}
-
-}  // namespace
-
 class QuadrupleOrderTest : public QObject {
     Q_OBJECT
 private slots:
@@ -57,7 +31,7 @@ private slots:
         const Table<Quad> table = makeTable(polynomialSpace<Quad>(degree, PolynomialBasis::lobatto),
                                             isGauss ? gauss<Quad>(degree) : lobatto<Quad>(degree + 1));
         const Quad T(3);
-        const std::array<Quad, 4> exact = exactKepler(T);
+        const std::vector<Quad> exact = exactKepler(T);
         std::vector<double> h, eq, ep;
         for (const int n : {80, 120, 160, 240, 320}) {
             GalerkinStep<Quad, 2> step(mechanics, table, T / n, {});

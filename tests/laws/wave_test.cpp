@@ -1,27 +1,14 @@
 /// The one-step schemes of wave functions: orders, what is kept, reference values, and agreement of the three solvers.
 #include <QTest>
 
-#include <atomic>
-#include <cstdlib>
 #include <fstream>
-#include <new>
 #include <sstream>
 
 #include "engine/integrator/pade.hpp"
 #include "engine/wave/eigen.hpp"
 #include "engine/wave/spectrum.hpp"
+#include "tests/laws/allocations.hpp"
 #include "tests/laws/waves.hpp"
-
-namespace {
-std::atomic<long long> allocations{0};
-}
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size)) return p;
-    throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace extremal::laws {
 namespace {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "tests/ui/enter.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/lagrangian_edits.hpp"
 #include "ui/shell/actions.hpp"
@@ -48,13 +49,6 @@ class LagrangianEditorTest : public QObject {
         }
         static void settle() { QTest::qWait(400); }
     };
-
-    static void enter(QLineEdit* edit, const QString& text) {
-        edit->setFocus();
-        edit->selectAll();
-        QTest::keyClicks(edit, text);
-        QTest::keyClick(edit, Qt::Key_Return);
-    }
 
 private slots:
     void initTestCase() {

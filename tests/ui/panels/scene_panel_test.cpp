@@ -2,6 +2,7 @@
 #include <QLineEdit>
 #include <QTest>
 
+#include "tests/ui/enter.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
@@ -11,13 +12,6 @@ namespace extremal {
 
 class ScenePanelTest : public QObject {
     Q_OBJECT
-
-    static void enter(QLineEdit* edit, const QString& text) {
-        edit->setFocus();
-        edit->selectAll();
-        QTest::keyClicks(edit, text);
-        QTest::keyClick(edit, Qt::Key_Return);
-    }
 
 private slots:
     void initTestCase() {
