@@ -50,7 +50,7 @@ SnapshotRequest requestOf(const SnapshotOptions& options) {
 }
 
 /// Prints what was made; returns the exit code, which writing to a full disk can change.
-int printResult(const SnapshotOptions& snapshot, const SnapshotRequest& request, const SnapshotResult& result,
+int printSnapshot(const SnapshotOptions& snapshot, const SnapshotRequest& request, const SnapshotResult& result,
                 int code, const CommonOptions& options) {
     if (options.isJson) {
         Value document;
@@ -106,7 +106,7 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         if (!isVerdict) printFailures(*comparison, sceneName(scene));
         const int code = isVerdict ? (result.isEqual ? done : failed) : exitCode(*comparison, isInterrupted);
         if (isInterrupted) printProblem("", "interrupted: the picture shows partial results");
-        return printResult(snapshot, request, result, code, options);
+        return printSnapshot(snapshot, request, result, code, options);
     } catch (const InvalidScene& e) {
         printProblems(sceneName(scene), e.problems());
         return unusable;

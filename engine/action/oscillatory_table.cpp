@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 
@@ -132,7 +133,7 @@ Matrix smoothestPart(const OscillatoryBasis& basis, const Functions& f) {
 /// The rule must tell all functions from each other.
 void checkRule(const Table<double>& t, const std::string& remedy) {
     const Eigen::MatrixXd seen = t.weight.cwiseAbs().cwiseSqrt().asDiagonal() * t.derivative;
-    const Eigen::VectorXd pivots = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(seen).matrixQR().diagonal().cwiseAbs();
+    const Eigen::VectorXd pivots = dense::rankPivots(seen);
     if (t.nodes() >= t.unknowns() && pivots.minCoeff() > 1e-8 * pivots(0)) return;
     throw InvalidScene("/quadrature", "does not tell the " + std::to_string(t.unknowns() + 1) +
                                           " functions of the space from each other: some motions inside a step would cost no "

@@ -1,14 +1,12 @@
 /// How a table is made: the definition of makeTable for any scalar. Included by table.cpp alone.
 #pragma once
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include <algorithm>
 #include <string>
 #include <vector>
 
 #include "engine/action/table.hpp"
+#include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 
 namespace extremal::detail {
@@ -49,8 +47,7 @@ struct Probe {
 /// Smallest over largest pivot of a rank-revealing factorisation: 0 where columns are dependent.
 template <class T>
 double condition(const typename Table<T>::Matrix& m) {
-    const Eigen::MatrixXd d = m.template cast<double>();
-    const Eigen::VectorXd r = Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(d).matrixQR().diagonal().cwiseAbs();
+    const Eigen::VectorXd r = dense::rankPivots(m.template cast<double>());
     return r(r.size() - 1) / r(0);
 }
 
@@ -59,7 +56,7 @@ template <class T>
 typename Table<T>::Vector coefficientsOfOne(const Samples<T>& samples) {
     using Vector = typename Table<T>::Vector;
     const Vector ones = Vector::Ones(samples.value.rows());
-    Vector z = Eigen::HouseholderQR<typename Table<T>::Matrix>(samples.value).solve(ones);
+    Vector z = dense::leastSquares<T>(samples.value, ones);
     const Vector defect = samples.value * z - ones;
     if (static_cast<double>(defect.norm()) > 1e-8)
         throw InvalidScene("/space", "does not contain the constants, so the curve cannot start at rest",
@@ -76,28 +73,24 @@ typename Table<T>::Matrix changeOfBasis(const Space<T>& space, const Samples<T>&
     // The first two vectors of an orthonormal basis of the coefficients span the traces; the others vanish at both ends.
     const Samples<T> ends(space, {T(0), T(1)});
     const Matrix traces = ends.value.transpose();  // n x 2
-    const Matrix q = Eigen::HouseholderQR<Matrix>(traces).householderQ() * Matrix::Identity(n, n);
     const Eigen::Matrix<T, 2, 2> gram = traces.transpose() * traces;
-    using std::abs;
-    if (static_cast<double>(abs(gram.determinant())) < 1e-12)
+    const T determinant = gram(0, 0) * gram(1, 1) - gram(0, 1) * gram(1, 0);
+    if (!(static_cast<double>(determinant) >= 1e-12))
         throw InvalidScene("/space", "the end points do not determine two independent functions", "raise the degree");
     // Minimal-norm coefficients of a function with traces (0, 1).
-    const Eigen::Matrix<T, 2, 1> toEnd = gram.inverse() * Eigen::Matrix<T, 2, 1>(T(0), T(1));
     Matrix change(n, m);
-    change.col(m - 1) = traces * toEnd;
+    change.col(m - 1) = (traces.col(1) * gram(0, 0) - traces.col(0) * gram(0, 1)) / determinant;
     if (m == 1) return change;
-    change.leftCols(m - 1) = q.rightCols(m - 1);
-    const Matrix slopes = probe.weight.cwiseSqrt().asDiagonal() * samples.derivative * change;
-    const Eigen::HouseholderQR<Matrix> qr(slopes.leftCols(m - 1));
-    const Matrix R = qr.matrixQR().topRows(m - 1);
+    change.leftCols(m - 1) = dense::qr<T>(traces).Q.rightCols(m - 1);
+    const Matrix slopes = probe.weight.cwiseSqrt().asDiagonal() * dense::product<T>(samples.derivative, change);
+    const auto [Q, R] = dense::qr<T>(slopes.leftCols(m - 1));
     const auto pivots = R.diagonal().cwiseAbs();
     if (!(pivots.minCoeff() > pivots.maxCoeff() * T(1e-12)))
         throw InvalidScene("/space", "has functions that are not independent", "leave out those that follow from others");
-    const Matrix along = R.template triangularView<Eigen::Upper>().solve(
-        Matrix((qr.householderQ().transpose() * slopes.col(m - 1)).topRows(m - 1)));
-    change.col(m - 1) -= change.leftCols(m - 1) * along;
-    const Matrix inverse = R.template triangularView<Eigen::Upper>().solve(Matrix::Identity(m - 1, m - 1));
-    change.leftCols(m - 1) = (change.leftCols(m - 1) * inverse).eval();
+    const dense::Lu<T> upper(R);
+    const Matrix along = upper.solve(dense::product<T>(Q.leftCols(m - 1).transpose(), slopes.col(m - 1)));
+    change.col(m - 1) -= dense::product<T>(change.leftCols(m - 1), along);
+    change.leftCols(m - 1) = dense::product<T>(change.leftCols(m - 1), dense::inverse<T>(R));
     return change;
 }
 
@@ -159,8 +152,8 @@ Table<T> buildTable(const Space<T>& space, const Rule<T>& rule) {
     t.lift = coefficientsOfOne(samples);
     t.change = changeOfBasis(space, samples, probe);
     const Samples<T> at(space, t.rule.c);
-    t.value = at.value * t.change;
-    t.derivative = at.derivative * t.change;
+    t.value = dense::product<T>(at.value, t.change);
+    t.derivative = dense::product<T>(at.derivative, t.change);
     checkRank(t);
     t.consistency = consistencyOf(t);
     t.testValue = t.value;
@@ -171,9 +164,9 @@ Table<T> buildTable(const Space<T>& space, const Rule<T>& rule) {
     // Continue the curve: match it at points of the next step, relative to the value at its start.
     std::vector<T> beyond;
     for (const T& c : probe.point) beyond.push_back(T(1) + c);
-    Matrix next = Samples<T>(space, beyond).value * t.change;
+    Matrix next = dense::product<T>(Samples<T>(space, beyond).value, t.change);
     next.col(m - 1).array() -= T(1);  // the new step starts at q_1 = q_0 + Y_{m-1}
-    t.continuation = Eigen::HouseholderQR<Matrix>(samples.value * t.change).solve(next);
+    t.continuation = dense::leastSquares<T>(dense::product<T>(samples.value, t.change), next);
     return t;
 }
 

@@ -28,4 +28,10 @@ struct CatalogItem {
     std::string needs;             ///< what a model must have ("a mechanical system", "smooth forces"), or empty
 };
 
+inline std::vector<std::string> idsOf(const std::vector<CatalogItem>& items) {
+    std::vector<std::string> ids;
+    for (const CatalogItem& item : items) ids.push_back(item.id);
+    return ids;
+}
+
 }  // namespace extremal

@@ -28,6 +28,15 @@ Axis logAxis(std::string title);
 /// A figure with the entry's title and the id of the view.
 Figure startFigure(const FigureContext& context, std::string title);
 
+/// The scheme of the view; without one, the first that has what is shown. Null if there is none.
+template <class Shown>
+const SchemeResult* schemeOf(const FigureContext& context, const Shown& hasShown) {
+    for (const auto& scheme : context.comparison.schemes)
+        if (hasShown(*scheme) && (context.view.scheme.empty() || scheme->spec.label == context.view.scheme))
+            return scheme.get();
+    return nullptr;
+}
+
 /// One series per scheme: a column, or its magnitude, against time.
 enum class Take { value, magnitude };
 void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take);

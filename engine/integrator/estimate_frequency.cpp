@@ -1,10 +1,8 @@
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/oscillatory.hpp"
 
@@ -44,7 +42,7 @@ double residual(const std::vector<double>& t, const Eigen::VectorXd& q, double w
         A.row(i).head(4) << 1, s, s * s, s * s * s;
         if (w > 0) A.row(i).tail(2) << std::cos(w * t[static_cast<std::size_t>(i)]), std::sin(w * t[static_cast<std::size_t>(i)]);
     }
-    return (A * Eigen::HouseholderQR<Eigen::MatrixXd>(A).solve(q) - q).norm();
+    return (A * dense::leastSquares<double>(A, q) - q).norm();
 }
 
 }  // namespace

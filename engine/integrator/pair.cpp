@@ -1,5 +1,3 @@
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "engine/action/table.hpp"
+#include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/elliptic.hpp"
@@ -32,7 +31,7 @@ double halfTrace(const Table<double>& t, double z) {
     Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(m, 2);
     rhs.col(0) = z * z * weighted.colwise().sum().transpose();
     rhs(m - 1, 1) = -1;
-    const Eigen::MatrixXd Y = A.partialPivLu().solve(rhs);
+    const Eigen::MatrixXd Y = dense::solve<double>(A, rhs);
     const double q = 1 + Y(m - 1, 0);
     const double p = 1 - z * z * t.weight.dot(t.value * Y.col(1));
     return (q + p) / 2;
@@ -297,7 +296,7 @@ double highestFrequency(const System& system, const State& state) {
     m.jet(m.model.get(), state.t, q, v.data(), &value, gradient.data(), H.data());
     if (!H.allFinite()) return 0;
     // Largest growth rate of the linearised flow by power iteration on (M^{-1} K)^2, K = -L_qq: enough for a warning.
-    const Eigen::MatrixXd A = H.bottomRightCorner(d, d).partialPivLu().solve(-H.topLeftCorner(d, d));
+    const Eigen::MatrixXd A = dense::solve<double>(H.bottomRightCorner(d, d), -H.topLeftCorner(d, d));
     Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(d, 1, 1.5);
     double eigenvalue = 0;
     for (int i = 0; i < 500 && x.norm() > 0; ++i) {

@@ -1,11 +1,10 @@
 #include "engine/integrator/resonance.hpp"
 
-#include <Eigen/SVD>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/dense.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/oscillatory.hpp"
 
@@ -24,7 +23,7 @@ double conditioningOf(const Table<double>& t) {
         const Eigen::VectorXd columns = A.colwise().norm().cwiseInverse();
         A = A * columns.asDiagonal();
     }
-    const Eigen::VectorXd s = Eigen::JacobiSVD<Eigen::MatrixXd>(A).singularValues();
+    const Eigen::VectorXd s = dense::singularValues(A);
     return s(0) / s(s.size() - 1);
 }
 

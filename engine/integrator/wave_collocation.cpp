@@ -3,11 +3,11 @@
 ///     P_k = 1 + i dt (T_k + Vmid - Ec)/hbar A,   an s x s matrix for each wave number, inverted once.
 /// Two transforms an iteration and stage.
 #include <Eigen/Core>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <utility>
 
+#include "engine/core/dense.hpp"
 #include "engine/integrator/wave_collocation.hpp"
 #include "engine/solve/gmres.hpp"
 
@@ -46,7 +46,7 @@ private:
         // v(t + dt) = v + sum_i d_i (U_i - v), d A = b: no product with H once more.
         partialWeights<double>(rule_, 1.0, share);
         const Eigen::VectorXd b = Eigen::Map<const Eigen::VectorXd>(share.data(), s);
-        const Eigen::VectorXd d = A_.transpose().partialPivLu().solve(b);
+        const Eigen::VectorXd d = dense::solve<double>(A_.transpose(), b);
         weights_.assign(d.data(), d.data() + s);
         rest_ = 1 - d.sum();
         const auto& V = hamiltonian().potential();
@@ -56,7 +56,7 @@ private:
         for (std::size_t k = 0; k < size_; ++k) {
             const Complex y(0, factor * (hamiltonian().kinetic()[k] + middle_ - shift()));
             const Eigen::MatrixXcd P = Eigen::MatrixXcd::Identity(s, s) + y * A_.cast<Complex>();
-            Eigen::Map<Eigen::MatrixXcd>(inverse_.data() + k * stages_ * stages_, s, s) = P.partialPivLu().inverse();
+            Eigen::Map<Eigen::MatrixXcd>(inverse_.data() + k * stages_ * stages_, s, s) = dense::inverse<Complex>(P);
         }
     }
     /// u <- P^{-1} z; stage after stage.

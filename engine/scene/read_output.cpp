@@ -13,12 +13,6 @@
 namespace extremal {
 namespace {
 
-std::vector<std::string> idsOf(const std::vector<CatalogItem>& items) {
-    std::vector<std::string> ids;
-    for (const CatalogItem& item : items) ids.push_back(item.id);
-    return ids;
-}
-
 bool contains(const std::vector<std::string>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }

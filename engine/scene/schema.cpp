@@ -133,12 +133,6 @@ Value typedChoice(const Entries& entries) {
     return anyOf(std::move(choices));
 }
 
-std::vector<std::string> idsOf(const std::vector<CatalogItem>& items) {
-    std::vector<std::string> ids;
-    for (const CatalogItem& item : items) ids.push_back(item.id);
-    return ids;
-}
-
 Value namedSchemes() {
     std::string pattern;
     for (const SchemeEntry& entry : schemeCatalog()) {

@@ -45,7 +45,7 @@ Value viewValue(const View& view) {
 }
 
 template <class Items, class ToValue>
-Value arrayOf(const Items& items, ToValue toValueOf) {
+Value listOf(const Items& items, ToValue toValueOf) {
     Value::Array values;
     for (const auto& item : items) values.push_back(toValueOf(item));
     return values;
@@ -92,13 +92,13 @@ Value toValue(const Scene& scene) {
     value.set("initial", initialValue(scene.initial));
     value.set("time",
               Value(Value::Object{{"start", numberValue(scene.start)}, {"end", numberValue(scene.end)}}));
-    value.set("schemes", arrayOf(scene.schemes, schemeValue));
+    value.set("schemes", listOf(scene.schemes, schemeValue));
     value.set("reference", referenceValue(scene.reference));
-    value.set("observe", arrayOf(scene.observe, [](const std::string& name) { return Value(name); }));
+    value.set("observe", listOf(scene.observe, [](const std::string& name) { return Value(name); }));
     if (scene.every)
         value.set("output",
                   Value(Value::Object{{"every", numberValue(*scene.every)}, {"dense", scene.isDense}}));
-    value.set("views", arrayOf(scene.views, viewValue));
+    value.set("views", listOf(scene.views, viewValue));
     value.set("limits", Value(Value::Object{{"steps", scene.maxSteps}}));
     return value;
 }

@@ -1,8 +1,8 @@
 #include "engine/solve/banded_factors.hpp"
 
-#include <Eigen/LU>
-
 #include <algorithm>
+
+#include "engine/core/dense.hpp"
 
 namespace extremal {
 
@@ -45,7 +45,7 @@ BandedFactors::BandedFactors(const std::vector<Complex>& diagonal, const std::ve
             left(i, band + k) = up[static_cast<std::size_t>(apart - 1)];
             left(band + k, i) = down[static_cast<std::size_t>(apart - 1)];
         }
-    middle = left.partialPivLu().inverse();
+    middle = dense::inverse<Complex>(left);
 }
 
 void BandedFactors::solve(Matrix& y) const {
@@ -81,7 +81,7 @@ BandedFactors::Matrix BandedFactors::cornerCorrection(const std::vector<Complex>
             C(band + k, i) = up[static_cast<std::size_t>(i + k)];
         }
     const Matrix inner = Matrix::Identity(2 * band, 2 * band) + C * ends_;
-    return Z * inner.partialPivLu().solve(C);
+    return Z * dense::solve<Complex>(inner, C);
 }
 
 }  // namespace extremal

@@ -2,12 +2,11 @@
 
 #include <boost/multiprecision/float128.hpp>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "engine/core/dense.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/newton.hpp"
 #include "engine/space/polynomial.hpp"
@@ -50,7 +49,7 @@ ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, cons
         hessian.bottomRightCorner(d, d);
     if (inner > 0) {
         coupling << hessian.block(d, 0, inner, d), hessian.block(d, d + inner, inner, d);
-        ends -= coupling.transpose() * hessian.block(d, d, inner, inner).partialPivLu().solve(coupling);
+        ends -= dense::product<T>(coupling.transpose(), dense::solve<T>(hessian.block(d, d, inner, inner), coupling));
     }
     result.hessian = ends;
     return result;

@@ -7,11 +7,10 @@
 /// T: double or quadruple precision. Trouble is an Outcome: singular, notFinite, diverged.
 #pragma once
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <limits>
 
+#include "engine/core/dense.hpp"
 #include "engine/core/outcome.hpp"
 
 namespace extremal {
@@ -29,9 +28,8 @@ Outcome solveNewton(Eigen::Matrix<T, Eigen::Dynamic, 1>& x, System&& system, con
     T last = std::numeric_limits<T>::infinity();
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
         if (!system(x, F, &J)) return Outcome::notFinite;
-        const Eigen::PartialPivLU<Matrix> lu(J);
-        const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-        if (!(pivots.minCoeff() > pivots.maxCoeff() * epsilon * T(1e-3))) return Outcome::singular;
+        const dense::Lu<T> lu(J);
+        if (!(lu.pivotRatio() > epsilon * T(1e-3))) return Outcome::singular;
         const Vector delta = -lu.solve(F);
         const T change = delta.cwiseAbs().maxCoeff(), scale = std::max({T(x.cwiseAbs().maxCoeff()), change, size});
         if (!(change < std::numeric_limits<T>::infinity())) return Outcome::notFinite;

@@ -1,12 +1,13 @@
 #include "engine/wave/eigen.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <deque>
 #include <mutex>
 #include <utility>
+
+#include "engine/core/dense.hpp"
 
 namespace extremal {
 namespace {
@@ -39,9 +40,9 @@ bool isSame(const Hamiltonian& a, const Hamiltonian& b) {
 
 Eigenstates::Eigenstates(const Hamiltonian& h) : fourier_(h.fourier()) {
     const auto n = static_cast<std::size_t>(h.size());
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(matrixAtNodes(h));
-    energies_.assign(solver.eigenvalues().data(), solver.eigenvalues().data() + n);
-    states_.assign(solver.eigenvectors().data(), solver.eigenvectors().data() + n * n);
+    const auto [values, vectors] = dense::hermitianEigen<double>(matrixAtNodes(h));
+    energies_.assign(values.data(), values.data() + n);
+    states_.assign(vectors.data(), vectors.data() + n * n);
     for (std::size_t k = 0; k < n; ++k) {
         // A sign that does not depend on the library: the largest entry is positive.
         Vector v(states_.data() + k * n, static_cast<Eigen::Index>(n));

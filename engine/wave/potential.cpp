@@ -11,7 +11,6 @@
 namespace extremal::wave {
 namespace {
 
-constexpr double twoPi = 2 * std::numbers::pi;
 
 /// The generator "splitmix64" of Steele, Lea and Flood (2014): whole numbers alone, so the same everywhere.
 class SplitMix {
@@ -45,7 +44,7 @@ Function randomField(const Domain& domain, double seed, double correlation, doub
     std::vector<Harmonic> terms;
     double variance = 0;
     for (int a = 1; a <= 4096; ++a) {
-        const double k = twoPi * a / domain.length, weight = std::exp(-k * k * correlation * correlation / 4);
+        const double k = 2 * std::numbers::pi * a / domain.length, weight = std::exp(-k * k * correlation * correlation / 4);
         if (weight < 1e-17) break;
         const double cosine = random.normal(), sine = random.normal();
         terms.push_back({k, weight * cosine, weight * sine});
@@ -85,7 +84,7 @@ Function named(const std::string& name, const Value& object, const std::string& 
         if (p[1] != std::floor(p[1]))
             throw InvalidScene(pointer + "/cells", "must be a whole number, got " + formatNumber(p[1]),
                                "as many periods fit into the domain");
-        return {[d = p[0], k = twoPi * p[1] / domain.length, c = p[2]](double x, double) {
+        return {[d = p[0], k = 2 * std::numbers::pi * p[1] / domain.length, c = p[2]](double x, double) {
                     return d * (1 - std::cos(k * (x - c)));
                 },
                 false};

@@ -1,12 +1,10 @@
 #include "engine/wave/stationary.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/dense.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {
@@ -72,10 +70,10 @@ Eigen::MatrixXd differentiation(const Eigen::VectorXd& nodes) {
 }  // namespace
 
 std::vector<StationaryState> lowestStates(const StationaryProblem& problem, int n) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(problem.H, problem.W);
+    const auto [values, vectors] = dense::hermitianEigen<Complex>(problem.H, problem.W);
     std::vector<StationaryState> states;
     for (int k = 0; k < std::min<int>(n, static_cast<int>(problem.H.rows())); ++k)
-        states.push_back({solver.eigenvalues()(k), solver.eigenvectors().col(k), {}, true});
+        states.push_back({values(k), vectors.col(k), {}, true});
     return states;
 }
 
@@ -91,7 +89,7 @@ StationaryState refineState(const StationaryProblem& problem, const Vector& gues
         Vector rhs(n + 1);
         rhs.head(n) = -(problem.H * s.v - s.energy * Wv);
         rhs(n) = -(1.0 - s.v.dot(Wv).real()) / 2;
-        const Vector d = K.partialPivLu().solve(rhs);
+        const Vector d = dense::solve<Complex>(K, rhs);
         if (!d.allFinite()) break;
         s.v += d.head(n);
         s.energy += d(n).real();

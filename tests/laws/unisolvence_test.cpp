@@ -2,11 +2,12 @@
 /// scratch: from the rank of what the nodes see of the curve, and from what a step does to a free particle.
 #include <QTest>
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/dense.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/laws.hpp"
@@ -17,15 +18,13 @@ namespace {
 /// Rank of the velocities at the nodes, of monomials t, t^2, ..., t^s: s where no motion inside the step is
 /// free of cost.
 int rankAtNodes(int degree, const Rule<double>& rule) {
-    Eigen::MatrixXd velocity(rule.size(), degree);
+    const int n = std::max(rule.size(), degree);
+    Eigen::MatrixXd velocity = Eigen::MatrixXd::Zero(n, n);
     for (int i = 0; i < rule.size(); ++i)
         for (int a = 1; a <= degree; ++a)
             velocity(i, a - 1) = a * std::pow(2 * rule.c[static_cast<std::size_t>(i)] - 1, a - 1);
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(velocity);
-    int rank = 0;
-    for (int k = 0; k < svd.singularValues().size(); ++k)
-        rank += svd.singularValues()(k) > 1e-10 * svd.singularValues()(0) ? 1 : 0;
-    return rank;
+    const Eigen::VectorXd values = dense::singularValues(velocity);
+    return static_cast<int>((values.array() > 1e-10 * values(0)).count());
 }
 
 /// The rule on monomials, up to the degree to which it is exact.

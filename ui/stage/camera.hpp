@@ -23,6 +23,8 @@ struct Bounds {
     bool operator==(const Bounds&) const = default;
 };
 
+inline double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 struct Camera {
     Point centre{};
     double pixelsPerUnit = 100;

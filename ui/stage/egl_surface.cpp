@@ -1,19 +1,15 @@
 #include "ui/stage/surface.hpp"
+#include "ui/stage/open_library.hpp"
 
 #define EGL_EGLEXT_PROTOTYPES 0
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-#include <dlfcn.h>
 
 #include <string>
 
 namespace extremal {
 namespace {
-
-struct LibraryCloser {
-    void operator()(void* handle) const { dlclose(handle); }
-};
 
 struct EglLibrary {
     EglLibrary() : handle(dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL)) {
@@ -34,7 +30,7 @@ struct EglLibrary {
         if (!function) throw OpenGlUnavailable(std::string("libEGL is older than 1.5, it has no ") + name);
     }
 
-    std::unique_ptr<void, LibraryCloser> handle;
+    OpenLibrary handle;
     decltype(&eglGetProcAddress) procAddress = nullptr;
     decltype(&eglInitialize) initialize = nullptr;
     decltype(&eglTerminate) terminate = nullptr;

@@ -1,4 +1,5 @@
 #include "ui/stage/surface.hpp"
+#include "ui/stage/open_library.hpp"
 
 #include <GL/osmesa.h>
 #include <dlfcn.h>
@@ -8,10 +9,6 @@
 
 namespace extremal {
 namespace {
-
-struct LibraryCloser {
-    void operator()(void* handle) const { dlclose(handle); }
-};
 
 /// The few functions of libOSMesa, found at run time. The library exports every gl* name, so it is opened
 /// with RTLD_LOCAL: it must not answer for the window's libOpenGL.
@@ -42,7 +39,7 @@ private:
             throw OpenGlUnavailable(std::string("libOSMesa is too old, it has no ") + name +
                                     " (install the package libosmesa6 of Mesa 11.2 or later)");
     }
-    std::unique_ptr<void, LibraryCloser> handle_;
+    OpenLibrary handle_;
 };
 
 class OsmesaSurface : public Surface {

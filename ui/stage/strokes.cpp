@@ -219,7 +219,6 @@ void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
     }
 }
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Faces towards the viewer are tinted by how they stand to the light, their edges drawn; hidden edges shine through. Of
 /// several schemes only the first is tinted: where they differ, their edges tell.

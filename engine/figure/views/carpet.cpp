@@ -10,13 +10,6 @@ namespace {
 
 constexpr int mostColumns = 800, mostRows = 400;
 
-const SchemeResult* schemeOf(const FigureContext& context) {
-    for (const auto& scheme : context.comparison.schemes)
-        if (!scheme->frames.empty() && (context.view.scheme.empty() || scheme->spec.label == context.view.scheme))
-            return scheme.get();
-    return nullptr;
-}
-
 HeatMap heatOf(const FieldSampling& field, const SchemeResult& scheme, double start, double end) {
     const auto& frames = scheme.frames;
     const std::size_t n = field.x.size();
@@ -47,11 +40,11 @@ HeatMap heatOf(const FieldSampling& field, const SchemeResult& scheme, double st
     return heat;
 }
 
-Figure make(const FigureContext& context) {
+Figure makeCarpet(const FigureContext& context) {
     Figure figure = startFigure(context, "Carpet");
     figure.x = timeAxis(context);
     figure.y.title = "x";
-    const SchemeResult* scheme = schemeOf(context);
+    const SchemeResult* scheme = schemeOf(context, [](const SchemeResult& s) { return !s.frames.empty(); });
     if (scheme && context.system && context.system->field) {
         const auto& time = context.comparison.scene;
         figure.title = "Carpet of " + scheme->spec.label;
@@ -68,7 +61,7 @@ Figure make(const FigureContext& context) {
 }  // namespace
 
 ViewEntry carpet() {
-    return {{"carpet", "Carpet", "a field over time and space; of wave functions modulus and phase", {}, {}, {}}, "", make};
+    return {{"carpet", "Carpet", "a field over time and space; of wave functions modulus and phase", {}, {}, {}}, "", makeCarpet};
 }
 
 }  // namespace extremal::views

@@ -14,7 +14,7 @@ double largest(std::span<const double> values) {
     return most;
 }
 
-Figure make(const FigureContext& context) {
+Figure makeCurveError(const FigureContext& context) {
     Figure figure = startFigure(context, "Error between nodes");
     const ColumnInfo error = columnInfo(context, "error");
     figure.x = timeAxis(context);
@@ -52,7 +52,7 @@ ViewEntry curve_error() {
              {},
              {}},
             "error",
-            make};
+            makeCurveError};
 }
 
 }  // namespace extremal::views

@@ -15,7 +15,7 @@ std::string twoDecimals(double value) {
     return text + (rest < 10 ? "0" : "") + std::to_string(rest);
 }
 
-Figure make(const FigureContext& context) {
+Figure makeDiscreteLagrangian(const FigureContext& context) {
     Figure figure = startFigure(context, "Discrete Lagrangian");
     const std::string time = columnInfo(context, "t").unit,
                       energy = context.system ? context.system->energyUnit : "";
@@ -59,7 +59,7 @@ ViewEntry discrete_lagrangian() {
              {},
              {}},
             "",
-            make};
+            makeDiscreteLagrangian};
 }
 
 }  // namespace extremal::views

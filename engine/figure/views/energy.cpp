@@ -6,7 +6,7 @@
 namespace extremal::views {
 namespace {
 
-Figure make(const FigureContext& context) {
+Figure makeEnergy(const FigureContext& context) {
     Figure figure = startFigure(context, "Energy error");
     figure.x = timeAxis(context);
     const std::string unit = context.system ? context.system->energyUnit : columnInfo(context, "energy").unit;
@@ -33,7 +33,7 @@ Figure make(const FigureContext& context) {
 
 ViewEntry energy() {
     return {{"energy", "Energy error", "|H(t) − H(0)| of every scheme against time, logarithmic", {}, {}, {}},
-            "energy", make};
+            "energy", makeEnergy};
 }
 
 }  // namespace extremal::views

@@ -21,7 +21,7 @@ std::string referenceText(const ReferenceInfo& reference) {
     return text;
 }
 
-Figure make(const FigureContext& context) {
+Figure makeError(const FigureContext& context) {
     Figure figure = startFigure(context, "Error");
     figure.x = timeAxis(context);
     figure.y = logAxis(axisTitle(symbolOf(context), columnInfo(context, "error").unit));
@@ -44,7 +44,7 @@ Figure make(const FigureContext& context) {
 }  // namespace
 
 ViewEntry error() {
-    return {{"error", "Error", "distance to the reference solution against time, logarithmic", {}, {}, {}}, "error", make};
+    return {{"error", "Error", "distance to the reference solution against time, logarithmic", {}, {}, {}}, "error", makeError};
 }
 
 }  // namespace extremal::views

@@ -36,7 +36,7 @@ Series levelOf(const Hamiltonian& h, std::size_t k, double E) {
     return s;
 }
 
-Figure make(const FigureContext& context) {
+Figure makeLevels(const FigureContext& context) {
     Figure figure = startFigure(context, "Energy levels");
     figure.x.title = "x";
     figure.y.title = "E";
@@ -68,7 +68,7 @@ Figure make(const FigureContext& context) {
 }  // namespace
 
 ViewEntry levels() {
-    return {{"levels", "Energy levels", "the potential and the lowest energies of a wave function", {}, {}, {}}, "", make};
+    return {{"levels", "Energy levels", "the potential and the lowest energies of a wave function", {}, {}, {}}, "", makeLevels};
 }
 
 }  // namespace extremal::views

@@ -6,7 +6,7 @@
 namespace extremal::views {
 namespace {
 
-Figure make(const FigureContext& context) {
+Figure makeMomentum(const FigureContext& context) {
     Figure figure = startFigure(context, "Momentum error");
     figure.x = timeAxis(context);
     std::string symbol = "‖J − J(0)‖", unit = columnInfo(context, "momentum_error").unit;
@@ -38,7 +38,7 @@ Figure make(const FigureContext& context) {
 
 ViewEntry momentum() {
     return {{"momentum", "Momentum error", "norm of the change of the conserved momenta against time, logarithmic", {}, {}, {}},
-            "momentum", make};
+            "momentum", makeMomentum};
 }
 
 }  // namespace extremal::views

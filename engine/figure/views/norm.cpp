@@ -4,7 +4,7 @@
 namespace extremal::views {
 namespace {
 
-Figure make(const FigureContext& context) {
+Figure makeNorm(const FigureContext& context) {
     Figure figure = startFigure(context, "Norm error");
     figure.x = timeAxis(context);
     figure.y = logAxis("|‖ψ‖ − ‖ψ(0)‖|");
@@ -18,7 +18,7 @@ Figure make(const FigureContext& context) {
 
 ViewEntry norm() {
     return {{"norm", "Norm error", "change of the norm of the wave function against time, logarithmic", {}, {}, {}},
-            "norm", make};
+            "norm", makeNorm};
 }
 
 }  // namespace extremal::views

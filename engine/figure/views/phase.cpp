@@ -11,7 +11,7 @@ std::string firstColumn(const FigureContext& context, const char* prefix) {
     return std::string(prefix) + "?";
 }
 
-Figure make(const FigureContext& context) {
+Figure makePhase(const FigureContext& context) {
     std::string x = context.view.x, y = context.view.y;
     if (x.empty()) x = context.system ? context.system->phaseX : firstColumn(context, "q.");
     if (y.empty()) y = context.system ? context.system->phaseY : firstColumn(context, "p.");
@@ -30,7 +30,7 @@ ViewEntry phase() {
     return {{"phase", "Phase portrait", "momentum over coordinate, or any two state columns",
              {textField("x", "x", "", "state column to the right, by default the model's choice"),
               textField("y", "y", "", "state column upwards, by default the model's choice")}, {}, {}},
-            "", make};
+            "", makePhase};
 }
 
 }  // namespace extremal::views

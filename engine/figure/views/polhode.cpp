@@ -108,7 +108,7 @@ std::array<std::span<const double>, 3> momenta(const SchemeResult& scheme) {
     return {t["momentum.body.1"], t["momentum.body.2"], t["momentum.body.3"]};
 }
 
-Figure make(const FigureContext& context) {
+Figure makePolhode(const FigureContext& context) {
     Figure figure = startFigure(context, "Polhode");
     figure.hasEqualScales = true;
     figure.hasTicks = false;
@@ -165,7 +165,7 @@ Figure make(const FigureContext& context) {
 
 ViewEntry polhode() {
     return {{"polhode", "Polhode", "the momentum in the body on its sphere, with curves of equal energy; rigid bodies", {}, {}, {}},
-            "", make};
+            "", makePolhode};
 }
 
 }  // namespace extremal::views

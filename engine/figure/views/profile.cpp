@@ -29,7 +29,7 @@ void addPotential(Figure& figure, const Hamiltonian& h, double height) {
     figure.series.push_back(std::move(s));
 }
 
-Figure make(const FigureContext& context) {
+Figure makeProfile(const FigureContext& context) {
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";
     figure.y.title = context.system && context.system->hasWave() ? "|ψ|" : "u";
@@ -58,7 +58,7 @@ Figure make(const FigureContext& context) {
 
 ViewEntry profile() {
     return {{"profile", "Profile", "a field over space at the end; of wave functions the modulus, and the potential", {}, {}, {}},
-            "", make};
+            "", makeProfile};
 }
 
 }  // namespace extremal::views

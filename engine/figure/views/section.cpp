@@ -19,7 +19,7 @@ void fillIn(const FigureContext& context, std::string& x, std::string& y) {
         y = coordinates.empty() ? stateColumns(*context.system).back().name : "p." + coordinates.front().name;
 }
 
-Figure make(const FigureContext& context) {
+Figure makeSection(const FigureContext& context) {
     std::string x = context.view.x, y = context.view.y;
     fillIn(context, x, y);
     const std::string at = context.system ? sectionColumn(context.view, *context.system) : context.view.at;
@@ -64,7 +64,7 @@ ViewEntry section() {
              {},
              {}},
             "",
-            make};
+            makeSection};
 }
 
 }  // namespace extremal::views

@@ -51,17 +51,10 @@ std::string supportText(const KktPattern& p) {
     return text;
 }
 
-const SchemeResult* schemeOf(const FigureContext& context) {
-    for (const auto& scheme : context.comparison.schemes)
-        if (scheme->pattern && (context.view.scheme.empty() || scheme->spec.label == context.view.scheme))
-            return scheme.get();
-    return nullptr;
-}
-
-Figure make(const FigureContext& context) {
+Figure makeSparsity(const FigureContext& context) {
     Figure figure = startFigure(context, "KKT matrix");
     figure.hasEqualScales = true;
-    const SchemeResult* scheme = schemeOf(context);
+    const SchemeResult* scheme = schemeOf(context, [](const SchemeResult& s) { return s.pattern != nullptr; });
     if (!scheme || !scheme->pattern->failure.empty()) {
         figure.message = scheme ? "Nothing to show: " + scheme->pattern->failure
                          : context.comparison.isFinished
@@ -98,7 +91,7 @@ ViewEntry sparsity() {
              {},
              {}},
             "",
-            make};
+            makeSparsity};
 }
 
 }  // namespace extremal::views

@@ -25,7 +25,7 @@ Series spectrumOf(const SchemeResult& scheme, const Hamiltonian& h) {
     return s;
 }
 
-Figure make(const FigureContext& context) {
+Figure makeSpectrum(const FigureContext& context) {
     Figure figure = startFigure(context, "Spectrum");
     figure.x.title = "wave number";
     figure.y = logAxis("|c|");
@@ -47,7 +47,7 @@ Figure make(const FigureContext& context) {
 
 ViewEntry spectrum() {
     return {{"spectrum", "Spectrum", "size of the Fourier coefficients of the wave function at the end, logarithmic", {}, {}, {}},
-            "", make};
+            "", makeSpectrum};
 }
 
 }  // namespace extremal::views

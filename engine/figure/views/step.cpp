@@ -6,7 +6,7 @@
 namespace extremal::views {
 namespace {
 
-Figure make(const FigureContext& context) {
+Figure makeStep(const FigureContext& context) {
     Figure figure = startFigure(context, "Step size");
     figure.x = timeAxis(context);
     figure.y = logAxis(axisTitle("h", columnInfo(context, "t").unit));
@@ -28,7 +28,7 @@ Figure make(const FigureContext& context) {
 }  // namespace
 
 ViewEntry step() {
-    return {{"step", "Step size", "the time step of every scheme against time, logarithmic", {}, {}, {}}, "", make};
+    return {{"step", "Step size", "the time step of every scheme against time, logarithmic", {}, {}, {}}, "", makeStep};
 }
 
 }  // namespace extremal::views

@@ -24,7 +24,7 @@ std::string firstCoordinate(const FigureContext& context) {
     return "q";
 }
 
-Figure make(const FigureContext& context) {
+Figure makeTrajectory(const FigureContext& context) {
     std::string x = context.view.x, y = context.view.y;
     const bool isOrbit = x.empty() && y.empty() && context.system && context.system->hasPlanarTrajectory;
     if (isOrbit) {
@@ -49,7 +49,7 @@ Figure make(const FigureContext& context) {
 }  // namespace
 
 ViewEntry trajectory() {
-    return {{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time", {}, {}, {}}, "", make};
+    return {{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time", {}, {}, {}}, "", makeTrajectory};
 }
 
 }  // namespace extremal::views

@@ -26,7 +26,7 @@ Metric metricOf(const FigureContext& context) {
     return {&Summary::maxEnergyError, axisTitle("max |H − H(0)|", unit)};
 }
 
-Figure make(const FigureContext& context) {
+Figure makeWorkPrecision(const FigureContext& context) {
     Figure figure = startFigure(context, "Speed against accuracy");
     const Metric metric = metricOf(context);
     figure.x = logAxis(axisTitle("CPU time", "s"));
@@ -53,7 +53,7 @@ Figure make(const FigureContext& context) {
 
 ViewEntry work_precision() {
     return {{"work-precision", "Speed against accuracy", "largest error over CPU time, one point per scheme", {}, {}, {}},
-            "", make};
+            "", makeWorkPrecision};
 }
 
 }  // namespace extremal::views

@@ -12,7 +12,7 @@ namespace extremal::systems {
 namespace {
 
 /// The box about its fixed point; the tip of its third axis draws the trail.
-void draw(const std::array<double, 3>& half, const double* x, Drawing& drawing) {
+void drawBodyInPotential(const std::array<double, 3>& half, const double* x, Drawing& drawing) {
     drawSpaceAxes(1.9, drawing);
     drawBox(half, {0, 0, 0}, x, drawing);
     drawing.shapes.push_back(Disc{onStage(0, 0, 0), 4, ShapeRole::scenery});
@@ -22,7 +22,7 @@ void draw(const std::array<double, 3>& half, const double* x, Drawing& drawing) 
     drawing.shapes.push_back(Disc{drawing.tracer, 4});
 }
 
-System make(const Settings& settings) {
+System makeBodyInPotential(const Settings& settings) {
     System s;
     s.id = "body-in-potential";
     s.body.dimension = 3;
@@ -34,11 +34,11 @@ System make(const Settings& settings) {
         s.exact = [I = std::array<double, 3>{inertia[0], inertia[1], inertia[2]}](const State& initial) {
             return freeBodyMotion(I, initial);
         };
-    s.draw = [half = boxOf(s.body)](const double* x, Drawing& drawing) { draw(half, x, drawing); };
+    s.draw = [half = boxOf(s.body)](const double* x, Drawing& drawing) { drawBodyInPotential(half, x, drawing); };
     return s;
 }
 
-std::vector<FieldInfo> fields() {
+std::vector<FieldInfo> bodyInPotentialFields() {
     std::vector<FieldInfo> all{inertiaField({1, 2, 3})};
     for (FieldInfo& f : typedPotentialFields(false)) {
         if (f.key == "potential") f.example = "R33 + R11^2/2";
@@ -52,12 +52,12 @@ std::vector<FieldInfo> fields() {
 ModelEntry body_in_potential() {
     ModelEntry e;
     e.item = {"body-in-potential", "body in a potential",
-              "A body that turns about a fixed point in a potential of its attitude, typed as a formula.", fields(), {}, ""};
+              "A body that turns about a fixed point in a potential of its attitude, typed as a formula.", bodyInPotentialFields(), {}, ""};
     e.initial = bodyInitialFields(false);
     e.exampleInitial = {{"attitude", Value::Array{1.0, 0.0, 0.0, 0.0}}, {"momentum", Value::Array{0.4, 0.2, 1.0}}};
     e.exampleEnd = 30;
     e.exampleStep = 0.1;
-    e.make = make;
+    e.make = makeBodyInPotential;
     return e;
 }
 

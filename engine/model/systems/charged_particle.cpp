@@ -170,7 +170,7 @@ ExactSolution exactMotion(const Mechanics<double>& m, const UniformFields& field
     };
 }
 
-System make(const Settings& settings) {
+System makeChargedParticle(const Settings& settings) {
     const typed::Formula formula = formulaOf(settings);
     typed::TypedMechanics made;
     try {
@@ -213,13 +213,13 @@ System make(const Settings& settings) {
     return s;
 }
 
-void checkInitial(const Settings& settings, const System& system, const State& initial) {
+void checkPotentials(const Settings& settings, const System& system, const State& initial) {
     const auto fault = typed::faultAt(formulaOf(settings), system.mechanics, initial.t, initial.x.data(),
                                       initial.x.data() + system.dimension());
     if (fault) throw InvalidScene("", "the Lagrangian of these potentials " + *fault);
 }
 
-std::vector<FieldInfo> fields() {
+std::vector<FieldInfo> chargedParticleFields() {
     FieldInfo charge = positive("charge", "charge", "C", 1, "Charge of the particle, of either sign.");
     charge.min = -std::numeric_limits<double>::infinity();
     charge.isMinExcluded = false;
@@ -247,15 +247,15 @@ ModelEntry charged_particle() {
     e.item = {"charged-particle",
               "charged particle",
               "A particle in electric and magnetic fields, given by their potentials.",
-              fields(),
+              chargedParticleFields(),
               {},
               ""};
     e.exampleQ = {1, 0, 0};
     e.exampleP = {0, -0.5, 0.1};  // v = (0, -1, 0.1): a helix of radius 1 about the z axis
     e.exampleEnd = 20;
     e.exampleStep = 0.1;
-    e.make = make;
-    e.checkInitial = checkInitial;
+    e.make = makeChargedParticle;
+    e.checkInitial = checkPotentials;
     return e;
 }
 

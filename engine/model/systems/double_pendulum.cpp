@@ -34,7 +34,7 @@ struct DoublePendulum {
     }
 };
 
-const std::vector<Field<DoublePendulum>>& fields() {
+const std::vector<Field<DoublePendulum>>& doublePendulumFields() {
     static const std::vector<Field<DoublePendulum>> all = {
         {&DoublePendulum::m1, positive("m1", "upper mass", "kg", 1, "Mass at the end of the upper rod.")},
         {&DoublePendulum::m2, positive("m2", "lower mass", "kg", 1, "Mass at the end of the lower rod.")},
@@ -45,8 +45,8 @@ const std::vector<Field<DoublePendulum>>& fields() {
     return all;
 }
 
-System make(const Settings& settings) {
-    const auto model = withParameters(settings, fields());
+System makeDoublePendulum(const Settings& settings) {
+    const auto model = withParameters(settings, doublePendulumFields());
     System s;
     s.id = "double-pendulum";
     s.coordinates = {{"theta1", "upper angle", "θ₁", "rad", "kg m²/s"}, {"theta2", "lower angle", "θ₂", "rad", "kg m²/s"}};
@@ -78,12 +78,12 @@ ModelEntry double_pendulum() {
     ModelEntry e;
     e.item = {"double-pendulum", "double pendulum",
               "A pendulum hanging from a pendulum: regular when it swings low, chaotic when it swings high.",
-              infos(fields()), {}, ""};
+              infos(doublePendulumFields()), {}, ""};
     e.exampleQ = {2, 2.5};
     e.exampleP = {0, 0};
     e.exampleEnd = 20;
     e.exampleStep = 0.01;
-    e.make = make;
+    e.make = makeDoublePendulum;
     return e;
 }
 

@@ -81,7 +81,7 @@ FieldInfo signedNumber(std::string key, std::string title, double fallback, std:
     return f;
 }
 
-const std::vector<Field<FputChain>>& fields() {
+const std::vector<Field<FputChain>>& fputChainFields() {
     static const std::vector<Field<FputChain>> all = {
         {&FputChain::n, halfCount()},
         {&FputChain::m, positive("m", "mass", "", 1, "Mass of every particle.")},
@@ -94,7 +94,7 @@ const std::vector<Field<FputChain>>& fields() {
     return all;
 }
 
-void draw(int d, const double* x, Drawing& drawing) {
+void drawFputChain(int d, const double* x, Drawing& drawing) {
     // Masses at rest stand at 1..2n between walls at 0 and 2n + 1.
     const auto place = [&](int i) { return Point{i + 1.0 + (i >= 0 && i < d ? x[i] : 0), 0, 0}; };
     drawing.shapes.push_back(Segment{{0, -0.6, 0}, {0, 0.6, 0}, 3, ShapeRole::scenery});
@@ -104,8 +104,8 @@ void draw(int d, const double* x, Drawing& drawing) {
     drawing.tracer = place(0);
 }
 
-System make(const Settings& settings) {
-    const auto model = withParameters(settings, fields());
+System makeFputChain(const Settings& settings) {
+    const auto model = withParameters(settings, fputChainFields());
     System s;
     s.id = "fput-chain";
     for (int i = 1; i <= model.dimension(); ++i)
@@ -116,7 +116,7 @@ System make(const Settings& settings) {
               [model](double, const double* x) {
                   return model.oscillation(x) / std::sqrt(2 * model.kStiff / model.m);
               }};
-    s.draw = [d = model.dimension()](const double* x, Drawing& drawing) { draw(d, x, drawing); };
+    s.draw = [d = model.dimension()](const double* x, Drawing& drawing) { drawFputChain(d, x, drawing); };
     s.phaseX = "q.1";
     s.phaseY = "p.1";
     s.trajectoryX = "t";
@@ -130,7 +130,7 @@ ModelEntry fput_chain() {
     ModelEntry e;
     e.item = {"fput-chain", "Fermi-Pasta-Ulam-Tsingou chain",
               "Masses joined by soft nonlinear and stiff linear springs in turn: fast oscillation, slow exchange of energy.",
-              infos(fields()), {}, ""};
+              infos(fputChainFields()), {}, ""};
     // The book's data: the first soft variable and the first stiff spring are excited, x = (q_2 + q_1)/sqrt 2 = 1 and
     // x = (q_2 - q_1)/sqrt 2 = 1/omega, each with velocity 1.
     const double r = std::sqrt(0.5), omega = 50;
@@ -138,7 +138,7 @@ ModelEntry fput_chain() {
     e.exampleP = {0, 2 * r, 0, 0, 0, 0};
     e.exampleEnd = 20;
     e.exampleStep = 0.002;
-    e.make = make;
+    e.make = makeFputChain;
     return e;
 }
 

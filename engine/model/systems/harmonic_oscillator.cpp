@@ -24,7 +24,7 @@ struct HarmonicOscillator {
     }
 };
 
-const std::vector<Field<HarmonicOscillator>>& fields() {
+const std::vector<Field<HarmonicOscillator>>& harmonicOscillatorFields() {
     static const std::vector<Field<HarmonicOscillator>> all = {
         {&HarmonicOscillator::m, positive("m", "mass", "kg", 1, "Mass on the spring.")},
         {&HarmonicOscillator::k, positive("k", "stiffness", "N/m", 1, "Stiffness of the spring.")},
@@ -41,7 +41,7 @@ ExactSolution exactSolution(const HarmonicOscillator& o, const State& initial) {
     };
 }
 
-void draw(const double* x, Drawing& drawing) {
+void drawHarmonicOscillator(const double* x, Drawing& drawing) {
     const Point wall{-2, 0, 0}, mass{x[0], 0, 0};
     drawing.shapes.push_back(Segment{{-2, -0.35, 0}, {-2, 0.35, 0}, 3, ShapeRole::scenery});
     drawing.shapes.push_back(Spring{wall, mass, 10});
@@ -49,8 +49,8 @@ void draw(const double* x, Drawing& drawing) {
     drawing.tracer = mass;
 }
 
-System make(const Settings& settings) {
-    const auto model = withParameters(settings, fields());
+System makeHarmonicOscillator(const Settings& settings) {
+    const auto model = withParameters(settings, harmonicOscillatorFields());
     System s;
     s.id = "harmonic-oscillator";
     s.coordinates = {{"x", "position", "x", "m", "kg m/s"}};
@@ -59,7 +59,7 @@ System make(const Settings& settings) {
     s.mechanics = bindMechanics<double>(model);
     s.fast = {std::sqrt(model.k / model.m), {0}};
     s.exact = [model](const State& initial) { return exactSolution(model, initial); };
-    s.draw = draw;
+    s.draw = drawHarmonicOscillator;
     s.phaseX = "q.x";
     s.phaseY = "p.x";
     s.trajectoryX = "t";
@@ -72,12 +72,12 @@ System make(const Settings& settings) {
 ModelEntry harmonic_oscillator() {
     ModelEntry e;
     e.item = {"harmonic-oscillator", "harmonic oscillator", "A mass on a linear spring; exactly solvable.",
-              infos(fields()), {}, ""};
+              infos(harmonicOscillatorFields()), {}, ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 20;
     e.exampleStep = 0.1;
-    e.make = make;
+    e.make = makeHarmonicOscillator;
     return e;
 }
 

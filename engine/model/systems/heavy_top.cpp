@@ -34,7 +34,7 @@ void potential(const void* model, const double* R, const double*, double* value,
             slope[3 * column + row] = (row == column ? U : 0.0) - gamma(row) * arm(column);
 }
 
-void draw(const Top& top, std::array<double, 3> half, const double* x, Drawing& drawing) {
+void drawHeavyTop(const Top& top, std::array<double, 3> half, const double* x, Drawing& drawing) {
     const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
     drawSpaceAxes(2.2, drawing);
     for (double& h : half) h *= 0.6;
@@ -47,7 +47,7 @@ void draw(const Top& top, std::array<double, 3> half, const double* x, Drawing& 
     drawing.tracer = onStage(c(0), c(1), c(2));
 }
 
-System make(const Settings& settings) {
+System makeHeavyTop(const Settings& settings) {
     System s;
     s.id = "heavy-top";
     s.body.dimension = 3;
@@ -64,7 +64,7 @@ System make(const Settings& settings) {
         const so3::Matrix<double> R = so3::matrix(so3::Quaternion<double>(x[0], x[1], x[2], x[3]));
         return R(2, 0) * x[4] + R(2, 1) * x[5] + R(2, 2) * x[6];
     };
-    s.draw = [top = *top, half = boxOf(s.body)](const double* x, Drawing& drawing) { draw(top, half, x, drawing); };
+    s.draw = [top = *top, half = boxOf(s.body)](const double* x, Drawing& drawing) { drawHeavyTop(top, half, x, drawing); };
     return s;
 }
 
@@ -92,7 +92,7 @@ ModelEntry heavy_top() {
                         {"momentum", Value::Array{0.0, 0.0, 2.0}}};
     e.exampleEnd = 40;
     e.exampleStep = 0.1;
-    e.make = make;
+    e.make = makeHeavyTop;
     return e;
 }
 

@@ -28,7 +28,7 @@ struct HenonHeiles {
     }
 };
 
-const std::vector<Field<HenonHeiles>>& fields() {
+const std::vector<Field<HenonHeiles>>& henonHeilesFields() {
     static const std::vector<Field<HenonHeiles>> all = {
         {&HenonHeiles::lambda, notNegative("lambda", "cubic coupling", "", 1,
                                            "Strength of the cubic term; 0 is the isotropic oscillator.")},
@@ -36,8 +36,8 @@ const std::vector<Field<HenonHeiles>>& fields() {
     return all;
 }
 
-System make(const Settings& settings) {
-    const auto model = withParameters(settings, fields());
+System makeHenonHeiles(const Settings& settings) {
+    const auto model = withParameters(settings, henonHeilesFields());
     System s;
     s.id = "henon-heiles";
     s.coordinates = {{"x", "position x", "x", "", ""}, {"y", "position y", "y", "", ""}};
@@ -67,12 +67,12 @@ System make(const Settings& settings) {
 ModelEntry henon_heiles() {
     ModelEntry e;
     e.item = {"henon-heiles", "Hénon-Heiles system",
-              "A star in a galaxy: between order and chaos in a potential with three exits.", infos(fields()), {}, ""};
+              "A star in a galaxy: between order and chaos in a potential with three exits.", infos(henonHeilesFields()), {}, ""};
     e.exampleQ = {0, 0.1};
     e.exampleP = {0.5, 0};
     e.exampleEnd = 200;
     e.exampleStep = 0.1;
-    e.make = make;
+    e.make = makeHenonHeiles;
     return e;
 }
 

@@ -41,7 +41,7 @@ struct Kepler {
     }
 };
 
-const std::vector<Field<Kepler>>& fields() {
+const std::vector<Field<Kepler>>& keplerFields() {
     static const std::vector<Field<Kepler>> all = {
         {&Kepler::mu, positive("mu", "gravitational parameter", "", 1, "Strength of the attraction, G M.")},
     };
@@ -193,21 +193,21 @@ ExactSolution exactSolution(double mu, const State& initial) {
     return o;
 }
 
-void draw(const double* x, Drawing& drawing) {
+void drawKepler(const double* x, Drawing& drawing) {
     drawing.shapes.push_back(Disc{{0, 0, 0}, 11, ShapeRole::scenery});
     drawing.shapes.push_back(Disc{{x[0], x[1], 0}, 7});
     drawing.tracer = {x[0], x[1], 0};
 }
 
-System make(const Settings& settings) {
-    const auto model = withParameters(settings, fields());
+System makeKepler(const Settings& settings) {
+    const auto model = withParameters(settings, keplerFields());
     System s;
     s.id = "kepler";
     s.coordinates = {{"x", "position x", "x", "", ""}, {"y", "position y", "y", "", ""}};
     s.mechanics = bindMechanics<double>(model);
     s.momenta = {{"z", "L", "", [](const double* q, const double* p) { return q[0] * p[1] - q[1] * p[0]; }}};
     s.exact = [mu = model.mu](const State& initial) { return exactSolution(mu, initial); };
-    s.draw = draw;
+    s.draw = drawKepler;
     s.phaseX = "q.x";
     s.phaseY = "p.x";
     s.trajectoryX = "q.x";
@@ -221,12 +221,12 @@ System make(const Settings& settings) {
 ModelEntry kepler() {
     ModelEntry e;
     e.item = {"kepler", "Kepler problem", "A planet around a fixed sun, in the plane; exact solution by Kepler's equation.",
-              infos(fields()), {}, ""};
+              infos(keplerFields()), {}, ""};
     e.exampleQ = {0.4, 0};
     e.exampleP = {0, 2};
     e.exampleEnd = 50;
     e.exampleStep = 0.05;
-    e.make = make;
+    e.make = makeKepler;
     return e;
 }
 

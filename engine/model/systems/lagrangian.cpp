@@ -41,7 +41,7 @@ void drawPoint(const double* x, std::size_t d, Drawing& drawing) {
     drawing.tracer = at;
 }
 
-System make(const Settings& settings) {
+System makeLagrangian(const Settings& settings) {
     const typed::Formula formula = typed::formulaOf(settings);
     typed::TypedMechanics made = typed::mechanicsOf(formula);
     System s;
@@ -67,13 +67,13 @@ System make(const Settings& settings) {
     return s;
 }
 
-void checkInitial(const Settings& settings, const System& system, const State& initial) {
+void checkLagrangian(const Settings& settings, const System& system, const State& initial) {
     const auto fault = typed::faultAt(typed::formulaOf(settings), system.mechanics, initial.t, initial.x.data(),
                                       initial.x.data() + system.dimension());
     if (fault) throw InvalidScene("/lagrangian", *fault);
 }
 
-std::vector<FieldInfo> fields() {
+std::vector<FieldInfo> lagrangianFields() {
     FieldInfo coordinates;
     coordinates.key = coordinates.title = "coordinates";
     coordinates.type = FieldType::names;
@@ -93,13 +93,13 @@ std::vector<FieldInfo> fields() {
 ModelEntry lagrangian() {
     ModelEntry e;
     e.item = {"lagrangian", "typed Lagrangian",
-              "Any system by its Lagrangian, typed as a formula and differentiated symbolically.", fields(), {}, ""};
+              "Any system by its Lagrangian, typed as a formula and differentiated symbolically.", lagrangianFields(), {}, ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 10;
     e.exampleStep = 0.05;
-    e.make = make;
-    e.checkInitial = checkInitial;
+    e.make = makeLagrangian;
+    e.checkInitial = checkLagrangian;
     return e;
 }
 

@@ -34,7 +34,7 @@ std::function<double(double)> formula(const Value& value, const std::string& poi
     }
 }
 
-System make(const Settings& settings) {
+System makeMultiscaleElliptic(const Settings& settings) {
     const EllipticProblem problem{formula(*settings.find("a"), "/a", "s"), settings.number("epsilon"),
                                   formula(*settings.find("f"), "/f", "x")};
     System s;
@@ -75,7 +75,7 @@ ModelEntry multiscale_elliptic() {
               {}, ""};
     e.exampleEnd = 1;
     e.exampleStep = 0.1;
-    e.make = make;
+    e.make = makeMultiscaleElliptic;
     return e;
 }
 

@@ -73,7 +73,7 @@ struct OuterSolarSystem {
     }
 };
 
-const std::vector<Field<OuterSolarSystem>>& fields() {
+const std::vector<Field<OuterSolarSystem>>& outerSolarSystemFields() {
     static const std::vector<Field<OuterSolarSystem>> all = {
         {&OuterSolarSystem::G, positive("G", "gravitational constant", "au³/(M☉ d²)", 2.95912208286e-4,
                                         "Gravitational constant in astronomical units, days and solar masses.")},
@@ -81,19 +81,19 @@ const std::vector<Field<OuterSolarSystem>>& fields() {
     return all;
 }
 
-constexpr std::array<const char*, 3> axes = {"x", "y", "z"};
+constexpr std::array<const char*, 3> axisNames = {"x", "y", "z"};
 
 std::vector<MomentumMap> momenta() {
     std::vector<MomentumMap> all;
     for (std::size_t k = 0; k < 3; ++k)
-        all.push_back({std::string("linear.") + axes[k], std::string("P_") + axes[k], "M☉ au/d",
+        all.push_back({std::string("linear.") + axisNames[k], std::string("P_") + axisNames[k], "M☉ au/d",
                        [k](const double*, const double* p) {
                            double sum = 0;
                            for (std::size_t i = 0; i < bodies; ++i) sum += p[3 * i + k];
                            return sum;
                        }});
     for (std::size_t k = 0; k < 3; ++k)
-        all.push_back({std::string("angular.") + axes[k], std::string("L_") + axes[k], "M☉ au²/d",
+        all.push_back({std::string("angular.") + axisNames[k], std::string("L_") + axisNames[k], "M☉ au²/d",
                        [a = (k + 1) % 3, b = (k + 2) % 3](const double* q, const double* p) {
                            double sum = 0;
                            for (std::size_t i = 0; i < bodies; ++i)
@@ -103,16 +103,16 @@ std::vector<MomentumMap> momenta() {
     return all;
 }
 
-System make(const Settings& settings) {
+System makeOuterSolarSystem(const Settings& settings) {
     System s;
     s.id = "outer-solar-system";
     for (const Body& body : table)
-        for (const char* axis : axes)
+        for (const char* axis : axisNames)
             s.coordinates.push_back({std::string(body.name) + "." + axis, std::string(body.title) + " " + axis,
                                      std::string(axis) + "_" + body.title, "au", "M☉ au/d"});
     s.timeUnit = "d";
     s.energyUnit = "M☉ au²/d²";
-    s.mechanics = bindMechanics<double>(withParameters(settings, fields()));
+    s.mechanics = bindMechanics<double>(withParameters(settings, outerSolarSystemFields()));
     s.momenta = momenta();
     s.draw = [](const double* x, Drawing& drawing) {
         for (std::size_t i = 0; i < bodies; ++i)
@@ -132,7 +132,7 @@ System make(const Settings& settings) {
 ModelEntry outer_solar_system() {
     ModelEntry e;
     e.item = {"outer-solar-system", "outer solar system",
-              "The Sun, Jupiter, Saturn, Uranus, Neptune and Pluto, from 5 September 1994.", infos(fields()), {}, ""};
+              "The Sun, Jupiter, Saturn, Uranus, Neptune and Pluto, from 5 September 1994.", infos(outerSolarSystemFields()), {}, ""};
     for (const Body& body : table)
         for (std::size_t k = 0; k < 3; ++k) {
             e.exampleQ.push_back(body.position[k]);
@@ -140,7 +140,7 @@ ModelEntry outer_solar_system() {
         }
     e.exampleEnd = 200000;
     e.exampleStep = 200;
-    e.make = make;
+    e.make = makeOuterSolarSystem;
     return e;
 }
 

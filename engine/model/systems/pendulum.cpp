@@ -33,7 +33,7 @@ struct Pendulum {
     }
 };
 
-const std::vector<Field<Pendulum>>& fields() {
+const std::vector<Field<Pendulum>>& pendulumFields() {
     static const std::vector<Field<Pendulum>> all = {
         {&Pendulum::m, positive("m", "mass", "kg", 1, "Mass of the bob.")},
         {&Pendulum::l, positive("l", "length", "m", 1, "Length of the rod.")},
@@ -100,8 +100,8 @@ struct PendulumFlow {
     }
 };
 
-System make(const Settings& settings) {
-    const auto model = withParameters(settings, fields());
+System makePendulum(const Settings& settings) {
+    const auto model = withParameters(settings, pendulumFields());
     System s;
     s.id = "pendulum";
     s.coordinates = {{"theta", "angle", "θ", "rad", "kg m²/s"}};
@@ -127,13 +127,13 @@ System make(const Settings& settings) {
 
 ModelEntry pendulum() {
     ModelEntry e;
-    e.item = {"pendulum", "pendulum", "A mass on a rigid rod; exact solution by elliptic functions.", infos(fields()),
+    e.item = {"pendulum", "pendulum", "A mass on a rigid rod; exact solution by elliptic functions.", infos(pendulumFields()),
               {}, ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 20;
     e.exampleStep = 0.05;
-    e.make = make;
+    e.make = makePendulum;
     return e;
 }
 

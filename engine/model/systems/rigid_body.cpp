@@ -12,7 +12,7 @@ using Three = std::array<double, 3>;
 
 /// The box, and the axis it turns about, up to the plane that the angular velocity never leaves: its tip draws the
 /// herpolhode there.
-void draw(const BodyMechanics<double>& body, const std::array<double, 3>& half, const double* x, Drawing& drawing) {
+void drawRigidBody(const BodyMechanics<double>& body, const std::array<double, 3>& half, const double* x, Drawing& drawing) {
     drawSpaceAxes(1.5, drawing);
     drawBox(half, {0, 0, 0}, x, drawing);
     const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
@@ -29,7 +29,7 @@ void draw(const BodyMechanics<double>& body, const std::array<double, 3>& half, 
     drawing.shapes.push_back(Segment{onStage(0, 0, 0), onStage(axis(0), axis(1), axis(2)), 1.4, ShapeRole::scenery});
 }
 
-System make(const Settings& settings) {
+System makeRigidBody(const Settings& settings) {
     System s;
     s.id = "rigid-body";
     s.body.dimension = 3;
@@ -42,7 +42,7 @@ System make(const Settings& settings) {
         s.momenta.push_back({names[i], symbols[i], "kg m²/s", [i](const double* x, const double*) { return x[7 + i]; }});
     s.exact = [I = Three{inertia[0], inertia[1], inertia[2]}](const State& initial) { return freeBodyMotion(I, initial); };
     s.casimir = [](double, const double* x) { return x[4] * x[4] + x[5] * x[5] + x[6] * x[6]; };
-    s.draw = [half = boxOf(s.body), body = s.body](const double* x, Drawing& drawing) { draw(body, half, x, drawing); };
+    s.draw = [half = boxOf(s.body), body = s.body](const double* x, Drawing& drawing) { drawRigidBody(body, half, x, drawing); };
     return s;
 }
 
@@ -57,7 +57,7 @@ ModelEntry rigid_body() {
     e.exampleInitial = {{"attitude", Value::Array{1.0, 0.0, 0.0, 0.0}}, {"momentum", Value::Array{0.45, 0.0, 0.9}}};
     e.exampleEnd = 50;
     e.exampleStep = 0.2;
-    e.make = make;
+    e.make = makeRigidBody;
     return e;
 }
 

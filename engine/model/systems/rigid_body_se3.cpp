@@ -36,7 +36,7 @@ ExactSolution freeMotion(const BodyMechanics<double>& body, const State& initial
     };
 }
 
-System make(const Settings& settings) {
+System makeRigidBodySe3(const Settings& settings) {
     System s;
     s.id = "rigid-body-se3";
     s.body.dimension = 6;
@@ -60,7 +60,7 @@ System make(const Settings& settings) {
     return s;
 }
 
-std::vector<FieldInfo> fields() {
+std::vector<FieldInfo> rigidBodySe3Fields() {
     std::vector<FieldInfo> all{inertiaField({1, 2, 3}), positive("mass", "mass", "kg", 1, "Mass of the body.")};
     for (FieldInfo& f : typedPotentialFields(true)) all.push_back(std::move(f));
     return all;
@@ -71,7 +71,7 @@ std::vector<FieldInfo> fields() {
 ModelEntry rigid_body_se3() {
     ModelEntry e;
     e.item = {"rigid-body-se3", "rigid body in space",
-              "A body that turns and moves in a potential of position and attitude, typed as a formula.", fields(), {}, ""};
+              "A body that turns and moves in a potential of position and attitude, typed as a formula.", rigidBodySe3Fields(), {}, ""};
     e.initial = bodyInitialFields(true);
     e.exampleInitial = {{"attitude", Value::Array{1.0, 0.0, 0.0, 0.0}},
                         {"momentum", Value::Array{0.45, 0.0, 0.9}},
@@ -79,7 +79,7 @@ ModelEntry rigid_body_se3() {
                         {"velocity", Value::Array{0.1, 0.0, 0.0}}};
     e.exampleEnd = 50;
     e.exampleStep = 0.2;
-    e.make = make;
+    e.make = makeRigidBodySe3;
     return e;
 }
 

@@ -64,7 +64,7 @@ double frequencyOf(const Hamiltonian& h, double t, const double* x) {
 
 /// |psi| over x as a curtain with the phase as its colour, above the potential. A wave spread over the whole domain stands a
 /// tenth of it high.
-void draw(const Hamiltonian& h, const double* values, Drawing& drawing) {
+void drawSchrodinger(const Hamiltonian& h, const double* values, Drawing& drawing) {
     const auto n = static_cast<std::size_t>(h.size());
     const double L = h.domain().length, left = h.domain().left, unit = 0.1 * L * std::sqrt(L);
     const auto& V = h.potential();
@@ -102,7 +102,7 @@ Shared hamiltonianOf(const Settings& settings) {
         n, where, hbar, m, wave::makePotential(*potential, "/potential", where, {{"hbar", hbar}, {"m", m}}));
 }
 
-System make(const Settings& settings) {
+System makeSchrodinger(const Settings& settings) {
     System s;
     s.id = "schrodinger";
     const Shared h = hamiltonianOf(settings);
@@ -110,7 +110,7 @@ System make(const Settings& settings) {
     s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };
     s.error = errorOf(h->size());
     s.field = samplingOf(h);
-    s.draw = [h](const double* values, Drawing& drawing) { draw(*h, values, drawing); };
+    s.draw = [h](const double* values, Drawing& drawing) { drawSchrodinger(*h, values, drawing); };
     s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
     s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
     s.start = [h](const Settings& initial) {
@@ -154,7 +154,7 @@ ModelEntry schrodinger() {
     e.exampleInitial = {{"psi", Value::Object{{"packet", "gaussian"}, {"wave_number", 5.0}}}, {"normalise", true}};
     e.exampleEnd = 2;
     e.exampleStep = 0.01;
-    e.make = make;
+    e.make = makeSchrodinger;
     return e;
 }
 

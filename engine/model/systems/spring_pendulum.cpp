@@ -115,7 +115,7 @@ ReducedMotion averagedMotion(const SpringPendulum& s, const State& initial) {
     return r;
 }
 
-const std::vector<Field<SpringPendulum>>& fields() {
+const std::vector<Field<SpringPendulum>>& springPendulumFields() {
     static const std::vector<Field<SpringPendulum>> all = {
         {&SpringPendulum::m, positive("m", "mass", "kg", 1, "Mass of the bob.")},
         {&SpringPendulum::g, notNegative("g", "gravity", "m/s²", 9.81, "Acceleration of gravity.")},
@@ -125,8 +125,8 @@ const std::vector<Field<SpringPendulum>>& fields() {
     return all;
 }
 
-System make(const Settings& settings) {
-    const auto model = withParameters(settings, fields());
+System makeSpringPendulum(const Settings& settings) {
+    const auto model = withParameters(settings, springPendulumFields());
     System s;
     s.id = "spring-pendulum";
     s.coordinates = {{"a", "extension", "a", "m", "kg m/s"}, {"theta", "angle", "θ", "rad", "kg m²/s"}};
@@ -159,12 +159,12 @@ System make(const Settings& settings) {
 ModelEntry spring_pendulum() {
     ModelEntry e;
     e.item = {"spring-pendulum", "spring pendulum",
-              "A pendulum whose rod is a stiff spring: a slow swing and a fast oscillation.", infos(fields()), {}, ""};
+              "A pendulum whose rod is a stiff spring: a slow swing and a fast oscillation.", infos(springPendulumFields()), {}, ""};
     e.exampleQ = {0.05, 1};
     e.exampleP = {0, 0};
     e.exampleEnd = 10;
     e.exampleStep = 0.01;
-    e.make = make;
+    e.make = makeSpringPendulum;
     return e;
 }
 

@@ -11,7 +11,7 @@ FieldInfo json(const char* key, const char* title, const char* symbol, Value fal
     return f;
 }
 
-FieldInfo degree() {
+FieldInfo slowDegree() {
     FieldInfo f = integerField("degree", "n", 1, 24, 4.0, "Degree of the slow part.");
     f.whyLimits = "a slow part of degree 0 stands still; above 24 more steps are cheaper than a higher degree";
     return f;
@@ -26,7 +26,7 @@ SpaceEntry oscillatory() {
               {json("omega", "frequency", "ω", "model",
                     "Frequency of the fast motion: a number, \"model\" (what the model says), or \"estimate\" (from a short "
                     "resolved run)."),
-               degree(),
+               slowDegree(),
                json("harmonics", "harmonics", "m", Value::Array{1.0},
                     "Degree of the amplitudes of the first harmonic, of the second, ..."),
                json("fast", "fast coordinates", "", {}, "degree and harmonics of the coordinates the model calls fast."),

@@ -1,11 +1,12 @@
 /// The built-in systems against independent routes: differences of the Lagrangian, normal modes, published figures.
 #include <QTest>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <cmath>
 #include <random>
 
+#include "engine/core/dense.hpp"
 #include "tests/laws/laws.hpp"
 
 namespace extremal {
@@ -118,15 +119,15 @@ private slots:
         double L = 0;
         m.jet(m.model.get(), 0, zero.data(), zero.data(), &L, g.data(), H.data());
         const Eigen::Map<const Eigen::MatrixXd> full(H.data(), 2 * d, 2 * d);
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd(-full.topLeftCorner(d, d)));
+        const auto modes = dense::hermitianEigen<double>(-full.topLeftCorner(d, d));
         State state{0, 0, std::vector<double>(static_cast<std::size_t>(2 * d))};
         for (int i = 0; i < d; ++i) state.x[static_cast<std::size_t>(i)] = std::sin(1.0 + 2 * i);
         const Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
         const auto step = makeIntegrator(s, *namedScheme("galerkin-gauss-6"), {0, 0.05});
         for (int k = 0; k < 200; ++k) QVERIFY(step->advance(state).outcome == Outcome::converged);
-        Eigen::VectorXd c = modes.eigenvectors().transpose() * start;
-        for (int i = 0; i < d; ++i) c(i) *= std::cos(std::sqrt(modes.eigenvalues()(i)) * state.t);
-        const Eigen::VectorXd exact = modes.eigenvectors() * c;
+        Eigen::VectorXd c = modes.vectors.transpose() * start;
+        for (int i = 0; i < d; ++i) c(i) *= std::cos(std::sqrt(modes.values(i)) * state.t);
+        const Eigen::VectorXd exact = modes.vectors * c;
         const double worst = (exact - Eigen::Map<const Eigen::VectorXd>(state.x.data(), d)).cwiseAbs().maxCoeff();
         QVERIFY2(worst < 1e-9, qPrintable(QString::number(worst)));
     }

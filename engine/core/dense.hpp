@@ -1,0 +1,70 @@
+/// Dense linear algebra for what is made once a scheme or once a view, never for a step: factorizations of matrices of
+/// any size, in double, complex and quadruple precision. They are compiled in one place, because each file that has
+/// Eigen make them anew takes seconds longer.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+#include <type_traits>
+
+namespace extremal::dense {
+
+template <class T>
+using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+template <class T>
+using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+/// Any expression with entries T; what is no column-major block of memory is copied.
+template <class T>
+using Given = const std::type_identity_t<Eigen::Ref<const Matrix<T>>>&;
+
+/// P A = L U with partial pivoting.
+template <class T>
+class Lu {
+public:
+    explicit Lu(Given<T> A);
+    Matrix<T> solve(Given<T> B) const;
+    /// Smallest over largest pivot in magnitude: 0 where A is singular; not a number where A is not finite.
+    auto pivotRatio() const -> decltype(Eigen::numext::abs(T()));
+
+private:
+    Eigen::PartialPivLU<Matrix<T>> lu_;
+};
+
+/// X of A X = B, by LU with partial pivoting.
+template <class T>
+Matrix<T> solve(Given<T> A, Given<T> B);
+template <class T>
+Matrix<T> inverse(Given<T> A);
+/// X that minimises |A X - B|, A with at least as many rows as columns, by Householder QR.
+template <class T>
+Matrix<T> leastSquares(Given<T> A, Given<T> B);
+template <class T>
+Matrix<T> product(Given<T> A, Given<T> B);
+
+/// A = Q R: Q square and orthogonal, R upper triangular with as many rows as A has columns.
+template <class T>
+struct Qr {
+    Matrix<T> Q, R;
+};
+template <class T>
+Qr<T> qr(Given<T> A);
+
+/// A v = value W v for a Hermitian A and a positive definite W (without it the identity): values in ascending order,
+/// vectors as columns with v* W v = 1.
+template <class T>
+struct HermitianEigen {
+    Eigen::Matrix<typename Eigen::NumTraits<T>::Real, Eigen::Dynamic, 1> values;
+    Matrix<T> vectors;
+};
+template <class T>
+HermitianEigen<T> hermitianEigen(Given<T> A);
+template <class T>
+HermitianEigen<T> hermitianEigen(Given<T> A, Given<T> W);
+
+/// Magnitudes of the diagonal of R in a QR with column pivoting, descending: the last is near zero where the columns depend.
+Eigen::VectorXd rankPivots(Given<double> A);
+/// Of a square matrix, descending.
+Eigen::VectorXd singularValues(Given<double> A);
+
+}  // namespace extremal::dense
