@@ -6,5 +6,5 @@ source "$root/.ci/prepare.sh"
 
 install_packages
 configure
-ninja -C "$root/build" >&2
+ninja -C "$root/build" all bench >&2
 ctest --test-dir "$root/build" --parallel 2 --output-on-failure "$@"

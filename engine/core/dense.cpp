@@ -33,13 +33,11 @@ Matrix<T> inverse(Given<T> A) {
 }
 
 template <class T>
-Matrix<T> leastSquares(Given<T> A, Given<T> B) {
-    return Eigen::HouseholderQR<Matrix<T>>(A).solve(B);
-}
-
-template <class T>
 Matrix<T> product(Given<T> A, Given<T> B) {
-    return A * B;
+    if constexpr (std::is_arithmetic_v<T>)
+        return A * B;
+    else
+        return A.lazyProduct(B);  // nothing to gain from blocks, and much to compile
 }
 
 template <class T>
@@ -47,6 +45,13 @@ Qr<T> qr(Given<T> A) {
     const Eigen::HouseholderQR<Matrix<T>> factors(A);
     return {factors.householderQ() * Matrix<T>::Identity(A.rows(), A.rows()),
             factors.matrixQR().topRows(A.cols()).template triangularView<Eigen::Upper>()};
+}
+
+template <class T>
+Matrix<T> leastSquares(Given<T> A, Given<T> B) {
+    const Qr<T> factors = qr<T>(A);
+    const Eigen::Index n = A.cols();
+    return factors.R.template triangularView<Eigen::Upper>().solve(product<T>(factors.Q.leftCols(n).adjoint(), B));
 }
 
 Eigen::VectorXd rankPivots(Given<double> A) {

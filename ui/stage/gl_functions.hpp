@@ -3,8 +3,7 @@
 /// The table is filled by any getProcAddress: the window's context, OSMesa or EGL. Qt's function classes need
 /// a QOpenGLContext, and loaders that resolve by themselves find the wrong library beside OSMesa, so neither
 /// is used. A getProcAddress may hand out stubs for functions the context does not have; therefore the
-/// version decides and never a null pointer. Do not include this header beside Qt's OpenGL headers: both
-/// declare the same constants.
+/// version decides and never a null pointer.
 #pragma once
 
 #include <GL/glcorearb.h>
@@ -13,6 +12,12 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+
+// Beside Qt's OpenGL headers the four functions that came with 1.1 have no types.
+using PFNGLBINDTEXTUREPROC = void(APIENTRYP)(GLenum target, GLuint texture);
+using PFNGLDELETETEXTURESPROC = void(APIENTRYP)(GLsizei n, const GLuint* textures);
+using PFNGLDRAWARRAYSPROC = void(APIENTRYP)(GLenum mode, GLint first, GLsizei count);
+using PFNGLGENTEXTURESPROC = void(APIENTRYP)(GLsizei n, GLuint* textures);
 
 namespace extremal {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/action/oscillatory_table.hpp"
-#include "engine/integrator/galerkin_step_build.hpp"
+#include "engine/integrator/galerkin_step.hpp"
 #include "tests/laws/laws.hpp"
 
 namespace extremal {
