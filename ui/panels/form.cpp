@@ -41,7 +41,10 @@ void Form::addRow(FormField field) {
     name->setMinimumWidth(64);
     auto* edit = new ValueEdit(info);
     name->setBuddy(edit);
-    auto* unit = makeLabel(QString::fromStdString(info.unit), "caption");
+    constexpr int roomOfUnit = 72;  // a longer one would leave the field no room
+    const QString unitText = QString::fromStdString(info.unit);
+    auto* unit = makeLabel(fontMetrics().elidedText(unitText, Qt::ElideRight, roomOfUnit), "caption");
+    unit->setToolTip(unitText);
     auto* problem = makeLabel({}, "caption");
     problem->setObjectName("problem." + QString::fromStdString(info.key));
     problem->setProperty("problem", true);

@@ -57,21 +57,6 @@ void Actions::fill(QMenuBar& bar) const {
     }
 }
 
-QString Actions::keyList() const {
-    QString text;
-    for (const QString& name : menus_) {
-        text += "\n### " + QString(name).remove('&') + "\n\n| action | keys |\n| --- | --- |\n";
-        for (const QAction* action : all_) {
-            if (menuOf(action) != name) continue;
-            QStringList keys;
-            for (const QKeySequence& key : action->shortcuts())
-                keys << key.toString(QKeySequence::NativeText).replace("|", "\\|");
-            text += "| " + QString(action->text()).remove('&') + " | " + keys.join(", ") + " |\n";
-        }
-    }
-    return text;
-}
-
 namespace {
 
 bool isArrow(int key) {

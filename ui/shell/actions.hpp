@@ -31,8 +31,6 @@ public:
     static QString menuOf(const QAction* action);
 
     void fill(QMenuBar& bar) const;
-    /// The keys of all actions, by menu, as Markdown.
-    QString keyList() const;
 
 private:
     struct Item {

@@ -4,14 +4,23 @@
 #include <QFile>
 #include <QHBoxLayout>
 #include <QListWidget>
+#include <QRegularExpression>
 #include <QTextBrowser>
 #include <QUrl>
 
 #include "ui/shell/typeset.hpp"
 
 namespace extremal {
+namespace {
 
-HelpWindow::HelpWindow(const QString& keys, QWidget* parent) : QWidget(parent, Qt::Window), keys_(keys) {
+QString pageText(const QString& page) {
+    QFile file(QStringLiteral(":/handbook/%1.md").arg(page));
+    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+}
+
+}  // namespace
+
+HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
     setWindowTitle(tr("Handbook"));
     resize(960, 720);
     auto* row = new QHBoxLayout(this);
@@ -22,24 +31,15 @@ HelpWindow::HelpWindow(const QString& keys, QWidget* parent) : QWidget(parent, Q
     text_->setOpenLinks(false);
     row->addWidget(pages_);
     row->addWidget(text_, 1);
-    for (const char* page : {"index", "tour", "framework", "spaces", "quadratures", "schemes", "baselines", "models",
-                             "observables", "scenes", "expressions", "command-line", "keys", "architecture", "extending"}) {
-        const QString path = QStringLiteral(":/handbook/%1.md").arg(QLatin1String(page));
-        QFile file(path);
-        if (!file.open(QIODevice::ReadOnly)) continue;
-        QString title = QString::fromUtf8(file.readLine()).remove('#').trimmed();
-        auto* item = new QListWidgetItem(title, pages_);
-        item->setData(Qt::UserRole, QString::fromLatin1(page));
-    }
-    auto* item = new QListWidgetItem(tr("All keys of this window"), pages_);
-    item->setData(Qt::UserRole, QStringLiteral("#keys"));
+    const auto add = [this](const QString& page) {
+        const QString title = pageText(page).section('\n', 0, 0).remove('#').trimmed();
+        if (!title.isEmpty()) (new QListWidgetItem(title, pages_))->setData(Qt::UserRole, page);
+    };
+    add(QStringLiteral("index"));
+    static const QRegularExpression link(QStringLiteral(R"(\]\(([\w-]+)\.md\))"));
+    for (const QRegularExpressionMatch& match : link.globalMatch(pageText(QStringLiteral("index")))) add(match.captured(1));
     connect(pages_, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* now) {
-        if (!now) return;
-        const QString page = now->data(Qt::UserRole).toString();
-        QFile file(QStringLiteral(":/handbook/%1.md").arg(page));
-        showMarkdown(*text_, page == "#keys"                  ? keys_
-                             : file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll())
-                                                              : QString());
+        if (now) showMarkdown(*text_, pageText(now->data(Qt::UserRole).toString()));
     });
     connect(text_, &QTextBrowser::anchorClicked, this, [this](const QUrl& url) {
         if (url.isRelative())

@@ -1,4 +1,4 @@
-/// Help: the handbook's pages and the list of keys.
+/// Help: the handbook's pages, in the order in which its index links to them.
 #pragma once
 
 #include <QWidget>
@@ -11,12 +11,10 @@ namespace extremal {
 class HelpWindow : public QWidget {
     Q_OBJECT
 public:
-    /// `keys`: Markdown made from the actions.
-    explicit HelpWindow(const QString& keys, QWidget* parent = nullptr);
+    explicit HelpWindow(QWidget* parent = nullptr);
     void open(const QString& page);
 
 private:
-    QString keys_;
     QListWidget* pages_;
     QTextBrowser* text_;
 };

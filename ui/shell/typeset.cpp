@@ -1,5 +1,6 @@
 #include "ui/shell/typeset.hpp"
 
+#include <QPointer>
 #include <QScrollBar>
 #include <QTextBlock>
 #include <QTextBrowser>
@@ -65,14 +66,21 @@ void typesetTable(QTextTable& table, const QPalette& palette) {
 }  // namespace
 
 void showMarkdown(QTextBrowser& browser, const QString& markdown) {
-    browser.setMarkdown(markdown);
-    QTextDocument& document = *browser.document();
+    // Apart from the browser, which would lay out the text anew after every change; without a history of them.
+    auto* page = new QTextDocument(&browser);
+    QTextDocument& document = *page;
+    document.setUndoRedoEnabled(false);
+    document.setDefaultFont(browser.font());
+    document.setMarkdown(markdown);
     document.setDocumentMargin(18);
     const QPalette palette = browser.palette();
     for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
         QTextCursor(block).setBlockFormat(formatOf(block));
     for (QTextFrame* frame : document.rootFrame()->childFrames())
         if (auto* table = qobject_cast<QTextTable*>(frame)) typesetTable(*table, palette);
+    const QPointer<QTextDocument> last = browser.document();
+    browser.setDocument(page);
+    delete last;  // where the browser has not
     browser.verticalScrollBar()->setValue(0);
 }
 

@@ -37,12 +37,12 @@ void MainWindow::makeActions() {
     addViewActions();
     addRunActions();
     actions_->add("help", tr("Help"), tr("Handbook"), {QKeySequence(Qt::Key_F1)}, [this] {
-        if (!help_) help_ = new HelpWindow(actions_->keyList(), this);
+        if (!help_) help_ = new HelpWindow(this);
         help_->open("index");
     });
     actions_->add("keys", tr("Help"), tr("Keys"), {QKeySequence(Qt::SHIFT | Qt::Key_F1)}, [this] {
-        if (!help_) help_ = new HelpWindow(actions_->keyList(), this);
-        help_->open("#keys");
+        if (!help_) help_ = new HelpWindow(this);
+        help_->open("keys");
     });
     actions_->add("about", tr("Help"), tr("About Extremal"), {QKeySequence(Qt::CTRL | Qt::Key_F1)}, [this] {
         QMessageBox::about(this, tr("About Extremal"),
