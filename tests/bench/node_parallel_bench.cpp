@@ -64,7 +64,7 @@ double galerkin(const System& kepler, int degree, int steps) {
 
 int main() {
     double peer = HUGE_VAL, ours = HUGE_VAL;
-    for (double exponent = 9; exponent <= 16; exponent += 0.25) {
+    for (double exponent = 9; exponent <= 16; exponent += 0.05) {
         const auto [time, error] = measure([&] { return odeint(std::pow(10, -exponent)); });
         if (error <= wanted && time < peer) {
             peer = time;
@@ -74,7 +74,7 @@ int main() {
     const System kepler = findModel("kepler")->make({"kepler", {{"mu", 1.0}}, {}});
     for (const int degree : {6, 8, 10, 12}) {
         double best = HUGE_VAL;
-        for (int steps = 600; steps <= 4000; steps = steps * 21 / 20) {
+        for (int steps = 600; steps <= 4000; steps += steps / 100) {
             const auto [time, error] = measure([&] { return galerkin(kepler, degree, steps); });
             if (error <= wanted && time < best) {
                 best = time;
