@@ -90,8 +90,10 @@ std::vector<View> plotViews(const Scene& scene) {
             if (pairs.empty()) result.push_back(view);
             continue;
         }
-        const std::vector<std::string> columns = timePlots(system);
-        if (view.id != "trajectory" || !view.x.empty() || !view.y.empty() || columns.empty()) {
+        std::vector<std::string> columns;
+        if (view.id == "trajectory") columns = timePlots(system);
+        if (entry->columns) columns = entry->columns(system);
+        if (!view.x.empty() || !view.y.empty() || columns.empty()) {
             result.push_back(view);
             continue;
         }

@@ -21,6 +21,8 @@ struct ViewEntry {
     CatalogItem item;
     std::string observable;  ///< the scene must observe it; empty: the state is enough
     Figure (*make)(const FigureContext&) = nullptr;  ///< null: no plot (the stage)
+    /// The state columns that get a plot each (View::y) where the scene names none; null or empty: one plot.
+    std::vector<std::string> (*columns)(const System&) = nullptr;
 };
 
 /// In alphabetical order of their ids.

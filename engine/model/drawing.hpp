@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -47,13 +48,28 @@ struct Curtain {  ///< a field over a line: the area between its curve and the g
     double ground = 0;         ///< y of the ground
     std::vector<double> hues;  ///< colours along the curve, in turns; empty: that of the scheme
 };
-using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word, Curtain>;
+struct Curve {  ///< a line through points
+    std::vector<Point> points;
+    double width = 1;     ///< pixels
+    double strength = 1;  ///< 0 (not seen) .. 1
+    ShapeRole role = ShapeRole::scenery;
+};
+using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word, Curtain, Curve>;
 
 /// One state of one scheme as shapes, and the point whose path makes the trail.
 struct Drawing {
     std::vector<Shape> shapes;
     Point tracer{};
     void clear() { shapes.clear(); tracer = {}; }
+};
+
+/// A small picture in the corner of the stage, turned with it: a ball, and on it or near it a point for each scheme whose
+/// path makes a second trail. What lies behind the middle of the ball is drawn faintly.
+struct Inset {
+    std::string title;                             ///< below it; empty: the system has no inset
+    std::vector<Shape> backdrop;                   ///< in units of the ball's radius
+    std::function<double(const double* x)> reach;  ///< the ball's radius in units of the tracer, at the start
+    std::function<Point(const double* x)> tracer;
 };
 
 }  // namespace extremal

@@ -37,4 +37,8 @@ void drawSpaceAxes(double length, Drawing& drawing);
 /// their numbers.
 void drawBox(const std::array<double, 3>& half, const std::array<double, 3>& centre, const double* x, Drawing& drawing);
 
+/// The polhode of a free body as the stage's inset: its momentum in body axes on the sphere, with the energy curves and
+/// the body's axes. Axis 3 is up.
+void addPolhode(System& system);
+
 }  // namespace extremal

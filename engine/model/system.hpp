@@ -141,6 +141,7 @@ struct System {
     std::function<ExactSolution(const State& initial)> exact;
     /// Shapes of one state, for the stage; of a field, x is a sample of it (FieldSampling).
     std::function<void(const double* x, Drawing& drawing)> draw;
+    Inset inset;             ///< beside it
     bool isSpatial = false;  ///< the drawing fills space: seen from a corner, and turned by dragging
     /// The default phase portrait and trajectory: names of state columns.
     std::string phaseX, phaseY, trajectoryX, trajectoryY;

@@ -1,6 +1,7 @@
 /// One picture of the stage as data: what to draw at a time t, in model coordinates, with colours.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,16 @@ struct StageLayer {
     Rgb colour;
     std::vector<Shape> shapes;      ///< of role body
     std::vector<TrailPoint> trail;  ///< oldest first
+    Point insetTracer{};                 ///< its point in the inset, if there is one
+    std::vector<TrailPoint> insetTrail;
     bool hasEnded = false;          ///< the scheme failed before t: its last state, drawn faintly
+};
+
+/// The small picture in the corner (Inset of the system).
+struct StageInset {
+    std::string title;
+    std::vector<Shape> backdrop;  ///< in units of the tracers, as all of it
+    double reach = 1;             ///< radius of the ball
 };
 
 struct StageFrame {
@@ -50,6 +60,7 @@ struct StageFrame {
     Bounds bounds;  ///< over the whole run, so that the picture does not jump
     std::vector<Shape> scenery;
     std::vector<StageLayer> layers;  ///< in the order of the scene
+    std::optional<StageInset> inset;
     std::vector<std::string> notes;  ///< failures before t: "Stormer-Verlet diverged at t = 0.31"
 };
 

@@ -11,6 +11,7 @@
 
 #include "engine/core/text.hpp"
 #include "ui/shell/theme.hpp"
+#include "ui/stage/stage_inset.hpp"
 #include "ui/stage/stage_player.hpp"
 
 namespace extremal {
@@ -88,6 +89,24 @@ void paintWords(QPainter& painter, const QRectF& area, const Camera& camera, con
         if (const auto* word = std::get_if<Word>(&shape)) paintWord(painter, area, camera, *word, colour);
 }
 
+/// The inset's title below it, and the names of its axes.
+void paintInsetWords(QPainter& painter, const QRectF& area, const Camera& camera, const StageFrame& frame, const Theme& theme) {
+    const InsetPlace place(frame, camera, area.width(), area.height());
+    const Point seen = camera.project(place.centre());
+    painter.setFont(theme.caption());
+    for (const Shape& shape : frame.inset->backdrop)
+        if (const auto* word = std::get_if<Word>(&shape)) {
+            const Word placed{place.map(word->centre), word->text};
+            QColor colour = theme.muted;
+            if (camera.project(placed.centre)[2] < seen[2]) colour.setAlphaF(0.45f);
+            paintWord(painter, area, camera, placed, colour);
+        }
+    const double below = InsetPlace::corner(area.width(), area.height()) / 2;
+    painter.setPen(theme.muted);
+    painter.drawText(QRectF(area.center().x() + seen[0] - below, area.center().y() - seen[1] + below - 6, 2 * below, 18),
+                     Qt::AlignCenter, QString::fromStdString(frame.inset->title));
+}
+
 }  // namespace
 
 StageStyle stageStyle(const Theme& theme) {
@@ -139,6 +158,7 @@ void paintOverlay(QPainter& painter, const QRectF& area, const StageFrame& frame
         painter.drawText(QPointF(x, baseline), trail);
     }
     if (options.camera) paintWords(painter, area, *options.camera, frame, theme);
+    if (options.camera && frame.inset) paintInsetWords(painter, area, *options.camera, frame, theme);
     if (options.hasLegend) paintLegend(painter, area, frame, theme);
     paintNotes(painter, area, frame, theme);
     painter.restore();

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/core/text.hpp"
+#include "ui/stage/stage_inset.hpp"
 
 namespace extremal {
 namespace {
@@ -34,6 +35,8 @@ void addExtent(const Shape& shape, std::vector<Point>& points) {
         points.insert(points.end(), solid->corners.begin(), solid->corners.end());
     if (const auto* curtain = std::get_if<Curtain>(&shape))
         points.insert(points.end(), curtain->top.begin(), curtain->top.end());
+    if (const auto* curve = std::get_if<Curve>(&shape))
+        points.insert(points.end(), curve->points.begin(), curve->points.end());
     if (const auto* support = std::get_if<Support>(&shape)) {
         Point left = support->centre, right = support->centre;
         left[0] -= support->width / 2;
@@ -47,6 +50,7 @@ bool isScenery(const Shape& shape) {
     if (const auto* spring = std::get_if<Spring>(&shape)) return spring->role == ShapeRole::scenery;
     if (const auto* disc = std::get_if<Disc>(&shape)) return disc->role == ShapeRole::scenery;
     if (const auto* word = std::get_if<Word>(&shape)) return word->role == ShapeRole::scenery;
+    if (const auto* curve = std::get_if<Curve>(&shape)) return curve->role == ShapeRole::scenery;
     if (std::holds_alternative<Solid>(shape) || std::holds_alternative<Curtain>(shape)) return false;
     return true;
 }
@@ -124,7 +128,32 @@ void StagePlayer::prepare() {
             bounds_.add(e.bounds);
             seen_.add(e.seen);
         }
-    trailSpan_ = findTrailSpan();
+    trace_.size = bounds_.diagonal();
+    trace_.span = findTrailSpan(trace_, 1.3);
+    prepareInset();
+}
+
+/// Its size is that of the first scheme's start, so that what leaves the ball is seen to leave it.
+void StagePlayer::prepareInset() {
+    if (system_.inset.title.empty()) return;
+    std::vector<double> x;
+    rowState(tracks_.front(), 0, x);
+    const double reach = system_.inset.reach(x.data());
+    if (!(reach > 0) || !std::isfinite(reach)) return;
+    inset_ = StageInset{system_.inset.title, system_.inset.backdrop, reach};
+    for (Shape& shape : inset_->backdrop) {
+        const auto grow = [reach](Point& p) {
+            for (double& c : p) c *= reach;
+        };
+        if (auto* curve = std::get_if<Curve>(&shape)) std::for_each(curve->points.begin(), curve->points.end(), grow);
+        if (auto* word = std::get_if<Word>(&shape)) grow(word->centre);
+        if (auto* segment = std::get_if<Segment>(&shape)) {
+            grow(segment->a);
+            grow(segment->b);
+        }
+    }
+    insetTrace_.size = 2 * reach;
+    insetTrace_.span = findTrailSpan(insetTrace_, 4);
 }
 
 void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
@@ -167,7 +196,8 @@ void StagePlayer::rowState(const Track& track, std::size_t row, std::vector<doub
     for (std::size_t c = 0; c < x.size(); ++c) x[c] = track.state[c][row];
 }
 
-Point StagePlayer::tracer(const std::vector<double>& x) const {
+Point StagePlayer::tracer(const std::vector<double>& x, bool isInset) const {
+    if (isInset) return system_.inset.tracer(x.data());
     Drawing drawing;
     system_.draw(x.data(), drawing);
     return drawing.tracer;
@@ -197,9 +227,9 @@ StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
 }
 
 /// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed,
-/// covers 1.3 times the size of the picture; two digits. A motion to and fro on a line has no trail to show:
+/// covers `lengths` times the size of the picture; two digits. A motion to and fro on a line has no trail to show:
 /// 0.
-double StagePlayer::findTrailSpan() const {
+double StagePlayer::findTrailSpan(const Trace& trace, double lengths) const {
     const auto healthy =
         std::find_if(tracks_.begin(), tracks_.end(), [](const Track& k) { return !k.hasFailed; });
     const Track& track = healthy != tracks_.end() ? *healthy : tracks_.front();
@@ -209,12 +239,12 @@ double StagePlayer::findTrailSpan() const {
     double length = 0;
     for (std::size_t row = 0; row < track.t.size(); row += stride) {
         rowState(track, row, x);
-        path.push_back(tracer(x));
+        path.push_back(tracer(x, trace.isInset));
         if (path.size() > 1) length += distance(path[path.size() - 2], path.back());
     }
     const double time = track.t[(path.size() - 1) * stride] - track.t[0], whole = end() - start();
     if (!(length > 0) || !std::isfinite(length) || (path.size() > 2 && isStraight(path))) return 0;
-    const double span = 1.3 * bounds_.diagonal() * time / length;
+    const double span = lengths * trace.size * time / length;
     const double digits = std::pow(10, std::floor(std::log10(span)) - 1);
     return std::min(std::round(span / digits) * digits, whole);
 }
@@ -247,17 +277,17 @@ bool StagePlayer::stateBetween(const Track& track, std::size_t row, double t, st
 
 /// Whether the curve between row and row + 1 is known: its middle must lie near the chord, within a fifth of
 /// its length (a quarter of a circle) or half a percent of the picture. `bend` is that distance.
-bool StagePlayer::isResolved(const Track& track, std::size_t row, double& bend) const {
+bool StagePlayer::isResolved(const Track& track, std::size_t row, const Trace& trace, double& bend) const {
     std::vector<double> x;
     bend = 0;
     if (!stateBetween(track, row, (track.t[row] + track.t[row + 1]) / 2, x)) return false;
-    const Point middle = tracer(x);
+    const Point middle = tracer(x, trace.isInset);
     rowState(track, row, x);
-    const Point a = tracer(x);
+    const Point a = tracer(x, trace.isInset);
     rowState(track, row + 1, x);
-    const Point b = tracer(x);
+    const Point b = tracer(x, trace.isInset);
     bend = distance(middle, {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2});
-    return bend <= 0.2 * distance(a, b) + 0.005 * bounds_.diagonal();
+    return bend <= 0.2 * distance(a, b) + 0.005 * trace.size;
 }
 
 void StagePlayer::stateAt(const Track& track, double t, std::vector<double>& x) const {
@@ -266,28 +296,28 @@ void StagePlayer::stateAt(const Track& track, double t, std::vector<double>& x) 
     const auto row = static_cast<std::size_t>(after - track.t.begin()) - 1;
     if (after == track.t.end() || track.t[row] == t) return rowState(track, row, x);
     double bend = 0;
-    if (isResolved(track, row, bend) && stateBetween(track, row, t, x)) return;
+    if (isResolved(track, row, trace_, bend) && stateBetween(track, row, t, x)) return;
     rowState(track, t - track.t[row] <= track.t[row + 1] - t ? row : row + 1, x);
 }
 
-std::vector<TrailPoint> StagePlayer::trail(const Track& track, double t) const {
+std::vector<TrailPoint> StagePlayer::trail(const Track& track, const Trace& trace, double t) const {
     std::vector<TrailPoint> points;
     const double now = std::min(t, track.t.back());
-    if (!(trailSpan_ > 0) || now < track.t.front()) return points;
+    if (!(trace.span > 0) || now < track.t.front()) return points;
     const auto index = [&](auto it) { return static_cast<std::size_t>(it - track.t.begin()); };
-    const std::size_t first = index(std::lower_bound(track.t.begin(), track.t.end(), now - trailSpan_));
+    const std::size_t first = index(std::lower_bound(track.t.begin(), track.t.end(), now - trace.span));
     const std::size_t last = index(std::upper_bound(track.t.begin(), track.t.end(), now));  // one past
     const std::size_t stride = first < last ? (last - first + maxTrailRows - 1) / maxTrailRows : 1;
     const auto add = [&](const std::vector<double>& x, double time, bool isJoined) {
-        const Point p = tracer(x);
-        if (isFinite(p)) points.push_back({p, (now - time) / trailSpan_, isJoined && !points.empty()});
+        const Point p = tracer(x, trace.isInset);
+        if (isFinite(p)) points.push_back({p, (now - time) / trace.span, isJoined && !points.empty()});
     };
     std::vector<double> x;
-    const double smooth = 0.0002 * bounds_.diagonal();
+    const double smooth = 0.0002 * trace.size;
     // From the row, along its interval while it is resolved, to the next.
     const auto follow = [&](std::size_t row, double until) {
         double bend = 0;
-        if (row + 1 >= track.t.size() || !isResolved(track, row, bend)) return false;
+        if (row + 1 >= track.t.size() || !isResolved(track, row, trace, bend)) return false;
         const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(bend / smooth))), 1, 12);
         const double h = (track.t[row + 1] - track.t[row]) / pieces;
         for (int k = 1; k <= pieces && track.t[row] + k * h < until; ++k)
@@ -317,15 +347,19 @@ std::string StagePlayer::failureNote(const Track& track, const std::string& labe
            " at t = " + formatNumber(when, 3) + (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
 }
 
-/// What is seen from a corner fits the picture closer than the box of what is there.
+/// What is seen from a corner fits the picture closer than the box of what is there. An inset takes a part of the right,
+/// or of the bottom of what is tall.
 Camera StagePlayer::fittedCamera(double width, double height, double margin) const {
     if (!isSpatial()) return fitCamera(bounds_, width, height, margin);
-    const Camera flat = fitCamera(seen_, width, height, margin);
+    const double taken = inset_ ? InsetPlace::corner(width, height) : 0;
+    const bool isWide = width >= height;
+    const Camera flat = fitCamera(seen_, width - (isWide ? taken : 0), height - (isWide ? 0 : taken), margin);
     Camera camera = cornerView();
     const auto axes = camera.axes();
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < 3; ++k) camera.centre[i] += axes[k][i] * flat.centre[k];
     camera.pixelsPerUnit = flat.pixelsPerUnit;
+    camera.centre = isWide ? camera.unproject(taken / 2, 0) : camera.unproject(0, -taken / 2);
     return camera;
 }
 
@@ -334,6 +368,7 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
     frame.t = t;
     frame.style = style;
     frame.bounds = bounds_;
+    frame.inset = inset_;
     std::vector<double> x;
     Drawing drawing;
     for (const Track& track : tracks_) {
@@ -357,7 +392,11 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
             else if (isFirst)
                 frame.scenery.push_back(shape);
         }
-        layer.trail = trail(track, t);
+        layer.trail = trail(track, trace_, t);
+        if (inset_) {
+            layer.insetTracer = tracer(x, true);
+            layer.insetTrail = trail(track, insetTrace_, t);
+        }
         frame.layers.push_back(std::move(layer));
     }
     return frame;

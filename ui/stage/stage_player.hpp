@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,7 +34,7 @@ public:
     const std::string& timeUnit() const { return system_.timeUnit; }
     double start() const;
     double end() const;  ///< time of the last row of any scheme
-    double trailSpan() const { return trailSpan_; }
+    double trailSpan() const { return trace_.span; }
     /// The picture has depth: it can be turned.
     bool isSpatial() const { return system_.isSpatial; }
     /// The camera that shows everything.
@@ -56,23 +57,32 @@ private:
         Bounds seen;  ///< right, up and towards the viewer, as the fitted camera of a system in space sees it
     };
 
+    /// What leaves a trail: the tracer of the picture, or that of the inset.
+    struct Trace {
+        bool isInset = false;
+        double size = 0;  ///< of the picture
+        double span = 0;  ///< time that the trail goes back
+    };
+
     void prepare();
+    void prepareInset();
     void addTrack(const std::shared_ptr<const SchemeResult>& result);
     Extent findBounds(const Track& track) const;
-    double findTrailSpan() const;
+    double findTrailSpan(const Trace& trace, double lengths) const;
     void rowState(const Track& track, std::size_t row, std::vector<double>& x) const;
     bool stateBetween(const Track& track, std::size_t row, double t, std::vector<double>& x) const;
-    bool isResolved(const Track& track, std::size_t row, double& bend) const;
-    Point tracer(const std::vector<double>& x) const;
+    bool isResolved(const Track& track, std::size_t row, const Trace& trace, double& bend) const;
+    Point tracer(const std::vector<double>& x, bool isInset) const;
     void stateAt(const Track& track, double t, std::vector<double>& x) const;
-    std::vector<TrailPoint> trail(const Track& track, double t) const;
+    std::vector<TrailPoint> trail(const Track& track, const Trace& trace, double t) const;
     std::string failureNote(const Track& track, const std::string& label) const;
 
     std::shared_ptr<const Comparison> comparison_;
     System system_;
     std::vector<Track> tracks_;
     Bounds bounds_, seen_;
-    double trailSpan_ = 0;
+    Trace trace_, insetTrace_{true, 0, 0};
+    std::optional<StageInset> inset_;
 };
 
 }  // namespace extremal

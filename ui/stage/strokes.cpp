@@ -1,10 +1,13 @@
 #include "ui/stage/strokes.hpp"
 
 #include "ui/plots/phase_colour.hpp"
+#include "ui/stage/stage_inset.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace extremal {
@@ -13,6 +16,7 @@ namespace {
 constexpr double farAway = 2e4;   // logical pixels: what lies beyond is not drawn
 constexpr double rodWidth = 2.4;  // of the first scheme; the others are a little thinner
 constexpr double hatchSpacing = 8, hatchLength = 8;
+constexpr double veiled = 0.3;  // strength of what is behind the middle of an inset
 constexpr double springLead = 10, slimmestSpring = 5, widestSpring = 11;
 
 /// Collects strokes of one picture; batches are opened and closed around them.
@@ -30,11 +34,18 @@ public:
         list_.batches.push_back(batch);
     }
 
+    /// From here on what is behind this point is drawn faintly.
+    void veilBehind(const Point& middle) { veil_ = camera_.project(middle)[2]; }
+
     void stroke(const Point& a, const Point& b, double width, const Rgb& colour, double alphaA = 1,
                 double alphaB = 1) {
         const Point pa = camera_.project(a), pb = camera_.project(b);
         for (std::size_t i = 0; i < 2; ++i)  // negated: also true for NaN
             if (!(std::abs(pa[i]) < farAway) || !(std::abs(pb[i]) < farAway)) return;
+        if ((pa[2] + pb[2]) / 2 < veil_) {
+            alphaA *= veiled;
+            alphaB *= veiled;
+        }
         Stroke s{};
         for (std::size_t i = 0; i < 3; ++i) {
             s.a[i] = static_cast<float>(a[i] - camera_.centre[i]);
@@ -107,6 +118,7 @@ private:
     Camera camera_;
     std::array<Point, 3> axes_;
     double ratio_;
+    double veil_ = -std::numeric_limits<double>::infinity();
     StrokeList list_;
 };
 
@@ -149,9 +161,15 @@ void drawSupport(Pen& pen, const Support& support, const Rgb& colour) {
     }
 }
 
+void drawCurve(Pen& pen, const Curve& curve, const Rgb& colour) {
+    for (std::size_t k = 1; k < curve.points.size(); ++k)
+        pen.stroke(curve.points[k - 1], curve.points[k], curve.width, colour, curve.strength, curve.strength);
+}
+
 void drawScenery(Pen& pen, const StageFrame& frame) {
     pen.open(true, 1);
     for (const Shape& shape : frame.scenery) {
+        if (const auto* curve = std::get_if<Curve>(&shape)) drawCurve(pen, *curve, frame.style.scenery);
         if (const auto* support = std::get_if<Support>(&shape))
             drawSupport(pen, *support, frame.style.scenery);
         if (const auto* segment = std::get_if<Segment>(&shape))
@@ -216,6 +234,7 @@ void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
             pen.stroke(segment->a, segment->b, segment->width / 2 * width, layer.colour);
         if (const auto* spring = std::get_if<Spring>(&shape))
             drawSpring(pen, *spring, 0.8 * width, layer.colour);
+        if (const auto* curve = std::get_if<Curve>(&shape)) drawCurve(pen, *curve, layer.colour);
     }
 }
 
@@ -290,13 +309,7 @@ void drawDiscs(Pen& pen, const StageFrame& frame, const StageLayer& layer, doubl
         }
 }
 
-}  // namespace
-
-StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double width, double height,
-                       double pixelRatio) {
-    Pen pen(camera, pixelRatio);
-    if (frame.style.hasGrid) drawGrid(pen, frame, width, height);
-    drawScenery(pen, frame);
+void drawLayers(Pen& pen, const StageFrame& frame) {
     const std::size_t count = frame.layers.size();
     // Rods, springs and trails of the first scheme lie above those of the others, which show where they
     // differ.
@@ -321,6 +334,47 @@ StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double wid
         for (std::size_t i = 0; i < count; ++i)
             if (frame.layers[i].hasEnded == hasEnded)
                 drawDiscs(pen, frame, frame.layers[i], ringScale(i, count), i == 0);
+}
+
+/// A ball of the background's colour with its outline, and the picture of the inset on it.
+void drawInset(Pen& pen, const StageFrame& frame, double width, double height) {
+    const InsetPlace place(frame, pen.camera(), width, height);
+    StageFrame small;
+    small.style = frame.style;
+    for (const Shape& shape : frame.inset->backdrop) small.scenery.push_back(place.map(shape));
+    for (const StageLayer& layer : frame.layers) {
+        StageLayer part;
+        part.colour = layer.colour;
+        part.hasEnded = layer.hasEnded;
+        part.trail = place.map(layer.insetTrail);
+        part.shapes.push_back(Disc{place.map(layer.insetTracer), 3.6});
+        small.layers.push_back(std::move(part));
+    }
+    const double pixels = InsetPlace::pixels(width, height);
+    std::vector<Point> outline;
+    for (int k = 0; k < 96; ++k) {
+        const double phi = 2 * std::numbers::pi * k / 96;
+        outline.push_back(pen.shifted(place.centre(), pixels * std::cos(phi), pixels * std::sin(phi)));
+    }
+    pen.open(false, 1);
+    pen.fill(outline, frame.style.background, 0.85);
+    pen.open(true, 1);
+    for (std::size_t k = 0; k < outline.size(); ++k)
+        pen.stroke(outline[k], outline[(k + 1) % outline.size()], 1, frame.style.scenery);
+    pen.veilBehind(place.centre());
+    drawScenery(pen, small);
+    drawLayers(pen, small);
+}
+
+}  // namespace
+
+StrokeList makeStrokes(const StageFrame& frame, const Camera& camera, double width, double height,
+                       double pixelRatio) {
+    Pen pen(camera, pixelRatio);
+    if (frame.style.hasGrid) drawGrid(pen, frame, width, height);
+    drawScenery(pen, frame);
+    drawLayers(pen, frame);
+    if (frame.inset) drawInset(pen, frame, width, height);
     return pen.take();
 }
 

@@ -1,15 +1,14 @@
 /// The polhode: the momentum in the body on its sphere, with the curves of constant energy on which a free body moves.
 ///
 /// The sphere |Pi| = |Pi(0)| is seen in parallel projection from a side where the start is in front; what is behind is left
-/// out. With w_1 > w_2 > w_3 the inverse moments and e = 2 E / |Pi|^2, the energy curves around axis 1 are
-///     n_2 = sqrt((w_1 - e)/(w_1 - w_2)) cos phi,  n_3 = sqrt((w_1 - e)/(w_1 - w_3)) sin phi,  n_1 = +-sqrt(1 - n_2^2 - n_3^2),
-/// e between w_2 and w_1, and alike around axis 3; e = w_2 is the separatrix.
+/// out.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "engine/figure/build.hpp"
+#include "engine/model/energy_curves.hpp"
 
 namespace extremal::views {
 namespace {
@@ -54,34 +53,13 @@ void addOutline(Figure& figure) {
     figure.guides.push_back(std::move(circle));
 }
 
-/// Energy curves of one family: around axis a, with b the middle axis and c the other end of the order.
-void addFamily(Figure& figure, const Eye& eye, const Three& w, std::size_t a, std::size_t b, std::size_t c) {
-    constexpr int levels = 4, points = 160;
-    if (!(std::abs(w[a] - w[b]) > 1e-12 * std::abs(w[a]))) return;
-    for (int level = 1; level <= levels; ++level) {
-        const double e = w[a] + (w[b] - w[a]) * level / levels;
-        for (const double side : {1.0, -1.0}) {
-            Guide guide;
-            guide.isStrong = level == levels;  // the separatrix
-            for (int k = 0; k <= points; ++k) {
-                const double phi = 2 * std::numbers::pi * k / points;
-                Three n{};
-                n[b] = std::sqrt((w[a] - e) / (w[a] - w[b])) * std::cos(phi);
-                n[c] = std::sqrt((w[a] - e) / (w[a] - w[c])) * std::sin(phi);
-                n[a] = side * std::sqrt(std::max(0.0, 1 - n[b] * n[b] - n[c] * n[c]));
-                add(guide, eye, n);
-            }
-            figure.guides.push_back(std::move(guide));
-        }
-    }
-}
-
 void addEnergyCurves(Figure& figure, const Eye& eye, const std::array<double, 6>& inertia) {
-    const Three w{1 / inertia[0], 1 / inertia[1], 1 / inertia[2]};
-    std::array<std::size_t, 3> order{0, 1, 2};
-    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return w[i] > w[j]; });
-    addFamily(figure, eye, w, order[0], order[1], order[2]);
-    addFamily(figure, eye, w, order[2], order[1], order[0]);
+    for (const EnergyCurve& curve : energyCurves({inertia[0], inertia[1], inertia[2]}, 160)) {
+        Guide guide;
+        guide.isStrong = curve.isSeparatrix;
+        for (const Three& n : curve.points) add(guide, eye, n);
+        figure.guides.push_back(std::move(guide));
+    }
 }
 
 void addAxes(Figure& figure, const Eye& eye) {

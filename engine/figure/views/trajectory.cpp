@@ -1,19 +1,8 @@
 /// The orbit, where the system moves in a plane; else a coordinate against time.
-#include "engine/figure/build.hpp"
+#include "engine/figure/column_figure.hpp"
 
 namespace extremal::views {
 namespace {
-
-std::string titleOf(const FigureContext& context, const std::string& column) {
-    if (context.system)
-        for (const Quantity& c : stateColumns(*context.system))
-            if (column == c.name && !c.title.empty()) {
-                std::string title = c.title;
-                title[0] = static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
-                return title;
-            }
-    return "Trajectory";
-}
 
 std::string firstCoordinate(const FigureContext& context) {
     if (context.system)
@@ -35,14 +24,14 @@ Figure makeTrajectory(const FigureContext& context) {
     if (y.empty() && context.system) y = context.system->trajectoryY;
     if (y.empty()) y = firstCoordinate(context);
 
-    Figure figure = startFigure(context, isOrbit ? "Trajectory" : titleOf(context, y));
-    figure.hasEqualScales = isOrbit;
+    if (!isOrbit) return columnFigure(context, x, y);
+    Figure figure = startFigure(context, "Trajectory");
+    figure.hasEqualScales = true;
     const ColumnInfo xInfo = columnInfo(context, x), yInfo = columnInfo(context, y);
-    figure.x = x == "t" ? timeAxis(context) : Axis{axisTitle(xInfo.symbol, xInfo.unit), false, false, {}};
+    figure.x.title = axisTitle(xInfo.symbol, xInfo.unit);
     figure.y.title = axisTitle(yInfo.symbol, yInfo.unit);
     addCurves(figure, context, x, y);
-    finishFigure(figure, context, isOrbit ? "Orbit in the plane of " + xInfo.symbol + " and " + yInfo.symbol
-                                          : figure.title + " " + yInfo.symbol + " against " + xInfo.symbol);
+    finishFigure(figure, context, "Orbit in the plane of " + xInfo.symbol + " and " + yInfo.symbol);
     return figure;
 }
 

@@ -30,6 +30,7 @@ System makeBodyInPotential(const Settings& settings) {
     std::copy(inertia.begin(), inertia.end(), s.body.inertia.begin());
     s.momenta = setTypedPotential(s.body, settings);
     describeBody(s);
+    if (s.body.isFree()) addPolhode(s);
     if (s.body.isFree())
         s.exact = [I = std::array<double, 3>{inertia[0], inertia[1], inertia[2]}](const State& initial) {
             return freeBodyMotion(I, initial);

@@ -36,6 +36,7 @@ System makeRigidBody(const Settings& settings) {
     const std::vector<double> inertia = settings.numbers("inertia");
     std::copy(inertia.begin(), inertia.end(), s.body.inertia.begin());
     describeBody(s);
+    addPolhode(s);
     const char* names[] = {"space.x", "space.y", "space.z"};
     const char* symbols[] = {"π_x", "π_y", "π_z"};
     for (int i = 0; i < 3; ++i)

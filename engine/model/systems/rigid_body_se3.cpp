@@ -45,6 +45,7 @@ System makeRigidBodySe3(const Settings& settings) {
     std::fill(s.body.inertia.begin() + 3, s.body.inertia.end(), settings.number("mass"));
     s.momenta = setTypedPotential(s.body, settings);
     describeBody(s);
+    if (s.body.isFree()) addPolhode(s);
     if (s.body.isFree())
         s.exact = [body = s.body](const State& initial) { return freeMotion(body, initial); };
     s.draw = [half = boxInMetres(s.body), isFree = s.body.isFree()](const double* x, Drawing& drawing) {

@@ -45,7 +45,9 @@ private slots:
         const StagePlayer player(fake::comparison(fake::freeBody()));
         StageStyle style;
         style.series = {rgb(0x0000ff), rgb(0xff0000)};
-        const StrokeList list = makeStrokes(player.frame(2, style), player.fittedCamera(400, 300, 20), 400, 300, 1);
+        StageFrame frame = player.frame(2, style);
+        frame.inset.reset();
+        const StrokeList list = makeStrokes(frame, player.fittedCamera(400, 300, 20), 400, 300, 1);
         QCOMPARE(list.fills.size(), std::size_t(3 * 2 * 3));
         for (const FillCorner& corner : list.fills) QCOMPARE(corner.colour[2], 1.f);
     }
@@ -69,7 +71,7 @@ private slots:
         const QImage turned = drag({}), moved = drag(Qt::ShiftModifier);
         QVERIFY(turned != whole);
         // Moved by 40 pixels it is the same picture; turned it is not.
-        const QRect part(60, 40, 280, 200);
+        const QRect part(20, 40, 170, 200);  // the inset, right of it, stays where it is
         const auto changed = [&](const QImage& image) {
             int count = 0;
             for (int y = part.top(); y <= part.bottom(); ++y)

@@ -1,0 +1,26 @@
+#include "engine/figure/column_figure.hpp"
+
+namespace extremal {
+
+std::string titleOfColumn(const FigureContext& context, const std::string& column) {
+    if (context.system)
+        for (const Quantity& c : stateColumns(*context.system))
+            if (column == c.name && !c.title.empty()) {
+                std::string title = c.title;
+                title[0] = static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
+                return title;
+            }
+    return "Trajectory";
+}
+
+Figure columnFigure(const FigureContext& context, const std::string& x, const std::string& y) {
+    Figure figure = startFigure(context, titleOfColumn(context, y));
+    const ColumnInfo xInfo = columnInfo(context, x), yInfo = columnInfo(context, y);
+    figure.x = x == "t" ? timeAxis(context) : Axis{axisTitle(xInfo.symbol, xInfo.unit), false, false, {}};
+    figure.y.title = axisTitle(yInfo.symbol, yInfo.unit);
+    addCurves(figure, context, x, y);
+    finishFigure(figure, context, figure.title + " " + yInfo.symbol + " against " + xInfo.symbol);
+    return figure;
+}
+
+}  // namespace extremal
