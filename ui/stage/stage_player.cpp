@@ -168,10 +168,12 @@ void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
         tracks_.push_back(std::move(track));  // the times stay where they are
         return;
     }
-    const auto& columns = result->trajectory.columns;
     const std::size_t width = stateColumns(system_).size();
+    // Where steps are few, along the scheme's own curve inside them.
+    const Trajectory& from = result->curve.columns.size() > width ? result->curve : result->trajectory;
+    const auto& columns = from.columns;
     if (columns.size() < 1 + width) return;
-    std::size_t rows = result->trajectory.rows();
+    std::size_t rows = from.rows();
     for (std::size_t c = 0; c <= width; ++c) {
         const auto& values = columns[c].values;
         const auto bad = std::find_if(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(rows),
@@ -183,7 +185,7 @@ void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
     track.result = result;
     track.t = std::span(columns[0].values).first(rows);
     for (std::size_t c = 1; c <= width; ++c) track.state.push_back(std::span(columns[c].values).first(rows));
-    track.hasFailed = result->summary.status == RunStatus::failed || rows < result->trajectory.rows();
+    track.hasFailed = result->summary.status == RunStatus::failed || rows < from.rows();
     tracks_.push_back(std::move(track));
 }
 
