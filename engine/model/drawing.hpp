@@ -37,6 +37,7 @@ struct Support {  ///< a hatched ceiling: a line with strokes on its upper side
 struct Solid {  ///< a convex body with flat faces, drawn shaded
     std::vector<Point> corners;
     std::vector<std::vector<int>> faces;  ///< corners of each, counterclockwise as seen from outside
+    bool isSmooth = false;  ///< the faces stand for a curved surface: of their edges the outline alone is drawn
 };
 struct Word {  ///< the name of an axis, in the middle of this place; of bodies those of the first scheme alone are shown
     Point centre;
@@ -60,6 +61,7 @@ using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word, Curtain,
 struct Drawing {
     std::vector<Shape> shapes;
     Point tracer{};
+    bool isTracerOnly = false;  ///< asked for its tracer alone: shapes may be left out
     void clear() { shapes.clear(); tracer = {}; }
 };
 

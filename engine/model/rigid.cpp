@@ -194,18 +194,6 @@ FieldInfo inertiaField(std::array<double, 3> fallback) {
     return f;
 }
 
-std::array<double, 3> boxOf(const BodyMechanics<double>& body) {
-    const auto& I = body.inertia;
-    std::array<double, 3> half{};
-    double longest = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        half[i] = std::sqrt(std::max(0.0, I[(i + 1) % 3] + I[(i + 2) % 3] - I[i]));
-        longest = std::max(longest, half[i]);
-    }
-    for (double& h : half) h = std::max(h / longest, 0.06);
-    return half;
-}
-
 void drawSpaceAxes(double length, Drawing& drawing) {
     const char* names[] = {"x", "y", "z"};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -214,29 +202,6 @@ void drawSpaceAxes(double length, Drawing& drawing) {
         word[i] = 1.06 * length;
         drawing.shapes.push_back(Segment{{0, 0, 0}, onStage(tip[0], tip[1], tip[2]), 1, ShapeRole::scenery});
         drawing.shapes.push_back(Word{onStage(word[0], word[1], word[2]), names[i]});
-    }
-}
-
-void drawBox(const std::array<double, 3>& half, const std::array<double, 3>& centre, const double* x, Drawing& drawing) {
-    const Matrix R = so3::matrix(so3::normalised(attitude(x)));
-    const auto at = [&](double a, double b, double c) {
-        const Vector r = R * Vector(a, b, c);
-        return onStage(centre[0] + r(0), centre[1] + r(1), centre[2] + r(2));
-    };
-    Solid box;
-    for (int corner = 0; corner < 8; ++corner)
-        box.corners.push_back(at(corner & 1 ? half[0] : -half[0], corner & 2 ? half[1] : -half[1],
-                                 corner & 4 ? half[2] : -half[2]));
-    box.faces = {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
-    drawing.shapes.push_back(std::move(box));
-    const double size = std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
-    for (std::size_t i = 0; i < 3; ++i) {
-        std::array<double, 3> from{}, to{}, word{};
-        from[i] = half[i];
-        to[i] = half[i] + 0.3 * size;
-        word[i] = half[i] + 0.38 * size;
-        drawing.shapes.push_back(Segment{at(from[0], from[1], from[2]), at(to[0], to[1], to[2]), 1.2});
-        drawing.shapes.push_back(Word{at(word[0], word[1], word[2]), std::to_string(i + 1), ShapeRole::body});
     }
 }
 

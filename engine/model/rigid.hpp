@@ -23,19 +23,11 @@ FieldInfo inertiaField(std::array<double, 3> fallback);
 /// U of the body at a state; 0 where it is free.
 double bodyPotential(const BodyMechanics<double>& body, const double* x);
 
-/// Half the edges of the homogeneous box with these moments of inertia, the longest 1. Moments that no body has (one
-/// larger than the sum of the others) and thin rods and plates are given a visible thickness.
-std::array<double, 3> boxOf(const BodyMechanics<double>& body);
-
 /// A space vector as the stage shows it: z up, x to the right, y away from the viewer.
 inline Point onStage(double x, double y, double z) { return {x, z, -y}; }
 
 /// Adds space's axes with their names as scenery.
 void drawSpaceAxes(double length, Drawing& drawing);
-
-/// Adds the box around `centre` (space axes), turned by the attitude of x, and the body's axes where they leave it, with
-/// their numbers.
-void drawBox(const std::array<double, 3>& half, const std::array<double, 3>& centre, const double* x, Drawing& drawing);
 
 /// The polhode of a free body as the stage's inset: its momentum in body axes on the sphere, with the energy curves and
 /// the body's axes. Axis 3 is up.

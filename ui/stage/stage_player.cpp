@@ -32,7 +32,8 @@ void addExtent(const Shape& shape, std::vector<Point>& points) {
     if (const auto* spring = std::get_if<Spring>(&shape)) points.insert(points.end(), {spring->a, spring->b});
     if (const auto* disc = std::get_if<Disc>(&shape)) points.push_back(disc->centre);
     if (const auto* solid = std::get_if<Solid>(&shape))
-        points.insert(points.end(), solid->corners.begin(), solid->corners.end());
+        for (std::size_t c = 0; c < solid->corners.size(); c += solid->isSmooth ? 5 : 1)  // some of many close ones
+            points.push_back(solid->corners[c]);
     if (const auto* curtain = std::get_if<Curtain>(&shape))
         points.insert(points.end(), curtain->top.begin(), curtain->top.end());
     if (const auto* curve = std::get_if<Curve>(&shape))
@@ -201,6 +202,7 @@ void StagePlayer::rowState(const Track& track, std::size_t row, std::vector<doub
 Point StagePlayer::tracer(const std::vector<double>& x, bool isInset) const {
     if (isInset) return system_.inset.tracer(x.data());
     Drawing drawing;
+    drawing.isTracerOnly = true;
     system_.draw(x.data(), drawing);
     return drawing.tracer;
 }

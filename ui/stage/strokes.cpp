@@ -244,7 +244,10 @@ void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
 void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength, double width, bool isFilled) {
     const auto axes = pen.camera().axes();
     constexpr Point light = {-0.36, 0.72, 0.6};  // right, up, towards
-    std::map<std::pair<int, int>, bool> edges;   // seen or not
+    struct Sides {
+        bool isFront = false, isBack = false;
+    };
+    std::map<std::pair<int, int>, Sides> edges;  // what the faces on both sides are
     for (const std::vector<int>& face : solid.faces) {
         std::vector<Point> corners;
         for (const int c : face) corners.push_back(solid.corners[static_cast<std::size_t>(c)]);
@@ -260,14 +263,15 @@ void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength,
         const bool isFront = seen[2] > 0;
         for (std::size_t i = 0; i < face.size(); ++i) {
             const int a = face[i], b = face[(i + 1) % face.size()];
-            bool& isSeen = edges[{std::min(a, b), std::max(a, b)}];
-            isSeen = isSeen || isFront;
+            Sides& sides = edges[{std::min(a, b), std::max(a, b)}];
+            (isFront ? sides.isFront : sides.isBack) = true;
         }
         if (isFront && isFilled) pen.fill(corners, colour, strength * (0.14 + 0.34 * std::max(0.0, dot(light, seen))));
     }
     for (const bool wantsSeen : {false, true})
-        for (const auto& [edge, isSeen] : edges) {
-            if (isSeen != wantsSeen) continue;
+        for (const auto& [edge, sides] : edges) {
+            const bool isSeen = sides.isFront, isOutline = sides.isFront && sides.isBack;
+            if (isSeen != wantsSeen || (solid.isSmooth && !isOutline)) continue;
             const double alpha = strength * (isSeen ? 1 : 0.22);
             pen.stroke(solid.corners[static_cast<std::size_t>(edge.first)],
                        solid.corners[static_cast<std::size_t>(edge.second)], isSeen ? width : 0.7 * width, colour, alpha,

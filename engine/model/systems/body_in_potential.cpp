@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/group/so3.hpp"
+#include "engine/model/body_shape.hpp"
 #include "engine/model/free_body_motion.hpp"
 #include "engine/model/rigid.hpp"
 #include "engine/model/typed_potential.hpp"
@@ -11,13 +12,14 @@
 namespace extremal::systems {
 namespace {
 
-/// The box about its fixed point; the tip of its third axis draws the trail.
-void drawBodyInPotential(const std::array<double, 3>& half, const double* x, Drawing& drawing) {
-    drawSpaceAxes(1.9, drawing);
-    drawBox(half, {0, 0, 0}, x, drawing);
-    drawing.shapes.push_back(Disc{onStage(0, 0, 0), 4, ShapeRole::scenery});
+/// The body about its fixed point; the tip of its third axis draws the trail.
+void drawBodyInPotential(const BodyShape& shape, const double* x, Drawing& drawing) {
     const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
     drawing.tracer = onStage(1.5 * R(0, 2), 1.5 * R(1, 2), 1.5 * R(2, 2));
+    if (drawing.isTracerOnly) return;
+    drawSpaceAxes(1.9, drawing);
+    drawBody(shape, {0, 0, 0}, x, drawing);
+    drawing.shapes.push_back(Disc{onStage(0, 0, 0), 4, ShapeRole::scenery});
     drawing.shapes.push_back(Segment{onStage(0, 0, 0), drawing.tracer, 1.6});
     drawing.shapes.push_back(Disc{drawing.tracer, 4});
 }
@@ -35,7 +37,7 @@ System makeBodyInPotential(const Settings& settings) {
         s.exact = [I = std::array<double, 3>{inertia[0], inertia[1], inertia[2]}](const State& initial) {
             return freeBodyMotion(I, initial);
         };
-    s.draw = [half = boxOf(s.body)](const double* x, Drawing& drawing) { drawBodyInPotential(half, x, drawing); };
+    s.draw = [shape = shapeOf(s.body, settings)](const double* x, Drawing& drawing) { drawBodyInPotential(shape, x, drawing); };
     return s;
 }
 
@@ -45,6 +47,7 @@ std::vector<FieldInfo> bodyInPotentialFields() {
         if (f.key == "potential") f.example = "R33 + R11^2/2";
         all.push_back(std::move(f));
     }
+    all.push_back(shapeField());
     return all;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/group/so3.hpp"
+#include "engine/model/body_shape.hpp"
 #include "engine/model/rigid.hpp"
 
 namespace extremal::systems {
@@ -34,17 +35,17 @@ void potential(const void* model, const double* R, const double*, double* value,
             slope[3 * column + row] = (row == column ? U : 0.0) - gamma(row) * arm(column);
 }
 
-void drawHeavyTop(const Top& top, std::array<double, 3> half, const double* x, Drawing& drawing) {
+void drawHeavyTop(const Top& top, const BodyShape& shape, const double* x, Drawing& drawing) {
     const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
-    drawSpaceAxes(2.2, drawing);
-    for (double& h : half) h *= 0.6;
     Vector arm(top.centre[0], top.centre[1], top.centre[2]);
     arm *= arm.norm() > 0 ? 1.6 / arm.norm() : 0;
     const Vector c = R * arm;
+    drawing.tracer = onStage(c(0), c(1), c(2));
+    if (drawing.isTracerOnly) return;
+    drawSpaceAxes(2.2, drawing);
     drawing.shapes.push_back(Segment{onStage(0, 0, 0), onStage(c(0), c(1), c(2)), 3});
     drawing.shapes.push_back(Disc{onStage(0, 0, 0), 5, ShapeRole::scenery});
-    drawBox(half, {c(0), c(1), c(2)}, x, drawing);
-    drawing.tracer = onStage(c(0), c(1), c(2));
+    drawBody(shape, {c(0), c(1), c(2)}, x, drawing);
 }
 
 System makeHeavyTop(const Settings& settings) {
@@ -64,7 +65,9 @@ System makeHeavyTop(const Settings& settings) {
         const so3::Matrix<double> R = so3::matrix(so3::Quaternion<double>(x[0], x[1], x[2], x[3]));
         return R(2, 0) * x[4] + R(2, 1) * x[5] + R(2, 2) * x[6];
     };
-    s.draw = [top = *top, half = boxOf(s.body)](const double* x, Drawing& drawing) { drawHeavyTop(top, half, x, drawing); };
+    BodyShape shape = shapeOf(s.body, settings);
+    for (double& h : shape.half) h *= 0.6;
+    s.draw = [top = *top, shape](const double* x, Drawing& drawing) { drawHeavyTop(top, shape, x, drawing); };
     return s;
 }
 
@@ -86,7 +89,7 @@ ModelEntry heavy_top() {
                                "From the fixed point to the centre of mass, in body axes.");
     centre.symbol = "χ";
     e.item = {"heavy-top", "heavy top", "A body that turns about a fixed point under its weight.",
-              {inertiaField({1, 1, 0.5}), weightField(), centre}, {}, ""};
+              {inertiaField({1, 1, 0.5}), weightField(), centre, shapeField()}, {}, ""};
     e.initial = bodyInitialFields(false);
     e.exampleInitial = {{"attitude", Value::Array{Value("cos(0.2)"), Value("sin(0.2)"), 0.0, 0.0}},
                         {"momentum", Value::Array{0.0, 0.0, 2.0}}};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/body_shape.hpp"
 #include "engine/model/free_body_motion.hpp"
 #include "engine/model/rigid.hpp"
 #include "engine/model/typed_potential.hpp"
@@ -11,16 +12,16 @@
 namespace extremal::systems {
 namespace {
 
-/// Half the edges of the homogeneous box of this mass, in metres.
-std::array<double, 3> boxInMetres(const BodyMechanics<double>& body) {
-    std::array<double, 3> half = boxOf(body);
+/// The homogeneous box of this mass in metres, or an ellipsoid as long.
+BodyShape shapeInMetres(const BodyMechanics<double>& body, const Settings& settings) {
+    BodyShape shape = shapeOf(body, settings);
     double largest = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& I = body.inertia;
         largest = std::max(largest, 1.5 * (I[(i + 1) % 3] + I[(i + 2) % 3] - I[i]) / body.inertia[3]);
     }
-    for (double& h : half) h *= std::sqrt(largest);
-    return half;
+    for (double& h : shape.half) h *= std::sqrt(largest);
+    return shape;
 }
 
 /// The free body turns as on SO(3), and its centre of mass moves straight on.
@@ -48,11 +49,12 @@ System makeRigidBodySe3(const Settings& settings) {
     if (s.body.isFree()) addPolhode(s);
     if (s.body.isFree())
         s.exact = [body = s.body](const State& initial) { return freeMotion(body, initial); };
-    s.draw = [half = boxInMetres(s.body), isFree = s.body.isFree()](const double* x, Drawing& drawing) {
+    s.draw = [shape = shapeInMetres(s.body, settings), isFree = s.body.isFree()](const double* x, Drawing& drawing) {
+        drawing.tracer = onStage(x[10], x[11], x[12]);
+        if (drawing.isTracerOnly) return;
         drawSpaceAxes(1, drawing);
         if (!isFree) drawing.shapes.push_back(Disc{onStage(0, 0, 0), 6, ShapeRole::scenery});
-        drawBox(half, {x[10], x[11], x[12]}, x, drawing);
-        drawing.tracer = onStage(x[10], x[11], x[12]);
+        drawBody(shape, {x[10], x[11], x[12]}, x, drawing);
     };
     s.timePlots.clear();
     s.trajectoryX = "position.x";
@@ -64,6 +66,7 @@ System makeRigidBodySe3(const Settings& settings) {
 std::vector<FieldInfo> rigidBodySe3Fields() {
     std::vector<FieldInfo> all{inertiaField({1, 2, 3}), positive("mass", "mass", "kg", 1, "Mass of the body.")};
     for (FieldInfo& f : typedPotentialFields(true)) all.push_back(std::move(f));
+    all.push_back(shapeField());
     return all;
 }
 

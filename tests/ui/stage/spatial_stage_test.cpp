@@ -51,6 +51,24 @@ private slots:
         QCOMPARE(list.fills.size(), std::size_t(3 * 2 * 3));
         for (const FillCorner& corner : list.fills) QCOMPARE(corner.colour[2], 1.f);
     }
+    void smoothBodiesShowTheirOutlineAlone() {
+        Solid cube;
+        for (int c = 0; c < 8; ++c) cube.corners.push_back({c & 1 ? 1.0 : -1.0, c & 2 ? 1.0 : -1.0, c & 4 ? 1.0 : -1.0});
+        cube.faces = {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
+        Camera corner;
+        corner.azimuth = 0.5;
+        corner.elevation = 0.4;
+        corner.pixelsPerUnit = 50;
+        const auto strokes = [&](bool isSmooth) {
+            cube.isSmooth = isSmooth;
+            StageFrame frame;
+            frame.layers.resize(1);
+            frame.layers[0].shapes = {cube};
+            return makeStrokes(frame, corner, 300, 300, 1).strokes.size();
+        };
+        QCOMPARE(strokes(false), std::size_t(12));
+        QCOMPARE(strokes(true), std::size_t(6));
+    }
     void draggingTurnsItAndShiftMovesIt() {
         StageWidget stage;
         stage.resize(400, 300);
