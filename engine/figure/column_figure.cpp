@@ -18,7 +18,10 @@ Figure columnFigure(const FigureContext& context, const std::string& x, const st
     const ColumnInfo xInfo = columnInfo(context, x), yInfo = columnInfo(context, y);
     figure.x = x == "t" ? timeAxis(context) : Axis{axisTitle(xInfo.symbol, xInfo.unit), false, false, {}};
     figure.y.title = axisTitle(yInfo.symbol, yInfo.unit);
-    addCurves(figure, context, x, y);
+    if (x == "t" && (y.starts_with("momentum.") || y.starts_with("p.")))
+        addAgainstTime(figure, context, y, Take::value);
+    else
+        addCurves(figure, context, x, y);
     finishFigure(figure, context, figure.title + " " + yInfo.symbol + " against " + xInfo.symbol);
     return figure;
 }

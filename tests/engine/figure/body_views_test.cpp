@@ -55,10 +55,9 @@ private slots:
             const Figure f = makeFigure(c, views[i]);
             QCOMPARE(f.y.title, std::string(titles[i]) + "  [kg m²/s]");
             QVERIFY(f.x.isTime && f.message.empty());
-            const auto values = c.schemes[0]->trajectory[columns[i]], drawn = c.schemes[0]->curve[columns[i]];
-            QVERIFY(!drawn.empty());  // so few steps are followed between the nodes
-            QVERIFY(std::equal(drawn.begin(), drawn.end(), f.series[0].y.begin(), f.series[0].y.end()));
-            QVERIFY(drawn.front() == values.front() && std::abs(drawn.back() - values.back()) < 1e-12);
+            const auto values = c.schemes[0]->trajectory[columns[i]];
+            QVERIFY(!c.schemes[0]->curve[columns[i]].empty());  // known between the nodes too, and not drawn there
+            QVERIFY(!values.empty() && std::equal(values.begin(), values.end(), f.series[0].y.begin(), f.series[0].y.end()));
             // In space it is constant, in the body it is not.
             const auto [low, high] = std::minmax_element(values.begin(), values.end());
             QVERIFY(i < 3 ? *high == *low : *high - *low > 0.1);
