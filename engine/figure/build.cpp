@@ -188,6 +188,37 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
     figure.summary += ".";
 }
 
+Figure columnAgainstTime(const FigureContext& context, std::string title, std::string_view column, bool isRelative) {
+    const ColumnInfo info = columnInfo(context, column);
+    Figure figure = startFigure(context, title);
+    figure.x = timeAxis(context);
+    figure.y.title = axisTitle(info.symbol, info.unit);
+    addAgainstTime(figure, context, column, Take::value);
+
+    std::vector<std::pair<double, const Series*>> changes;
+    for (const Series& s : figure.series) {
+        if (s.y.empty()) continue;
+        const double start = s.y.front();
+        double change = 0;
+        for (const double v : s.y)
+            if (std::isfinite(v)) change = std::max(change, std::abs(v - start));
+        if (isRelative) change /= std::abs(start);
+        if (std::isfinite(change) && s.y.size() > 1) changes.emplace_back(change, &s);
+    }
+    if (!changes.empty()) {
+        const auto [least, most] = std::minmax_element(changes.begin(), changes.end(),
+                                                       [](const auto& a, const auto& b) { return a.first < b.first; });
+        const auto text = [&](const auto& change) {
+            const std::string value = shortNumber(change->first);
+            return value + (isRelative || info.unit.empty() ? "" : " " + info.unit) + " (" + change->second->label + ")";
+        };
+        figure.subtitle = std::string(isRelative ? "largest relative change: " : "largest change: ") + text(least);
+        if (most != least) figure.subtitle += " to " + text(most);
+    }
+    finishFigure(figure, context, title + " against time" + (figure.subtitle.empty() ? "" : ", " + figure.subtitle));
+    return figure;
+}
+
 double maxMagnitude(std::span<const double> values) {
     double result = 0;
     for (double v : values)

@@ -41,6 +41,11 @@ const SchemeResult* schemeOf(const FigureContext& context, const Shown& hasShown
 enum class Take { value, magnitude };
 void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take);
 
+/// A whole view of one column of an observable against time, as it is. The subtitle says by how much it changes from its
+/// first value, at most, in the scheme where it changes least and in that where it changes most; with `isRelative`,
+/// as a share of the first value. Finished.
+Figure columnAgainstTime(const FigureContext& context, std::string title, std::string_view column, bool isRelative);
+
 /// One curve per scheme: a column against another; where steps are few, along the scheme's own curve inside them.
 void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn);
 

@@ -223,10 +223,13 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         }
         if (view.id == "curve-error" && !contains(scene.observe, "error"))
             reader.warning(pointer, "shows nothing: error is not observed", "add it to /observe");
-        for (const char* id : {"energy", "momentum", "error"})
-            if (view.id == id && !contains(scene.observe, id))
-                reader.warning(pointer, "shows nothing: " + view.id + " is not observed",
-                               "add it to /observe");
+        for (const char* id : {"energy", "momentum", "error", "norm", "fast-energy", "slow-energy", "adiabatic-invariant"}) {
+            if (view.id != id || contains(scene.observe, id)) continue;
+            const ObservableEntry* observable = findObservable(id);
+            const bool isThere = !system || !observable || appliesTo(*observable, *system);
+            reader.warning(pointer, "shows nothing: " + view.id + (isThere ? " is not observed" : " is nothing this model has"),
+                           isThere ? "add it to /observe" : "leave it out");
+        }
         scene.views.push_back(view);
     }
 }
