@@ -212,7 +212,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         // digits of it. Then the forces are taken where that sweep has put the nodes: left where the nodes were, or had we
         // stopped at round-off itself, they would have a bias that adds up over millions of steps.
         const T coming = iteration > 0 ? size * std::min(T(1), T(size / last)) : size;
-        const bool isEnough = isExact_ ? coming <= T(0.03) * tolerance_ : size <= tolerance_;
+        const bool isEnough = isExact_ ? coming <= T(0.01) * tolerance_ : size <= tolerance_;
         if (isEnough || (size < stagnation && size >= last * T(0.25))) {
             if (isExact_) {
                 evaluateForces();
