@@ -51,19 +51,8 @@ void sweepLanes(const Sweep<double>& s) {
     }
 }
 
-EXTREMAL_FOR_AVX512 void sweepAvx512(const Sweep<double>& s) { sweepLanes(s); }
-EXTREMAL_FOR_AVX2 void sweepAvx2(const Sweep<double>& s) { sweepLanes(s); }
-[[gnu::flatten]] void sweepBaseline(const Sweep<double>& s) { sweepLanes(s); }
-
 }  // namespace
 
-SweepCall nodeParallelSweep() {
-    switch (instructionSet()) {
-        case InstructionSet::avx512: return &sweepAvx512;
-        case InstructionSet::avx2: return &sweepAvx2;
-        case InstructionSet::baseline: break;
-    }
-    return &sweepBaseline;
-}
+SweepCall nodeParallelSweep() { return ForThisMachine<&sweepLanes>::call(); }
 
 }  // namespace extremal

@@ -42,28 +42,10 @@ inline void combine(const double* p, const double* x, const double* q, const dou
     for (int i = 0; i < n; ++i) out[i] = p[i] * x[i] + q[i] * y[i];
 }
 
-EXTREMAL_FOR_AVX512 void productAvx512(const SmallProduct& p) { product<8>(p); }
-EXTREMAL_FOR_AVX2 void productAvx2(const SmallProduct& p) { product<4>(p); }
-[[gnu::flatten]] void productBaseline(const SmallProduct& p) { product<2>(p); }
-EXTREMAL_FOR_AVX512 void combineAvx512(const double* p, const double* x, const double* q, const double* y, double* out, int n) {
-    combine(p, x, q, y, out, n);
-}
-EXTREMAL_FOR_AVX2 void combineAvx2(const double* p, const double* x, const double* q, const double* y, double* out, int n) {
-    combine(p, x, q, y, out, n);
-}
-[[gnu::flatten]] void combineBaseline(const double* p, const double* x, const double* q, const double* y, double* out, int n) {
-    combine(p, x, q, y, out, n);
-}
-
 }  // namespace
 
 NodeSums nodeSums() {
-    switch (instructionSet()) {
-        case InstructionSet::avx512: return {&productAvx512, &combineAvx512};
-        case InstructionSet::avx2: return {&productAvx2, &combineAvx2};
-        case InstructionSet::baseline: break;
-    }
-    return {&productBaseline, &combineBaseline};
+    return {ForThisMachine<&product<8>, &product<4>, &product<2>>::call(), ForThisMachine<&combine>::call()};
 }
 
 }  // namespace extremal

@@ -20,19 +20,13 @@ struct NodeForces {
     using Call = void (*)(const void*, const double* t, int nodes, const double* q, double* f);
 
     /// For the model at the start of what `model` points to.
-    static Call call() {
-        switch (instructionSet()) {
-            case InstructionSet::avx512: return &avx512;
-            case InstructionSet::avx2: return &avx2;
-            case InstructionSet::baseline: break;
-        }
-        return &baseline;
-    }
+    static Call call() { return ForThisMachine<&lanes>::call(); }
 
 private:
     static constexpr std::size_t d = static_cast<std::size_t>(M::dimension);
 
-    static void lanes(const M& m, const double* t, int nodes, const double* q, double* f) {
+    static void lanes(const void* model, const double* t, int nodes, const double* q, double* f) {
+        const M& m = *static_cast<const M*>(model);
         for (int i = 0; i < nodes; i += 8) {
             std::array<Lanes, d> force;
             const auto at = [&](std::size_t k) { return static_cast<int>(k) * nodes + i; };
@@ -49,17 +43,6 @@ private:
             }
             for (std::size_t k = 0; k < d; ++k) force[k].store(f + at(k));
         }
-    }
-    static const M& model(const void* p) { return *static_cast<const M*>(p); }
-
-    EXTREMAL_FOR_AVX512 static void avx512(const void* p, const double* t, int nodes, const double* q, double* f) {
-        lanes(model(p), t, nodes, q, f);
-    }
-    EXTREMAL_FOR_AVX2 static void avx2(const void* p, const double* t, int nodes, const double* q, double* f) {
-        lanes(model(p), t, nodes, q, f);
-    }
-    [[gnu::flatten]] static void baseline(const void* p, const double* t, int nodes, const double* q, double* f) {
-        lanes(model(p), t, nodes, q, f);
     }
 };
 

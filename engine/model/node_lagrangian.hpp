@@ -19,22 +19,8 @@ struct NodeLagrangian {
     using Hessians = void (*)(const void*, const double* t, int nodes, const double* q, const double* v, double* h);
 
     /// For the model at the start of what `model` points to.
-    static Gradients gradients() {
-        switch (instructionSet()) {
-            case InstructionSet::avx512: return &gradientsAvx512;
-            case InstructionSet::avx2: return &gradientsAvx2;
-            case InstructionSet::baseline: break;
-        }
-        return &gradientsBaseline;
-    }
-    static Hessians hessians() {
-        switch (instructionSet()) {
-            case InstructionSet::avx512: return &hessiansAvx512;
-            case InstructionSet::avx2: return &hessiansAvx2;
-            case InstructionSet::baseline: break;
-        }
-        return &hessiansBaseline;
-    }
+    static Gradients gradients() { return ForThisMachine<&gradientLanes>::call(); }
+    static Hessians hessians() { return ForThisMachine<&hessianLanes>::call(); }
 
 private:
     static constexpr int d = M::dimension;
@@ -49,13 +35,15 @@ private:
         }
         return m.lagrangian(Lanes::load(t + i), Q, V);
     }
-    static void gradientLanes(const M& m, const double* t, int nodes, const double* q, const double* v, double* g) {
+    static void gradientLanes(const void* model, const double* t, int nodes, const double* q, const double* v, double* g) {
+        const M& m = *static_cast<const M*>(model);
         for (int i = 0; i < nodes; i += 8) {
             const auto L = at<Dual<Lanes, 2 * d>>(m, t, nodes, q, v, i);
             for (int k = 0; k < 2 * d; ++k) L.g[static_cast<std::size_t>(k)].store(g + k * nodes + i);
         }
     }
-    static void hessianLanes(const M& m, const double* t, int nodes, const double* q, const double* v, double* h) {
+    static void hessianLanes(const void* model, const double* t, int nodes, const double* q, const double* v, double* h) {
+        const M& m = *static_cast<const M*>(model);
         for (int i = 0; i < nodes; i += 8) {
             const auto L = at<Jet<Lanes, 2 * d>>(m, t, nodes, q, v, i);
             std::size_t entry = 0;
@@ -65,32 +53,6 @@ private:
                     if (c < r) L.h[entry].store(h + (c * 2 * d + r) * nodes + i);
                 }
         }
-    }
-    static const M& model(const void* p) { return *static_cast<const M*>(p); }
-
-    EXTREMAL_FOR_AVX512 static void gradientsAvx512(const void* p, const double* t, int nodes, const double* q, const double* v,
-                                                    double* g) {
-        gradientLanes(model(p), t, nodes, q, v, g);
-    }
-    EXTREMAL_FOR_AVX2 static void gradientsAvx2(const void* p, const double* t, int nodes, const double* q, const double* v,
-                                                double* g) {
-        gradientLanes(model(p), t, nodes, q, v, g);
-    }
-    [[gnu::flatten]] static void gradientsBaseline(const void* p, const double* t, int nodes, const double* q, const double* v,
-                                                   double* g) {
-        gradientLanes(model(p), t, nodes, q, v, g);
-    }
-    EXTREMAL_FOR_AVX512 static void hessiansAvx512(const void* p, const double* t, int nodes, const double* q, const double* v,
-                                                   double* h) {
-        hessianLanes(model(p), t, nodes, q, v, h);
-    }
-    EXTREMAL_FOR_AVX2 static void hessiansAvx2(const void* p, const double* t, int nodes, const double* q, const double* v,
-                                               double* h) {
-        hessianLanes(model(p), t, nodes, q, v, h);
-    }
-    [[gnu::flatten]] static void hessiansBaseline(const void* p, const double* t, int nodes, const double* q, const double* v,
-                                                  double* h) {
-        hessianLanes(model(p), t, nodes, q, v, h);
     }
 };
 
