@@ -10,7 +10,6 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 
@@ -132,9 +131,7 @@ Matrix smoothestPart(const OscillatoryBasis& basis, const Functions& f) {
 
 /// The rule must tell all functions from each other.
 void checkRule(const Table<double>& t, const std::string& remedy) {
-    const Eigen::MatrixXd seen = t.weight.cwiseAbs().cwiseSqrt().asDiagonal() * t.derivative;
-    const Eigen::VectorXd pivots = dense::rankPivots(seen);
-    if (t.nodes() >= t.unknowns() && pivots.minCoeff() > 1e-8 * pivots(0)) return;
+    if (tellsFunctionsApart(t)) return;
     throw InvalidScene("/quadrature", "does not tell the " + std::to_string(t.unknowns() + 1) +
                                           " functions of the space from each other: some motions inside a step would cost no "
                                           "action, and the step would be singular",

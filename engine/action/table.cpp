@@ -59,6 +59,17 @@ Table<double> rounded(const Table<Quad>& wide, const Space<double>& space, const
 }  // namespace
 
 template <class T>
+bool tellsFunctionsApart(const Table<T>& t) {
+    if (t.nodes() < t.unknowns()) return false;
+    const typename Table<T>::Matrix seen = t.weight.cwiseAbs().cwiseSqrt().asDiagonal() * t.derivative;
+    const Eigen::VectorXd pivots = dense::rankPivots(seen.template cast<double>());
+    return pivots.minCoeff() > 1e-8 * pivots(0);
+}
+
+template bool tellsFunctionsApart(const Table<double>&);
+template bool tellsFunctionsApart(const Table<Quad>&);
+
+template <class T>
 Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
     if constexpr (std::is_same_v<T, double>) {
         if (space.evaluateWide) {

@@ -63,6 +63,11 @@ struct Table {
 template <class T>
 Table<T> makeTable(const Space<T>& space, const Rule<T>& rule);
 
+/// Whether the slopes of the functions, at the nodes that have a weight, are independent. Where they are not, some motions
+/// inside a step cost no action, and the step is singular for every step size.
+template <class T>
+bool tellsFunctionsApart(const Table<T>& table);
+
 /// Weights b_i(tau) of the integral from 0 to tau of the polynomials through values at the nodes of each panel, or of
 /// what a Filon grid takes the integrand for: those of the rule itself at tau = 1.
 template <class T>
