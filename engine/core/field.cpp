@@ -6,7 +6,7 @@ namespace extremal {
 namespace {
 
 FieldInfo made(FieldType type, std::string key, std::string title, std::string symbol, Value fallback,
-                   std::string description) {
+               std::string description) {
     FieldInfo f;
     f.type = type;
     f.key = std::move(key);
@@ -19,9 +19,15 @@ FieldInfo made(FieldType type, std::string key, std::string title, std::string s
 
 }  // namespace
 
-FieldInfo positive(std::string key, std::string title, std::string unit, double fallback, std::string description) {
-    FieldInfo f = made(FieldType::number, key, std::move(title), key, fallback, std::move(description));
+FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback, std::string description) {
+    FieldInfo f = made(FieldType::number, std::move(key), std::move(title), {}, fallback, std::move(description));
     f.unit = std::move(unit);
+    return f;
+}
+
+FieldInfo positive(std::string key, std::string title, std::string unit, double fallback, std::string description) {
+    FieldInfo f = numberField(std::move(key), std::move(title), std::move(unit), fallback, std::move(description));
+    f.symbol = f.key;
     f.min = 0;
     f.isMinExcluded = true;
     return f;
@@ -74,7 +80,7 @@ FieldInfo constantsField(std::string key, std::string description) {
 
 FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback, std::string description) {
     return made(FieldType::json, std::move(key), std::move(title), std::move(symbol), std::move(fallback),
-                    std::move(description));
+                std::move(description));
 }
 
 }  // namespace extremal

@@ -43,6 +43,8 @@ struct Field {
 
 // Descriptors of the usual kinds. What they do not say (symbol, limits, unit, ...) is set on the result.
 
+/// A number without limits or a symbol.
+FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback, std::string description);
 /// A positive number; the key is the symbol, too.
 FieldInfo positive(std::string key, std::string title, std::string unit, double fallback, std::string description);
 /// A number that may be zero but not negative.

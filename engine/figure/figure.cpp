@@ -52,19 +52,6 @@ std::vector<View> defaultViews(const Scene& scene) {
     return result;
 }
 
-/// Columns plotted against time each, where no plane holds the trajectory and there are not too many.
-std::vector<std::string> timePlots(const System& system) {
-    if (!system.timePlots.empty()) return system.timePlots;
-    std::vector<std::string> columns;
-    if (system.hasPlanarTrajectory || system.dimension() < 2 || system.dimension() > 3) return columns;
-    for (const Coordinate& c : system.coordinates) columns.push_back("q." + c.name);
-    return columns;
-}
-
-}  // namespace
-
-namespace {
-
 /// The first pairs that run, by label: pictures of one scheme each.
 std::vector<std::string> pairLabels(const Scene& scene, const System& system) {
     constexpr std::size_t most = 4;
@@ -90,9 +77,7 @@ std::vector<View> plotViews(const Scene& scene) {
             if (pairs.empty()) result.push_back(view);
             continue;
         }
-        std::vector<std::string> columns;
-        if (view.id == "trajectory") columns = timePlots(system);
-        if (entry->columns) columns = entry->columns(system);
+        const std::vector<std::string> columns = entry->columns ? entry->columns(system) : std::vector<std::string>{};
         if (!view.x.empty() || !view.y.empty() || columns.empty()) {
             result.push_back(view);
             continue;

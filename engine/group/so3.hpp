@@ -332,6 +332,11 @@ Matrix<T> matrix(const Quaternion<T>& q) {
         T(2) * (x * z - w * y), T(2) * (y * z + w * x), T(1) - T(2) * (x * x + y * y);
     return m;
 }
+/// The rotation matrix of the direction of the quaternion at x.
+template <class T>
+Matrix<T> matrixAt(const T* x) {
+    return matrix(normalised(Quaternion<T>(x[0], x[1], x[2], x[3])));
+}
 /// The quaternion of a rotation matrix, from its largest component, so that half turns are no special case.
 template <class T>
 Quaternion<T> quaternion(const Matrix<T>& R) {

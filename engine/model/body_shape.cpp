@@ -107,7 +107,7 @@ BodyShape poinsotEllipsoid(const BodyMechanics<double>& body, const double* x, d
 
 void drawBody(const BodyShape& shape, const std::array<double, 3>& centre, const double* x, Drawing& drawing) {
     using Vector = so3::Vector<double>;
-    const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
+    const so3::Matrix<double> R = so3::matrixAt(x);
     const auto at = [&](double a, double b, double c) {
         const Vector r = R * Vector(a, b, c);
         return onStage(centre[0] + r(0), centre[1] + r(1), centre[2] + r(2));

@@ -18,16 +18,6 @@ namespace extremal {
 
 namespace {
 
-FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback, std::string description) {
-    FieldInfo f;
-    f.key = std::move(key);
-    f.title = std::move(title);
-    f.unit = std::move(unit);
-    f.fallback = fallback;
-    f.description = std::move(description);
-    return f;
-}
-
 /// Its coordinates are named by the user, and it has an editor of its own.
 bool isTyped(const ModelEntry& entry) {
     return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),

@@ -22,16 +22,6 @@ namespace extremal {
 
 namespace {
 
-FieldInfo field(std::string key, std::string title, std::string symbol, Value fallback, std::string description) {
-    FieldInfo f;
-    f.key = std::move(key);
-    f.title = std::move(title);
-    f.symbol = std::move(symbol);
-    f.fallback = std::move(fallback);
-    f.description = std::move(description);
-    return f;
-}
-
 void addFields(std::vector<FormField>& fields, const std::vector<FieldInfo>& infos, const std::string& place) {
     for (const FieldInfo& info : infos) fields.push_back({info, place + "/" + info.key, {}, {}});
 }
@@ -173,15 +163,15 @@ void SchemeEditor::rebuild() {
         choose(*first_, s.named);
     }
     if (s.tolerance)
-        fields.push_back({field("tolerance", "tolerance", "", 1e-9, "Wanted local error of the adaptive code."), place() + "/tolerance", {}, {}});
-    else
-        fields.push_back({field("step", "step", "h", 0.01, "Time step."), place() + "/step", {}, {}});
-    if (s.kind != SchemeSpec::Kind::baseline) {
-        FieldInfo method = field("method", "solver", "", "auto", "How the equations of a step are solved.");
-        method.type = FieldType::choice;
-        method.choices = {"auto", "newton", "fixed-point"};
-        fields.push_back({method, place() + "/solver/method", {}, {}});
+        fields.push_back({numberField("tolerance", "tolerance", "", 1e-9, "Wanted local error of the adaptive code."), place() + "/tolerance", {}, {}});
+    else {
+        FieldInfo step = numberField("step", "step", "", 0.01, "Time step.");
+        step.symbol = "h";
+        fields.push_back({step, place() + "/step", {}, {}});
     }
+    if (s.kind != SchemeSpec::Kind::baseline)
+        fields.push_back({choiceField("method", "solver", {"auto", "newton", "fixed-point"}, "How the equations of a step are solved."),
+                          place() + "/solver/method", {}, {}});
     addComposition(fields);
     form_->setFields(std::move(fields));
 }
@@ -190,11 +180,10 @@ void SchemeEditor::rebuild() {
 void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
     const SchemeSpec& s = spec();
     if (s.tolerance || !innerClaimsOf(s).isSymmetric) return;
-    FieldInfo type = field("composition", "composed", "", "none",
-                           "Steps of the scheme over parts of the step, for a higher order.");
-    type.type = FieldType::choice;
-    type.choices = {"none"};
-    for (const CatalogItem& item : compositionCatalog()) type.choices.push_back(item.id);
+    std::vector<std::string> choices = idsOf(compositionCatalog());
+    choices.insert(choices.begin(), "none");
+    const FieldInfo type = choiceField("composition", "composed", std::move(choices),
+                                       "Steps of the scheme over parts of the step, for a higher order.");
     const std::string at = place() + "/composition";
     fields.push_back({type, at + "/type", {}, [at](const Value& chosen) -> std::vector<Edit> {
                           if (chosen == Value("none")) return {{at, std::nullopt}};

@@ -73,7 +73,7 @@ private:
         for (int i = 0; i < 4; ++i) y[i] /= length;
     }
     void write(const double* y, double* x) const {
-        const Vector pi = so3::matrix(so3::normalised(Quaternion<double>(y[0], y[1], y[2], y[3]))) * Vector(y[4], y[5], y[6]);
+        const Vector pi = so3::matrixAt(y) * Vector(y[4], y[5], y[6]);
         std::copy_n(y, 7, x);
         for (int i = 0; i < 3; ++i) x[7 + i] = pi(i);
         if (body_.dimension == 6) std::copy_n(y + 7, 6, x + 10);

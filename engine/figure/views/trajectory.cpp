@@ -35,10 +35,20 @@ Figure makeTrajectory(const FigureContext& context) {
     return figure;
 }
 
+/// Columns plotted against time each, where no plane holds the trajectory and there are not too many.
+std::vector<std::string> timePlots(const System& system) {
+    if (!system.timePlots.empty()) return system.timePlots;
+    std::vector<std::string> columns;
+    if (system.hasPlanarTrajectory || system.dimension() < 2 || system.dimension() > 3) return columns;
+    for (const Coordinate& c : system.coordinates) columns.push_back("q." + c.name);
+    return columns;
+}
+
 }  // namespace
 
 ViewEntry trajectory() {
-    return {{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time", {}, {}, {}}, "", makeTrajectory};
+    return {{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time", {}, {}, {}}, "", makeTrajectory,
+            timePlots};
 }
 
 }  // namespace extremal::views

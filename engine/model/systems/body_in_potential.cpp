@@ -14,7 +14,7 @@ namespace {
 
 /// The body about its fixed point; the tip of its third axis draws the trail.
 void drawBodyInPotential(const BodyShape& shape, const double* x, Drawing& drawing) {
-    const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
+    const so3::Matrix<double> R = so3::matrixAt(x);
     drawing.tracer = onStage(1.5 * R(0, 2), 1.5 * R(1, 2), 1.5 * R(2, 2));
     if (drawing.isTracerOnly) return;
     drawSpaceAxes(1.9, drawing);

@@ -36,7 +36,7 @@ void potential(const void* model, const double* R, const double*, double* value,
 }
 
 void drawHeavyTop(const Top& top, const BodyShape& shape, const double* x, Drawing& drawing) {
-    const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
+    const so3::Matrix<double> R = so3::matrixAt(x);
     Vector arm(top.centre[0], top.centre[1], top.centre[2]);
     arm *= arm.norm() > 0 ? 1.6 / arm.norm() : 0;
     const Vector c = R * arm;

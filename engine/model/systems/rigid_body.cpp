@@ -47,7 +47,7 @@ void drawHerpolhodeRing(const BodyMechanics<double>& body, const double* x, cons
 /// The body, and the axis it turns about, up to the plane that the angular velocity never leaves: its tip draws the
 /// herpolhode there. As an ellipsoid of inertia the body touches the plane at this tip.
 void drawRigidBody(const BodyMechanics<double>& body, const BodyShape& shape, const double* x, Drawing& drawing) {
-    const so3::Matrix<double> R = so3::matrix(so3::normalised(so3::Quaternion<double>(x[0], x[1], x[2], x[3])));
+    const so3::Matrix<double> R = so3::matrixAt(x);
     const so3::Vector<double> Pi(x[4], x[5], x[6]);
     const so3::Vector<double> w = R * so3::Vector<double>(Pi(0) / body.inertia[0], Pi(1) / body.inertia[1], Pi(2) / body.inertia[2]);
     const double L = Pi.norm(), alongL = L > 0 ? w.dot(R * Pi) / L : 0;
