@@ -1,5 +1,5 @@
 /// Dense linear algebra for what is made once a scheme or once a view, never for a step: factorizations of matrices of
-/// any size, in double, complex and quadruple precision. They are compiled in one place, because each file that has
+/// any size, in double, complex, extended and quadruple precision. They are compiled in one place, because each file that has
 /// Eigen make them anew takes seconds longer.
 #pragma once
 

@@ -24,6 +24,7 @@ Eigen::VectorXd singularValues(Given<double> A) {
 }
 
 template HermitianEigen<double> hermitianEigen<double>(Given<double>);
+template HermitianEigen<long double> hermitianEigen<long double>(Given<long double>);
 template HermitianEigen<std::complex<double>> hermitianEigen<std::complex<double>>(Given<std::complex<double>>,
                                                                                   Given<std::complex<double>>);
 

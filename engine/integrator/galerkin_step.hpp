@@ -80,10 +80,12 @@ private:
     enum class Attempt { solved, failed, notFinite, singular, stopped };
     enum class Start { continued, cautious, fresh };
 
-    /// The functions of a table, node by node and function by function. Trial and test functions are the same numbers: a
-    /// table rounded differently for the two would not be the gradient of any action, and the energy of stiff systems drifts.
+    /// The functions of a table, node by node and function by function. The equations are the gradient of one sum of
+    /// numbers, S = sum_i w_i L(q_0 + sum_a phi_a(c_i) Y_a, sum_a phi_a'(c_i) Y_a): test and trial functions, and the weights
+    /// of L_q and L_v, are the same to the last bit. Rounded differently (b_i h here, division by h there) they would be the
+    /// gradient of nothing, and the energy of stiff systems drifts.
     struct Functions {
-        Square value, slope;      ///< (i, a): phi_a(c_i), phi_a'(c_i)
+        Square value, slope;      ///< (i, a): phi_a(c_i), and phi_a'(c_i) by time, over h
         Square valueAt, slopeAt;  ///< (a, i), with rows of 0 up to a multiple of 8
         Square kineticInverse;    ///< (a, b): inverse of the kinetic Jacobian for unit mass
     };
@@ -133,11 +135,11 @@ private:
     NodeSums sums_;
     Columns nodeQ_, nodeV_;
     Square gradient_;        ///< (i, k): L_q, then L_v
-    Flat node_, weight_, times_;  ///< c_i, b_i, t_i
+    Flat node_, weight_, times_;  ///< c_i, h b_i, t_i
     Vector q0_, p0_, v0_, a0_, dq_, dp_;
     Vector carryQ_, carryP_, lastQ_, lastP_;  ///< lost to rounding; and the state it belongs to
     Vector placeQ_, placeV_;
-    Flat impulse_, thrust_;  ///< at a node: h b L_q and b L_v of one coordinate
+    Flat impulse_, thrust_;  ///< at a node: h b times L_q and L_v of one coordinate
     Flat jetGradient_, jetHessian_;
     Square curvature_;              ///< (i, j): entry j of the Hessian at node i
     std::vector<bool> isCurved_;    ///< entry j is not 0 at all nodes

@@ -38,7 +38,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         f.value = f.slope = Square::Zero(rows(), own);
         for (int a = 0; a < own; ++a) {
             f.value.col(a) = padded(t.value.col(a));
-            f.slope.col(a) = padded(t.derivative.col(a));
+            f.slope.col(a) = padded(t.derivative.col(a)) / h_;
         }
         f.valueAt = f.slopeAt = Square::Zero(height, rows());
         f.valueAt.topRows(own) = f.value.transpose();
@@ -48,7 +48,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         functions_.push_back(std::move(f));
     }
     node_ = times_ = padded(tables_.front().node);
-    weight_ = padded(tables_.front().weight);
+    weight_ = padded(tables_.front().weight) * h_;
     weight_.tail(rows() - n()).setZero();
     impulse_ = thrust_ = Flat::Zero(rows());
     for (Flat* f : {&Y_, &previousY_, &R_, &delta_}) *f = Flat::Zero(size);
@@ -240,7 +240,7 @@ void GalerkinStep<T, D>::add(T* q, T* p) {
             // Stiff forces nearly cancel in this sum.
             Wide impulse(0);
             for (int i = 0; i < n(); ++i) impulse += Wide(weight_(i)) * Wide(gradient_(i, k));
-            dp_(k) = static_cast<T>(Wide(h_) * impulse);
+            dp_(k) = static_cast<T>(impulse);
             dq_(k) = Y_(offset(k) + m(k) - 1);
         }
         previousY_ = Y_;

@@ -42,7 +42,7 @@ void GalerkinStep<T, D>::placeNodes() {
                     fast += slope[a * rows() + i] * y[a];
                 }
                 q[i] = q0_(k) + far;
-                v[i] = fast / h_;
+                v[i] = fast;
             }
             continue;
         }
@@ -50,7 +50,6 @@ void GalerkinStep<T, D>::placeNodes() {
         nodeV_.col(k).setZero();
         addProduct(functions(k).value, rows(), Y_.data() + offset(k), 1, nodeQ_.col(k).data(), rows());
         addProduct(functions(k).slope, rows(), Y_.data() + offset(k), 1, nodeV_.col(k).data(), rows());
-        nodeV_.col(k) /= h_;
     }
 }
 
@@ -85,21 +84,25 @@ void GalerkinStep<T, D>::residual() {
         if (!isRich_) {
             const T *value = functions(k).valueAt.data(), *slope = functions(k).slopeAt.data();
             for (int i = 0; i < rows(); ++i, value += last + 1, slope += last + 1) {
-                const T q = weight_(i) * h_ * gradient_(i, k), v = weight_(i) * gradient_(i, d() + k);
+                const T q = weight_(i) * gradient_(i, k), v = weight_(i) * gradient_(i, d() + k);
                 total += q;
                 for (int a = 0; a <= last; ++a) R[a] += value[a] * q + slope[a] * v;
             }
             R[last] = p0_(k) + (total - R[last]);
             continue;
         }
-        for (int i = 0; i < rows(); ++i) {
-            impulse_(i) = weight_(i) * h_ * gradient_(i, k);
-            thrust_(i) = weight_(i) * gradient_(i, d() + k);
-            total += impulse_(i);
+        if constexpr (std::is_same_v<T, double>) {
+            // On a fast motion both sums are far larger than what is left of them.
+            Wide impulse(0);
+            for (int i = 0; i < rows(); ++i) {
+                impulse_(i) = weight_(i) * gradient_(i, k);
+                thrust_(i) = weight_(i) * gradient_(i, d() + k);
+                impulse += Wide(impulse_(i));
+            }
+            sums_.sumOfTwo({functions(k).valueAt.data(), impulse_.data(), functions(k).slopeAt.data(), thrust_.data(),
+                            static_cast<int>(functions(k).valueAt.rows()), m(k), rows(), R});
+            R[last] = static_cast<T>(Wide(p0_(k)) + (impulse - Wide(R[last])));
         }
-        addProduct(functions(k).valueAt, m(k), impulse_.data(), 1, R, m(k));
-        addProduct(functions(k).slopeAt, m(k), thrust_.data(), 1, R, m(k));
-        R[last] = p0_(k) + (total - R[last]);
     }
 }
 
@@ -129,7 +132,7 @@ bool GalerkinStep<T, D>::evaluateCurvature(const T& t) {
     return !isRich_ || curvature_.allFinite();
 }
 
-/// bent_(i, c) = b_i (h L_{x_k q_l} phi_c + L_{x_k v_l} phi_c') for x = q, the same over h for x = v.
+/// bent_(i, c) = w_i (L_{x_k q_l} phi_c + L_{x_k v_l} phi_c') for x = q or v.
 template <class T, int D>
 void GalerkinStep<T, D>::bend(int k, int l, bool isSlope) {
     const int dim = d(), onValue = (isSlope ? dim + k : k) * 2 * dim + l;
@@ -137,9 +140,8 @@ void GalerkinStep<T, D>::bend(int k, int l, bool isSlope) {
     const T* const bySlope = curvature_.col(onValue + dim).data();
     const Functions& to = functions(l);
     for (int i = 0; i < rows(); ++i) {
-        const T b = isSlope ? weight_(i) : T(weight_(i) * h_);
-        impulse_(i) = b * byValue[i];
-        thrust_(i) = b / h_ * bySlope[i];
+        impulse_(i) = weight_(i) * byValue[i];
+        thrust_(i) = weight_(i) * bySlope[i];
     }
     for (int c = 0; c < m(l); ++c) {
         const T* const value = to.value.col(c).data();
@@ -196,8 +198,8 @@ void GalerkinStep<T, D>::assembleNode(int i) {
         const T* const slope = functions(k).slopeAt.data() + i * (last + 1);
         for (int l = 0; l < dim; ++l) {
             const int qq = k * 2 * dim + l, vq = (dim + k) * 2 * dim + l;
-            const T byQQ = b * h_ * curvature_(i, qq), byQV = b * curvature_(i, qq + dim);
-            const T byVQ = b * curvature_(i, vq), byVV = b / h_ * curvature_(i, vq + dim);
+            const T byQQ = b * curvature_(i, qq), byQV = b * curvature_(i, qq + dim);
+            const T byVQ = b * curvature_(i, vq), byVV = b * curvature_(i, vq + dim);
             const T* const to = functions(l).valueAt.data() + i * m(l);
             const T* const toSlope = functions(l).slopeAt.data() + i * m(l);
             for (int c = 0; c < m(l); ++c) {

@@ -12,7 +12,7 @@
 namespace extremal {
 namespace {
 
-constexpr int maxDegree = 24, maxHarmonics = 6;
+constexpr int maxHarmonics = 6;
 /// Below, a Filon grid and a rich space do not go together (handbook, Multiscale).
 constexpr double smallestFilonPhase = 20;
 constexpr double pointsPerPeriod = 24;
@@ -25,27 +25,64 @@ double integerBetween(const Value& value, int low, int high, const std::string& 
                                     (value.isNumber() ? ", got " + formatNumber(n) : ""));
 }
 
-std::vector<int> harmonicsFrom(const Value& value, const std::string& pointer) {
+/// { "of": [1, -1], "degree": 0 }: a combination of two frequencies.
+Harmonic combinationFrom(const Value& value, const std::string& pointer) {
+    Harmonic k;
+    bool isGiven = false;
+    for (const auto& [key, entry] : value.asObject()) {
+        if (key == "degree") {
+            k.degree = static_cast<int>(integerBetween(entry, 0, OscillatoryBasis::mostDegree, pointer + "/degree", "the degree of a harmonic"));
+        } else if (key == "of") {
+            isGiven = entry.isArray() && entry.asArray().size() == 2;
+            for (std::size_t i = 0; isGiven && i < 2; ++i)
+                k.of[i] = static_cast<int>(integerBetween(entry.asArray()[i], -maxHarmonics, maxHarmonics,
+                                                          pointer + "/of/" + std::to_string(i), "a multiple of a frequency"));
+        } else {
+            throw InvalidScene(pointer + "/" + key, "unknown key \"" + key + "\"", "known: of and degree");
+        }
+    }
+    if (!isGiven || k.of == Multiples{0, 0})
+        throw InvalidScene(pointer + "/of", "must be two multiples of the two frequencies, not both 0", "[1, -1]: their difference");
+    // k and -k are the same functions.
+    if (k.of[0] < 0 || (k.of[0] == 0 && k.of[1] < 0)) k.of = {-k.of[0], -k.of[1]};
+    return k;
+}
+
+std::vector<Harmonic> harmonicsFrom(const Value& value, int frequencies, const std::string& pointer) {
     if (!value.isArray() || value.asArray().size() > maxHarmonics)
         throw InvalidScene(pointer, "must be an array of at most " + std::to_string(maxHarmonics) +
                                         " degrees, one for each harmonic",
                            "[1]: the first harmonic with linear amplitudes; []: none");
-    std::vector<int> degrees;
-    for (std::size_t k = 0; k < value.asArray().size(); ++k)
-        degrees.push_back(static_cast<int>(integerBetween(value.asArray()[k], 0, maxDegree,
-                                                          pointer + "/" + std::to_string(k), "the degree of a harmonic")));
-    return degrees;
+    std::vector<Harmonic> harmonics;
+    const auto add = [&](const Harmonic& k, const std::string& place) {
+        if (std::any_of(harmonics.begin(), harmonics.end(), [&](const Harmonic& other) { return other.of == k.of; }))
+            throw InvalidScene(place, "is a harmonic that is there already", "give each once");
+        harmonics.push_back(k);
+    };
+    for (std::size_t k = 0; k < value.asArray().size(); ++k) {
+        const Value& entry = value.asArray()[k];
+        const std::string place = pointer + "/" + std::to_string(k);
+        if (entry.isObject() && frequencies == 2) {
+            add(combinationFrom(entry, place), place);
+            continue;
+        }
+        const int n = static_cast<int>(k) + 1;
+        const int degree = static_cast<int>(integerBetween(entry, 0, OscillatoryBasis::mostDegree, place, "the degree of a harmonic"));
+        add({{n, 0}, degree}, place);
+        if (frequencies == 2) add({{0, n}, degree}, place);
+    }
+    return harmonics;
 }
 
 /// {degree, harmonics}, each optional, over what stands without it.
-OscillatoryBasis changedBy(const Value& object, OscillatoryBasis basis, const std::string& pointer) {
+OscillatoryBasis changedBy(const Value& object, OscillatoryBasis basis, int frequencies, const std::string& pointer) {
     if (!object.isObject()) throw InvalidScene(pointer, "must be an object", "for example { \"degree\": 2, \"harmonics\": [1] }");
     for (const auto& [key, value] : object.asObject()) {
         const std::string place = pointer + "/" + key;
         if (key == "degree")
-            basis.degree = static_cast<int>(integerBetween(value, 1, maxDegree, place, "the degree"));
+            basis.degree = static_cast<int>(integerBetween(value, 1, OscillatoryBasis::mostDegree, place, "the degree"));
         else if (key == "harmonics")
-            basis.harmonics = harmonicsFrom(value, place);
+            basis.harmonics = harmonicsFrom(value, frequencies, place);
         else
             throw InvalidScene(place, "unknown key \"" + key + "\"", "known: degree and harmonics");
     }
@@ -57,56 +94,77 @@ const Value* given(const Settings& space, const char* key) {
     return value && !value->isNull() ? value : nullptr;
 }
 
+/// A scene may give two frequencies.
+int frequencyCount(const Settings& space) {
+    const Value* omega = given(space, "omega");
+    return omega && omega->isArray() ? 2 : 1;
+}
+
 OscillatoryBasis common(const Settings& space) {
-    OscillatoryBasis basis{space.integer("degree"), {1}};
-    if (const Value* harmonics = given(space, "harmonics")) basis.harmonics = harmonicsFrom(*harmonics, "/space/harmonics");
+    OscillatoryBasis basis(space.integer("degree"), {});
+    const Value* harmonics = given(space, "harmonics");
+    basis.harmonics = harmonicsFrom(harmonics ? *harmonics : Value(Value::Array{1.0}), frequencyCount(space), "/space/harmonics");
     return basis;
 }
 
 /// All bases the keys speak of, whatever the system.
 std::vector<OscillatoryBasis> mentioned(const Settings& space) {
+    const int frequencies = frequencyCount(space);
     std::vector<OscillatoryBasis> all{common(space)};
-    if (const Value* fast = given(space, "fast")) all.push_back(changedBy(*fast, all[0], "/space/fast"));
+    if (const Value* fast = given(space, "fast")) all.push_back(changedBy(*fast, all[0], frequencies, "/space/fast"));
     if (const Value* variables = given(space, "variables"); variables && variables->isObject())
         for (const auto& [name, keys] : variables->asObject())
-            all.push_back(changedBy(keys, all[0], "/space/variables/" + name));
+            all.push_back(changedBy(keys, all[0], frequencies, "/space/variables/" + name));
     return all;
 }
 
 struct Extent {
-    int degree = 0, harmonic = 0;
+    int degree = 0;
+    Multiples harmonic{0, 0};
     explicit Extent(const std::vector<OscillatoryBasis>& bases) {
         for (const OscillatoryBasis& b : bases) {
             degree = std::max(degree, b.highestDegree());
-            harmonic = std::max(harmonic, b.highestHarmonic());
+            const Multiples top = b.highestHarmonics();
+            for (std::size_t i = 0; i < 2; ++i) harmonic[i] = std::max(harmonic[i], top[i]);
         }
     }
+    int highest() const { return std::max(harmonic[0], harmonic[1]); }
     int filonNodes() const { return degree + 2; }
-    int filonPhases() const { return 2 * (2 * harmonic + 1) + 2; }
+    /// Of each frequency.
+    int filonPhases() const { return 2 * (2 * highest() + 1) + 2; }
 };
 
-double frequencyOf(const Settings& space, const System& system) {
+double positiveFrequency(const Value& omega, const std::string& pointer, const std::string& what) {
+    if (omega.isNumber() && omega.asNumber() > 0 && std::isfinite(omega.asNumber())) return omega.asNumber();
+    throw InvalidScene(pointer, what + (omega.isNumber() ? ", got " + formatNumber(omega.asNumber()) : std::string()),
+                       "a number, \"model\", \"estimate\", or two numbers");
+}
+
+Phases<double> frequenciesOf(const Settings& space, const System& system) {
     const Value* omega = given(space, "omega");
-    const std::string hint = "a number, \"model\" or \"estimate\"";
     if (!omega || *omega == Value("model")) {
-        if (system.fast.frequency > 0) return system.fast.frequency;
+        if (system.fast.frequency > 0) return {system.fast.frequency, 0};
         throw InvalidScene("/space/omega", system.id + " does not say how fast it oscillates", "give a number, or \"estimate\"");
     }
-    if (omega->isNumber() && omega->asNumber() > 0 && std::isfinite(omega->asNumber())) return omega->asNumber();
     if (*omega == Value("estimate"))
         throw InvalidScene("/space/omega", "can be estimated from the initial data of a scene only", "give a number");
-    throw InvalidScene("/space/omega",
-                       "must be a positive finite number, \"model\" or \"estimate\"" +
-                           (omega->isNumber() ? ", got " + formatNumber(omega->asNumber()) : std::string()),
-                       hint);
+    const std::string what = "must be a positive finite number, two of them, \"model\" or \"estimate\"";
+    if (!omega->isArray()) return {positiveFrequency(*omega, "/space/omega", what), 0};
+    const Value::Array& both = omega->asArray();
+    if (both.size() != 2) throw InvalidScene("/space/omega", what + ", got " + std::to_string(both.size()), "[100, 161.8]");
+    return {positiveFrequency(both[0], "/space/omega/0", "must be a positive finite number"),
+            positiveFrequency(both[1], "/space/omega/1", "must be a positive finite number")};
 }
 
 /// "auto", decided.
-Settings ruleFor(const Settings& quadrature, const Extent& extent, double z) {
+Settings ruleFor(const Settings& quadrature, const Extent& extent, const Phases<double>& z) {
     if (!quadrature.type.empty() && quadrature.type != "auto") return quadrature;
-    const double points = std::max(pointsPerPeriod * std::abs(z) / (2 * std::numbers::pi), 2.0 * extent.degree + 4);
+    const bool areTwo = z[1] != 0;
+    const double fastest = std::max(std::abs(z[0]), std::abs(z[1])), slowest = areTwo ? std::min(std::abs(z[0]), std::abs(z[1])) : fastest;
+    const double points = std::max(pointsPerPeriod * fastest / (2 * std::numbers::pi), 2.0 * extent.degree + 4);
     const int panels = static_cast<int>(std::min(1e6, std::ceil(points / panelNodes)));
-    if (std::abs(z) >= smallestFilonPhase && extent.filonNodes() * extent.filonPhases() <= panels * panelNodes)
+    const int grid = extent.filonNodes() * extent.filonPhases() * (areTwo ? extent.filonPhases() : 1);
+    if (slowest >= smallestFilonPhase && grid <= panels * panelNodes)
         return {"filon-lobatto", {{"nodes", extent.filonNodes()}, {"phases", extent.filonPhases()}}, {}};
     return {"gauss", {{"nodes", panelNodes}, {"panels", panels}}, {}};
 }
@@ -119,10 +177,11 @@ bool isFilon(const Settings& quadrature) {
 }
 
 std::vector<OscillatoryBasis> oscillatoryBases(const Settings& space, const System& system) {
+    const int frequencies = frequencyCount(space);
     std::vector<OscillatoryBasis> bases(system.coordinates.size(), common(space));
     if (const Value* fast = given(space, "fast"))
         for (const int k : system.fast.coordinates)
-            bases[static_cast<std::size_t>(k)] = changedBy(*fast, bases[static_cast<std::size_t>(k)], "/space/fast");
+            bases[static_cast<std::size_t>(k)] = changedBy(*fast, bases[static_cast<std::size_t>(k)], frequencies, "/space/fast");
     const Value* variables = given(space, "variables");
     if (!variables) return bases;
     if (!variables->isObject())
@@ -136,16 +195,22 @@ std::vector<OscillatoryBasis> oscillatoryBases(const Settings& space, const Syst
             throw InvalidScene("/space/variables/" + name, system.id + " has no coordinate \"" + name + "\"",
                                "it has " + joinNames(names));
         auto& basis = bases[static_cast<std::size_t>(found - names.begin())];
-        basis = changedBy(keys, basis, "/space/variables/" + name);
+        basis = changedBy(keys, basis, frequencies, "/space/variables/" + name);
     }
     return bases;
 }
 
+Phases<double> oscillatoryPhases(const System& system, const Settings& space, double step) {
+    const Phases<double> frequency = frequenciesOf(space, system);
+    return {step * frequency[0], step * frequency[1]};
+}
+
 std::vector<Table<double>> oscillatoryTables(const System& system, const Discretization& pair, double step) {
     const std::vector<OscillatoryBasis> bases = oscillatoryBases(pair.space, system);
-    const double z = step * frequencyOf(pair.space, system);
-    if (!(std::abs(z) <= 1e15))
-        throw InvalidScene("/step", "times the frequency is " + formatNumber(std::abs(z), 3) +
+    const Phases<double> z = oscillatoryPhases(system, pair.space, step);
+    const double fastest = std::max(std::abs(z[0]), std::abs(z[1]));
+    if (!(fastest <= 1e15))
+        throw InvalidScene("/step", "times the frequency is " + formatNumber(fastest, 3) +
                                         ": the phase after a step is lost to round-off beyond 1e15",
                            "a smaller step");
     const Settings rule = ruleFor(pair.quadrature, Extent(bases), z);
@@ -156,7 +221,8 @@ std::vector<Table<double>> oscillatoryTables(const System& system, const Discret
         if (same < k)
             tables.push_back(tables[same]);
         else if (isFilon(rule))
-            tables.push_back(makeOscillatoryTable(bases[k], z, nodes, rule.integer("nodes"), rule.integer("phases")));
+            tables.push_back(makeOscillatoryTable(bases[k], z, nodes, rule.integer("nodes"),
+                                                  {rule.integer("phases"), z[1] != 0 ? rule.integer("phases") : 1}));
         else
             tables.push_back(makeOscillatoryTable(bases[k], z, makeRule<double>(rule)));
     }
@@ -209,10 +275,10 @@ PairProperties describeOscillatory(const Settings& space, const Settings& quadra
             p.refusal = std::to_string(nodes) + " nodes do not see amplitudes of degree " + std::to_string(extent.degree);
             p.hint = "at least " + std::to_string(extent.degree + 1) + " nodes; " + std::to_string(extent.filonNodes()) +
                      " are accurate";
-        } else if (phases < 4 * extent.harmonic + 1) {
-            p.refusal = std::to_string(phases) + " phases do not see the square of harmonic " + std::to_string(extent.harmonic) +
+        } else if (phases < 4 * extent.highest() + 1) {
+            p.refusal = std::to_string(phases) + " phases do not see the square of harmonic " + std::to_string(extent.highest()) +
                         ", which is in the kinetic energy";
-            p.hint = "at least " + std::to_string(4 * extent.harmonic + 1) + " phases; " + std::to_string(extent.filonPhases()) +
+            p.hint = "at least " + std::to_string(4 * extent.highest() + 1) + " phases; " + std::to_string(extent.filonPhases()) +
                      " are accurate";
         }
     } catch (const InvalidScene&) {

@@ -26,6 +26,8 @@ bool isFilon(const Settings& quadrature);
 /// One basis for each coordinate.
 std::vector<OscillatoryBasis> oscillatoryBases(const Settings& space, const System& system);
 
+/// z = step * frequency, for each frequency of the space; the second 0 where there is one.
+Phases<double> oscillatoryPhases(const System& system, const Settings& space, double step);
 /// One table for each coordinate. `omega` must not be "estimate" any more: see settled (integrator/scheme.hpp).
 std::vector<Table<double>> oscillatoryTables(const System& system, const Discretization& pair, double step);
 

@@ -1,6 +1,7 @@
 #include "engine/integrator/small_product.hpp"
 
 #include <cstring>
+#include <utility>
 
 #include "engine/core/instruction_set.hpp"
 
@@ -38,6 +39,27 @@ inline void product(const SmallProduct& p) {
     }
 }
 
+/// Knuth's exact sums: what each addition loses is added up beside.
+inline void sumOfTwo(const SumOfTwo& p) {
+    for (int r = 0; r < p.rows; r += 8) {
+        Eight sum{}, lost{};
+        for (const auto& [A, a] : {std::pair{p.A, p.a}, std::pair{p.B, p.b}}) {
+            const double* column = A + r;
+            for (int i = 0; i < p.depth; ++i, column += p.stride) {
+                Eight term;
+                std::memcpy(&term, column, sizeof term);
+                term *= a[i];
+                const Eight next = sum + term, back = next - sum;
+                lost += (sum - (next - back)) + (term - back);
+                sum = next;
+            }
+        }
+        sum += lost;
+        const int count = p.rows - r < 8 ? p.rows - r : 8;
+        for (int i = 0; i < count; ++i) p.c[r + i] = sum[i];
+    }
+}
+
 inline void combine(const double* p, const double* x, const double* q, const double* y, double* __restrict out, int n) {
     for (int i = 0; i < n; ++i) out[i] = p[i] * x[i] + q[i] * y[i];
 }
@@ -45,7 +67,8 @@ inline void combine(const double* p, const double* x, const double* q, const dou
 }  // namespace
 
 NodeSums nodeSums() {
-    return {ForThisMachine<&product<8>, &product<4>, &product<2>>::call(), ForThisMachine<&combine>::call()};
+    return {ForThisMachine<&product<8>, &product<4>, &product<2>>::call(), ForThisMachine<&sumOfTwo>::call(),
+            ForThisMachine<&combine>::call()};
 }
 
 }  // namespace extremal

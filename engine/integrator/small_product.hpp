@@ -17,8 +17,16 @@ struct SmallProduct {
     int rows, columns, depth;
 };
 
+/// c = A a + B b in nearly twice the precision: terms of both cancel. A and B are rows x depth with `stride` rows in memory.
+struct SumOfTwo {
+    const double *A, *a, *B, *b;
+    int stride, rows, depth;
+    double* c;
+};
+
 struct NodeSums {
     void (*product)(const SmallProduct&);
+    void (*sumOfTwo)(const SumOfTwo&);
     /// out_i = p_i x_i + q_i y_i, i < n.
     void (*combine)(const double* p, const double* x, const double* q, const double* y, double* out, int n);
 };

@@ -129,22 +129,33 @@ FilonRule filonRule(FilonNodes nodes, int count, double z) {
     return {e.node, weightsOf(e, z)};
 }
 
-FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z, double tau) {
+FilonGrid filonGrid(FilonNodes nodes, int count, std::array<int, 2> phases, std::array<double, 2> z, double tau) {
     const Expansion e = expansionOf(nodes, count);
+    const int M = phases[0] * phases[1], K[] = {(phases[0] - 1) / 2, (phases[1] - 1) / 2};
+    std::vector<std::array<int, 2>> place;
+    std::vector<Complex> turn[2];
+    for (std::size_t f = 0; f < 2; ++f)
+        for (int m = 0; m < phases[f]; ++m) turn[f].push_back(std::polar(1.0, -2 * std::numbers::pi * m / phases[f]));
     FilonGrid grid;
     grid.node = e.node;
-    const double turn = 2 * std::numbers::pi / phases;
-    for (int m = 0; m < phases; ++m) grid.phase.push_back(turn * m);
-    const int highest = (phases - 1) / 2;
-    for (int k = 0; k <= highest; ++k) {
-        const std::vector<Complex> b = tau == 1 ? weightsOf(e, k * z) : weightsUpTo(e, k * z, tau);
-        if (k == 0) grid.weight.resize(b.size() * grid.phase.size());
-        for (std::size_t i = 0; i < b.size(); ++i)
-            for (int m = 0; m < phases; ++m) {
-                const double share = (k == 0 ? 1 : 2) * (b[i] * std::polar(1.0, -turn * (k * m % phases))).real();
-                grid.weight[i * grid.phase.size() + static_cast<std::size_t>(m)] += share / phases;
+    for (int m = 0; m < phases[0]; ++m)
+        for (int n = 0; n < phases[1]; ++n) {
+            place.push_back({m, n});
+            grid.phase.push_back({2 * std::numbers::pi * m / phases[0], 2 * std::numbers::pi * n / phases[1]});
+        }
+    grid.weight.resize(e.node.size() * grid.phase.size());
+    // k and -k are conjugate: half of them, twice.
+    for (int k = 0; k <= K[0]; ++k)
+        for (int l = k == 0 ? 0 : -K[1]; l <= K[1]; ++l) {
+            const double rate = k * z[0] + l * z[1];
+            const std::vector<Complex> b = tau == 1 ? weightsOf(e, rate) : weightsUpTo(e, rate, tau);
+            const double share = (k == 0 && l == 0 ? 1.0 : 2.0) / M;
+            for (std::size_t m = 0; m < place.size(); ++m) {
+                const int at[] = {k * place[m][0] % phases[0], (l + phases[1]) * place[m][1] % phases[1]};
+                const Complex wave = turn[0][static_cast<std::size_t>(at[0])] * turn[1][static_cast<std::size_t>(at[1])];
+                for (std::size_t i = 0; i < b.size(); ++i) grid.weight[i * place.size() + m] += share * (b[i] * wave).real();
             }
-    }
+        }
     return grid;
 }
 

@@ -14,6 +14,7 @@
 /// Source: Leok 2004, on Filon quadrature, with the corrections above; Iserles 2004.
 #pragma once
 
+#include <array>
 #include <complex>
 #include <vector>
 
@@ -31,17 +32,19 @@ struct FilonRule {
 /// count >= 1 for Gauss, >= 2 for Lobatto; z finite.
 FilonRule filonRule(FilonNodes nodes, int count, double z);
 
-/// A rule for F(x, tau) along tau = z x, F smooth in x and 2 pi-periodic in tau: the action of a curve with slow
-/// and fast parts. F is expanded in harmonics from equally spaced phases, and each is integrated by Filon's rule:
+/// A rule for F(x, phase) along phase = z x, F smooth in x and 2 pi-periodic in one phase or in two: the action of a curve
+/// with slow and fast parts. F is expanded in harmonics from equally spaced phases, and each is integrated by Filon's rule:
 ///     int_0^1 F(x, z x) dx ~ sum_im W_im F(c_i, 2 pi m / M),
-///     W_im = (1/M) { b_i(0) + 2 sum_{k=1}^{K} Re[ b_i(k z) e^{-2 pi i k m / M} ] },   K = floor((M - 1) / 2).
-/// Exact for x^j cos(k tau) and x^j sin(k tau), j < count, k <= K.
+///     W_im = (1/M) sum_{|k| <= K} Re[ b_i(k . z) e^{-2 pi i k . m / M} ],   K = floor((M - 1) / 2),
+/// m and k pairs and M the product of both counts where there are two frequencies.
+/// Exact for x^j cos(k . phase) and x^j sin(k . phase), j < count, |k| <= K.
 struct FilonGrid {
-    std::vector<double> node;    ///< c_i
-    std::vector<double> phase;   ///< 2 pi m / M
-    std::vector<double> weight;  ///< W_im at i * M + m
+    std::vector<double> node;                  ///< c_i
+    std::vector<std::array<double, 2>> phase;  ///< 2 pi m / M; the second 0 where there is one frequency
+    std::vector<double> weight;                ///< W_im at i * phase.size() + m
 };
-/// phases >= 1. With tau < 1 the weights are those of the integral from 0 to tau of what the grid takes F for.
-FilonGrid filonGrid(FilonNodes nodes, int count, int phases, double z, double tau = 1);
+/// phases >= 1, the second 1 where there is one frequency. With tau < 1 the weights are those of the integral from 0 to tau
+/// of what the grid takes F for.
+FilonGrid filonGrid(FilonNodes nodes, int count, std::array<int, 2> phases, std::array<double, 2> z, double tau = 1);
 
 }  // namespace extremal

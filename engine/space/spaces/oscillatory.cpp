@@ -12,7 +12,7 @@ FieldInfo json(const char* key, const char* title, const char* symbol, Value fal
 }
 
 FieldInfo slowDegree() {
-    FieldInfo f = integerField("degree", "n", 1, 24, 4.0, "Degree of the slow part.");
+    FieldInfo f = integerField("degree", "n", 1, OscillatoryBasis::mostDegree, 4.0, "Degree of the slow part.");
     f.whyLimits = "a slow part of degree 0 stands still; above 24 more steps are cheaper than a higher degree";
     return f;
 }
@@ -32,7 +32,7 @@ SpaceEntry oscillatory() {
                json("fast", "fast coordinates", "", {}, "degree and harmonics of the coordinates the model calls fast."),
                json("variables", "variables", "", {}, "degree and harmonics of single coordinates, by name.")},
               {}, ""};
-    e.make = [](const Settings& settings) { return oscillatorySpace({settings.integer("degree"), {}}, 0); };
+    e.make = [](const Settings& settings) { return oscillatorySpace({settings.integer("degree"), {}}, {0, 0}); };
     return e;
 }
 
