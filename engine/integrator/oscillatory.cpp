@@ -148,7 +148,7 @@ Phases<double> frequenciesOf(const Settings& space, const System& system) {
     }
     if (*omega == Value("estimate"))
         throw InvalidScene("/space/omega", "can be estimated from the initial data of a scene only", "give a number");
-    const std::string what = "must be a positive finite number, two of them, \"model\" or \"estimate\"";
+    const std::string what = "must be a positive finite number, \"model\", \"estimate\" or two numbers";
     if (!omega->isArray()) return {positiveFrequency(*omega, "/space/omega", what), 0};
     const Value::Array& both = omega->asArray();
     if (both.size() != 2) throw InvalidScene("/space/omega", what + ", got " + std::to_string(both.size()), "[100, 161.8]");

@@ -60,6 +60,35 @@ bool readConstants(Reader& reader, const Value& value, const std::string& pointe
     return true;
 }
 
+/// A choice, a number or an array of numbers; what the user wrote is kept where one of them is an expression.
+bool readChoiceOrNumbers(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
+                         Settings& settings) {
+    const bool isChoice =
+        std::any_of(field.choices.begin(), field.choices.end(), [&](const std::string& c) { return value == Value(c); });
+    bool hasExpression = false;
+    const auto evaluated = [&](const Value& entry, const std::string& place) -> std::optional<Value> {
+        if (!entry.isString()) return entry;
+        const auto number = reader.number(entry, place, {});
+        hasExpression = true;
+        return number ? std::optional<Value>(number->value) : std::nullopt;
+    };
+    Value result = value;
+    if (value.isArray()) {
+        Value::Array entries;
+        for (std::size_t i = 0; i < value.asArray().size(); ++i)
+            if (auto entry = evaluated(value.asArray()[i], childPointer(pointer, i))) entries.push_back(std::move(*entry));
+        if (entries.size() < value.asArray().size()) return false;
+        result = std::move(entries);
+    } else if (!isChoice) {
+        const auto number = evaluated(value, pointer);
+        if (!number) return false;
+        result = *number;
+    }
+    settings.keys.emplace_back(field.key, std::move(result));
+    if (hasExpression) settings.expressions.emplace_back(field.key, value);
+    return true;
+}
+
 /// Stores one member after checking it against its descriptor.
 bool readField(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
                Settings& settings) {
@@ -106,6 +135,7 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
         case FieldType::constants:
             return readConstants(reader, value, pointer, field, settings);
         case FieldType::json:
+            if (!field.choices.empty()) return readChoiceOrNumbers(reader, value, pointer, field, settings);
             settings.keys.emplace_back(field.key, value);
             return true;
     }

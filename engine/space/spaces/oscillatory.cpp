@@ -11,6 +11,14 @@ FieldInfo json(const char* key, const char* title, const char* symbol, Value fal
     return f;
 }
 
+FieldInfo omega() {
+    FieldInfo f = json("omega", "frequency", "ω", "model",
+                       "Frequency of the fast motion: a number or expression, two of them in an array, \"model\" (what the model "
+                       "says), or \"estimate\" (from a short resolved run).");
+    f.choices = {"model", "estimate"};
+    return f;
+}
+
 FieldInfo slowDegree() {
     FieldInfo f = integerField("degree", "n", 1, OscillatoryBasis::mostDegree, 4.0, "Degree of the slow part.");
     f.whyLimits = "a slow part of degree 0 stands still; above 24 more steps are cheaper than a higher degree";
@@ -23,12 +31,11 @@ SpaceEntry oscillatory() {
     SpaceEntry e;
     e.item = {"oscillatory", "oscillatory",
               "A slow polynomial and harmonics of a fast frequency with polynomial amplitudes: steps of many fast periods.",
-              {json("omega", "frequency", "ω", "model",
-                    "Frequency of the fast motion: a number, \"model\" (what the model says), or \"estimate\" (from a short "
-                    "resolved run)."),
+              {omega(),
                slowDegree(),
                json("harmonics", "harmonics", "m", Value::Array{1.0},
-                    "Degree of the amplitudes of the first harmonic, of the second, ..."),
+                    "Degree of the amplitudes of the first harmonic, of the second, ... of each frequency; with two frequencies "
+                    "{ of, degree } is a combination, such as [1, -1]."),
                json("fast", "fast coordinates", "", {}, "degree and harmonics of the coordinates the model calls fast."),
                json("variables", "variables", "", {}, "degree and harmonics of single coordinates, by name.")},
               {}, ""};

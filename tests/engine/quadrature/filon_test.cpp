@@ -240,6 +240,28 @@ private slots:
                 }
             }
     }
+    void gridsOfTwoPhasesAreExactForTheirCombinations() {
+        const std::array<double, 2> z{161.8, 61.8};
+        const FilonGrid grid = filonGrid(FilonNodes::lobatto, 5, {6, 8}, z);
+        double worst = 0;
+        for (int k = -2; k <= 2; ++k)
+            for (int l = -3; l <= 3; ++l) {
+                const double rate = k * z[0] + l * z[1];
+                const auto mu = monomialMoments(std::abs(rate), 5);
+                for (int j = 0; j < 5; ++j) {
+                    Complex sum = 0;
+                    for (std::size_t i = 0; i < grid.node.size(); ++i)
+                        for (std::size_t m = 0; m < grid.phase.size(); ++m)
+                            sum += grid.weight[i * grid.phase.size() + m] * std::pow(grid.node[i], j) *
+                                   std::polar(1.0, k * grid.phase[m][0] + l * grid.phase[m][1]);
+                    const auto at = static_cast<std::size_t>(j);
+                    const Complex exact(static_cast<double>(mu[at].re), (rate < 0 ? -1 : 1) * static_cast<double>(mu[at].im));
+                    worst = std::max(worst, std::abs(sum - exact));
+                }
+            }
+        qInfo("%.1e", worst);
+        QVERIFY(worst < 2e-15);
+    }
     void gridsWithTooFewPhasesMissTheSquareOfAnOscillation() {
         // cos^2 has the harmonic 2: four phases fold it onto a constant, six see it.
         const double z = 1e3, exact = 0.5 + std::sin(2 * z) / (4 * z);

@@ -28,7 +28,12 @@ private slots:
             QTest::newRow(name) << QString::fromStdString(scheme) << start;
         };
         row("omega", space(R"(,"omega":-3)"), "/schemes/0/space/omega: must be a positive finite number");
-        row("omega name", space(R"(,"omega":"fast")"), "/schemes/0/space/omega: must be a positive finite number, \"model\"");
+        row("omega name", space(R"(,"omega":"fast")"), "/schemes/0/space/omega: the expression has an unknown name");
+        row("omega list", space(R"(,"omega":[10,20,30])"), "/schemes/0/space/omega: must be a positive finite number");
+        row("second omega", space(R"(,"omega":[10,-20])"), "/schemes/0/space/omega/1: must be a positive finite number, got -20");
+        row("combination", space(R"(,"omega":[10,16],"harmonics":[{"of":[0,0]}])"), "/schemes/0/space/harmonics/0/of: must be two multiples");
+        row("twice", space(R"(,"omega":[10,16],"harmonics":[1,{"of":[-1,0]}])"), "/schemes/0/space/harmonics/1: is a harmonic that is there");
+        row("of one", space(R"(,"omega":10,"harmonics":[{"of":[1,1]}])"), "/schemes/0/space/harmonics/0: the degree of a harmonic");
         row("harmonics", space(R"(,"harmonics":3)"), "/schemes/0/space/harmonics: must be an array");
         row("harmonic", space(R"(,"harmonics":[1,-1])"), "/schemes/0/space/harmonics/1: the degree of a harmonic must be an integer from 0 to 24, got -1");
         row("variable", space(R"(,"variables":{"b":{"degree":2}})"), "/schemes/0/space/variables/b: spring-pendulum has no coordinate \"b\"");
@@ -61,6 +66,16 @@ private slots:
         QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
         const ReadScene again = readScene(writeScene(read.scene));
         QVERIFY(again.errors.empty() && again.scene == read.scene);
+    }
+    void twoFrequenciesMayBeExpressions() {
+        const std::string keys = R"_(,"omega":["sqrt(k/m)","0.618*sqrt(k/m)"],"harmonics":[1,{"of":[1,-1],"degree":0}])_";
+        const ReadScene read = readScene(scene(space(keys)));
+        QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
+        const Settings& s = read.scene.schemes[0].space;
+        QCOMPARE(s.find("omega")->asArray()[1].asNumber(), 618.0);
+        const std::string written = writeScene(read.scene);
+        QVERIFY(written.find("0.618*sqrt(k/m)") != std::string::npos);
+        QVERIFY(readScene(written).scene == read.scene);
     }
     void resonancesAreWarningsWithARemedy() {
         // h w / pi = 63.9 at h = 0.2008.
