@@ -6,13 +6,10 @@
 #include "engine/action/table.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/integrator/elliptic.hpp"
+#include "engine/integrator/family.hpp"
 #include "engine/integrator/galerkin_step.hpp"
-#include "engine/integrator/lie.hpp"
-#include "engine/integrator/oscillatory.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/table_of.hpp"
-#include "engine/integrator/wave.hpp"
 
 namespace extremal {
 namespace {
@@ -58,22 +55,21 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
-    if (isWaveSpace(pair.space)) return makeWaveIntegrator(system, pair, clock);
-    const SolverPolicy policy = solverPolicy(pair.solver, system);
-    if (pair.space.type == "lie-polynomial") return makeLieIntegrator(system, pair, clock, policy);
-    if (isElliptic(pair.space)) return makeEllipticIntegrator(system, pair, clock);
-    if (!system.hasMechanics())
-        throw InvalidScene("/space/type", pair.space.type + " needs coordinates, and " + system.id + " has none",
-                           system.hasBody() ? "take lie-polynomial" : system.hasWave() ? "take fourier" : "another space: extremal list spaces");
-    const bool isFast = isOscillatory(pair.space);
-    if (isFast && policy.method == SolverMethod::fixedPoint)
-        throw InvalidScene("/solver/method", "fixed-point iteration diverges on fast oscillations", "use newton or auto");
-    std::vector<Table<double>> tables = isFast ? oscillatoryTables(system, pair, clock.step)
-                                               : std::vector<Table<double>>{tableOf(pair.space, pair.quadrature)};
+std::unique_ptr<Integrator> makeGalerkin(const System& system, std::vector<Table<double>> tables, const Clock& clock,
+                                         const SolverPolicy& policy) {
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(tables), clock, policy);
     });
+}
+
+std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+    const PairFamily* const family = familyOf(pair.space);
+    const bool needsCoordinates = !family || !(family->hasOneTable || system.elliptic);
+    if (needsCoordinates && !system.hasMechanics())
+        throw InvalidScene("/space/type", pair.space.type + " needs coordinates, and " + system.id + " has none",
+                           system.hasBody() ? "take lie-polynomial" : system.hasWave() ? "take fourier" : "another space: extremal list spaces");
+    if (family) return family->make(system, pair, clock, solverPolicy(pair.solver, system));
+    return makeGalerkin(system, {tableOf(pair.space, pair.quadrature)}, clock, solverPolicy(pair.solver, system));
 }
 
 }  // namespace extremal

@@ -10,12 +10,11 @@
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
-#include "engine/integrator/elliptic.hpp"
+#include "engine/integrator/family.hpp"
 #include "engine/integrator/oscillatory.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/integrator/table_of.hpp"
-#include "engine/integrator/wave.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal {
@@ -95,7 +94,7 @@ std::string shortfallOf(const Table<double>& table) {
 }
 
 PairProperties makeDescription(const Settings& space, const Settings& quadrature) {
-    if (isWaveSpace(space)) return describeWave(space, quadrature);
+    if (const PairFamily* family = familyOf(space); family && family->describe) return family->describe(space, quadrature);
     PairProperties p;
     if (quadrature.type == "exact") {
         p.refusal = "the integral of the action is not known";
@@ -179,13 +178,15 @@ private:
 }  // namespace
 
 PairProperties describe(const Settings& space, const Settings& quadrature) {
-    if (isOscillatory(space)) return describeOscillatory(space, quadrature);
-    if (isElliptic(space)) return describeElliptic(space);
+    if (!hasOneTable(space)) return familyOf(space)->describe(space, quadrature);
     static Memory<PairProperties> known;
     return known.get(space, quadrature, [&] { return makeDescription(space, quadrature); });
 }
 
-bool hasOneTable(const Settings& space) { return !isOscillatory(space) && !isElliptic(space); }
+bool hasOneTable(const Settings& space) {
+    const PairFamily* const family = familyOf(space);
+    return !family || family->hasOneTable;
+}
 
 Table<double> tableOf(const Settings& space, const Settings& quadrature) {
     static Memory<Table<double>> known;
@@ -193,8 +194,7 @@ Table<double> tableOf(const Settings& space, const Settings& quadrature) {
 }
 
 Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
-    if (isOscillatory(space)) return completeOscillatoryRule(space, quadrature);
-    if (isElliptic(space)) return {"auto", {}, {}};  // integrals over elements are exact to round-off
+    if (const PairFamily* family = familyOf(space); family && family->complete) return family->complete(space, quadrature);
     Settings q = quadrature;
     const double degree = space.number("degree");
     auto set = [&](const char* key, Value value) {

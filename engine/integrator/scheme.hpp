@@ -34,6 +34,7 @@ struct PairProperties {
     std::string shortfall;    ///< why the order is below that of the space; empty if it is not
     std::string refusal;      ///< why the pair makes no sense (too few nodes, ...); empty if it does
     std::string hint;         ///< the remedy for a refusal
+    std::string caution;      ///< a warning of every scene that has it ("is an experiment: ..."); may be empty
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity if none
 };
 /// Keys must be checked and complete. Results are remembered, so asking again is cheap.

@@ -14,6 +14,9 @@ std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, co
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an earlier end.";
+    if (const auto pair = innerPairOf(scheme))
+        if (const std::string caution = describe(pair->space, pair->quadrature).caution; !caution.empty())
+            return "The scheme " + caution + ".";
     // A state that has blown up says nothing of frequencies: the start counts as well.
     if (system.hasWave() && outcome == Outcome::notFinite)
         return "Beyond its stability limit a three-level scheme grows without bound. Try a smaller step.";

@@ -182,6 +182,8 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
     else
         checkStability(reader, system, scene, scheme, stabilityLimitOf(scheme), pointer);
     if (const auto pair = innerPairOf(scheme)) {
+        if (const std::string caution = describe(pair->space, pair->quadrature).caution; !caution.empty())
+            reader.warning(pointer, caution);
         checkResonance(reader, system, scene, scheme, *pair, pointer);
         checkTurn(reader, system, scene, scheme, *pair, pointer);
     }
