@@ -5,9 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <set>
 
-#include "engine/figure/range.hpp"
+#include "engine/figure/fit_axes.hpp"
+#include "engine/scene/view_axes.hpp"
 
 namespace extremal {
 
@@ -94,7 +94,8 @@ void addAgainstTime(Figure& figure, const FigureContext& context, std::string_vi
 
 void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn) {
     for (const auto& scheme : context.comparison.schemes) {
-        const bool hasCurve = scheme->curve.find(xColumn) && scheme->curve.find(yColumn);
+        const bool hasCurve = scheme->curve.find(xColumn) && scheme->curve.find(yColumn) &&
+                              scheme->curve.rows() >= scheme->trajectory.rows();  // rows may be the denser ones
         const Trajectory& from = hasCurve ? scheme->curve : scheme->trajectory;
         const std::span<const double> x = from[xColumn], y = from[yColumn];
         if (x.empty() || y.empty()) continue;
@@ -138,21 +139,13 @@ void markFailures(Figure& figure, const FigureContext& context) {
     }
 }
 
-void fitAxis(Axis& axis, const Figure& figure, std::vector<double> Series::*values) {
-    std::set<std::string> failed;
-    for (const FailureMark& f : figure.failures) failed.insert(f.label);
-    std::vector<RangeInput> inputs;
-    for (const Series& s : figure.series) inputs.push_back({s.*values, failed.count(s.label) > 0});
-    if (!axis.range) axis.range = fitRange(inputs, axis.isLog);
-}
-
 /// "largest 0.03 (RK4), smallest 1e-7 (midpoint)", by the largest value of each series.
 std::string extremesText(const Figure& figure) {
     const Series *most = nullptr, *least = nullptr;
     double high = 0, low = 0;
     for (const Series& s : figure.series) {
         const double m = maxMagnitude(s.y);
-        if (m == 0) continue;
+        if (m == 0 || s.style == formulaStyle) continue;
         if (!most || m > high) most = &s, high = m;
         if (!least || m < low) least = &s, low = m;
     }
@@ -167,8 +160,7 @@ std::string extremesText(const Figure& figure) {
 void finishFigure(Figure& figure, const FigureContext& context, std::string_view what) {
     markFailures(figure, context);
     hideWhatAxesCannotShow(figure);
-    fitAxis(figure.x, figure, &Series::x);
-    fitAxis(figure.y, figure, &Series::y);
+    fitAxes(figure, context.view, context.system ? axesOf(context.view, *context.system).variable : "t");
 
     const bool hasPoints = figure.heat || std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
         return std::any_of(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });

@@ -6,6 +6,7 @@
 #include "engine/figure/view.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/view_axes.hpp"
 
 namespace extremal {
 
@@ -22,6 +23,18 @@ const std::vector<CatalogItem>& viewCatalog() {
         return result;
     }();
     return items;
+}
+
+ViewAxes axesOf(const View& view, const System& system) {
+    const ViewEntry* entry = findView(view.id);
+    if (!entry) return {};
+    const Scales& scales = entry->scales;
+    ViewAxes axes{scales.exist, scales.isXLog, scales.isYLog, ""};
+    const bool isTime = scales.across == Across::time ||
+                        (scales.across == Across::column && entry->xColumn && entry->xColumn(view, system) == "t");
+    if (isTime) axes.variable = system.independent;
+    if (scales.across == Across::place) axes.variable = "x";
+    return axes;
 }
 
 Figure makeFigure(const Comparison& comparison, const View& view) {
@@ -73,7 +86,10 @@ std::vector<View> plotViews(const Scene& scene) {
         if (!entry || !entry->make) continue;
         if (view.id == "sparsity" && view.scheme.empty()) {
             const std::vector<std::string> pairs = pairLabels(scene, system);
-            for (const std::string& label : pairs) result.push_back({view.id, "", "", "", label});
+            for (const std::string& label : pairs) {
+                result.push_back(view);
+                result.back().scheme = label;
+            }
             if (pairs.empty()) result.push_back(view);
             continue;
         }
@@ -82,7 +98,11 @@ std::vector<View> plotViews(const Scene& scene) {
             result.push_back(view);
             continue;
         }
-        for (const std::string& column : columns) result.push_back({view.id, "t", column});
+        for (const std::string& column : columns) {
+            result.push_back(view);
+            result.back().x = "t";
+            result.back().y = column;
+        }
     }
     return result;
 }

@@ -16,8 +16,12 @@ struct Axis {
     bool isLog = false;
     bool isTime = false;  ///< linked with the other time axes
     std::optional<std::pair<double, double>> range;  ///< fixed range; else fitted to the data
+    std::optional<std::pair<double, double>> whole = {};  ///< what fits all data, where the view shows a part
     std::vector<std::pair<double, std::string>> ticks = {};  ///< named places in place of numbers, without a grid
 };
+
+/// The style of a curve that is no scheme's: a thin dashed neutral line.
+inline constexpr int formulaStyle = -1;
 
 struct Series {
     std::string label;   ///< the scheme's label

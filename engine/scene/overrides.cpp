@@ -154,6 +154,7 @@ std::vector<std::string> knownKeys(const Value& document, const std::vector<std:
                                            : schemeKeys(*object, {place.begin() + 2, place.end()});
     if (first == "reference" && place.size() > 1 && object)
         return schemeKeys(*object, {place.begin() + 2, place.end()});
+    if (first == "views" && place.size() == 3 && place[2] == "range") return format::range;
     if (first == "views") return place.size() == 2 ? format::view : std::vector<std::string>{};
     if (first == "model" && place.size() == 2 && object && object->isObject()) {
         // The user's own names: those that are there. To add one, set the whole object.

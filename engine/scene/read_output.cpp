@@ -6,7 +6,6 @@
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/format.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 
@@ -26,24 +25,6 @@ std::vector<std::string> availableObservables(const System& system) {
     std::vector<std::string> names;
     for (const std::string& id : idsOf(observableCatalog()))
         if (!isLacking(system, id)) names.push_back(id);
-    return names;
-}
-
-/// The columns of a CSV of this scene: what a phase portrait can show.
-std::vector<std::string> stateNames(const System& system) {
-    std::vector<std::string> names{"t"};
-    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
-    return names;
-}
-
-std::vector<std::string> columnNames(const System& system, const Scene& scene) {
-    std::vector<std::string> names{"t"};
-    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
-    const State initial = initialState(scene, system);
-    for (const std::string& id : scene.observe)
-        if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
-            for (const Column& column : entry->bind({system, initial, {}}).columns)
-                names.push_back(column.name);
     return names;
 }
 
@@ -160,78 +141,6 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
     if (contains(scene.observe, "error") && scene.reference.kind == ReferenceSpec::Kind::none)
         reader.warning("/observe", "asks for the error, but the reference is none: the error stays unknown",
                        "set /reference to auto");
-}
-
-void readViews(Reader& reader, const Value& document, const System* system, Scene& scene) {
-    const Value* views = document.find("views");
-    if (!views) {
-        std::vector<std::string> ids{"stage"};
-        for (const char* id : {"energy", "momentum", "error"})
-            if (contains(scene.observe, id)) ids.emplace_back(id);
-        ids.insert(ids.end(), {"trajectory", "phase"});
-        for (const std::string& id : ids) scene.views.push_back({id, {}, {}});
-        return;
-    }
-    if (!reader.isArray(*views, "/views", "names")) return;
-    const auto known = idsOf(viewCatalog());
-    for (std::size_t i = 0; i < views->asArray().size(); ++i) {
-        const std::string pointer = childPointer("/views", i);
-        const Value& value = views->asArray()[i];
-        const Value object = value.isString() ? Value(Value::Object{{"view", value}}) : value;
-        if (!reader.isObject(object, pointer)) continue;
-        reader.checkKeys(object, pointer, format::view);
-        const std::string place = value.isString() ? pointer : pointer + "/view";
-        const Value* name = object.find("view");
-        if (!name) {
-            reader.error(place, "is required", "known: " + joinNames(known));
-            continue;
-        }
-        View view;
-        view.id = reader.text(*name, place).value_or("");
-        if (name->isString() && !contains(known, view.id)) reader.unknownName(place, "view", view.id, known);
-        for (const auto& [key, target] : {std::pair{"x", &view.x}, std::pair{"y", &view.y}}) {
-            const Value* column = object.find(key);
-            if (!column) continue;
-            const std::string at = childPointer(pointer, key);
-            *target = reader.text(*column, at).value_or("");
-            const bool isSection = view.id == "section";
-            if (view.id != "phase" && !isSection)
-                reader.error(at, "is only for phase portraits and sections");
-            else if (system && isSection && column->isString() && !contains(stateNames(*system), *target))
-                reader.unknownName(at, "state column", *target, stateNames(*system));
-            else if (system && column->isString() && !contains(columnNames(*system, scene), *target))
-                reader.unknownName(at, "column", *target, columnNames(*system, scene));
-        }
-        if (const Value* column = object.find("at")) {
-            const std::string at = childPointer(pointer, "at");
-            view.at = reader.text(*column, at).value_or("");
-            if (view.id != "section")
-                reader.error(at, "is only for sections");
-            else if (system && column->isString() &&
-                     (view.at == "t" || !contains(stateNames(*system), view.at)))
-                reader.unknownName(at, "state column", view.at, stateNames(*system));
-        }
-        if (const Value* label = object.find("scheme")) {
-            const std::string at = childPointer(pointer, "scheme");
-            view.scheme = reader.text(*label, at).value_or("");
-            std::vector<std::string> labels;
-            for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
-            if (view.id != "sparsity" && view.id != "carpet")
-                reader.error(at, "is only for pictures of one scheme", "the views sparsity and carpet");
-            else if (label->isString() && reader.errors.empty() && !contains(labels, view.scheme))
-                reader.unknownName(at, "scheme", view.scheme, labels);
-        }
-        if (view.id == "curve-error" && !contains(scene.observe, "error"))
-            reader.warning(pointer, "shows nothing: error is not observed", "add it to /observe");
-        for (const char* id : {"energy", "momentum", "error", "norm", "fast-energy", "slow-energy", "adiabatic-invariant"}) {
-            if (view.id != id || contains(scene.observe, id)) continue;
-            const ObservableEntry* observable = findObservable(id);
-            const bool isThere = !system || !observable || appliesTo(*observable, *system);
-            reader.warning(pointer, "shows nothing: " + view.id + (isThere ? " is not observed" : " is nothing this model has"),
-                           isThere ? "add it to /observe" : "leave it out");
-        }
-        scene.views.push_back(view);
-    }
 }
 
 }  // namespace extremal

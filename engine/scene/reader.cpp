@@ -41,30 +41,50 @@ void Reader::warning(std::string pointer, std::string message, std::string hint,
     warnings.push_back({std::move(pointer), std::move(message), std::move(hint), {}, std::move(remedy)});
 }
 
-std::optional<double> Reader::evaluateText(const std::string& text, const std::string& pointer) {
+namespace {
+
+/// The value of a text at one value of its variable (if it has one); a mistake in it is recorded.
+std::optional<double> valueOfText(Reader& reader, const std::string& text, const std::string& pointer,
+                                  const std::string& variable) {
     std::vector<std::string> known{"pi"};
-    for (const auto& [name, value] : parameters) known.push_back(name);
+    if (!variable.empty()) known.push_back(variable);
+    for (const auto& [name, value] : reader.parameters) known.push_back(name);
     bool dependsOnWrong = false;
     try {
         const Expression expression = parseExpression(text);
         const double value = evaluate(expression, [&](std::string_view name) -> std::optional<double> {
-            const auto there = parameters.find(name);
-            if (there == parameters.end() && !hasUnknownModel) return {};
-            dependsOnWrong = dependsOnWrong || there == parameters.end() || !there->second;
-            return there == parameters.end() ? 0 : there->second.value_or(0);
+            if (!variable.empty() && name == variable) return 1;
+            const auto there = reader.parameters.find(name);
+            if (there == reader.parameters.end() && !reader.hasUnknownModel) return {};
+            dependsOnWrong = dependsOnWrong || there == reader.parameters.end() || !there->second;
+            return there == reader.parameters.end() ? 0 : there->second.value_or(0);
         });
-        if (dependsOnWrong) return {};
-        if (std::isfinite(value)) return value;
-        error(pointer, "the expression " + describeValue(text) + " is not finite: " + formatNumber(value));
+        return dependsOnWrong ? std::nullopt : std::optional(value);
     } catch (const ExpressionError& e) {
         std::string hint = e.hint;
         const std::string message = e.what();
         if (const auto quote = message.find("unknown name \""); quote != std::string::npos)
-            hint =
-                suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
-        error(pointer, "the expression " + message + "\n" + caretLines(text, e.position), hint);
+            hint = suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
+        reader.error(pointer, "the expression " + message + "\n" + caretLines(text, e.position), hint);
     }
     return {};
+}
+
+}  // namespace
+
+std::optional<double> Reader::evaluateText(const std::string& text, const std::string& pointer) {
+    const auto value = valueOfText(*this, text, pointer, {});
+    if (!value || std::isfinite(*value)) return value;
+    error(pointer, "the expression " + describeValue(text) + " is not finite: " + formatNumber(*value));
+    return {};
+}
+
+std::optional<ViewCurve> Reader::curve(const std::string& text, const std::string& pointer, const std::string& variable) {
+    if (!valueOfText(*this, text, pointer, variable)) return {};
+    ViewCurve result{text, {}};
+    for (const std::string& name : parseExpression(text).names())
+        if (name != variable) result.values.emplace_back(name, *parameters.find(name)->second);
+    return result;
 }
 
 std::optional<Number> Reader::number(const Value& value, const std::string& pointer, const Limits& limits) {

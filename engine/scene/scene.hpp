@@ -57,11 +57,26 @@ struct ReferenceSpec {
     bool operator==(const ReferenceSpec&) const = default;
 };
 
+/// The part of an axis that a plot shows at first.
+struct ViewRange {
+    Number low, high;
+    bool operator==(const ViewRange&) const = default;
+};
+
+/// An expression in the variable along the x axis, drawn for comparison.
+struct ViewCurve {
+    std::string expression;                              ///< empty: none
+    std::vector<std::pair<std::string, double>> values;  ///< of the model's parameters in it
+    bool operator==(const ViewCurve&) const = default;
+};
+
 struct View {
     std::string id;          ///< "energy", "phase", ...
-    std::string x, y;        ///< columns of a phase portrait; empty: default
+    std::string x, y;        ///< columns of a phase portrait or trajectory; empty: default
     std::string at = {};     ///< column whose zeros make a section; empty: the first coordinate
     std::string scheme = {}; ///< label, for pictures of one scheme; empty: of each
+    std::optional<ViewRange> xRange = {}, yRange = {};
+    ViewCurve curve = {};
     bool operator==(const View&) const = default;
 };
 

@@ -202,10 +202,17 @@ Value definitions() {
 Value viewChoice() {
     Value p{Value::Object{}};
     p.set("view", enumeration(idsOf(viewCatalog())));
-    p.set("x", typed("string", "A column, for phase portraits."));
-    p.set("y", typed("string", "A column, for phase portraits."));
+    p.set("x", typed("string", "A column, for phase portraits, trajectories and sections."));
+    p.set("y", typed("string", "A column, for phase portraits, trajectories and sections."));
     p.set("at", typed("string", "The column whose zeros make a section."));
     p.set("scheme", typed("string", "The label of a scheme, for the view sparsity."));
+    Value ends = arrayOf(reference("number")), range{Value::Object{}};
+    ends.set("minItems", 2);
+    ends.set("maxItems", 2);
+    range.set("x", ends);
+    range.set("y", ends);
+    p.set("range", object(range, {}, "The part that the plot shows at first: two increasing numbers for an axis."));
+    p.set("curve", typed("string", "An expression in the variable along x, drawn for comparison."));
     return anyOf({enumeration(idsOf(viewCatalog())), object(p, {"view"})});
 }
 

@@ -34,14 +34,20 @@ Value referenceValue(const ReferenceSpec& reference) {
     return value;
 }
 
+Value rangeValue(const ViewRange& range) { return Value::Array{numberValue(range.low), numberValue(range.high)}; }
+
 Value viewValue(const View& view) {
-    if (view.x.empty() && view.y.empty() && view.at.empty() && view.scheme.empty()) return view.id;
     Value value(Value::Object{{"view", view.id}});
     if (!view.x.empty()) value.set("x", view.x);
     if (!view.y.empty()) value.set("y", view.y);
     if (!view.at.empty()) value.set("at", view.at);
     if (!view.scheme.empty()) value.set("scheme", view.scheme);
-    return value;
+    Value range{Value::Object{}};
+    if (view.xRange) range.set("x", rangeValue(*view.xRange));
+    if (view.yRange) range.set("y", rangeValue(*view.yRange));
+    if (!range.asObject().empty()) value.set("range", range);
+    if (!view.curve.expression.empty()) value.set("curve", view.curve.expression);
+    return value.asObject().size() == 1 ? Value(view.id) : value;
 }
 
 template <class Items, class ToValue>

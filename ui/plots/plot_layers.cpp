@@ -16,7 +16,7 @@ PixelMap FigurePlot::Shared::map() const {
 
 QColor FigurePlot::Shared::colorOf(int style) const {
     const QColor c = theme.series(style).color;
-    if (!isStale) return c;
+    if (!isStale || style == formulaStyle) return c;
     const auto mix = [](int a, int b) { return (35 * a + 65 * b) / 100; };  // opaque: overlaps must not show
     return {mix(c.red(), theme.panel.red()), mix(c.green(), theme.panel.green()), mix(c.blue(), theme.panel.blue())};
 }
@@ -91,6 +91,37 @@ void CurvesLayer::draw(QCPPainter* painter) {
         else drawSeries(*painter, map, s);
     }
     if (highlighted) drawSeries(*painter, map, *highlighted);
+    drawKey(*painter, map);
+}
+
+/// The names of curves that are no scheme's, top right: the legend has the schemes alone.
+void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
+    constexpr double sample = 22, gap = 5, edge = 5;
+    const QFont font = small(shared_.theme);
+    const QFontMetricsF metrics(font);
+    double top = map.rect.top() + 4;
+    for (const Series& s : shared_.figure.series) {
+        if (s.style != formulaStyle || map.rect.width() < 100) continue;
+        const QString text = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight,
+                                                map.rect.width() - sample - gap - 2 * edge - 8);
+        const double width = sample + gap + metrics.horizontalAdvance(text) + 2 * edge;
+        const QRectF box(map.rect.right() - 4 - width, top, width, metrics.height() + 4);
+        QColor ground = shared_.theme.panel;
+        ground.setAlphaF(0.88f);
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(ground);
+        painter.drawRoundedRect(box, 4, 4);
+        painter.setBrush(Qt::NoBrush);
+        QPen pen(shared_.colorOf(s.style), 1.1, Qt::SolidLine, Qt::FlatCap);
+        pen.setDashPattern(shared_.theme.series(s.style).dash);
+        painter.setPen(pen);
+        painter.drawLine(QPointF(box.left() + edge, box.center().y()), QPointF(box.left() + edge + sample, box.center().y()));
+        painter.setFont(font);
+        painter.setPen(shared_.theme.muted);
+        painter.drawText(QRectF(box.left() + edge + sample + gap, box.top(), width, box.height()), Qt::AlignVCenter | Qt::AlignLeft,
+                         text);
+        top = box.bottom() + 2;
+    }
 }
 
 /// One pixel a cell, stretched: from the ground of the plot at `low` to full colour at `high`.
@@ -162,7 +193,8 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
     const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
     const QColor color = shared_.colorOf(series.style);
     if (series.hasLine) {
-        QPen pen(color, isHighlighted ? 2.4 : 1.5, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
+        const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
+        QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
         if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
         for (const QPolygonF& line : visiblePolylines(series.x, series.y, map, series.isCurve, shared_.density))
             drawPieces(painter, pen, line);

@@ -54,7 +54,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     const double rowHeight = std::ceil(metrics.height()) + 3, sample = 26, gap = 6, space = 16;
     double x = rect.left(), y = rect.top();
     for (const Series& s : figure.series) {
-        if (s.isCells) continue;  // the title says whose they are
+        if (s.isCells || s.style == formulaStyle) continue;  // named by the title, and in the plot itself
         const QString label = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight, rect.width() - sample - gap);
         const double width = sample + gap + metrics.horizontalAdvance(label);
         if (x > rect.left() && x + width > rect.right()) {
@@ -83,7 +83,8 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         x += width + space;
     }
     const bool isNamed =
-        std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) { return !s.isCells; });
+        std::any_of(figure.series.begin(), figure.series.end(),
+                    [](const Series& s) { return !s.isCells && s.style != formulaStyle; });
     return isNamed ? y + rowHeight - rect.top() : 0;
 }
 

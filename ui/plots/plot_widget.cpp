@@ -118,6 +118,18 @@ void PlotWidget::fit() {
     impl_->replot();
 }
 
+void PlotWidget::showAll() {
+    const Figure& f = figure();
+    if (!f.x.whole || !f.y.whole) return fit();
+    ViewState& view = impl_->content->view();
+    view.remember();
+    view.choose(PlotAxis::x, {f.x.whole->first, f.x.whole->second});
+    view.choose(PlotAxis::y, {f.y.whole->first, f.y.whole->second});
+    impl_->chip->setVisible(true);
+    if (impl_->isTime()) emit timeRangeChanged(view.range(PlotAxis::x));
+    impl_->replot();
+}
+
 void PlotWidget::back() {
     if (!impl_->content->view().back()) return;
     impl_->chip->setVisible(isUserZoomed());
@@ -130,6 +142,7 @@ void PlotWidget::back() {
 
 const Figure& PlotWidget::figure() const { return impl_->content->figure(); }
 bool PlotWidget::isUserZoomed() const { return impl_->content->view().isUserChosen(); }
+bool PlotWidget::isUserZoomed(PlotAxis axis) const { return impl_->content->view().isUserChosen(axis); }
 PlotRange PlotWidget::visibleRange(PlotAxis axis) const { return impl_->content->view().range(axis); }
 
 void PlotWidget::setTimeRange(std::optional<PlotRange> range) {
@@ -284,7 +297,8 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                     s.replotCursor();
                 }
             } else if (was == Impl::Drag::maybe) {
-                if (const auto hit = s.content->hit(mouse->position(), hoverReach))
+                const auto hit = s.content->hit(mouse->position(), hoverReach);
+                if (hit && figure().series[hit->series].style != formulaStyle)
                     emit pointClicked(figure().series[hit->series].style);
                 if (s.isTime() && map.rect.contains(mouse->position()))
                     emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));
@@ -298,6 +312,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             const double t = valueAtPixel(s.content->pixelMap(), PlotAxis::x, context->pos());
             QMenu menu(this);
             menu.addAction(tr("Fit"), this, &PlotWidget::fit);
+            if (figure().x.whole) menu.addAction(tr("Show all data"), this, &PlotWidget::showAll);
             menu.addAction(tr("Previous view"), this, &PlotWidget::back);
             menu.addSeparator();
             if (s.isTime()) {

@@ -30,7 +30,8 @@ public:
     void setCursor(std::optional<double> t);
     void setPinned(std::optional<double> t);
     void setHighlighted(const QString& label);
-    void fit();
+    void fit();      ///< to the part the view asks for, else to all data
+    void showAll();  ///< all data, also where the view asks for a part
     void back();
     void copyImage();
     void saveDialog();
@@ -38,6 +39,7 @@ public:
     bool save(const QString& path, double scale = 1, QString* error = nullptr);
     const Figure& figure() const;
     bool isUserZoomed() const;
+    bool isUserZoomed(PlotAxis axis) const;
     PlotRange visibleRange(PlotAxis axis) const;
     /// Follows another plot's time axis; an empty range fits.
     void setTimeRange(std::optional<PlotRange> range);

@@ -1,20 +1,13 @@
 #include "ui/plots/view_state.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "engine/scene/view_axes.hpp"
 
 namespace extremal {
 namespace {
 
 constexpr std::size_t longestHistory = 64;
-
-/// Doubles carry 16 digits; an axis must still tell its ticks apart.
-bool isDrawable(double low, double high, bool isLog) {
-    if (!std::isfinite(low) || !std::isfinite(high) || !(low < high)) return false;
-    if (isLog) return low > -300 && high < 300 && high - low > 1e-6;
-    return high - low > 1e-11 * std::max(std::abs(low), std::abs(high)) && std::max(std::abs(low), std::abs(high)) < 1e290 &&
-           high - low > 1e-290;
-}
 
 }  // namespace
 

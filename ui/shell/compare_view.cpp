@@ -9,15 +9,25 @@
 
 #include "engine/figure/figure.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/view_axes.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/playback.hpp"
+#include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
 
 namespace extremal {
+namespace {
+
+/// Views of the same plot: their part and curve may differ, which follow the parameters.
+bool isSameCard(const View& a, const View& b) {
+    return a.id == b.id && a.x == b.x && a.y == b.y && a.at == b.at && a.scheme == b.scheme;
+}
+
+}  // namespace
 
 CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme, QWidget* parent)
     : QWidget(parent), workspace_(workspace), run_(run), playback_(playback), theme_(&theme), group_(new PlotGroup(this)) {
@@ -75,8 +85,13 @@ void CompareView::rebuild() {
     std::vector<View> views{{"work-precision", "", ""}};
     for (View& v : plotViews(workspace_.scene()))
         if (v.id != "work-precision") views.push_back(std::move(v));
-    if (views == shownViews_) return refresh();
+        else views.front() = std::move(v);
+    const bool isSameCards = std::equal(views.begin(), views.end(), shownViews_.begin(), shownViews_.end(), isSameCard);
     shownViews_ = views;
+    if (isSameCards) {
+        for (std::size_t i = 0; i < views.size(); ++i) slots_[i].view = views[i];
+        return refresh();
+    }
     for (const Slot& s : slots_) delete s.card;
     slots_.clear();
     for (const View& view : views) {
@@ -87,6 +102,8 @@ void CompareView::rebuild() {
         menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
         menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
         menu->addSeparator();
+        addSceneActions(*menu, slots_.size());
+        menu->addSeparator();
         menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
         menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
         group_->add(plot);
@@ -95,6 +112,31 @@ void CompareView::rebuild() {
     columns_ = 0;
     arrange();
     refresh();
+}
+
+/// What the scene keeps of a plot; offered where it can be. The edits come after the menu has closed, as they may replace it.
+void CompareView::addSceneActions(QMenu& menu, std::size_t slot) {
+    QAction* all = menu.addAction(tr("Show all data"), this, [this, slot] { slots_[slot].plot->showAll(); });
+    QAction* keep = menu.addAction(tr("Keep this part in the scene"), this,
+                                   [this, slot] { keepPart(workspace_, slots_[slot].view, *slots_[slot].plot); });
+    QAction* forget = menu.addAction(tr("Keep all data in the scene"), this, [this, slot] {
+        View after = slots_[slot].view;
+        after.xRange = after.yRange = {};
+        slots_[slot].plot->fit();
+        workspace_.edit(editsForPlot(workspace_.scene(), slots_[slot].view, after), tr("Show all data"));
+    });
+    QAction* curve = menu.addAction(tr("Compare with a curve..."), this,
+                                    [this, slot] { askForCurve(workspace_, slots_[slot].view, this); });
+    connect(&menu, &QMenu::aboutToShow, this, [this, slot, all, keep, forget, curve] {
+        const View& view = slots_[slot].view;
+        const ViewAxes axes = axesOf(view, system_);
+        const bool hasPart = view.xRange || view.yRange;
+        all->setVisible(hasPart);
+        forget->setVisible(hasPart);
+        keep->setVisible(axes.hasScales);
+        keep->setEnabled(slots_[slot].plot->isUserZoomed());
+        curve->setVisible(!axes.variable.empty());
+    });
 }
 
 void CompareView::arrange() {

@@ -9,6 +9,7 @@
 #include "engine/scene/scene.hpp"
 
 class QGridLayout;
+class QMenu;
 
 namespace extremal {
 
@@ -45,6 +46,7 @@ private:
         PlotWidget* plot;
     };
     void rebuild();   ///< another set of views
+    void addSceneActions(QMenu& menu, std::size_t slot);
     void arrange();   ///< the same cards, another width
     void refresh();   ///< new results
     void alignMargins();

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/figure/figure.hpp"
+
 // The resources live in a static library: the linker keeps them only if somebody asks. Must be outside namespaces.
 static void initResources() { Q_INIT_RESOURCE(resources); }
 
@@ -71,6 +73,7 @@ SeriesStyle Theme::series(int style) const {
         {7, 2, 1.6, 2, 1.6, 2},    // dash dot dot
         {7, 2, 2.6, 2},            // long short
     }};
+    if (style == formulaStyle) return {muted, {4.5, 3.5}};
     const int count = static_cast<int>(dashes.size());
     const int i = std::max(0, style);
     const int turn = i / count;

@@ -12,7 +12,7 @@ Figure makeAdiabaticInvariant(const FigureContext& context) {
 
 ViewEntry adiabatic_invariant() {
     return {{"adiabatic-invariant", "Adiabatic invariant", "fast energy over its frequency against time; nearly constant over very long times",
-             {}, {}, {}}, "adiabatic-invariant", makeAdiabaticInvariant};
+             {}, {}, {}}, "adiabatic-invariant", makeAdiabaticInvariant, nullptr, againstTime};
 }
 
 }  // namespace extremal::views

@@ -61,7 +61,7 @@ Figure makeCarpet(const FigureContext& context) {
 }  // namespace
 
 ViewEntry carpet() {
-    return {{"carpet", "Carpet", "a field over time and space; of wave functions modulus and phase", {}, {}, {}}, "", makeCarpet};
+    return {{"carpet", "Carpet", "a field over time and space; of wave functions modulus and phase", {}, {}, {}}, "", makeCarpet, nullptr, againstTime};
 }
 
 }  // namespace extremal::views

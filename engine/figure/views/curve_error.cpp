@@ -52,7 +52,7 @@ ViewEntry curve_error() {
              {},
              {}},
             "error",
-            makeCurveError};
+            makeCurveError, nullptr, logAgainstTime};
 }
 
 }  // namespace extremal::views

@@ -59,7 +59,7 @@ ViewEntry discrete_lagrangian() {
              {},
              {}},
             "",
-            makeDiscreteLagrangian};
+            makeDiscreteLagrangian, nullptr, logScales};
 }
 
 }  // namespace extremal::views

@@ -33,7 +33,7 @@ Figure makeEnergy(const FigureContext& context) {
 
 ViewEntry energy() {
     return {{"energy", "Energy error", "|H(t) − H(0)| of every scheme against time, logarithmic", {}, {}, {}},
-            "energy", makeEnergy};
+            "energy", makeEnergy, nullptr, logAgainstTime};
 }
 
 }  // namespace extremal::views

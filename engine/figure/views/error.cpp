@@ -44,7 +44,7 @@ Figure makeError(const FigureContext& context) {
 }  // namespace
 
 ViewEntry error() {
-    return {{"error", "Error", "distance to the reference solution against time, logarithmic", {}, {}, {}}, "error", makeError};
+    return {{"error", "Error", "distance to the reference solution against time, logarithmic", {}, {}, {}}, "error", makeError, nullptr, logAgainstTime};
 }
 
 }  // namespace extremal::views

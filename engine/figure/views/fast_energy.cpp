@@ -12,7 +12,7 @@ Figure makeFastEnergy(const FigureContext& context) {
 
 ViewEntry fast_energy() {
     return {{"fast-energy", "Fast energy", "energy of the fast oscillation against time; for models that know a fast oscillation of their own",
-             {}, {}, {}}, "fast-energy", makeFastEnergy};
+             {}, {}, {}}, "fast-energy", makeFastEnergy, nullptr, againstTime};
 }
 
 }  // namespace extremal::views

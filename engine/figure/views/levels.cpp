@@ -68,7 +68,7 @@ Figure makeLevels(const FigureContext& context) {
 }  // namespace
 
 ViewEntry levels() {
-    return {{"levels", "Energy levels", "the potential and the lowest energies of a wave function", {}, {}, {}}, "", makeLevels};
+    return {{"levels", "Energy levels", "the potential and the lowest energies of a wave function", {}, {}, {}}, "", makeLevels, nullptr, againstPlace};
 }
 
 }  // namespace extremal::views

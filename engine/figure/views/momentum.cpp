@@ -38,7 +38,7 @@ Figure makeMomentum(const FigureContext& context) {
 
 ViewEntry momentum() {
     return {{"momentum", "Momentum error", "norm of the change of the conserved momenta against time, logarithmic", {}, {}, {}},
-            "momentum", makeMomentum};
+            "momentum", makeMomentum, nullptr, logAgainstTime};
 }
 
 }  // namespace extremal::views

@@ -18,7 +18,7 @@ Figure makeNorm(const FigureContext& context) {
 
 ViewEntry norm() {
     return {{"norm", "Norm error", "change of the norm of the wave function against time, logarithmic", {}, {}, {}},
-            "norm", makeNorm};
+            "norm", makeNorm, nullptr, logAgainstTime};
 }
 
 }  // namespace extremal::views

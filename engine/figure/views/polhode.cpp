@@ -143,7 +143,7 @@ Figure makePolhode(const FigureContext& context) {
 
 ViewEntry polhode() {
     return {{"polhode", "Polhode", "the momentum in the body on its sphere, with curves of equal energy; rigid bodies", {}, {}, {}},
-            "", makePolhode};
+            "", makePolhode, nullptr, noScales};
 }
 
 }  // namespace extremal::views

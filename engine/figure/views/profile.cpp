@@ -58,7 +58,7 @@ Figure makeProfile(const FigureContext& context) {
 
 ViewEntry profile() {
     return {{"profile", "Profile", "a field over space at the end; of wave functions the modulus, and the potential", {}, {}, {}},
-            "", makeProfile};
+            "", makeProfile, nullptr, againstPlace};
 }
 
 }  // namespace extremal::views

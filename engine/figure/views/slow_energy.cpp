@@ -12,7 +12,7 @@ Figure makeSlowEnergy(const FigureContext& context) {
 
 ViewEntry slow_energy() {
     return {{"slow-energy", "Slow energy", "energy without that of the fast oscillation against time",
-             {}, {}, {}}, "slow-energy", makeSlowEnergy};
+             {}, {}, {}}, "slow-energy", makeSlowEnergy, nullptr, againstTime};
 }
 
 }  // namespace extremal::views

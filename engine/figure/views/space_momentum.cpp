@@ -7,6 +7,7 @@ ViewEntry space_momentum() {
     ViewEntry e{{"space-momentum", "Space momentum", "components of the angular momentum in space axes against time, a plot each; rigid bodies", {}, {}, {}},
                 "", [](const FigureContext& context) { return momentumComponent(context, "space"); }};
     e.columns = [](const System& system) { return momentumColumns(system, "space"); };
+    e.scales = againstTime;
     return e;
 }
 

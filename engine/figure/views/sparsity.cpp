@@ -91,7 +91,7 @@ ViewEntry sparsity() {
              {},
              {}},
             "",
-            makeSparsity};
+            makeSparsity, nullptr, noScales};
 }
 
 }  // namespace extremal::views

@@ -47,7 +47,7 @@ Figure makeSpectrum(const FigureContext& context) {
 
 ViewEntry spectrum() {
     return {{"spectrum", "Spectrum", "size of the Fourier coefficients of the wave function at the end, logarithmic", {}, {}, {}},
-            "", makeSpectrum};
+            "", makeSpectrum, nullptr, {true, false, true}};
 }
 
 }  // namespace extremal::views

@@ -13,14 +13,20 @@ std::string firstCoordinate(const FigureContext& context) {
     return "q";
 }
 
+bool isOrbitIn(const View& view, const System& system) {
+    return view.x.empty() && view.y.empty() && system.hasPlanarTrajectory;
+}
+
+std::string xOf(const View& view, const System& system) {
+    if (isOrbitIn(view, system)) return system.trajectoryX;
+    return view.x.empty() ? std::string("t") : view.x;
+}
+
 Figure makeTrajectory(const FigureContext& context) {
-    std::string x = context.view.x, y = context.view.y;
-    const bool isOrbit = x.empty() && y.empty() && context.system && context.system->hasPlanarTrajectory;
-    if (isOrbit) {
-        x = context.system->trajectoryX;
-        y = context.system->trajectoryY;
-    }
-    if (x.empty()) x = std::string("t");
+    const bool isOrbit = context.system && isOrbitIn(context.view, *context.system);
+    const std::string x = context.system ? xOf(context.view, *context.system)
+                                         : context.view.x.empty() ? std::string("t") : context.view.x;
+    std::string y = isOrbit ? context.system->trajectoryY : context.view.y;
     if (y.empty() && context.system) y = context.system->trajectoryY;
     if (y.empty()) y = firstCoordinate(context);
 
@@ -47,8 +53,14 @@ std::vector<std::string> timePlots(const System& system) {
 }  // namespace
 
 ViewEntry trajectory() {
-    return {{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time", {}, {}, {}}, "", makeTrajectory,
-            timePlots};
+    ViewEntry e{{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time",
+                 {textField("x", "x", "", "column to the right, by default the time"),
+                  textField("y", "y", "", "column upwards, by default the first coordinate")},
+                 {}, {}},
+                "", makeTrajectory, timePlots};
+    e.scales.across = Across::column;
+    e.xColumn = xOf;
+    return e;
 }
 
 }  // namespace extremal::views

@@ -53,7 +53,7 @@ Figure makeWorkPrecision(const FigureContext& context) {
 
 ViewEntry work_precision() {
     return {{"work-precision", "Speed against accuracy", "largest error over CPU time, one point per scheme", {}, {}, {}},
-            "", makeWorkPrecision};
+            "", makeWorkPrecision, nullptr, logScales};
 }
 
 }  // namespace extremal::views

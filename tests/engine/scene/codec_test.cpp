@@ -112,6 +112,26 @@ private slots:
         row("/observe=energy", "/observe", "must be an array");
         row("/views=[\"fase\"]", "/views/0", "unknown view \"fase\"", "phase");
         row("/views=[{\"view\":\"phase\",\"x\":\"q.z\"}]", "/views/0/x", "unknown column \"q.z\"", "q.x");
+        row("/views=[{\"view\":\"energy\",\"y\":\"q.x\"}]", "/views/0/y", "is only for phase portraits, trajectories");
+        row("/views=[{\"view\":\"phase\",\"range\":[0,1]}]", "/views/0/range", "must be an object");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"z\":[0,1]}}]", "/views/0/range/z", "unknown key \"z\"");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":3}}]", "/views/0/range/x", "must be an array of two numbers");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":[1]}}]", "/views/0/range/x", "must have two numbers");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"y\":[\"2*mu\",1]}}]", "/views/0/range/y",
+            "must be two increasing numbers, got 2 and 1");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"y\":[1,\"mi\"]}}]", "/views/0/range/y/1", "unknown name \"mi\"", "did you mean");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":[1,1.0000000000001]}}]", "/views/0/range/x", "too close together");
+        row("/views=[{\"view\":\"energy\",\"range\":{\"y\":[0,1]}}]", "/views/0/range/y/0",
+            "must be a positive finite number, got 0", "logarithmic");
+        row("/views=[{\"view\":\"work-precision\",\"range\":{\"x\":[-1,1]}}]", "/views/0/range/x/0", "got -1", "logarithmic");
+        row("/views=[{\"view\":\"stage\",\"range\":{\"x\":[0,1]}}]", "/views/0/range", "stage has no axes", "leave it out");
+        row("/views=[{\"view\":\"sparsity\",\"range\":{}}]", "/views/0/range", "sparsity has no axes");
+        row("/views=[{\"view\":\"energy\",\"curve\":3}]", "/views/0/curve", "must be a text in quotes");
+        row("/views=[{\"view\":\"energy\",\"curve\":\"sin(t\"}]", "/views/0/curve", "    sin(t\n       ^");
+        row("/views=[{\"view\":\"energy\",\"curve\":\"mu*sin(s)\"}]", "/views/0/curve", "unknown name \"s\"\n    mu*sin(s)\n           ^");
+        row("/views=[{\"view\":\"phase\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place", "\"x\": \"t\"");
+        row("/views=[{\"view\":\"trajectory\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place");
+        row("/views=[{\"view\":\"stage\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place");
         row("/output/every=0", "/output/every", "must be a positive finite number");
         row("/output/every=1e-12", "/output/every", "asks for 3e+12 rows");
         row("/output/dense=true", "/output/dense", "needs an interval");
@@ -256,6 +276,23 @@ private slots:
             QVERIFY(second.scene == first.scene);
             QCOMPARE(writeScene(second.scene), saved);
         }
+    }
+
+    void thePartAndTheCurveOfAViewAreKeptAsTheyWereWritten() {
+        const std::string views = R"(/views=[{"view":"trajectory","y":"q.y","range":{"x":[1,"1+mu"]},"curve":"mu*cos(t)+pi"},
+                                    {"view":"error","range":{"y":["mu/1e6",1]},"curve":"1e-6*t^2"},"phase"])";
+        const ReadScene first = readScene(good, {parseOverride(views), parseOverride("/model/mu=2"),
+                                                 parseOverride("/views/0/range/y=[0,\"mu^3\"]")});
+        QVERIFY2(first.errors.empty(), textOf(first.errors).c_str());
+        const View &a = first.scene.views[0], &b = first.scene.views[1];
+        QCOMPARE(a.xRange->high.value, 3.0);
+        QCOMPARE(a.xRange->high.expression, std::string("1+mu"));
+        QCOMPARE(a.yRange->high.value, 8.0);
+        QVERIFY(!b.xRange && b.yRange->low.value == 2e-6);
+        QVERIFY((a.curve == ViewCurve{"mu*cos(t)+pi", {{"mu", 2.0}}}) && b.curve.values.empty());
+        const std::string saved = writeScene(first.scene);
+        QVERIFY(saved.find("\"mu^3\"") != std::string::npos && saved.find("\"mu*cos(t)+pi\"") != std::string::npos);
+        QVERIFY(readScene(saved).scene == first.scene);
     }
 
     void jsonTextIsByteStable() {

@@ -1,0 +1,194 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/format.hpp"
+#include "engine/scene/pointer.hpp"
+#include "engine/scene/read_parts.hpp"
+#include "engine/scene/view_axes.hpp"
+
+namespace extremal {
+namespace {
+
+bool isOneOf(const std::vector<std::string>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The columns of a CSV of this scene: what a phase portrait can show.
+std::vector<std::string> stateNames(const System& system) {
+    std::vector<std::string> names{"t"};
+    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
+    return names;
+}
+
+std::vector<std::string> columnNames(const System& system, const Scene& scene) {
+    std::vector<std::string> names{"t"};
+    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
+    const State initial = initialState(scene, system);
+    for (const std::string& id : scene.observe)
+        if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
+            for (const Column& column : entry->bind({system, initial, {}}).columns)
+                names.push_back(column.name);
+    return names;
+}
+
+/// What a view is read with, and its place in the document.
+struct ViewReader {
+    Reader& reader;
+    const System* system;  ///< null: the model is wrong
+    const Scene& scene;
+    const Value& object;
+    std::string pointer;
+
+    void readColumns(View& view) const;
+    void readScheme(View& view) const;
+    void readRanges(View& view, const ViewAxes& axes) const;
+    void readCurve(View& view, const ViewAxes& axes) const;
+    void warnOfNothing(const View& view) const;
+
+private:
+    std::optional<ViewRange> rangeOf(const Value& value, const std::string& at, bool isLog) const;
+};
+
+void ViewReader::readColumns(View& view) const {
+    const bool isSection = view.id == "section";
+    for (const auto& [key, target] : {std::pair{"x", &view.x}, std::pair{"y", &view.y}}) {
+        const Value* column = object.find(key);
+        if (!column) continue;
+        const std::string at = childPointer(pointer, key);
+        *target = reader.text(*column, at).value_or("");
+        if (view.id != "phase" && view.id != "trajectory" && !isSection)
+            reader.error(at, "is only for phase portraits, trajectories and sections");
+        else if (system && isSection && column->isString() && !isOneOf(stateNames(*system), *target))
+            reader.unknownName(at, "state column", *target, stateNames(*system));
+        else if (system && column->isString() && !isOneOf(columnNames(*system, scene), *target))
+            reader.unknownName(at, "column", *target, columnNames(*system, scene));
+    }
+    const Value* column = object.find("at");
+    if (!column) return;
+    const std::string at = childPointer(pointer, "at");
+    view.at = reader.text(*column, at).value_or("");
+    if (!isSection)
+        reader.error(at, "is only for sections");
+    else if (system && column->isString() && (view.at == "t" || !isOneOf(stateNames(*system), view.at)))
+        reader.unknownName(at, "state column", view.at, stateNames(*system));
+}
+
+void ViewReader::readScheme(View& view) const {
+    const Value* label = object.find("scheme");
+    if (!label) return;
+    const std::string at = childPointer(pointer, "scheme");
+    view.scheme = reader.text(*label, at).value_or("");
+    std::vector<std::string> labels;
+    for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
+    if (view.id != "sparsity" && view.id != "carpet")
+        reader.error(at, "is only for pictures of one scheme", "the views sparsity and carpet");
+    else if (label->isString() && reader.errors.empty() && !isOneOf(labels, view.scheme))
+        reader.unknownName(at, "scheme", view.scheme, labels);
+}
+
+std::optional<ViewRange> ViewReader::rangeOf(const Value& value, const std::string& at, bool isLog) const {
+    if (!reader.isArray(value, at, "two numbers")) return {};
+    const Value::Array& ends = value.asArray();
+    if (ends.size() != 2) {
+        reader.error(at, "must have two numbers, the lower end and the upper one, got " + std::to_string(ends.size()));
+        return {};
+    }
+    Limits limits;
+    if (isLog) limits = Limits::positive();
+    if (isLog) limits.hint = "this axis is logarithmic";
+    const auto low = reader.number(ends[0], at + "/0", limits), high = reader.number(ends[1], at + "/1", limits);
+    if (!low || !high) return {};
+    const std::string got = ", got " + formatNumber(low->value) + " and " + formatNumber(high->value);
+    if (!(low->value < high->value)) {
+        reader.error(at, "must be two increasing numbers" + got);
+    } else if (isLog ? !isDrawable(std::log10(low->value), std::log10(high->value), true)
+                     : !isDrawable(low->value, high->value, false)) {
+        reader.error(at, "cannot be drawn, the ends are too close together or too large" + got);
+    } else {
+        return ViewRange{*low, *high};
+    }
+    return {};
+}
+
+void ViewReader::readRanges(View& view, const ViewAxes& axes) const {
+    const Value* range = object.find("range");
+    const std::string at = childPointer(pointer, "range");
+    if (!range || !reader.isObject(*range, at)) return;
+    if (!axes.hasScales)
+        return reader.error(at, "is for plots, and " + view.id + " has no axes with numbers", "leave it out");
+    reader.checkKeys(*range, at, format::range);
+    if (const Value* x = range->find("x")) view.xRange = rangeOf(*x, at + "/x", axes.isXLog);
+    if (const Value* y = range->find("y")) view.yRange = rangeOf(*y, at + "/y", axes.isYLog);
+}
+
+void ViewReader::readCurve(View& view, const ViewAxes& axes) const {
+    const Value* curve = object.find("curve");
+    if (!curve) return;
+    const std::string at = childPointer(pointer, "curve");
+    const auto text = reader.text(*curve, at);
+    if (!text) return;
+    if (axes.variable.empty())
+        return reader.error(at, "is for plots against time or a place, and this one is against something else",
+                            "a trajectory against t, say: \"x\": \"t\"");
+    if (const auto read = reader.curve(*text, at, axes.variable)) view.curve = *read;
+}
+
+void ViewReader::warnOfNothing(const View& view) const {
+    if (view.id == "curve-error" && !isOneOf(scene.observe, "error"))
+        reader.warning(pointer, "shows nothing: error is not observed", "add it to /observe");
+    for (const char* id : {"energy", "momentum", "error", "norm", "fast-energy", "slow-energy", "adiabatic-invariant"}) {
+        if (view.id != id || isOneOf(scene.observe, id)) continue;
+        const ObservableEntry* observable = findObservable(id);
+        const bool isThere = !system || !observable || appliesTo(*observable, *system);
+        reader.warning(pointer, "shows nothing: " + view.id + (isThere ? " is not observed" : " is nothing this model has"),
+                       isThere ? "add it to /observe" : "leave it out");
+    }
+}
+
+}  // namespace
+
+void readViews(Reader& reader, const Value& document, const System* system, Scene& scene) {
+    const Value* views = document.find("views");
+    if (!views) {
+        std::vector<std::string> ids{"stage"};
+        for (const char* id : {"energy", "momentum", "error"})
+            if (isOneOf(scene.observe, id)) ids.emplace_back(id);
+        ids.insert(ids.end(), {"trajectory", "phase"});
+        for (const std::string& id : ids) scene.views.push_back({id, {}, {}});
+        return;
+    }
+    if (!reader.isArray(*views, "/views", "names")) return;
+    const auto known = idsOf(viewCatalog());
+    for (std::size_t i = 0; i < views->asArray().size(); ++i) {
+        const std::string pointer = childPointer("/views", i);
+        const Value& value = views->asArray()[i];
+        const Value object = value.isString() ? Value(Value::Object{{"view", value}}) : value;
+        if (!reader.isObject(object, pointer)) continue;
+        reader.checkKeys(object, pointer, format::view);
+        const std::string place = value.isString() ? pointer : pointer + "/view";
+        const Value* name = object.find("view");
+        if (!name) {
+            reader.error(place, "is required", "known: " + joinNames(known));
+            continue;
+        }
+        View view;
+        view.id = reader.text(*name, place).value_or("");
+        const bool isKnown = isOneOf(known, view.id);
+        if (name->isString() && !isKnown) reader.unknownName(place, "view", view.id, known);
+        const ViewReader parts{reader, system, scene, object, pointer};
+        parts.readColumns(view);
+        parts.readScheme(view);
+        if (isKnown && system) {
+            const ViewAxes axes = axesOf(view, *system);
+            parts.readRanges(view, axes);
+            parts.readCurve(view, axes);
+        }
+        parts.warnOfNothing(view);
+        scene.views.push_back(view);
+    }
+}
+
+}  // namespace extremal

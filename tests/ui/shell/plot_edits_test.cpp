@@ -1,0 +1,141 @@
+/// The part of a plot and its curve, kept in the scene by the menu of its card.
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPushButton>
+#include <QTest>
+#include <QTimer>
+#include <QWheelEvent>
+
+#include <algorithm>
+
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
+#include "ui/panels/card.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/compare_view.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/plot_edits.hpp"
+#include "ui/shell/run_control.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+class PlotEditsTest : public QObject {
+    Q_OBJECT
+
+    static bool waitForResults(MainWindow& window) {
+        return QTest::qWaitFor(
+            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
+    }
+    static PlotWidget* plot(MainWindow& window, std::size_t i) { return window.compareView().plots().at(i); }
+    /// Chooses an entry of the menu of a plot's card as a click does.
+    static bool choose(MainWindow& window, std::size_t i, const QString& text) {
+        QWidget* parent = plot(window, i)->parentWidget();
+        while (parent && !qobject_cast<Card*>(parent)) parent = parent->parentWidget();
+        QMenu* menu = qobject_cast<Card*>(parent)->menu();
+        emit menu->aboutToShow();
+        for (QAction* action : menu->actions())
+            if (action->text() == text && action->isVisible() && action->isEnabled()) return action->trigger(), true;
+        return false;
+    }
+
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void rangesAreSavedWithTheDigitsThatShow() {
+        const auto text = [](PlotRange r, bool isLog) {
+            const ViewRange v = roundedRange(r, isLog);
+            return std::pair{v.low.value, v.high.value};
+        };
+        QCOMPARE(text({1.00000001234, 1.25132741228718}, false), (std::pair{1.0, 1.25133}));
+        QCOMPARE(text({-123456.7, 654321.9}, false), (std::pair{-123460.0, 654320.0}));
+        QCOMPARE(text({1.23456e-9, 0.0314159}, true), (std::pair{1.235e-9, 0.03142}));
+    }
+    void aViewOfSeveralPlotsIsSplit() {
+        const Scene scene = readScene(findPreset("spring-pendulum")->json).scene;  // "trajectory": a and theta
+        const View before{"trajectory", "t", "q.theta"};
+        View after = before;
+        after.xRange = ViewRange{{1, {}}, {2, {}}};
+        const auto edits = editsForPlot(scene, before, after);
+        const Value& views = *edits.at(0).value;
+        QCOMPARE(views.asArray().size(), scene.views.size() + 1);
+        QCOMPARE(views.asArray()[3].find("y")->asString(), std::string("q.a"));
+        QVERIFY(!views.asArray()[3].find("range") && views.asArray()[4].find("range"));
+    }
+    void whatIsShownIsKeptAndForgotten() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        QTest::qWait(50);  // drawn once
+        const PlotRange all = plot(window, 1)->visibleRange(PlotAxis::x);
+        QVERIFY(!choose(window, 1, "Keep this part in the scene"));  // nothing to keep
+        plot(window, 1)->setTimeRange(PlotRange{1, 2});
+        QVERIFY(choose(window, 1, "Keep this part in the scene"));
+        const auto part = [&] {
+            for (const View& v : window.workspace().scene().views)
+                if (v.xRange) return std::optional(*v.xRange);
+            return std::optional<ViewRange>();
+        };
+        for (const Problem& p : window.workspace().problemsAt("/views")) qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
+        QVERIFY(part());
+        QCOMPARE((std::pair{part()->low.value, part()->high.value}), (std::pair{1.0, 2.0}));
+        QVERIFY(waitForResults(window));
+        QVERIFY(std::none_of(window.workspace().scene().views.begin(), window.workspace().scene().views.end(),
+                             [](const View& v) { return v.yRange.has_value(); }));
+        QWidget* canvas = plot(window, 1)->childAt(plot(window, 1)->rect().center());
+        const QPointF middle = canvas->rect().center();
+        QWheelEvent wheel(middle, canvas->mapToGlobal(middle), {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+        QApplication::sendEvent(canvas, &wheel);
+        QVERIFY(choose(window, 1, "Keep this part in the scene"));
+        for (const Problem& p : window.workspace().problemsAt("/views")) qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
+        QVERIFY(part()->low.value > 1 && part()->high.value < 2);
+        window.workspace().undo();
+        QVERIFY(waitForResults(window));
+        plot(window, 1)->fit();  // to the part, not to all
+        QTest::qWait(50);
+        QCOMPARE(plot(window, 1)->visibleRange(PlotAxis::x).high, 2.0);
+        QVERIFY(choose(window, 1, "Show all data"));
+        QCOMPARE(plot(window, 1)->visibleRange(PlotAxis::x).high, all.high);
+        QVERIFY(part());
+        QVERIFY(choose(window, 1, "Keep all data in the scene"));
+        QVERIFY(!part());
+        QVERIFY(waitForResults(window));
+        QTest::qWait(50);
+        QVERIFY(!plot(window, 1)->isUserZoomed() && plot(window, 1)->visibleRange(PlotAxis::x) == all);
+    }
+    void aCurveIsAskedForAndItsMistakesAreShown() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        QString shown;
+        QTimer::singleShot(0, [&] {
+            auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+            auto* input = dialog->findChild<QLineEdit*>();
+            QPushButton* ok = dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+            input->setText("cos(t");
+            ok->click();
+            for (const QLabel* label : dialog->findChildren<QLabel*>()) shown += label->text();
+            input->setText("1e-3*sqrt(g/l)*t");
+            ok->click();
+        });
+        QVERIFY(choose(window, 1, "Compare with a curve..."));
+        QVERIFY2(shown.contains("a bracket that is not closed"), qPrintable(shown));
+        QVERIFY(!window.workspace().hasDrafts());
+        QVERIFY(waitForResults(window));
+        QTest::qWait(50);
+        const auto& series = plot(window, 1)->figure().series;
+        QVERIFY(series.back().style == formulaStyle && series.back().label == "1e-3*sqrt(g/l)*t");
+    }
+};
+
+}  // namespace extremal
+
+QTEST_MAIN(extremal::PlotEditsTest)
+#include "plot_edits_test.moc"

@@ -1,0 +1,93 @@
+#include "ui/shell/plot_edits.hpp"
+
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QFontDatabase>
+#include <QLabel>
+#include <QLineEdit>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/figure/figure.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/view_axes.hpp"
+#include "ui/panels/card.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const View& after) {
+    Scene changed = scene;
+    changed.views.clear();
+    bool isThere = false;
+    for (const View& view : scene.views.empty() ? plotViews(scene) : scene.views) {
+        Scene alone = scene;
+        alone.views = {view};
+        std::vector<View> plots = plotViews(alone);
+        const auto found = std::find(plots.begin(), plots.end(), before);
+        if (isThere || found == plots.end()) {
+            changed.views.push_back(view);
+            continue;
+        }
+        isThere = true;
+        *found = after;
+        changed.views.insert(changed.views.end(), plots.begin(), plots.end());
+    }
+    if (!isThere) changed.views.push_back(after);  // one that is always shown
+    return {{"/views", *toValue(changed).find("views")}};
+}
+
+ViewRange roundedRange(PlotRange range, bool isLog) {
+    const auto rounded = [&](double value) {
+        const double size = isLog ? value : range.high - range.low;
+        const double unit = std::pow(10, std::floor(std::log10(size)) - (isLog ? 3 : 4));
+        // Through a whole number of an inverse power: the nearest double to the decimal number, so that it is saved as that.
+        return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
+    };
+    return {{rounded(range.low), {}}, {rounded(range.high), {}}};
+}
+
+void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot) {
+    View after = view;
+    if (plot.isUserZoomed(PlotAxis::x)) after.xRange = roundedRange(plot.visibleRange(PlotAxis::x), plot.figure().x.isLog);
+    if (plot.isUserZoomed(PlotAxis::y)) after.yRange = roundedRange(plot.visibleRange(PlotAxis::y), plot.figure().y.isLog);
+    workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Keep the part a plot shows"));
+}
+
+void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {
+    QDialog dialog(parent);
+    dialog.setWindowTitle(QObject::tr("Compare with a curve"));
+    dialog.setMinimumWidth(440);
+    auto* layout = new QVBoxLayout(&dialog);
+    const System system = makeSystem(workspace.scene());
+    const QString variable = QString::fromStdString(axesOf(view, system).variable);
+    layout->addWidget(makeLabel(QObject::tr("An expression in %1 and the model's parameters; empty: no curve.").arg(variable), "caption"));
+    auto* input = new QLineEdit(QString::fromStdString(view.curve.expression));
+    input->setAccessibleName(QObject::tr("Curve"));
+    input->setPlaceholderText(QStringLiteral("0.5*cos(2*pi*%1)").arg(variable));
+    auto* problem = new QLabel;
+    problem->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
+    problem->setTextFormat(Qt::PlainText);
+    problem->hide();
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel);
+    layout->addWidget(input);
+    layout->addWidget(problem);
+    layout->addWidget(buttons);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+    QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, [&] {
+        View after = view;
+        after.curve = {input->text().trimmed().toStdString(), {}};
+        if (workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Compare with a curve"))) return dialog.accept();
+        const auto problems = workspace.problemsAt("/views");
+        problem->setText(problems.empty() ? QObject::tr("This is refused.") : QString::fromStdString(problems.front().message));
+        problem->show();
+        workspace.dropDraft("/views");
+    });
+    dialog.exec();
+}
+
+}  // namespace extremal

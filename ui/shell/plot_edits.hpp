@@ -1,0 +1,28 @@
+/// What the scene keeps of a plot, as edits of the document: the part it shows, and a curve to compare with.
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "ui/plots/view_state.hpp"
+#include "ui/shell/document.hpp"
+
+class QWidget;
+
+namespace extremal {
+
+class PlotWidget;
+class Workspace;
+
+/// The scene's views with one of the plots shown changed. A view that stands for several plots is split into them.
+std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const View& after);
+
+/// A range with no more digits than a plot can show: a ten-thousandth of its width, or four digits on a logarithmic axis.
+ViewRange roundedRange(PlotRange range, bool isLog);
+
+/// Makes the part that the plot shows now that of the scene, along the axes that the user zoomed.
+void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot);
+/// Asks for an expression and draws it in the plot; an empty one removes it.
+void askForCurve(Workspace& workspace, const View& view, QWidget* parent);
+
+}  // namespace extremal
