@@ -145,7 +145,7 @@ std::string extremesText(const Figure& figure) {
     double high = 0, low = 0;
     for (const Series& s : figure.series) {
         const double m = maxMagnitude(s.y);
-        if (m == 0 || s.style == formulaStyle) continue;
+        if (m == 0 || s.style < 0) continue;
         if (!most || m > high) most = &s, high = m;
         if (!least || m < low) least = &s, low = m;
     }

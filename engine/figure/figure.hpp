@@ -20,8 +20,8 @@ struct Axis {
     std::vector<std::pair<double, std::string>> ticks = {};  ///< named places in place of numbers, without a grid
 };
 
-/// The style of a curve that is no scheme's: a thin dashed neutral line.
-inline constexpr int formulaStyle = -1;
+/// The styles of curves that are no scheme's: a thin dashed neutral line, and a solid one.
+inline constexpr int formulaStyle = -1, exactStyle = -2;
 
 struct Series {
     std::string label;   ///< the scheme's label

@@ -23,6 +23,32 @@ double coefficient(const EllipticProblem& p, double x) {
 
 }  // namespace
 
+EllipticHat ellipticHat(const EllipticProblem& problem, EllipticElements kind, int elements, int node) {
+    const Rule<double> rule = gauss<double>(12);
+    const int n = static_cast<int>(std::clamp(std::ceil(40 / (problem.epsilon * elements)), 100.0, 4000.0));
+    const double width = 1.0 / (static_cast<double>(n) * elements);
+    const int panels = static_cast<int>(std::max(1.0, std::ceil(4 * width / problem.epsilon)));
+    const auto place = [&](int i) { return node / static_cast<double>(elements) + i * width; };
+    // R from the left end of the two elements on; for hats, x.
+    EllipticHat hat;
+    std::vector<long double> R{0};
+    for (int i = -n; i < n; ++i) {
+        long double sum = R.back();
+        if (kind == EllipticElements::linear) sum += width;
+        for (int p = 0; p < panels && kind == EllipticElements::multiscale; ++p)
+            for (std::size_t j = 0; j < rule.c.size(); ++j)
+                sum += rule.b[j] * width / panels / coefficient(problem, place(i) + (p + rule.c[j]) * width / panels);
+        R.push_back(sum);
+    }
+    const auto middle = R[static_cast<std::size_t>(n)], end = R.back();
+    for (int i = -n; i <= n; ++i) {
+        const auto here = R[static_cast<std::size_t>(i + n)];
+        hat.x.push_back(place(i));
+        hat.phi.push_back(static_cast<double>(i <= 0 ? here / middle : (end - here) / (end - middle)));
+    }
+    return hat;
+}
+
 EllipticSolution::EllipticSolution(EllipticProblem problem, int elements)
     : problem_(std::move(problem)), elements_(elements) {
     const Rule<double> rule = gauss<double>(12);

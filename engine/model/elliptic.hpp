@@ -25,6 +25,13 @@ struct EllipticProblem {
 
 enum class EllipticElements { multiscale, linear };
 
+/// The shape function of a node over the two elements it belongs to, at places dense enough for its oscillation to be seen
+/// (40 for each epsilon, at most 4000 an element). 0 < node < elements.
+struct EllipticHat {
+    std::vector<double> x, phi;
+};
+EllipticHat ellipticHat(const EllipticProblem& problem, EllipticElements kind, int elements, int node);
+
 /// u and R anywhere, by one sweep of panels.
 class EllipticSolution {
 public:

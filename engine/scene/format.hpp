@@ -14,7 +14,7 @@ inline const std::vector<std::string> initial = {"q", "p", "v", "q1", "at"};
 inline const std::vector<std::string> output = {"every", "dense"};
 inline const std::vector<std::string> limits = {"steps"};
 inline const std::vector<std::string> reference = {"type", "scheme", "path"};
-inline const std::vector<std::string> view = {"view", "x", "y", "at", "scheme", "range", "curve"};
+inline const std::vector<std::string> view = {"view", "x", "y", "at", "scheme", "node", "range", "curve"};
 inline const std::vector<std::string> range = {"x", "y"};
 inline const std::vector<std::string> scheme = {"label",  "enabled",        "step",       "tolerance",
                                                 "space",  "quadrature",     "baseline",   "scheme",

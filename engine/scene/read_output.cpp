@@ -119,7 +119,8 @@ void readReference(Reader& reader, const Value& document, const std::string& dir
 void readObserve(Reader& reader, const Value& document, const System* system, Scene& scene) {
     const Value* observe = document.find("observe");
     if (!observe) {
-        scene.observe = {"energy", "error"};
+        for (const char* id : {"energy", "error"})
+            if (!system || !isLacking(*system, id)) scene.observe.emplace_back(id);
         return;
     }
     if (!reader.isArray(*observe, "/observe", "names")) return;

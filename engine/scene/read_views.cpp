@@ -44,6 +44,7 @@ struct ViewReader {
 
     void readColumns(View& view) const;
     void readScheme(View& view) const;
+    void readNode(View& view) const;
     void readRanges(View& view, const ViewAxes& axes) const;
     void readCurve(View& view, const ViewAxes& axes) const;
     void warnOfNothing(const View& view) const;
@@ -87,6 +88,18 @@ void ViewReader::readScheme(View& view) const {
         reader.error(at, "is only for pictures of one scheme", "the views sparsity and carpet");
     else if (label->isString() && reader.errors.empty() && !isOneOf(labels, view.scheme))
         reader.unknownName(at, "scheme", view.scheme, labels);
+}
+
+void ViewReader::readNode(View& view) const {
+    const Value* node = object.find("node");
+    if (!node) return;
+    const std::string at = childPointer(pointer, "node");
+    if (view.id != "shape-function") return reader.error(at, "is only for the view shape-function");
+    double last = 1e5;  // of the scheme with the fewest elements
+    for (const SchemeSpec& s : scene.schemes)
+        if (const auto pair = pairOf(s); pair && pair->space.type == "elliptic-elements" && s.step.value > 0)
+            last = std::min(last, std::max(1.0, std::round(1 / s.step.value) - 1));
+    view.node = reader.number(*node, at, {1, last, false, true, "the nodes inside, from left to right"});
 }
 
 std::optional<ViewRange> ViewReader::rangeOf(const Value& value, const std::string& at, bool isLog) const {
@@ -181,6 +194,7 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         const ViewReader parts{reader, system, scene, object, pointer};
         parts.readColumns(view);
         parts.readScheme(view);
+        parts.readNode(view);
         if (isKnown && system) {
             const ViewAxes axes = axesOf(view, *system);
             parts.readRanges(view, axes);

@@ -75,6 +75,7 @@ struct View {
     std::string x, y;        ///< columns of a phase portrait or trajectory; empty: default
     std::string at = {};     ///< column whose zeros make a section; empty: the first coordinate
     std::string scheme = {}; ///< label, for pictures of one scheme; empty: of each
+    std::optional<Number> node = {}; ///< of a shape function; empty: the one in the middle
     std::optional<ViewRange> xRange = {}, yRange = {};
     ViewCurve curve = {};
     bool operator==(const View&) const = default;

@@ -206,6 +206,7 @@ Value viewChoice() {
     p.set("y", typed("string", "A column, for phase portraits, trajectories and sections."));
     p.set("at", typed("string", "The column whose zeros make a section."));
     p.set("scheme", typed("string", "The label of a scheme, for the view sparsity."));
+    p.set("node", reference("number"));
     Value ends = arrayOf(reference("number")), range{Value::Object{}};
     ends.set("minItems", 2);
     ends.set("maxItems", 2);

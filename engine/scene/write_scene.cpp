@@ -42,6 +42,7 @@ Value viewValue(const View& view) {
     if (!view.y.empty()) value.set("y", view.y);
     if (!view.at.empty()) value.set("at", view.at);
     if (!view.scheme.empty()) value.set("scheme", view.scheme);
+    if (view.node) value.set("node", numberValue(*view.node));
     Value range{Value::Object{}};
     if (view.xRange) range.set("x", rangeValue(*view.xRange));
     if (view.yRange) range.set("y", rangeValue(*view.yRange));

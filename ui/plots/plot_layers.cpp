@@ -16,7 +16,7 @@ PixelMap FigurePlot::Shared::map() const {
 
 QColor FigurePlot::Shared::colorOf(int style) const {
     const QColor c = theme.series(style).color;
-    if (!isStale || style == formulaStyle) return c;
+    if (!isStale || style < 0) return c;
     const auto mix = [](int a, int b) { return (35 * a + 65 * b) / 100; };  // opaque: overlaps must not show
     return {mix(c.red(), theme.panel.red()), mix(c.green(), theme.panel.green()), mix(c.blue(), theme.panel.blue())};
 }
@@ -101,7 +101,8 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
     const QFontMetricsF metrics(font);
     double top = map.rect.top() + 4;
     for (const Series& s : shared_.figure.series) {
-        if (s.style != formulaStyle || map.rect.width() < 100) continue;
+        const bool isTitled = s.style == exactStyle && shared_.figure.series.size() == 1;
+        if (s.style >= 0 || isTitled || map.rect.width() < 100) continue;
         const QString text = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight,
                                                 map.rect.width() - sample - gap - 2 * edge - 8);
         const double width = sample + gap + metrics.horizontalAdvance(text) + 2 * edge;
@@ -113,7 +114,7 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
         painter.drawRoundedRect(box, 4, 4);
         painter.setBrush(Qt::NoBrush);
         QPen pen(shared_.colorOf(s.style), 1.1, Qt::SolidLine, Qt::FlatCap);
-        pen.setDashPattern(shared_.theme.series(s.style).dash);
+        if (const auto dash = shared_.theme.series(s.style).dash; !dash.isEmpty()) pen.setDashPattern(dash);
         painter.setPen(pen);
         painter.drawLine(QPointF(box.left() + edge, box.center().y()), QPointF(box.left() + edge + sample, box.center().y()));
         painter.setFont(font);

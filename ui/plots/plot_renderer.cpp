@@ -54,7 +54,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     const double rowHeight = std::ceil(metrics.height()) + 3, sample = 26, gap = 6, space = 16;
     double x = rect.left(), y = rect.top();
     for (const Series& s : figure.series) {
-        if (s.isCells || s.style == formulaStyle) continue;  // named by the title, and in the plot itself
+        if (s.isCells || s.style < 0) continue;  // named by the title, and in the plot itself
         const QString label = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight, rect.width() - sample - gap);
         const double width = sample + gap + metrics.horizontalAdvance(label);
         if (x > rect.left() && x + width > rect.right()) {
@@ -84,7 +84,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     }
     const bool isNamed =
         std::any_of(figure.series.begin(), figure.series.end(),
-                    [](const Series& s) { return !s.isCells && s.style != formulaStyle; });
+                    [](const Series& s) { return !s.isCells && s.style >= 0; });
     return isNamed ? y + rowHeight - rect.top() : 0;
 }
 

@@ -298,7 +298,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 }
             } else if (was == Impl::Drag::maybe) {
                 const auto hit = s.content->hit(mouse->position(), hoverReach);
-                if (hit && figure().series[hit->series].style != formulaStyle)
+                if (hit && figure().series[hit->series].style >= 0)
                     emit pointClicked(figure().series[hit->series].style);
                 if (s.isTime() && map.rect.contains(mouse->position()))
                     emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));

@@ -74,6 +74,7 @@ SeriesStyle Theme::series(int style) const {
         {7, 2, 2.6, 2},            // long short
     }};
     if (style == formulaStyle) return {muted, {4.5, 3.5}};
+    if (style == exactStyle) return {text, {}};
     const int count = static_cast<int>(dashes.size());
     const int i = std::max(0, style);
     const int turn = i / count;

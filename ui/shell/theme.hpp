@@ -49,7 +49,7 @@ struct Theme {
 
     /// Colour and dash of the scheme with this place in the scene (0, 1, ...). Eight colours, each with its own dash;
     /// from the ninth scheme on the colours return with other dashes.
-    SeriesStyle series(int style) const;  ///< of a scheme, or formulaStyle
+    SeriesStyle series(int style) const;  ///< of a scheme, or of a curve that is none's
 
     QFont body() const;      ///< 12 px
     QFont strong() const;    ///< 12 px semi-bold: values, axis titles

@@ -8,6 +8,9 @@
 #include "engine/figure/fit_axes.hpp"
 #include "engine/figure/sample.hpp"
 #include "engine/figure/view.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
 #include "engine/scene/view_axes.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 
@@ -104,6 +107,26 @@ private slots:
         QCOMPARE(part.x.size(), std::size_t(4001));
         const Series tooFast = formulaSeries({"sin(1e6*t)", {}}, "t", 0, 10);
         QVERIFY(tooFast.label.ends_with("(too fast for this range)") && tooFast.x.size() == 64001);
+    }
+    void shapeFunctionsAreThoseOfTheSchemes() {
+        const Scene scene = readScene(findPreset("seed-elliptic")->json).scene;
+        const Comparison comparison = run(scene);
+        const Figure f = makeFigure(comparison, scene.views[2]);
+        QVERIFY(f.series.size() == 2 && f.subtitle == "of node 2 of 10, x = 0.2 · zoomed");
+        QVERIFY(f.x.range->first == 0.2 && f.x.range->second == 0.3 && std::abs(f.x.whole->first - 0.1) < 1e-15);
+        QCOMPARE(f.series[0].y[f.series[0].y.size() / 2], 1.0);
+        // Where the source hardly acts the solution is a multiple of the shape function; of the hat it is none.
+        const Figure u = makeFigure(comparison, {"trajectory", "", "u_exact"});
+        QVERIFY(u.series.size() == 1 && u.series[0].style == exactStyle && u.y.title == "u");
+        const auto at = [](const Series& s, double x) { return pointAt(s, x)->second; };
+        double apart[2] = {0, 0};
+        for (double x = 0.205; x < 0.3; x += 0.005)
+            for (std::size_t i = 0; i < 2; ++i) {
+                const double share = (at(u.series[0], x) - at(u.series[0], 0.3)) / (at(u.series[0], 0.2) - at(u.series[0], 0.3));
+                apart[i] = std::max(apart[i], std::abs(share - at(f.series[i], x)));
+            }
+        qInfo("the solution differs from the multiscale function by %.3f, from the hat by %.3f", apart[0], apart[1]);
+        QVERIFY(apart[0] < 0.02 && apart[1] > 0.05);
     }
     void whatTheAxisCannotShowIsAGap() {
         const System system = handmade::pendulum();

@@ -132,6 +132,8 @@ private slots:
         row("/views=[{\"view\":\"phase\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place", "\"x\": \"t\"");
         row("/views=[{\"view\":\"trajectory\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place");
         row("/views=[{\"view\":\"stage\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place");
+        row("/views=[{\"view\":\"energy\",\"node\":1}]", "/views/0/node", "is only for the view shape-function");
+        row("/views=[{\"view\":\"shape-function\",\"node\":1.5}]", "/views/0/node", "must be an integer from 1");
         row("/output/every=0", "/output/every", "must be a positive finite number");
         row("/output/every=1e-12", "/output/every", "asks for 3e+12 rows");
         row("/output/dense=true", "/output/dense", "needs an interval");
@@ -293,6 +295,21 @@ private slots:
         const std::string saved = writeScene(first.scene);
         QVERIFY(saved.find("\"mu^3\"") != std::string::npos && saved.find("\"mu*cos(t)+pi\"") != std::string::npos);
         QVERIFY(readScene(saved).scene == first.scene);
+    }
+
+    void aNodeIsOneOfTheNodesInside() {
+        const std::string text = R"({"extremal":1,"model":{"type":"multiscale-elliptic","elements":10},"schemes":[
+            {"scheme":"elliptic-multiscale"},{"scheme":"elliptic-linear","step":0.2}],"views":[{"view":"shape-function","node":4}]})";
+        const ReadScene read = readScene(text);
+        QVERIFY2(read.errors.empty(), textOf(read.errors).c_str());
+        QCOMPARE(read.scene.views[0].node->value, 4.0);
+        QCOMPARE(read.scene.observe, std::vector<std::string>{"error"});  // it has no energy
+        QVERIFY(readScene(writeScene(read.scene)).scene == read.scene);
+        for (const char* node : {"0", "5", "-1"}) {
+            const Problem error = firstError(readScene(text, {parseOverride(std::string("/views/0/node=") + node)}));
+            QCOMPARE(error.pointer, std::string("/views/0/node"));
+            QVERIFY2(error.message.find("must be an integer from 1 to 4") != std::string::npos, error.message.c_str());
+        }
     }
 
     void jsonTextIsByteStable() {
