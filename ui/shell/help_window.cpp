@@ -29,6 +29,7 @@ HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
     pages_->setFixedWidth(190);
     text_ = new QTextBrowser(this);
     text_->setOpenLinks(false);
+    text_->setSearchPaths({QStringLiteral(":/handbook")});  // of pictures
     row->addWidget(pages_);
     row->addWidget(text_, 1);
     const auto add = [this](const QString& page) {

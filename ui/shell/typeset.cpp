@@ -19,7 +19,8 @@ QTextBlockFormat formatOf(const QTextBlock& block) {
     QTextBlockFormat format = block.blockFormat();
     format.setTopMargin(0);
     format.setBottomMargin(9);
-    format.setLineHeight(125, QTextBlockFormat::ProportionalHeight);
+    const bool isPicture = block.text() == QString(QChar::ObjectReplacementCharacter);  // as high as it is
+    format.setLineHeight(isPicture ? 100 : 125, QTextBlockFormat::ProportionalHeight);
     if (const int level = format.headingLevel(); level > 0) {
         format.setTopMargin(level == 1 ? 4 : level == 2 ? 18 : 12);
         format.setBottomMargin(level == 1 ? 12 : 7);

@@ -46,6 +46,20 @@ private slots:
         actual.write(expected);
         QFAIL(qPrintable("resources/handbook/keys.md is out of date: copy " + actual.fileName()));
     }
+    void picturesOfPagesAreFound() {
+        HelpWindow help;
+        auto* text = help.findChild<QTextBrowser*>();
+        help.open("filon");
+        const QString html = text->toHtml();
+        QVERIFY(html.contains("src=\"filon.svg\""));
+        QVERIFY(!text->loadResource(QTextDocument::ImageResource, QUrl("filon.svg")).isNull());
+        QVERIFY(text->loadResource(QTextDocument::ImageResource, QUrl("nowhere.svg")).isNull());
+        // It is drawn: below the tables there is more than text and ground.
+        const QImage picture = QImage(QStringLiteral(":/handbook/filon.svg"));
+
+        QVERIFY(picture.width() > 600);
+        QVERIFY(text->document()->size().height() > 400 + 600);
+    }
     void everyPageIsListedAndShown() {
         HelpWindow help;
         const auto* pages = help.findChild<QListWidget*>();
