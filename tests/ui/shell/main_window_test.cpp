@@ -2,6 +2,7 @@
 #include <QComboBox>
 #include <QLineEdit>
 #include <QMenu>
+#include <QPushButton>
 #include <QSet>
 #include <QSignalSpy>
 #include <QSpinBox>
@@ -9,6 +10,7 @@
 #include <QTest>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/scene/bind.hpp"
 #include "ui/panels/discretizer.hpp"
@@ -65,6 +67,30 @@ private slots:
         QCOMPARE(window.workspace().scene().schemes.size(), before);
         window.actions().find("redo")->trigger();
         QCOMPARE(window.workspace().scene().schemes.size(), before + 1);
+    }
+    void aStepNearAResonanceIsChangedByOneClick() {
+        QTemporaryDir folder;
+        QFile file(folder.filePath("near.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write(R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},"initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":1},)"
+                   R"("schemes":[{"label":"R1","step":0.2008,"scheme":"multiscale-r1"}],"observe":["energy"]})");
+        file.close();
+        MainWindow window(Theme::light(), false);
+        window.resize(1600, 1000);
+        window.show();
+        QVERIFY(window.open(file.fileName()));
+        QVERIFY(waitForResults(window));
+        const auto step = [&] { return window.workspace().scene().schemes[0].step.value; };
+        auto* button = window.findChild<QPushButton*>("remedy");
+        QVERIFY(button && button->isVisible());
+        QCOMPARE(step(), 0.2008);  // offered, not taken
+        QTest::mouseClick(button, Qt::LeftButton);
+        const double halfPeriods = step() * 1000 / M_PI;
+        QVERIFY(step() != 0.2008 && std::abs(step() / 0.2008 - 1) < 0.02);
+        QVERIFY(halfPeriods - std::floor(halfPeriods) >= 0.1 && halfPeriods - std::floor(halfPeriods) <= 0.5);
+        QTRY_VERIFY(!window.findChild<QPushButton*>("remedy")->isVisible());
+        window.actions().find("undo")->trigger();
+        QCOMPARE(step(), 0.2008);
     }
     void everythingIsExportedAsRunDoes() {
         QTemporaryDir folder;
