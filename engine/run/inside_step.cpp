@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/run/look_at_pair.hpp"
+#include "engine/scene/view_axes.hpp"
 
 namespace extremal {
 namespace {
@@ -19,6 +20,9 @@ int pointsPerStep(bool isAdaptive, long long steps) {
     if (isAdaptive) return 8;
     return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
 }
+
+/// Points in the part of the time axis that a view shows: enough for some tens of oscillations.
+constexpr double pointsPerPart = 1000;
 
 void append(Trajectory& trajectory, double t, const std::vector<double>& x, std::size_t width) {
     trajectory.columns[0].values.push_back(t);
@@ -54,6 +58,9 @@ InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const System& s
         result_.sections.push_back({name, {columns}});
     }
     if (points_ == 0) return;
+    for (const View& view : scene.views)
+        if (view.xRange && axesOf(view, system).variable == system.independent)
+            parts_.emplace_back(view.xRange->low.value, view.xRange->high.value);
     result_.curve.columns = columns;
     if (!error_.evaluate) return;
     errorValues_.resize(error_.columns.size());
@@ -65,14 +72,23 @@ void InsideStep::start(const State& state) {
     if (points_ > 0) keep(state, {});
 }
 
+/// More points in steps that belong to a part that is shown.
+int InsideStep::pointsIn(double start, double end) const {
+    double most = points_;
+    for (const auto& [low, high] : parts_)
+        if (start < high && end > low) most = std::max(most, pointsPerPart * std::min(1.0, (end - start) / (high - low)));
+    return static_cast<int>(std::ceil(most));
+}
+
 void InsideStep::look(const Integrator& integrator, const State& before, const State& after,
                       const StepReport& report) {
     if (!sections_.empty()) cross(integrator, before, after);
     if (points_ == 0) return;
-    for (int j = 1; j <= points_; ++j) {
-        const double tau = static_cast<double>(j) / points_;
-        at_.t = j < points_ ? before.t + tau * (after.t - before.t) : after.t;
-        if (j < points_)
+    const int points = pointsIn(before.t, after.t);
+    for (int j = 1; j <= points; ++j) {
+        const double tau = static_cast<double>(j) / points;
+        at_.t = j < points ? before.t + tau * (after.t - before.t) : after.t;
+        if (j < points)
             integrator.curve(tau, at_.x);
         else
             at_.x = after.x;

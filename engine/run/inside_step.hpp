@@ -1,5 +1,5 @@
 /// What is looked at inside the steps of a run, on the scheme's own curve: points for plots, their distance
-/// from the reference, and the events of sections.
+/// from the reference, and the events of sections. Where a view shows a part of the time axis its steps have more points.
 ///
 /// A section is the set of states where one column passes zero upwards: the sign is seen at the nodes, the
 /// place is found on the curve, to round-off of tau. An event that passes zero twice within one step is not
@@ -32,6 +32,7 @@ public:
               const StepReport& report);
 
 private:
+    int pointsIn(double start, double end) const;
     void keep(const State& at, const StepReport& report);
     void cross(const Integrator& integrator, const State& before, const State& after);
 
@@ -41,6 +42,7 @@ private:
     SchemeResult& result_;
     Observer error_;
     int points_ = 0;
+    std::vector<std::pair<double, double>> parts_;  ///< of the time axis that views show
     std::size_t width_ = 0;
     std::vector<Section> sections_;
     State at_;

@@ -62,6 +62,27 @@ private slots:
         QVERIFY(order > 4.5 && order < 5.8);
         QVERIFY(ofChords < 2.5 && fine.chord > 100 * fine.curve);
     }
+    void partsThatAViewShowsHaveMorePoints() {
+        // 20 steps of 16 fast periods: 40 points a step everywhere, some hundreds where one step is looked at.
+        const auto rowsIn = [](const char* views) {
+            const std::string text = std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},
+                "initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":0.1,"scheme":"multiscale-r2"}],
+                "reference":"none","observe":["energy"],"views":[)") + views + "]}";
+            const ReadScene read = readScene(std::string_view(text));
+            if (!read.errors.empty()) qWarning("%s", read.errors[0].message.c_str());
+            const Trajectory curve = run(read.scene).schemes.at(0)->curve;
+            const auto t = curve["t"];
+            return std::pair{t.size(), std::count_if(t.begin(), t.end(), [](double at) { return at > 0.501 && at < 0.599; })};
+        };
+        const auto usual = rowsIn(R"("stage",{"view":"phase","range":{"x":[0.5,0.6]}})");
+        QCOMPARE(usual.first, std::size_t(20 * 40 + 1));
+        const auto shown = rowsIn(R"({"view":"trajectory","y":"q.a","range":{"x":[0.505,0.595]}})");
+        QVERIFY(shown.second > 900 && shown.first < 2000);
+        const auto narrow = rowsIn(R"({"view":"trajectory","y":"q.a","range":{"x":[0.55,0.5501]}})");
+        QVERIFY(narrow.first < 2000);
+        const auto all = rowsIn(R"({"view":"trajectory","y":"q.a","range":{"x":[0,2]}})").first;
+        QVERIFY(all >= 20 * 50 + 1 && all <= 20 * 51 + 1);
+    }
     void plotsAreDrawnAlongIt() {
         const Scene scene = kepler("galerkin-gauss-4", 0.5, 6);
         const Comparison c = run(scene);
