@@ -95,7 +95,14 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         Scene shown = read.scene;
         const bool isInScene = std::any_of(shown.views.begin(), shown.views.end(),
                                            [&](const View& v) { return v.id == request.view; });
-        if (request.view != "all" && !isInScene) shown.views.push_back({request.view, "", ""});
+        if (request.view != "all" && !isInScene) {
+            ReadScene wider = readScene(toValue(shown), {{"/views/-", request.view}});
+            if (!wider.errors.empty())
+                throw SnapshotError(SnapshotError::Kind::unusable, "--view",
+                                    "the view " + request.view + " is not for this scene: " + wider.errors.front().message,
+                                    wider.errors.front().hint);
+            shown = std::move(wider.scene);
+        }
         Run run(shown, {options.threads});
         run.start();
         const bool isInterrupted = waitFor(run, watch, options);

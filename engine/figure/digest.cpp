@@ -55,7 +55,8 @@ std::string digest(const Figure& figure) {
     }
     if (figure.heat)
         text += "heat " + std::to_string(figure.heat->columns) + " x " + std::to_string(figure.heat->rows) + ", " +
-                nineDigits(figure.heat->low) + " .. " + nineDigits(figure.heat->high) + ", " + hash(figure.heat->values) + "\n";
+                nineDigits(figure.heat->low) + " .. " + nineDigits(figure.heat->high) + ", " + hash(figure.heat->values) +
+                (figure.heat->scale.empty() ? "" : ", " + figure.heat->scale) + "\n";
     for (const FailureMark& f : figure.failures)
         text += "failure " + std::to_string(f.style) + " " + f.label + ": " + f.text + ", " + nineDigits(f.x) + "\n";
     if (figure.floor) text += "floor " + nineDigits(*figure.floor) + "\n";

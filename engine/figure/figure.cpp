@@ -6,6 +6,7 @@
 #include "engine/figure/view.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/map_grid.hpp"
 #include "engine/scene/view_axes.hpp"
 
 namespace extremal {
@@ -91,6 +92,15 @@ std::vector<View> plotViews(const Scene& scene) {
                 result.back().scheme = label;
             }
             if (pairs.empty()) result.push_back(view);
+            continue;
+        }
+        if (view.id == mapView && view.scheme.empty()) {
+            const std::vector<std::size_t> mapped = mappedSchemes(scene);
+            for (const std::size_t i : mapped) {
+                result.push_back(view);
+                result.back().scheme = scene.schemes[i].label;
+            }
+            if (mapped.empty()) result.push_back(view);
             continue;
         }
         const std::vector<std::string> columns = entry->columns ? entry->columns(system) : std::vector<std::string>{};

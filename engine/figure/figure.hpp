@@ -55,6 +55,11 @@ struct HeatMap {
     double low = 0, high = 1;    ///< of the values; below and above them colours stay
     std::vector<double> values;  ///< value (row, column) at column * rows + row; NaN is a gap
     std::vector<double> hues;    ///< the colour in turns, of values that have a phase; empty: one scale for all
+    /// Title of a logarithmic scale beside the plot; low and high are positive, cells sharp, of equal size on the axes as
+    /// they are (equal ratios on logarithmic ones). Empty: no scale.
+    std::string scale = {};
+    std::vector<std::string> faults = {};  ///< with a scale: why a cell has no value ("blow-up"), else empty
+    std::vector<double> xs, ys;            ///< with a scale: what the columns and rows stand for
 };
 
 /// A scheme that ended early: where, and why.

@@ -39,7 +39,53 @@ bool isWithin(double value, const Axis& axis) {
 
 }  // namespace
 
+namespace {
+
+/// "k  [N/m]" and 100: "k = 100 N/m".
+std::string withTitle(const std::string& title, const std::string& value) {
+    const std::size_t unit = title.find("  [");
+    if (unit == std::string::npos) return title + " = " + value;
+    return title.substr(0, unit) + " = " + value + " " + title.substr(unit + 3, title.size() - unit - 4);
+}
+
+/// Row by row of the grid: the value itself, and why there is none.
+std::string heatCsv(const Figure& figure, bool isVisibleOnly) {
+    const HeatMap& heat = *figure.heat;
+    std::string csv = quoted(figure.x.title) + "," + quoted(figure.y.title) + "," + quoted(heat.scale) + ",outcome\n";
+    for (std::size_t c = 0; c < heat.xs.size(); ++c)
+        for (std::size_t r = 0; r < heat.ys.size(); ++r) {
+            if (isVisibleOnly && !(isWithin(heat.xs[c], figure.x) && isWithin(heat.ys[r], figure.y))) continue;
+            const std::size_t i = c * heat.ys.size() + r;
+            csv += cell(heat.xs[c]) + "," + cell(heat.ys[r]) + "," + cell(heat.values[i]) + "," + heat.faults[i] + "\n";
+        }
+    return csv;
+}
+
+}  // namespace
+
+std::optional<HeatCell> cellAt(const Figure& figure, double x, double y) {
+    if (!figure.heat || figure.heat->scale.empty()) return {};
+    const HeatMap& heat = *figure.heat;
+    const auto indexOf = [](double value, double low, double high, int count, bool isLog) {
+        const double part = isLog ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+        return part >= 0 && part < 1 ? static_cast<int>(part * count) : -1;
+    };
+    const int column = indexOf(x, heat.left, heat.right, heat.columns, figure.x.isLog),
+              row = indexOf(y, heat.bottom, heat.top, heat.rows, figure.y.isLog);
+    if (column < 0 || row < 0) return {};
+    const auto c = static_cast<std::size_t>(column), r = static_cast<std::size_t>(row), i = c * heat.ys.size() + r;
+    const bool hasValue = std::isfinite(heat.values[i]);
+    std::string text = withTitle(figure.x.title, formatNumber(heat.xs[c], 6)) + ", " +
+                       withTitle(figure.y.title, formatNumber(heat.ys[r], 6)) + "\n";
+    if (hasValue)
+        text += withTitle(heat.scale, formatNumber(heat.values[i], 3));
+    else
+        text += heat.faults[i].empty() ? "not known" : heat.faults[i];
+    return HeatCell{c, r, heat.xs[c], heat.ys[r], std::move(text)};
+}
+
 std::string figureCsv(const Figure& figure, bool isVisibleOnly) {
+    if (figure.heat && !figure.heat->scale.empty()) return heatCsv(figure, isVisibleOnly);
     std::string csv = "scheme," + quoted(figure.x.title) + "," + quoted(figure.y.title) + "\n";
     for (const Series& s : figure.series) {
         const std::string label = quoted(s.label);

@@ -13,8 +13,17 @@ namespace extremal {
 /// empty outside the samples, at a gap, or if the series has no time.
 std::optional<std::pair<double, double>> pointAt(const Series& series, double t);
 
+/// A cell of a heat map with a scale: its place, what it stands for, and that with its value in words, two lines.
+struct HeatCell {
+    std::size_t column, row;
+    double x, y;
+    std::string text;
+};
+/// The cell at a place of the plot; empty outside, and where there is no such map.
+std::optional<HeatCell> cellAt(const Figure& figure, double x, double y);
+
 /// "scheme,X,Y" with the axes' titles as headers, then one row per point, in the order of the series; a gap is an
-/// empty cell. With `isVisibleOnly` only points inside the axes' ranges. Quoting as in RFC 4180, lines end in LF.
+/// empty cell. Of a heat map with a scale "X,Y,VALUE,outcome", one row per cell. With `isVisibleOnly` only points inside the axes' ranges. Quoting as in RFC 4180, lines end in LF.
 std::string figureCsv(const Figure& figure, bool isVisibleOnly);
 
 }  // namespace extremal

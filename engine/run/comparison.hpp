@@ -11,6 +11,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/integrator/action_defect.hpp"
 #include "engine/integrator/kkt_pattern.hpp"
+#include "engine/run/parameter_map.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/frames.hpp"
 #include "engine/trajectory/trajectory.hpp"
@@ -81,6 +82,7 @@ struct Comparison {
     Scene scene;
     std::vector<std::shared_ptr<const SchemeResult>> schemes;
     ReferenceInfo reference;
+    std::vector<std::shared_ptr<const ParameterMap>> maps = {};  ///< of views "parameter-map": one a scheme that has a step
     bool isFinished = false;
 };
 

@@ -126,6 +126,33 @@ std::vector<std::pair<std::string, const Trajectory*>> sectionFiles(const Compar
     return files;
 }
 
+/// "parameter-map.csv", and "parameter-map-2.csv" for further views of the kind.
+std::vector<std::pair<std::string, std::vector<const ParameterMap*>>> mapFiles(const Comparison& comparison) {
+    std::vector<std::pair<std::string, std::vector<const ParameterMap*>>> files;
+    std::size_t last = 0;
+    for (const auto& map : comparison.maps) {
+        if (files.empty() || map->view != last)
+            files.push_back({"parameter-map" + (files.empty() ? "" : "-" + std::to_string(files.size() + 1)) + ".csv", {}});
+        files.back().second.push_back(map.get());
+        last = map->view;
+    }
+    return files;
+}
+
+std::string mapCsv(const std::vector<const ParameterMap*>& maps) {
+    std::string text = "scheme,parameter,step,value,outcome\n";
+    for (const ParameterMap* map : maps)
+        for (std::size_t i = 0; i < map->grid.values.size(); ++i)
+            for (std::size_t j = 0; j < map->grid.steps.size(); ++j) {
+                const MapCell& cell = map->at(i, j);
+                text.append(csvCell(map->scheme)).append(",").append(formatNumber(map->grid.values[i])).append(",");
+                text.append(formatNumber(map->grid.steps[j])).append(",");
+                if (std::isfinite(cell.value)) text += formatNumber(cell.value);
+                text.append(",").append(name(cell)).append("\n");
+            }
+    return text;
+}
+
 std::vector<std::string> fileNames(const Comparison& comparison) {
     std::vector<std::string> names{"scene.json"};
     const auto csv = csvNames(comparison);
@@ -134,6 +161,7 @@ std::vector<std::string> fileNames(const Comparison& comparison) {
         if (!comparison.schemes[i]->frames.empty()) names.push_back(fieldName(csv[i]));
     }
     for (const auto& [name, events] : sectionFiles(comparison)) names.push_back(name);
+    for (const auto& [name, maps] : mapFiles(comparison)) names.push_back(name);
     names.insert(names.end(), {"summary.csv", "summary.json"});
     return names;
 }
@@ -157,7 +185,9 @@ std::string csvText(const Trajectory& trajectory) {
 std::vector<std::string> csvNames(const Comparison& comparison) {
     std::vector<std::string> names;
     for (const auto& scheme : comparison.schemes) names.push_back(scheme->summary.label);
-    names = uniqueSlugs(names, {"summary"});
+    std::vector<std::string> taken{"summary"};
+    for (const auto& [file, maps] : mapFiles(comparison)) taken.push_back(file.substr(0, file.size() - 4));
+    names = uniqueSlugs(names, taken);
     for (std::string& n : names) n += ".csv";
     return names;
 }
@@ -218,6 +248,7 @@ std::vector<std::string> exportComparison(const Comparison& comparison, const st
         writeRows(*events, [&](const std::string& block) { batch.append(block); });
         batch.close();
     }
+    for (const auto& [file, maps] : mapFiles(comparison)) batch.write(file, mapCsv(maps));
     batch.write("summary.csv", summaryCsv(comparison));
     batch.write("summary.json", writeJson(summaryValue(comparison)));
     return batch.commit();

@@ -9,27 +9,29 @@
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/look_at_pair.hpp"
+#include "engine/run/map_run.hpp"
 #include "engine/run/reference.hpp"
 #include "engine/run/scheme_run.hpp"
 #include "engine/scene/bind.hpp"
 
 namespace extremal {
 
-/// One coordinator prepares the reference, then a pool takes the schemes in turn: each scheme is one task, so results
-/// do not depend on the number of threads.
+/// One coordinator prepares the reference, then a pool takes the schemes in turn, and after them the columns of maps: each
+/// is one task, so results do not depend on the number of threads.
 struct Run::Impl {
     Scene scene;
     System system;
     State initial;
     unsigned threads;
     std::vector<std::unique_ptr<SchemeRun>> tasks;
+    MapRun maps;
     mutable std::mutex mutex;
     ReferenceInfo reference;  ///< guarded by mutex
     std::atomic<bool> isFinished{false};
     std::jthread coordinator;
 
     Impl(const Scene& s, const RunOptions& options)
-        : scene(s), system(makeSystem(scene)), initial(initialState(scene, system)) {
+        : scene(s), system(makeSystem(scene)), initial(initialState(scene, system)), maps(scene) {
         const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
         threads = options.threads > 0 ? options.threads : cores;
         for (std::size_t i = 0; i < scene.schemes.size(); ++i)
@@ -61,12 +63,14 @@ struct Run::Impl {
         }
         const std::shared_ptr<ExactActions> exact = exactActionsOf(scene, system, initial);
         std::atomic<std::size_t> next{0};
+        const std::size_t all = tasks.size() + maps.tasks();
         auto takeTasks = [&] {
-            for (std::size_t i = next++; i < tasks.size(); i = next++) tasks[i]->run(system, initial, ref, exact.get(), stop);
+            for (std::size_t i = next++; i < all; i = next++)
+                i < tasks.size() ? tasks[i]->run(system, initial, ref, exact.get(), stop) : maps.run(i - tasks.size(), stop);
         };
         {
             std::vector<std::jthread> pool;
-            const auto helpers = std::min<std::size_t>(threads, tasks.size());
+            const auto helpers = std::min<std::size_t>(threads, all);
             for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(takeTasks);
             takeTasks();
         }
@@ -97,6 +101,7 @@ Comparison Run::latest() const {
     c.scene = impl_->scene;
     c.isFinished = impl_->isFinished;
     for (const auto& task : impl_->tasks) c.schemes.push_back(task->latest());
+    c.maps = impl_->maps.latest();
     const std::lock_guard lock(impl_->mutex);
     c.reference = impl_->reference;
     return c;
@@ -105,7 +110,8 @@ Comparison Run::latest() const {
 double Run::fraction() const {
     double sum = 0;
     for (const auto& task : impl_->tasks) sum += task->latest()->fraction;
-    return impl_->tasks.empty() ? 1 : sum / static_cast<double>(impl_->tasks.size());
+    const double schemes = impl_->tasks.empty() ? 1 : sum / static_cast<double>(impl_->tasks.size());
+    return impl_->maps.tasks() > 0 ? 0.3 * schemes + 0.7 * impl_->maps.fraction() : schemes;
 }
 
 Comparison run(const Scene& scene, const RunOptions& options) {

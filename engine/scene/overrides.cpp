@@ -6,6 +6,7 @@
 #include "engine/core/text.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/model/system.hpp"
+#include "engine/observe/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
@@ -62,6 +63,15 @@ std::vector<std::string> schemeKeys(const Value& object, const std::vector<std::
     if (inScheme[0] == "baseline") return typedKeys(object, baselineCatalog());
     if (inScheme[0] == "composition") return typedKeys(object, compositionCatalog());
     return inScheme[0] == "solver" ? format::solver : std::vector<std::string>{};
+}
+
+/// The keys of all views, and those of its own.
+std::vector<std::string> viewKeys(const Value& object) {
+    std::vector<std::string> keys = format::view;
+    for (const CatalogItem& item : viewCatalog())
+        if (const Value* id = object.find("view"); id && *id == Value(item.id))
+            for (const FieldInfo& field : item.parameters) keys.push_back(field.key);
+    return keys;
 }
 
 /// The keys of the initial data, which depend on the model.
@@ -155,7 +165,7 @@ std::vector<std::string> knownKeys(const Value& document, const std::vector<std:
     if (first == "reference" && place.size() > 1 && object)
         return schemeKeys(*object, {place.begin() + 2, place.end()});
     if (first == "views" && place.size() == 3 && place[2] == "range") return format::range;
-    if (first == "views") return place.size() == 2 ? format::view : std::vector<std::string>{};
+    if (first == "views") return place.size() == 2 && object ? viewKeys(*object) : std::vector<std::string>{};
     if (first == "model" && place.size() == 2 && object && object->isObject()) {
         // The user's own names: those that are there. To add one, set the whole object.
         std::vector<std::string> names;

@@ -5,6 +5,7 @@
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/format.hpp"
+#include "engine/scene/map_grid.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/view_axes.hpp"
@@ -84,8 +85,8 @@ void ViewReader::readScheme(View& view) const {
     view.scheme = reader.text(*label, at).value_or("");
     std::vector<std::string> labels;
     for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
-    if (view.id != "sparsity" && view.id != "carpet")
-        reader.error(at, "is only for pictures of one scheme", "the views sparsity and carpet");
+    if (view.id != "sparsity" && view.id != "carpet" && view.id != mapView)
+        reader.error(at, "is only for pictures of one scheme", "the views sparsity, carpet and parameter-map");
     else if (label->isString() && reader.errors.empty() && !isOneOf(labels, view.scheme))
         reader.unknownName(at, "scheme", view.scheme, labels);
 }
@@ -180,7 +181,8 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         const Value& value = views->asArray()[i];
         const Value object = value.isString() ? Value(Value::Object{{"view", value}}) : value;
         if (!reader.isObject(object, pointer)) continue;
-        reader.checkKeys(object, pointer, format::view);
+        const bool isMap = object.find("view") && *object.find("view") == Value(mapView);
+        if (!isMap) reader.checkKeys(object, pointer, format::view);
         const std::string place = value.isString() ? pointer : pointer + "/view";
         const Value* name = object.find("view");
         if (!name) {
@@ -200,6 +202,7 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             parts.readRanges(view, axes);
             parts.readCurve(view, axes);
         }
+        if (isMap && system) readMap(reader, object, pointer, format::view, *system, scene, view);
         parts.warnOfNothing(view);
         scene.views.push_back(view);
     }

@@ -78,6 +78,7 @@ struct View {
     std::optional<Number> node = {}; ///< of a shape function; empty: the one in the middle
     std::optional<ViewRange> xRange = {}, yRange = {};
     ViewCurve curve = {};
+    Settings keys = {};      ///< of views with keys of their own (CatalogItem::parameters); type empty
     bool operator==(const View&) const = default;
 };
 

@@ -205,7 +205,7 @@ Value viewChoice() {
     p.set("x", typed("string", "A column, for phase portraits, trajectories and sections."));
     p.set("y", typed("string", "A column, for phase portraits, trajectories and sections."));
     p.set("at", typed("string", "The column whose zeros make a section."));
-    p.set("scheme", typed("string", "The label of a scheme, for the view sparsity."));
+    p.set("scheme", typed("string", "The label of a scheme, for pictures of one."));
     p.set("node", reference("number"));
     Value ends = arrayOf(reference("number")), range{Value::Object{}};
     ends.set("minItems", 2);
@@ -214,6 +214,9 @@ Value viewChoice() {
     range.set("y", ends);
     p.set("range", object(range, {}, "The part that the plot shows at first: two increasing numbers for an axis."));
     p.set("curve", typed("string", "An expression in the variable along x, drawn for comparison."));
+    for (const CatalogItem& item : viewCatalog())
+        for (const FieldInfo& field : item.parameters)
+            if (!p.find(field.key)) p.set(field.key, property(field));
     return anyOf({enumeration(idsOf(viewCatalog())), object(p, {"view"})});
 }
 

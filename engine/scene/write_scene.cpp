@@ -48,6 +48,9 @@ Value viewValue(const View& view) {
     if (view.yRange) range.set("y", rangeValue(*view.yRange));
     if (!range.asObject().empty()) value.set("range", range);
     if (!view.curve.expression.empty()) value.set("curve", view.curve.expression);
+    const Value keys = settingsValue(view.keys);
+    for (const auto& [key, member] : keys.asObject())
+        if (key != "type") value.set(key, member);
     return value.asObject().size() == 1 ? Value(view.id) : value;
 }
 

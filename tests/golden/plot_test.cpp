@@ -5,6 +5,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/engine/figure/hand_made.hpp"
+#include "tests/engine/figure/hand_made_map.hpp"
 #include "tests/golden/golden_check.hpp"
 #include "ui/plots/plot_renderer.hpp"
 
@@ -50,6 +51,14 @@ private slots:
         const Comparison comparison = run(scene);
         const System system = makeSystem(scene);
         check(picture(makeFigure(comparison, scene.views[0], &system)), "plot-section");
+    }
+    void theMapLooksAsKept() {
+        const Figure map = handmade::mapFigure("midpoint");
+        check(picture(map), "plot-map");
+        check(picture(map, Theme::dark()), "plot-map-dark");
+        Figure wrong = map;
+        wrong.heat->faults[29] = "diverged";  // one cell, blown up before
+        QVERIFY(compareImages(picture(map), picture(wrong), 8).differingPercent > GoldenLimits::plot().differingPercent);
     }
     void aMissingEntryOfTheMatrixIsSeen() {
         const Figure right = frameworkFigure("sparsity", "tents");

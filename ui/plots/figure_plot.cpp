@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/plots/map_layer.hpp"
 #include "ui/plots/plot_layers.hpp"
 #include "ui/plots/tickers.hpp"
 
@@ -135,6 +136,9 @@ void FigurePlot::prepare(QSize size) {
 
     s.view.setFitted(PlotAxis::x, toPlotRange(s.figure.x.range));
     s.view.setFitted(PlotAxis::y, toPlotRange(s.figure.y.range));
+    QMargins margins = s.plot.axisRect()->minimumMargins();
+    margins.setRight(std::max(16, scaleWidth(s.figure, s.theme)));
+    s.plot.axisRect()->setMinimumMargins(margins);
     const QRect before = s.plot.viewport();
     s.plot.setViewport(QRect(QPoint(0, 0), size));
     const auto apply = [&](double width, double height) {

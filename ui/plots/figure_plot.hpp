@@ -26,6 +26,7 @@ struct PlotCursors {
     QString hoverText;       ///< empty: nothing is under the pointer
     QPointF hoverPoint;      ///< pixels
     QColor hoverColor;
+    std::optional<QRectF> hoverCell;  ///< of a map: outlined in place of the point
     std::optional<QRectF> box;  ///< the zoom box being drawn
     bool hasFocus = false;      ///< reached with the keyboard
 };

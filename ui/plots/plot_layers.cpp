@@ -6,6 +6,7 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/sample.hpp"
+#include "ui/plots/map_layer.hpp"
 #include "ui/plots/phase_colour.hpp"
 
 namespace extremal {
@@ -57,11 +58,11 @@ QFont small(const Theme& theme, QFont::Weight weight = QFont::Normal) {
     return font;
 }
 
-/// A rounded box with a line of text; returns its rectangle.
+/// A rounded box with lines of text; returns its rectangle.
 QRectF drawPill(QCPPainter& painter, QPointF topLeft, const QString& text, const QFont& font, const QColor& ground,
                 const QColor& line, const QColor& color) {
-    const QFontMetricsF metrics(font);
-    const QRectF box(topLeft.x(), topLeft.y(), std::ceil(metrics.horizontalAdvance(text)) + 12, std::ceil(metrics.height()) + 4);
+    const QSizeF size = QFontMetricsF(font).size(0, text);
+    const QRectF box(topLeft.x(), topLeft.y(), std::ceil(size.width()) + 12, std::ceil(size.height()) + 4);
     painter.setPen(QPen(line, 1));
     painter.setBrush(ground);
     painter.drawRoundedRect(box.translated(0.5, 0.5), 4, 4);
@@ -129,6 +130,7 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
 void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
     const auto& heat = shared_.figure.heat;
     if (!heat || heat->columns <= 0 || heat->rows <= 0) return;
+    if (!heat->scale.empty()) return drawMapCells(painter, map, shared_);
     QImage image(heat->columns, heat->rows, QImage::Format_RGB32);
     const QColor ground = shared_.theme.panel, accent = shared_.theme.accent, other = shared_.theme.series(1).color;
     for (int column = 0; column < heat->columns; ++column)
@@ -234,6 +236,7 @@ void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Seri
 void MarksLayer::draw(QCPPainter* painter) {
     const PixelMap map = shared_.map();
     drawFailures(*painter, map);
+    if (shared_.figure.heat && !shared_.figure.heat->scale.empty()) drawMapScale(*painter, map, shared_);
     if (shared_.figure.message.empty()) return;
     painter->setFont(shared_.theme.caption());
     painter->setPen(shared_.theme.muted);
@@ -336,10 +339,19 @@ void CursorLayer::drawHover(QCPPainter& painter) const {
     const PlotCursors& c = shared_.cursors;
     painter.setPen(QPen(shared_.theme.panel, 1.2));
     painter.setBrush(c.hoverColor);
-    painter.drawEllipse(c.hoverPoint, 4, 4);
+    if (c.hoverCell) {
+        painter.setBrush(Qt::NoBrush);
+        for (const auto& [color, width] : {std::pair{shared_.theme.panel, 3.5}, std::pair{shared_.theme.text, 1.5}}) {
+            painter.setPen(QPen(color, width));
+            painter.drawRect(*c.hoverCell);
+        }
+    } else {
+        painter.drawEllipse(c.hoverPoint, 4, 4);
+    }
     const QFont font = small(shared_.theme);
     const QRectF rect(shared_.plot.axisRect()->rect());
-    const double width = QFontMetricsF(font).horizontalAdvance(c.hoverText) + 12, height = QFontMetricsF(font).height() + 4;
+    const QSizeF size = QFontMetricsF(font).size(0, c.hoverText);
+    const double width = size.width() + 12, height = size.height() + 4;
     const double x = std::clamp(c.hoverPoint.x() + 9, rect.left(), std::max(rect.left(), rect.right() - width));
     const double above = c.hoverPoint.y() - height - 8;
     drawPill(painter, {x, above < rect.top() ? c.hoverPoint.y() + 9 : above}, c.hoverText, font, shared_.theme.panel,

@@ -45,6 +45,21 @@ struct PlotWidget::Impl {
     explicit Impl(const Theme& t) : theme(t) {}
     void replot() { plot->replot(QCustomPlot::rpQueuedReplot); }
     void replotCursor() { plot->layer("cursor")->replot(); }
+    /// The cell of a map under a pixel.
+    std::optional<HeatCell> cellAt(QPointF pixel) const {
+        const PixelMap map = content->pixelMap();
+        if (!map.rect.contains(pixel)) return {};
+        return extremal::cellAt(content->figure(), valueAtPixel(map, PlotAxis::x, pixel), valueAtPixel(map, PlotAxis::y, pixel));
+    }
+    QRectF rectOf(const HeatCell& cell) const {
+        const HeatMap& heat = *content->figure().heat;
+        const PixelMap map = content->pixelMap();
+        const QPointF corner = map(heat.left, heat.bottom), opposite = map(heat.right, heat.top);
+        const double width = (opposite.x() - corner.x()) / heat.columns, height = (opposite.y() - corner.y()) / heat.rows;
+        return QRectF(corner.x() + width * static_cast<double>(cell.column), corner.y() + height * static_cast<double>(cell.row), width,
+                      height)
+            .normalized();
+    }
     bool isTime() const { return content->figure().x.isTime; }
     /// Whether a pixel lies on the x axis, the y axis, or (neither) in the plot.
     std::pair<bool, bool> axesAt(QPointF p) const {
@@ -160,7 +175,9 @@ int PlotWidget::leftMargin() const { return impl_->plot->axisRect()->margins().l
 void PlotWidget::setLeftMargin(int pixels) {
     if (impl_->leftMargin == pixels) return;
     impl_->leftMargin = pixels;
-    impl_->plot->axisRect()->setMinimumMargins(QMargins(std::max(8, pixels), 8, 16, 0));
+    QMargins margins = impl_->plot->axisRect()->minimumMargins();
+    margins.setLeft(std::max(8, pixels));
+    impl_->plot->axisRect()->setMinimumMargins(margins);
     impl_->replot();
 }
 
@@ -200,6 +217,9 @@ void PlotWidget::keyPressEvent(QKeyEvent* event) {
         back();
     else if (event->matches(QKeySequence::Copy))
         copyImage();
+    else if (const auto cell = impl_->cellAt(impl_->content->cursors().hoverPoint);
+             cell && (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter))
+        emit cellChosen(cell->x, cell->y);
     else
         QWidget::keyPressEvent(event);
 }
@@ -259,8 +279,16 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 s.content->cursors().box = QRectF(s.press, at).normalized();
                 s.replotCursor();
             } else if (s.drag == Impl::Drag::none) {
-                const auto hit = s.content->hit(at, hoverReach);
                 PlotCursors& c = s.content->cursors();
+                if (const auto cell = s.cellAt(at)) {
+                    c.hoverText = QString::fromStdString(cell->text);
+                    c.hoverPoint = at;
+                    c.hoverCell = s.rectOf(*cell);
+                    s.replotCursor();
+                    return true;
+                }
+                const auto hit = s.content->hit(at, hoverReach);
+                c.hoverCell.reset();
                 if (!hit) {
                     clearHover();
                     return true;
@@ -297,8 +325,9 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                     s.replotCursor();
                 }
             } else if (was == Impl::Drag::maybe) {
-                const auto hit = s.content->hit(mouse->position(), hoverReach);
-                if (hit && figure().series[hit->series].style >= 0)
+                if (const auto cell = s.cellAt(mouse->position()))
+                    emit cellChosen(cell->x, cell->y);
+                else if (const auto hit = s.content->hit(mouse->position(), hoverReach); hit && figure().series[hit->series].style >= 0)
                     emit pointClicked(figure().series[hit->series].style);
                 if (s.isTime() && map.rect.contains(mouse->position()))
                     emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));
@@ -319,6 +348,10 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 menu.addAction(tr("Pin a second cursor here"), this, [this, t] { emit pinRequested(t); });
                 if (s.content->cursors().pinned)
                     menu.addAction(tr("Remove the second cursor"), this, [this] { emit pinRequested(std::nullopt); });
+                menu.addSeparator();
+            }
+            if (const auto cell = s.cellAt(context->pos())) {
+                menu.addAction(tr("Load this case"), this, [this, at = *cell] { emit cellChosen(at.x, at.y); });
                 menu.addSeparator();
             }
             menu.addAction(tr("Copy picture"), this, &PlotWidget::copyImage);

@@ -1,7 +1,8 @@
 /// A figure on the screen, to look into: the same drawing as in snapshots, with zoom, cursors and saving.
 ///
 /// Wheel: zoom at the pointer, on an axis only that axis; drag: pan; Ctrl+drag: zoom into a box; double click: fit;
-/// Backspace: previous view; right click: menu. Once the user has zoomed, new data do not move the view; the "auto" chip
+/// Backspace: previous view; right click: menu; a click on
+/// a cell of a map, or Return over it, chooses its case. Once the user has zoomed, new data do not move the view; the "auto" chip
 /// gives that back. The cursor is a time, shared with other plots through PlotGroup.
 #pragma once
 
@@ -53,6 +54,7 @@ public:
 signals:
     void cursorMoved(double t);
     void pointClicked(int style);
+    void cellChosen(double x, double y);  ///< of a map with a scale: what the cell stands for
     void pinRequested(std::optional<double> t);
     void timeRangeChanged(std::optional<PlotRange> range);
     void saveFailed(const QString& reason);

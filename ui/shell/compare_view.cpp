@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "engine/figure/figure.hpp"
+#include "engine/core/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/view_axes.hpp"
 #include "ui/panels/card.hpp"
@@ -16,6 +17,7 @@
 #include "ui/shell/playback.hpp"
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
 
@@ -107,6 +109,7 @@ void CompareView::rebuild() {
         menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
         menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
         group_->add(plot);
+        connect(plot, &PlotWidget::cellChosen, this, [this, view](double value, double step) { loadCase(view, value, step); });
         slots_.push_back({view, card, plot});
     }
     columns_ = 0;
@@ -194,6 +197,18 @@ void CompareView::refresh() {
         s.plot->setStale(run_.isStale());
     }
     QTimer::singleShot(0, this, &CompareView::alignMargins);
+}
+
+void CompareView::loadCase(const View& view, double value, double step) {
+    const std::vector<Edit> edits = editsForCase(workspace_.scene(), view, value, step);
+    const QString text = tr("%1 = %2 and the step %3 of %4")
+                             .arg(QString::fromStdString(view.keys.text("parameter")), QString::fromStdString(formatNumber(value)),
+                                  QString::fromStdString(formatNumber(step)), QString::fromStdString(view.scheme));
+    if (edits.empty() || !workspace_.edit(edits, tr("Load a case of a map"))) return;
+    const auto& schemes = workspace_.scene().schemes;
+    const auto own = std::find_if(schemes.begin(), schemes.end(), [&](const SchemeSpec& s) { return s.label == view.scheme; });
+    workspace_.selectScheme(static_cast<int>(own - schemes.begin()));
+    emit caseLoaded(text);
 }
 
 void CompareView::alignMargins() {

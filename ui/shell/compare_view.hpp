@@ -35,6 +35,7 @@ public:
 
 signals:
     void saveFailed(const QString& reason);
+    void caseLoaded(const QString& text);  ///< of a map, into the scene
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -50,6 +51,7 @@ private:
     void arrange();   ///< the same cards, another width
     void refresh();   ///< new results
     void alignMargins();
+    void loadCase(const View& view, double value, double step);
 
     Workspace& workspace_;
     RunControl& run_;

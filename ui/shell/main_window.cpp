@@ -122,6 +122,10 @@ void MainWindow::makePages() {
     values_->hide();
     centreColumn->addWidget(values_);
     connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
+    connect(compare_, &CompareView::caseLoaded, this, [this](const QString& text) {
+        notices_->post({Notice::Kind::information, "case", tr("Loaded from the map: %1.").arg(text),
+                        tr("the dot in each map is the scene; Ctrl+Z goes back"), {{tr("Undo"), [this] { workspace_->undo(); }}}});
+    });
     connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
         notices_->post({Notice::Kind::error, "save", tr("The plot could not be saved: %1").arg(reason), {}, {}});
     });

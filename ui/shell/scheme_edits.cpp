@@ -9,6 +9,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/codec.hpp"
+#include "engine/scene/map_grid.hpp"
 #include "engine/space/catalog.hpp"
 #include "ui/shell/fitting.hpp"
 
@@ -200,6 +201,14 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         scene.reference.kind == ReferenceSpec::Kind::exact || scene.reference.kind == ReferenceSpec::Kind::file;
     if (isOfOldModel) edits.push_back({"/reference", std::nullopt});
     return edits;
+}
+
+std::vector<Edit> editsForCase(const Scene& scene, const View& view, double value, double step) {
+    const MapGrid grid = mapGridOf(scene, view);
+    const auto found = std::find_if(scene.schemes.begin(), scene.schemes.end(),
+                                    [&](const SchemeSpec& s) { return s.label == view.scheme; });
+    if (grid.pointer.empty() || found == scene.schemes.end()) return {};
+    return {{grid.pointer, value}, {place(static_cast<int>(found - scene.schemes.begin())) + "/step", step}};
 }
 
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {

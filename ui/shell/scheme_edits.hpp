@@ -32,6 +32,9 @@ Value exampleModel(const ModelEntry& entry);
 /// use for turn into pairs of the same order, or go.
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 
+/// A case of a view "parameter-map" of one scheme: the parameter, and the step of this scheme.
+std::vector<Edit> editsForCase(const Scene& scene, const View& view, double value, double step);
+
 /// The scheme that is this pair (same space and rule), or -1.
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 

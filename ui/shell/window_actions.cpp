@@ -8,6 +8,7 @@
 #include "engine/observe/catalog.hpp"
 #include "engine/run/export.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/map_grid.hpp"
 #include "engine/core/text.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
@@ -99,6 +100,7 @@ void MainWindow::fillPlots(QMenu& menu) {
         const std::string id = entry.item.id;
         const ObservableEntry* needed = findObservable(entry.observable);
         if (needed && !appliesTo(*needed, system)) continue;
+        if (id == mapView && !canBeMapped(scene, system)) continue;
         const bool isShown = std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == id; });
         QAction* action = menu.addAction(QString::fromStdString(entry.item.title));
         action->setCheckable(true);

@@ -1,4 +1,6 @@
 /// The window as a user drives it, on the offscreen platform.
+#include <qcustomplot.h>
+
 #include <QComboBox>
 #include <QLineEdit>
 #include <QMenu>
@@ -13,6 +15,7 @@
 #include <cmath>
 
 #include "engine/scene/bind.hpp"
+#include "engine/scene/json.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/value_edit.hpp"
@@ -135,6 +138,55 @@ private slots:
         entry("KKT matrix")->trigger();
         QVERIFY(waitForResults(window));
         QCOMPARE(shown("sparsity"), 0);
+    }
+    void aClickOnAMapLoadsItsCase() {
+        MainWindow window(Theme::light(), false);
+        window.resize(1600, 1000);
+        window.show();
+        window.open("preset:stability-limit");
+        QVERIFY(waitForResults(window));
+        const std::string view = R"([{"view":"parameter-map","parameter":"k","from":1,"to":1e4,"steps":[0.01,1],"cells":[5,5],"duration":4}])";
+        QVERIFY(window.workspace().edit({{"/views", parseJson(view)}}, "a map"));
+        QVERIFY(waitForResults(window));
+        const auto& plots = window.compareView().plots();
+        const auto found = std::find_if(plots.begin(), plots.end(), [](const PlotWidget* p) { return p->figure().view == "parameter-map"; });
+        QVERIFY(found != plots.end());
+        PlotWidget& plot = **found;
+        QCOMPARE(plot.figure().heat->faults.size(), std::size_t(25));
+        auto& canvas = *plot.findChild<QCustomPlot*>();
+        canvas.replot();
+        const QRect rect = canvas.axisRect()->rect();
+        // The cell in the second column from the left and the second row from the bottom: k = 10, h = 0.0316.
+        const QPoint at(rect.left() + rect.width() * 3 / 10, rect.bottom() - rect.height() * 3 / 10);
+        const Scene before = window.workspace().scene();
+        QTest::mouseClick(&canvas, Qt::LeftButton, {}, at);
+        const Scene& after = window.workspace().scene();
+        QCOMPARE(after.model.number("k"), 10.0);
+        const std::string label = plot.figure().series[0].label;
+        for (std::size_t i = 0; i < after.schemes.size(); ++i)
+            QCOMPARE(after.schemes[i].step.value, after.schemes[i].label == label ? 0.0316 : before.schemes[i].step.value);
+        const auto& notices = window.notices().all();
+        QVERIFY(std::any_of(notices.begin(), notices.end(), [](const Notice& n) { return n.key == "case"; }));
+        QVERIFY(waitForResults(window));
+        QCOMPARE((*found)->figure().series[0].x.front(), 10.0);  // the dot moves along
+        window.actions().find("undo")->trigger();  // one edit
+        QVERIFY(window.workspace().scene() == before);
+    }
+    void mapsAreNotOfferedWhereNothingVaries() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        const auto isOffered = [&](const char* preset) {
+            window.open(preset);
+            for (QMenu* menu : window.findChildren<QMenu*>()) {
+                if (menu->title() != QStringLiteral("Plots")) continue;
+                emit menu->aboutToShow();
+                for (const QAction* action : menu->actions())
+                    if (action->text() == QStringLiteral("Parameter map")) return true;
+            }
+            return false;
+        };
+        QVERIFY(isOffered("preset:pendulum"));
+        QVERIFY(!isOffered("preset:free-body"));
     }
     void schemesAreComposedInTheEditor() {
         MainWindow window(Theme::light(), false);

@@ -1,0 +1,120 @@
+#include "ui/plots/map_layer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ui/plots/tickers.hpp"
+#include "ui/plots/value_colour.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr double barLeft = 10, barWidth = 10, tickLength = 3;
+
+QFont scaleFont(const Theme& theme) {
+    QFont font = theme.caption();
+    font.setPixelSize(std::max(6, font.pixelSize() - 1));
+    return font;
+}
+
+bool isBlowUp(const std::string& fault) { return fault == "blow-up"; }
+
+/// Off the scale: plain where the state grew without bounds, hatched where there was no next step.
+void fillFault(QCPPainter& painter, const QRectF& rect, const Theme& theme, bool isPlain) {
+    painter.fillRect(rect, isPlain ? theme.errorLine : theme.errorGround);
+    if (isPlain) return;
+    painter.fillRect(rect, QBrush(theme.errorLine, Qt::BDiagPattern));
+}
+
+/// Decades with a word, every n-th where there is little room.
+std::vector<int> decadesOf(const HeatMap& heat, double height, double each) {
+    const int low = static_cast<int>(std::lround(std::log10(heat.low))), high = static_cast<int>(std::lround(std::log10(heat.high)));
+    const int fitting = std::max(1, static_cast<int>(height / each));
+    const int apart = std::max(1, (high - low + fitting - 1) / fitting);
+    std::vector<int> all;
+    for (int d = high; d >= low; d -= apart) all.push_back(d);
+    return all;
+}
+
+}  // namespace
+
+int scaleWidth(const Figure& figure, const Theme& theme) {
+    if (!figure.heat || figure.heat->scale.empty()) return 0;
+    const QFontMetricsF metrics(scaleFont(theme));
+    return static_cast<int>(barLeft + barWidth + tickLength + 3 + metrics.horizontalAdvance(powerOfTen(-10)) + metrics.height() + 5);
+}
+
+void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared) {
+    const HeatMap& heat = *shared.figure.heat;
+    const QPointF corner = map(heat.left, heat.top), opposite = map(heat.right, heat.bottom);
+    const auto edge = [](double from, double to, int i, int count) { return std::round(from + (to - from) * i / count); };
+    const double decades = std::log10(heat.high / heat.low);
+    painter.setAntialiasing(false);
+    painter.setOpacity(shared.isStale ? 0.4 : 1);
+    for (int column = 0; column < heat.columns; ++column)
+        for (int row = 0; row < heat.rows; ++row) {
+            const auto i = static_cast<std::size_t>(column * heat.rows + row);
+            const QRectF cell(QPointF(edge(corner.x(), opposite.x(), column, heat.columns), edge(opposite.y(), corner.y(), row + 1, heat.rows)),
+                              QPointF(edge(corner.x(), opposite.x(), column + 1, heat.columns), edge(opposite.y(), corner.y(), row, heat.rows)));
+            if (!map.rect.intersects(cell)) continue;
+            const double value = heat.values[i];
+            if (std::isfinite(value))
+                painter.fillRect(cell, valueColour(value > 0 ? std::log10(value / heat.low) / decades : 0));
+            else if (!heat.faults[i].empty())
+                fillFault(painter, cell, shared.theme, isBlowUp(heat.faults[i]));
+        }
+    painter.setOpacity(1);
+    painter.setAntialiasing(true);
+}
+
+void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared) {
+    const HeatMap& heat = *shared.figure.heat;
+    const Theme& theme = shared.theme;
+    const QFont font = scaleFont(theme);
+    const QFontMetricsF metrics(font);
+    painter.setFont(font);
+    const double left = map.rect.right() + barLeft, line = metrics.height();
+    double bottom = map.rect.bottom();
+    // What has no colour of the scale stands below it, if there is any.
+    const auto hasFault = [&](bool isPlain) {
+        return std::any_of(heat.faults.begin(), heat.faults.end(),
+                           [&](const std::string& f) { return !f.empty() && isBlowUp(f) == isPlain; });
+    };
+    for (const bool isPlain : {true, false}) {
+        if (!hasFault(isPlain)) continue;
+        fillFault(painter, QRectF(left, bottom - barWidth, barWidth, barWidth), theme, isPlain);
+        painter.setPen(theme.muted);
+        painter.drawText(QPointF(left + barWidth + 4, bottom - 1), isPlain ? QStringLiteral("blow-up") : QStringLiteral("failed"));
+        bottom -= line + 3;
+    }
+    const double top = map.rect.top();
+    if (bottom < map.rect.bottom()) bottom -= 3;
+    const double height = bottom - top;
+    if (height < 2 * line) return;
+    QLinearGradient colours(0, bottom, 0, top);
+    for (int i = 0; i <= 24; ++i) colours.setColorAt(i / 24.0, valueColour(i / 24.0));
+    painter.fillRect(QRectF(left, top, barWidth, height), colours);
+    const double low = std::log10(heat.low), high = std::log10(heat.high);
+    double widest = 0;
+    for (const int decade : decadesOf(heat, height, 1.6 * line)) {
+        const double y = std::round(bottom - height * (decade - low) / (high - low)) + 0.5;
+        painter.setPen(QPen(theme.line, 1));
+        painter.drawLine(QPointF(left + barWidth, y), QPointF(left + barWidth + tickLength, y));
+        painter.setPen(theme.muted);
+        const QString text = powerOfTen(decade);
+        const double x = left + barWidth + tickLength + 3;
+        const double base = std::clamp(y + metrics.ascent() / 2 - 1, top + metrics.ascent() - 2, bottom + 2);
+        painter.drawText(QPointF(x, base), text);
+        widest = std::max(widest, metrics.horizontalAdvance(text));
+    }
+    const QString title = QString::fromStdString(heat.scale);
+    if (metrics.horizontalAdvance(title) > height) return;  // the subtitle says it as well
+    painter.save();
+    painter.setPen(theme.text);
+    painter.translate(left + barWidth + tickLength + 6 + widest + line, top + height / 2);
+    painter.rotate(-90);
+    painter.drawText(QPointF(-metrics.horizontalAdvance(title) / 2, -metrics.descent()), title);
+    painter.restore();
+}
+
+}  // namespace extremal

@@ -1,0 +1,14 @@
+/// A heat map with a scale: its cells, and the scale in the right margin of the plot.
+#pragma once
+
+#include "ui/plots/plot_layers.hpp"
+
+namespace extremal {
+
+/// The room that the scale needs to the right of the plot; 0 without one.
+int scaleWidth(const Figure& figure, const Theme& theme);
+
+void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared);
+void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared);
+
+}  // namespace extremal
