@@ -1,4 +1,6 @@
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -20,7 +22,8 @@ class Galerkin final : public Integrator {
 public:
     Galerkin(const Mechanics<double>& mechanics, std::vector<Table<double>> tables, const Clock& clock,
              SolverPolicy policy)
-        : clock_(clock), d_(mechanics.dimension), step_(mechanics, std::move(tables), clock.step, policy) {}
+        : clock_(clock), d_(mechanics.dimension), periods_(std::abs(tables.front().frequency) / (2 * std::numbers::pi)),
+          step_(mechanics, std::move(tables), clock.step, policy) {}
 
     StepReport advance(State& state) override {
         const StepReport report = step_.advance(state.t, state.x.data(), state.x.data() + d_, stop());
@@ -30,11 +33,13 @@ public:
     void curve(double tau, std::span<double> x) const override {
         step_.curve(tau, x.data(), x.data() + d_);
     }
+    double periodsPerStep() const override { return periods_; }
     void restart() override { step_.restart(); }
 
 private:
     Clock clock_;
     int d_;
+    double periods_;
     GalerkinStep<double, D> step_;
 };
 

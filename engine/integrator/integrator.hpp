@@ -36,6 +36,9 @@ public:
     /// Only valid after a converged advance().
     virtual void curve(double tau, std::span<double> x) const = 0;
 
+    /// How often the curve of a step oscillates by itself: what a picture of it must resolve. 0 where steps are to resolve the motion.
+    virtual double periodsPerStep() const { return 0; }
+
     /// Forgets the last step: the state given next does not continue it. Only guesses depend on what is
     /// remembered.
     virtual void restart() {}

@@ -123,6 +123,8 @@ public:
         }
     }
 
+    double periodsPerStep() const override { return additive_->periodsPerStep(); }
+
 private:
     static constexpr int fitSamples = 24;
     double* own(std::size_t k) { return unknowns_.data() + offset_[k]; }

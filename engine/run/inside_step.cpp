@@ -21,6 +21,8 @@ int pointsPerStep(bool isAdaptive, long long steps) {
     return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
 }
 
+constexpr double pointsPerPeriod = 16;
+
 /// Points in the part of the time axis that a view shows: enough for some tens of oscillations.
 constexpr double pointsPerPart = 1000;
 
@@ -45,7 +47,7 @@ std::string sectionColumn(const View& view, const System& system) {
 
 InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const System& system, bool isAdaptive,
                        long long steps, Observer error)
-    : result_(result), error_(std::move(error)), points_(pointsPerStep(isAdaptive, steps)) {
+    : result_(result), error_(std::move(error)), steps_(steps), points_(pointsPerStep(isAdaptive, steps)) {
     const std::vector<Column> columns = leadingColumns(system);
     width_ = columns.size() - 1;
     for (const View& view : scene.views) {
@@ -72,9 +74,10 @@ void InsideStep::start(const State& state) {
     if (points_ > 0) keep(state, {});
 }
 
-/// More points in steps that belong to a part that is shown.
-int InsideStep::pointsIn(double start, double end) const {
+/// More points where the curve oscillates, and in steps that belong to a part that is shown.
+int InsideStep::pointsIn(double start, double end, double periods) const {
     double most = points_;
+    if (const double all = pointsPerPeriod * periods; all * static_cast<double>(steps_) <= mostPoints) most = std::max(most, all);
     for (const auto& [low, high] : parts_)
         if (start < high && end > low) most = std::max(most, pointsPerPart * std::min(1.0, (end - start) / (high - low)));
     return static_cast<int>(std::ceil(most));
@@ -84,9 +87,13 @@ void InsideStep::look(const Integrator& integrator, const State& before, const S
                       const StepReport& report) {
     if (!sections_.empty()) cross(integrator, before, after);
     if (points_ == 0) return;
-    const int points = pointsIn(before.t, after.t);
+    const double periods = integrator.periodsPerStep();
+    const int points = pointsIn(before.t, after.t, periods);
+    // Equal distances would turn an oscillation that they do not resolve into a slower one: unequal ones fill its band.
+    const bool isUneven = points < pointsPerPeriod * periods;
+    const double golden = (std::sqrt(5.0) - 1) / 2;
     for (int j = 1; j <= points; ++j) {
-        const double tau = static_cast<double>(j) / points;
+        const double place = isUneven ? j - std::fmod(j * golden, 1.0) : j, tau = place / points;
         at_.t = j < points ? before.t + tau * (after.t - before.t) : after.t;
         if (j < points)
             integrator.curve(tau, at_.x);

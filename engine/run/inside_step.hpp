@@ -32,7 +32,7 @@ public:
               const StepReport& report);
 
 private:
-    int pointsIn(double start, double end) const;
+    int pointsIn(double start, double end, double periods) const;
     void keep(const State& at, const StepReport& report);
     void cross(const Integrator& integrator, const State& before, const State& after);
 
@@ -41,6 +41,7 @@ private:
     };
     SchemeResult& result_;
     Observer error_;
+    long long steps_;  ///< planned
     int points_ = 0;
     std::vector<std::pair<double, double>> parts_;  ///< of the time axis that views show
     std::size_t width_ = 0;
