@@ -17,8 +17,11 @@ std::pair<double, double> decadesOf(const std::vector<const ParameterMap*>& maps
         for (const MapCell& cell : map->cells)
             if (cell.isDone() && cell.value > 0) all.push_back(std::log10(cell.value));
     if (all.empty()) return {-1, 0};
-    std::sort(all.begin(), all.end());
-    const auto at = [&](double part) { return all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))]; };
+    const auto at = [&](double part) {
+        const auto place = all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(all.size() - 1));
+        std::nth_element(all.begin(), place, all.end());
+        return *place;
+    };
     const double low = std::floor(at(0.02) + 1e-9), high = std::ceil(at(0.98) - 1e-9);
     return {low, std::max(high, low + 1)};
 }

@@ -171,6 +171,13 @@ private slots:
         QCOMPARE((*found)->figure().series[0].x.front(), 10.0);  // the dot moves along
         window.actions().find("undo")->trigger();  // one edit
         QVERIFY(window.workspace().scene() == before);
+        QVERIFY(waitForResults(window));
+        // The same with the pointer over the cell and Return.
+        canvas.replot();
+        QTest::mouseMove(&canvas, at);
+        plot.setFocus();
+        QTest::keyClick(&plot, Qt::Key_Return);
+        QCOMPARE(window.workspace().scene().model.number("k"), 10.0);
     }
     void mapsAreNotOfferedWhereNothingVaries() {
         MainWindow window(Theme::light(), false);
