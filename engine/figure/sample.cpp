@@ -56,7 +56,7 @@ std::string heatCsv(const Figure& figure, bool isVisibleOnly) {
         for (std::size_t r = 0; r < heat.ys.size(); ++r) {
             if (isVisibleOnly && !(isWithin(heat.xs[c], figure.x) && isWithin(heat.ys[r], figure.y))) continue;
             const std::size_t i = c * heat.ys.size() + r;
-            csv += cell(heat.xs[c]) + "," + cell(heat.ys[r]) + "," + cell(heat.values[i]) + "," + heat.faults[i] + "\n";
+            csv += cell(heat.xs[c]) + "," + cell(heat.ys[r]) + "," + cell(heat.values[i]) + "," + quoted(heat.faults[i]) + "\n";
         }
     return csv;
 }

@@ -172,7 +172,8 @@ MapRun::MapRun(const Scene& scene) : scene_(scene) {
         const MapGrid grid = mapGridOf(scene, view);
         const std::size_t first = maps_.size();
         for (const std::size_t i : mappedSchemes(scene))
-            maps_.push_back({v, scene.schemes[i].label, static_cast<int>(i), grid, Cells(grid.values.size() * grid.steps.size())});
+            maps_.push_back({v, scene.schemes[i].label, static_cast<int>(i), grid, std::vector<std::string>(grid.values.size()),
+                             Cells(grid.values.size() * grid.steps.size())});
         if (maps_.size() == first) continue;
         for (std::size_t c = 0; c < grid.values.size(); ++c) tasks_.push_back({first, c});
     }
@@ -203,6 +204,9 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
     const ObservableEntry* observable = read.errors.empty() ? observableOf(read.scene, grid.column) : nullptr;
     if (!observable) {
         for (const std::size_t s : unknown) publish(s, Cells(rows, MapCell{MapCell::End::refused}));
+        const std::lock_guard lock(mutex_);
+        for (std::size_t s = 0; s < schemes && !read.errors.empty(); ++s)
+            maps_[first + s].problems[column] = read.errors.front().pointer + " " + read.errors.front().message;
         return;
     }
     const MapColumn computed(read.scene, grid, *observable, stop);

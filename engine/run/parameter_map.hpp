@@ -39,6 +39,7 @@ struct ParameterMap {
     std::string scheme;    ///< its label
     int style = 0;
     MapGrid grid;
+    std::vector<std::string> problems;  ///< of each value of the parameter: why it makes no valid scene, else empty
     std::vector<MapCell> cells;  ///< of value i and step j at i * steps + j
 
     const MapCell& at(std::size_t i, std::size_t j) const { return cells[i * grid.steps.size() + j]; }

@@ -43,10 +43,13 @@ HeatMap heatOfMap(const ParameterMap& map, std::pair<double, double> decades, st
     heat.xs = map.grid.values;
     heat.ys = map.grid.steps;
     heat.scale = std::move(scale);
-    for (const MapCell& cell : map.cells) {
+    for (std::size_t i = 0; i < map.cells.size(); ++i) {
+        const MapCell& cell = map.cells[i];
         heat.values.push_back(cell.isDone() ? cell.value : Summary::unknown);
         const bool isFault = !cell.isDone() && cell.end != MapCell::End::waiting;
         heat.faults.emplace_back(isFault ? name(cell) : std::string_view());
+        const std::string& problem = map.problems[i / map.grid.steps.size()];
+        if (cell.end == MapCell::End::refused && !problem.empty()) heat.faults.back() += ": " + problem;
     }
     return heat;
 }

@@ -33,6 +33,7 @@ inline Comparison mapComparison() {
         map->scheme = c.scene.schemes[s].label;
         map->style = static_cast<int>(s);
         map->grid = mapGridOf(c.scene, c.scene.views[0]);
+        map->problems.resize(6);
         for (int i = 0; i < 6; ++i)
             for (int j = 0; j < 5; ++j) {
                 MapCell cell;

@@ -239,6 +239,18 @@ private slots:
         QCOMPARE(map.at(0, 0).end, MapCell::End::done);
         QCOMPARE(map.at(2, 0).end, MapCell::End::blownUp);
     }
+    void whatMakesNoSceneIsRefused() {
+        // The amplitude is not a number where k is below 10.
+        const ReadScene read = readScene(std::string(R"x({"extremal":1,"model":{"type":"harmonic-oscillator","k":100},
+            "initial":{"q":["sqrt(k-10)"],"p":[0]},"time":{"end":1},"schemes":[{"label":"midpoint","step":0.01,"scheme":"midpoint"}],
+            "observe":["energy"],"views":[{"view":"parameter-map","from":1,"to":100,"steps":[0.01,0.1],"cells":[3,2]}]})x"));
+        QVERIFY(read.errors.empty());
+        const Comparison c = run(read.scene);
+        const ParameterMap& map = mapOf(c, "midpoint");
+        QCOMPARE(map.at(0, 0).end, MapCell::End::refused);
+        QVERIFY2(map.problems[0].starts_with("/initial/q"), map.problems[0].c_str());
+        QVERIFY(map.at(2, 1).isDone() && map.problems[2].empty());
+    }
     void exportsHaveARowForEachCell() {
         const std::string view = R"({"view":"parameter-map","from":1e4,"to":1e8,"steps":[0.01,0.16],"cells":[3,3],"duration":2})";
         const Comparison c = runStiff(view);
