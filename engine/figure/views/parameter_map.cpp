@@ -81,6 +81,7 @@ Figure makeParameterMap(const FigureContext& context) {
         alike.push_back(map.get());
         if (!shown && (context.view.scheme.empty() || context.view.scheme == map->scheme)) shown = map.get();
     }
+    figure.x.isLog = figure.y.isLog = true;
     if (!shown || !context.system) {
         if (context.comparison.maps.empty()) figure.message = "No scheme that runs has a step";
         finishFigure(figure, context, "Errors over a parameter and the step");

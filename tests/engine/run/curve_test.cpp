@@ -63,10 +63,10 @@ private slots:
         QVERIFY(ofChords < 2.5 && fine.chord > 100 * fine.curve);
     }
     void partsThatAViewShowsHaveMorePoints() {
-        // 20 steps of 16 fast periods: 40 points a step everywhere, some hundreds where one step is looked at.
+        // 20 steps: 40 points a step everywhere, some hundreds where one step is looked at.
         const auto rowsIn = [](const char* views) {
             const std::string text = std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},
-                "initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":0.1,"scheme":"multiscale-r2"}],
+                "initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":0.1,"scheme":"galerkin-gauss-4"}],
                 "reference":"none","observe":["energy"],"views":[)") + views + "]}";
             const ReadScene read = readScene(std::string_view(text));
             if (!read.errors.empty()) qWarning("%s", read.errors[0].message.c_str());
@@ -82,6 +82,38 @@ private slots:
         QVERIFY(narrow.first < 2000);
         const auto all = rowsIn(R"({"view":"trajectory","y":"q.a","range":{"x":[0,2]}})").first;
         QVERIFY(all >= 20 * 50 + 1 && all <= 20 * 51 + 1);
+    }
+    void oscillationsInsideAStepAreResolvedOrFillTheirBand() {
+        const auto curveOf = [](const char* k, const char* step) {
+            const std::string text = std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":)") + k +
+                                     R"_(},"initial":{"q":["0.05*sqrt(1e4/k)",1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":)_" + step +
+                                     R"(,"scheme":"multiscale-r2"}],"reference":"none","observe":["energy"],"views":["trajectory"]})";
+            return run(readScene(std::string_view(text)).scene).schemes.at(0)->curve;
+        };
+        // 15.9 periods a step, 16 points each: as many zeros as the spring has, two a period.
+        const Trajectory resolved = curveOf("1e6", "0.1");
+        const auto zeros = [](const Trajectory& curve) {
+            const auto a = curve["q.a"];
+            int count = 0;
+            for (std::size_t i = 1; i < a.size(); ++i) count += (a[i - 1] < 0) != (a[i] < 0);
+            return count;
+        };
+        QVERIFY(std::abs(zeros(resolved) - 2 * 2 * 1000 / (2 * M_PI)) < 5);
+        // At k = 1e10 this step has exactly 1000 periods, which so few points cannot resolve. With 40 of them at
+        // equal distances the spring would stand still; at unequal ones it fills its band in every step.
+        const Trajectory band = curveOf("1e10", "0.06283185307179587");
+        QVERIFY(band.rows() < 2500);
+        const auto a = band["q.a"];
+        const std::size_t perStep = 40;
+        for (std::size_t first = 1; first + perStep <= a.size(); first += perStep) {
+            std::array<int, 4> quarter{};
+            for (std::size_t i = first; i < first + perStep; ++i)
+                ++quarter[static_cast<std::size_t>(std::clamp(static_cast<int>((a[i] / 5e-5 + 1) * 2), 0, 3))];
+            QVERIFY(*std::min_element(quarter.begin(), quarter.end()) > 2);
+        }
+        qInfo("%d zeros in %d points", zeros(band), static_cast<int>(band.rows()));
+        const auto t = band["t"];
+        QVERIFY(std::is_sorted(t.begin(), t.end()) && std::adjacent_find(t.begin(), t.end()) == t.end());
     }
     void plotsAreDrawnAlongIt() {
         const Scene scene = kepler("galerkin-gauss-4", 0.5, 6);
