@@ -176,13 +176,18 @@ void readStep(Reader& reader, const Value& scheme, const std::string& pointer, b
                            ? "is not used: " + spec.baseline.type + " chooses its steps by its tolerance"
                            : std::string("is not used: the step is fixed"));
     const Value* value = scheme.find(wanted);
-    if (!value && spec.kind != SchemeSpec::Kind::baseline) {
+    if (const auto pair = pairOf(spec); pair && pair->space.type == "elliptic-elements") {
         // The length of an element follows from their number.
-        const auto pair = pairOf(spec);
         const auto model = reader.parameters.find("elements");
-        if (pair && pair->space.type == "elliptic-elements" && model != reader.parameters.end() && model->second) {
-            const double own = pair->space.number("elements");
-            spec.step = Number{1 / (own > 0 ? own : *model->second), {}};
+        if (const double own = pair->space.number("elements"); own > 0) {
+            const auto given = value ? reader.number(*value, place, Limits::positive()) : std::nullopt;
+            if (given && std::abs(given->value * own - 1) > 1e-9)
+                reader.warning(place, "is not used: the space has " + formatNumber(own) + " elements", "", 1 / own);
+            spec.step = Number{1 / own, {}};
+            return;
+        }
+        if (!value && model != reader.parameters.end() && model->second) {
+            spec.step = Number{1 / *model->second, "1/elements"};
             return;
         }
     }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/integrator/elliptic.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/shell/fitting.hpp"
@@ -61,6 +62,10 @@ QString spaceText(const Settings& space) {
     const QString degree = QString::number(space.integer("degree"));
     if (space.type == "spline")
         return QObject::tr("splines of degree %1 with %2 cells").arg(degree).arg(space.integer("cells"));
+    if (isElliptic(space))
+        return (space.text("functions") == "linear" ? QObject::tr("%1 elements with straight lines")
+                                                    : QObject::tr("%1 elements that know the coefficient"))
+            .arg(space.integer("elements"));
     if (space.text("form") == "three-level") return QObject::tr("lines in time over Fourier modes, in three levels");
     if (space.type == "fourier") return QObject::tr("polynomials of degree %1 in time over Fourier modes").arg(degree);
     if (space.type == "lie-polynomial") return QObject::tr("polynomials of degree %1 in the algebra").arg(degree);
@@ -87,6 +92,23 @@ DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* p
     : QAbstractButton(parent), space_(std::move(space)), quadrature_(std::move(quadrature)) {
     const PairProperties known = describe(space_, quadrature_);
     setEnabled(known.refusal.empty());
+    if (isElliptic(space_)) {
+        name_ = QString::number(space_.integer("elements"));
+        setObjectName("cell." + QString::fromStdString(space_.text("functions")) + "." + name_);
+    } else {
+        nameByOrder(known);
+    }
+    const QString ofSpace = spaceText(space_);
+    setAccessibleName(ofSpace.at(0).toUpper() + ofSpace.mid(1) +
+                      (isElliptic(space_) ? QString() : QStringLiteral(", ") + ruleTitle(quadrature_.type)));
+    setToolTip(tooltip(known));
+    setAccessibleDescription(toolTip().remove(QRegularExpression("<[^>]*>")));
+    setFocusPolicy(Qt::TabFocus);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setCursor(known.refusal.empty() ? Qt::PointingHandCursor : Qt::ArrowCursor);
+}
+
+void DiscretizerCell::nameByOrder(const PairProperties& known) {
     const QString order = QString::number(known.claims.order);
     name_ = abbreviation(QString::fromStdString(known.knownAs));
     if (name_.isEmpty())
@@ -97,18 +119,16 @@ DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* p
                       .arg(space_.type == "spline" ? QStringLiteral("spline") : QString())
                       .arg(space_.integer("degree"))
                       .arg(QString::fromStdString(quadrature_.type)));
-    const QString ofSpace = spaceText(space_);
-    setAccessibleName(ofSpace.at(0).toUpper() + ofSpace.mid(1) + ", " + ruleTitle(quadrature_.type));
-    setToolTip(tooltip(known));
-    setAccessibleDescription(toolTip().remove(QRegularExpression("<[^>]*>")));
-    setFocusPolicy(Qt::TabFocus);
-    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    setCursor(known.refusal.empty() ? Qt::PointingHandCursor : Qt::ArrowCursor);
 }
 
 QString DiscretizerCell::tooltip(const PairProperties& known) const {
     const QString pair = spaceText(space_) + QStringLiteral(" × ") + ruleTitle(quadrature_.type);
     if (!known.refusal.empty()) return tr("<b>%1</b><br>No scheme: %2").arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
+    if (isElliptic(space_))
+        return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + spaceText(space_) + "<br>" +
+               (known.claims.order > 0 ? tr("order %1, once they resolve the coefficient").arg(known.claims.order)
+                                       : tr("exact at the nodes, however few")) +
+               "<br><i>" + tr("Click to add it to the comparison.") + "</i>";
     QString text = "<b>" + (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) + "</b>";
     if (!known.knownAs.empty()) text += "<br>" + pair;
     QStringList badges{tr("order %1").arg(known.claims.order)};
@@ -189,6 +209,10 @@ void Discretizer::fill(const std::string& space) {
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setHorizontalSpacing(3);
     grid->setVerticalSpacing(3);
+    body()->addWidget(grid_);
+    const bool isOfElements = isElliptic({space, {}, {}});
+    setSubtitle(isOfElements ? tr("functions × elements") : tr("space × quadrature"));
+    if (isOfElements) return fillElements(*grid);
     const std::vector<SpaceRow> rows = rowsFor(space);
     int column = 1;
     for (const RuleColumn& rule : columns) {
@@ -200,11 +224,7 @@ void Discretizer::fill(const std::string& space) {
         int row = 1;
         for (const SpaceRow& line : rows) {
             const Settings ofRow = spaceOfRow(line);
-            auto* cell = new DiscretizerCell(ofRow, ruleFor(rule.id, ofRow));
-            if (theme_) cell->setTheme(*theme_);
-            connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
-            cells_.push_back(cell);
-            grid->addWidget(cell, row++, column);
+            addCell(*grid, ofRow, ruleFor(rule.id, ofRow), row++, column);
         }
         ++column;
     }
@@ -214,7 +234,29 @@ void Discretizer::fill(const std::string& space) {
         name->setToolTip(tr("On each step: %1").arg(spaceText(spaceOfRow(line))));
         grid->addWidget(name, row++, 0);
     }
-    body()->addWidget(grid_);
+}
+
+void Discretizer::addCell(QGridLayout& grid, const Settings& space, const Settings& rule, int row, int column) {
+    auto* cell = new DiscretizerCell(space, rule);
+    if (theme_) cell->setTheme(*theme_);
+    connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
+    cells_.push_back(cell);
+    grid.addWidget(cell, row, column);
+}
+
+/// The elliptic problem has no rule to choose: its elements take theirs from the coefficient.
+void Discretizer::fillElements(QGridLayout& grid) {
+    int row = 0;
+    for (const char* functions : {"multiscale", "linear"}) {
+        grid.addWidget(makeLabel(QString::fromUtf8(functions), "caption"), row, 0);
+        int column = 1;
+        for (const int elements : {5, 10, 20, 40, 80, 160}) {
+            const Settings space{space_, {{"functions", functions}, {"elements", static_cast<double>(elements)}}, {}};
+            grid.setColumnStretch(column, 1);
+            addCell(grid, space, ruleFor("auto", space), row, column++);
+        }
+        ++row;
+    }
 }
 
 void Discretizer::setTheme(const Theme& theme) {

@@ -9,6 +9,8 @@
 #include "engine/core/settings.hpp"
 #include "ui/panels/card.hpp"
 
+class QGridLayout;
+
 namespace extremal {
 
 struct PairProperties;
@@ -32,6 +34,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    void nameByOrder(const PairProperties& known);
     QString tooltip(const PairProperties& known) const;
 
     Settings space_, quadrature_;
@@ -49,6 +52,8 @@ public:
 
 private:
     void fill(const std::string& space);
+    void fillElements(QGridLayout& grid);
+    void addCell(QGridLayout& grid, const Settings& space, const Settings& rule, int row, int column);
     void refresh();
     void choose(const DiscretizerCell& cell);
 

@@ -4,6 +4,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QStandardItemModel>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -140,6 +141,8 @@ void SchemeEditor::rebuild() {
     shown_ = signature();
     const SchemeSpec& s = spec();
     kind_->setCurrentIndex(static_cast<int>(s.kind));
+    if (auto* kinds = qobject_cast<QStandardItemModel*>(kind_->model()))  // a model may have no baselines
+        kinds->item(static_cast<int>(SchemeSpec::Kind::baseline))->setEnabled(!baselineItems(workspace_.scene()).empty());
     ruleRow_->setVisible(s.kind == SchemeSpec::Kind::pair);
     std::vector<FormField> fields;
     if (s.kind == SchemeSpec::Kind::pair) {

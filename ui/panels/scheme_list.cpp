@@ -8,6 +8,7 @@
 #include <QVBoxLayout>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/integrator/elliptic.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/panels/format.hpp"
@@ -56,7 +57,9 @@ void SchemeList::fillAddMenu() {
     addMenu_->clear();
     const std::string spaceId = pairSpace(workspace_.scene());
     QMenu* pairs = addMenu_->addMenu(tr("Space × quadrature"));
+    pairs->menuAction()->setVisible(!isElliptic({spaceId, {}, {}}));  // its pairs have names, all of them
     for (const char* rule : {"gauss", "lobatto", "radau", "clenshaw-curtis"}) {
+        if (!pairs->menuAction()->isVisible()) break;
         QMenu* sub = pairs->addMenu(ruleTitle(rule));
         for (int degree = 1; degree <= 8; ++degree) {
             const Settings space = spaceOf(spaceId, degree), quadrature = ruleFor(rule, space);
@@ -91,6 +94,7 @@ void SchemeList::fillAddMenu() {
         action->setToolTip(QString::fromStdString(entry.item.description));
     }
     baselines->setToolTipsVisible(true);
+    baselines->menuAction()->setVisible(!baselines->isEmpty());
 }
 
 void SchemeList::add(const Value& scheme) {

@@ -5,6 +5,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/figure/view.hpp"
+#include "engine/integrator/elliptic.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -88,7 +89,8 @@ Value newPair(const Scene& scene, const Settings& space, const Settings& quadrat
     const PairProperties known = describe(space, quadrature);
     Value scheme{Value::Object{}};
     scheme.set("label", uniqueLabel(scene, pairLabel(space, quadrature)));
-    scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
+    // The step of finite elements is one over their number.
+    if (!isElliptic(space)) scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
     scheme.set("space", settingsTree(space));
     // Panels that follow the cells of the space are left to do so when these are edited.
     Settings rule = quadrature;
@@ -114,7 +116,7 @@ Value newNamed(const Scene& scene, const std::string& id) {
     const auto pair = namedScheme(id);
     const PairProperties known = pair ? describe(pair->space, pair->quadrature) : PairProperties{};
     scheme.set("label", uniqueLabel(scene, id));
-    scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
+    if (!pair || !isElliptic(pair->space)) scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
     scheme.set("scheme", id);
     return scheme;
 }
@@ -180,13 +182,14 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         const bool fits = pair ? isPairFor(*pair, system) : baseline && appliesTo(*baseline, system);
         if (!fits && !pair) continue;
         Value scheme = fits ? document.find("schemes")->asArray()[i] : Value();
+        if (!fits && (isElliptic(pair->space) || system.elliptic) && !schemes.empty()) continue;  // one stands for all
         if (!fits) {
             const std::string space = pairSpace(next);
-            const int degree = std::min(pair->space.integer("degree"), 8);
+            const int degree = isElliptic(pair->space) ? 2 : std::min(pair->space.integer("degree"), 8);
             const Settings fitting = spaceOf(space, degree);
             scheme = newPair(next, fitting, ruleFor(pair->quadrature.type, fitting));
         }
-        if (spec.step.value > 0) scheme.set("step", roundStep(spec.step.value * scale * 1.0001));
+        if (spec.step.value > 0 && scheme.find("step")) scheme.set("step", roundStep(spec.step.value * scale * 1.0001));
         scheme.set("enabled", spec.isEnabled);
         next.schemes.emplace_back();
         next.schemes.back().label = scheme.find("label")->asString();
@@ -216,6 +219,12 @@ int findPair(const Scene& scene, const Settings& space, const Settings& quadratu
         const auto pair = pairOf(scene.schemes[i]);
         if (!pair) continue;
         const Settings &s = pair->space, &q = pair->quadrature;
+        if (isElliptic(s) && isElliptic(space)) {
+            if (s.text("functions") == space.text("functions") &&
+                std::lround(1 / scene.schemes[i].step.value) == space.integer("elements"))
+                return static_cast<int>(i);
+            continue;
+        }
         if (s.type == space.type && s.integer("degree") == space.integer("degree") && q.type == quadrature.type &&
             q.integer("nodes") == quadrature.integer("nodes") &&
             std::max(1, q.integer("panels")) == std::max(1, quadrature.integer("panels")))
@@ -249,13 +258,14 @@ Settings spaceOf(const std::string& id, int degree) {
 }
 
 std::string fittingRule(const std::string& rule, const Settings& space) {
+    if (isElliptic(space)) return "auto";
     const bool isFast = space.type == "oscillatory", isForFast = rule == "auto" || rule.starts_with("filon-");
     if (isFast) return isForFast || rule == "gauss" || rule == "lobatto" ? rule : "auto";
     return isForFast ? "gauss" : rule;
 }
 
 Settings ruleFor(const std::string& id, const Settings& space) {
-    const CatalogItem* item = itemOf(quadratureCatalog(), id);
+    const CatalogItem* item = itemOf(quadratureCatalog(), isElliptic(space) ? "auto" : id);
     return completeQuadrature(space, item ? withDefaults(*item) : Settings{});
 }
 

@@ -312,6 +312,24 @@ private slots:
         }
     }
 
+    void theNumberOfElementsGivesTheStep() {
+        const std::string text = R"({"extremal":1,"model":{"type":"multiscale-elliptic","elements":10},"schemes":[
+            {"scheme":"elliptic-multiscale"},{"space":{"type":"elliptic-elements","elements":5},"quadrature":"auto"}]})";
+        const auto steps = [](const ReadScene& read) {
+            return std::pair{read.scene.schemes.at(0).step.value, read.scene.schemes.at(1).step.value};
+        };
+        const ReadScene read = readScene(text);
+        QVERIFY2(read.errors.empty() && read.warnings.empty(), textOf(read.errors).c_str());
+        QCOMPARE(steps(read), (std::pair{0.1, 0.2}));
+        // What was saved still follows the model and the space.
+        const std::string saved = writeScene(read.scene);
+        QCOMPARE(steps(readScene(saved, {parseOverride("/model/elements=20")})), (std::pair{0.05, 0.2}));
+        const ReadScene changed = readScene(saved, {parseOverride("/schemes/1/space/elements=8")});
+        QCOMPARE(steps(changed), (std::pair{0.1, 0.125}));
+        QVERIFY(changed.warnings.size() == 1 && changed.warnings[0].pointer == "/schemes/1/step");
+        QVERIFY(readScene(writeScene(changed.scene)).warnings.empty());
+    }
+
     void jsonTextIsByteStable() {
         for (const char* text :
              {"[-0.0, 0, 1e-300, 5e-324, 0.1, 123456789012345680, -1.7976931348623157e308]",

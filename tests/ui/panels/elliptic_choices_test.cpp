@@ -1,0 +1,97 @@
+/// What the window offers for the elliptic problem: its own elements, and nothing that would be refused.
+#include <QComboBox>
+#include <QMenu>
+#include <QPushButton>
+#include <QStandardItemModel>
+#include <QTest>
+
+#include "engine/integrator/elliptic.hpp"
+#include "engine/model/system.hpp"
+#include "engine/scene/bind.hpp"
+#include "ui/panels/discretizer.hpp"
+#include "ui/panels/scheme_editor.hpp"
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/run_control.hpp"
+#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+
+class EllipticChoicesTest : public QObject {
+    Q_OBJECT
+
+    static bool waitForResults(MainWindow& window) {
+        return QTest::qWaitFor(
+            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
+    }
+
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void everyCellOfTheDiscretizerRuns() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:elliptic");
+        const auto cells = window.discretizer().findChildren<DiscretizerCell*>();
+        QCOMPARE(cells.size(), qsizetype(12));
+        for (DiscretizerCell* cell : cells) QTest::mouseClick(cell, Qt::LeftButton);
+        const auto& schemes = window.workspace().scene().schemes;
+        QCOMPARE(schemes.size(), std::size_t(12));  // those with ten elements were there
+        QVERIFY(!window.workspace().hasDrafts());
+        QVERIFY(waitForResults(window));
+        for (const auto& scheme : window.runControl().results()->schemes) {
+            const auto pair = pairOf(scheme->spec);
+            QVERIFY(scheme->summary.status == RunStatus::done && pair && isElliptic(pair->space));
+            if (pair->space.text("functions") == "multiscale") QVERIFY(scheme->summary.maxError < 1e-13);
+            else QVERIFY(scheme->summary.maxError > 1e-5);
+        }
+        // Clicked again a cell shows its scheme.
+        QTest::mouseClick(cells.front(), Qt::LeftButton);
+        QCOMPARE(schemes.size(), std::size_t(12));
+    }
+    void menusAndEditorsOfferWhatFits() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:elliptic");
+        auto* add = window.findChild<QPushButton*>("add");
+        add->click();
+        QStringList entries;
+        for (QWidget* widget : QApplication::topLevelWidgets())
+            if (auto* menu = qobject_cast<QMenu*>(widget); menu && menu->isVisible())
+                for (QAction* action : menu->actions())
+                    if (action->isVisible()) entries << action->text();
+        QCOMPARE(entries, QStringList{"Named scheme"});
+        QApplication::activePopupWidget()->close();
+        SchemeEditor editor(window.workspace(), 0);
+        auto* kind = editor.findChild<QComboBox*>("kind");
+        QVERIFY(!qobject_cast<QStandardItemModel*>(kind->model())->item(1)->isEnabled());
+        kind->setCurrentIndex(0);
+        emit kind->activated(0);
+        QCOMPARE(window.workspace().scene().schemes[0].space.type, std::string("elliptic-elements"));
+        QVERIFY(!window.workspace().hasDrafts());
+        QCOMPARE(editor.findChild<QComboBox*>("rule")->count(), 1);
+        QCOMPARE(editor.findChild<QComboBox*>("choice")->count(), 1);
+    }
+    void anotherModelTakesSchemesThatFit() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        for (const auto& [preset, model] : {std::pair{"preset:spring-pendulum", "multiscale-elliptic"},
+                                            {"preset:elliptic", "pendulum"}, {"preset:elliptic", "rigid-body"}}) {
+            window.open(preset);
+            const ModelEntry* entry = findModel(model);
+            QVERIFY2(entry, model);
+            const bool isDone = window.workspace().edit(editsForModel(window.workspace().scene(), *entry), "model");
+            const auto problems = window.workspace().problemsAt("");
+            QVERIFY2(isDone, problems.empty() ? model : (problems[0].pointer + ": " + problems[0].message).c_str());
+            QVERIFY(waitForResults(window));
+            for (const auto& scheme : window.runControl().results()->schemes) QVERIFY(scheme->summary.status == RunStatus::done);
+        }
+    }
+};
+
+}  // namespace extremal
+
+QTEST_MAIN(extremal::EllipticChoicesTest)
+#include "elliptic_choices_test.moc"
