@@ -8,9 +8,9 @@
 #include "engine/integrator/elliptic.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
+#include "tests/ui/window.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_editor.hpp"
-#include "ui/shell/main_window.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
@@ -19,11 +19,6 @@ namespace extremal {
 
 class EllipticChoicesTest : public QObject {
     Q_OBJECT
-
-    static bool waitForResults(MainWindow& window) {
-        return QTest::qWaitFor(
-            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
-    }
 
 private slots:
     void initTestCase() {

@@ -16,13 +16,13 @@
 
 #include "engine/scene/bind.hpp"
 #include "engine/scene/json.hpp"
+#include "tests/ui/window.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/value_edit.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/compare_view.hpp"
-#include "ui/shell/main_window.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
@@ -32,11 +32,6 @@ namespace extremal {
 
 class MainWindowTest : public QObject {
     Q_OBJECT
-
-    static bool waitForResults(MainWindow& window) {
-        return QTest::qWaitFor(
-            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
-    }
 
 private slots:
     void initTestCase() {

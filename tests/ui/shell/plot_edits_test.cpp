@@ -13,10 +13,10 @@
 
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "tests/ui/window.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/compare_view.hpp"
-#include "ui/shell/main_window.hpp"
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
@@ -26,10 +26,6 @@ namespace extremal {
 class PlotEditsTest : public QObject {
     Q_OBJECT
 
-    static bool waitForResults(MainWindow& window) {
-        return QTest::qWaitFor(
-            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
-    }
     static PlotWidget* plot(MainWindow& window, std::size_t i) { return window.compareView().plots().at(i); }
     /// Chooses an entry of the menu of a plot's card as a click does.
     static bool choose(MainWindow& window, std::size_t i, const QString& text) {

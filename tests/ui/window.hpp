@@ -1,0 +1,17 @@
+/// What tests of the whole window begin with.
+#pragma once
+
+#include <QTest>
+
+#include "ui/shell/main_window.hpp"
+#include "ui/shell/run_control.hpp"
+
+namespace extremal {
+
+/// Until the run of the present scene is over.
+inline bool waitForResults(MainWindow& window) {
+    return QTest::qWaitFor(
+        [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
+}
+
+}  // namespace extremal
