@@ -137,7 +137,6 @@ void NodeIteration<T>::evaluateForces() {
         mechanics_.forces(model, times_.data(), stride_, Q_.data(), F_.data());
     else
         evaluateOneByOne();
-    weigh();
 }
 
 template <class T>
@@ -160,7 +159,6 @@ void NodeIteration<T>::startFromConstantForce(const T& t, const T* q) {
     mechanics_.force(mechanics_.model.get(), t, q, force_.data());
     for (int k = 0; k < d_; ++k)
         for (int i = 0; i < n_; ++i) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
-    weigh();
 }
 
 /// Size of the last sweep's change: each coordinate against its own increments and the round-off of its own value.
@@ -183,11 +181,11 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
                                                           const std::stop_token& stop, StepReport& report) {
     const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
     place(t, p, carryQ, carryP);
-    Sweep<T> s{d_, n_, stride_, start_.data(), base_.data(), F_.data(), inverseMass_.data(), q, Z_.data(), Q_.data(),
-               size_.data()};
+    Sweep<T> s{d_, n_, stride_, start_.data(), base_.data(), F_.data(), nullptr, impulse_.data(), inverseMass_.data(), q,
+               Z_.data(), Q_.data(), size_.data()};
     const auto useImpulses = [&] {  // from here on; the continuation of the last step is in terms of forces
         s.G = N_.data();
-        s.F = impulse_.data();
+        s.weight = weight_.data();
     };
     if (!hasForces_) {
         startFromConstantForce(t, q);
@@ -216,6 +214,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         if (isEnough || (size < stagnation && size >= last * T(0.25))) {
             if (isExact_) {
                 evaluateForces();
+                weigh();
                 report.evaluations += n_;
             }
             hasForces_ = true;

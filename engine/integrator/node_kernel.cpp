@@ -27,6 +27,11 @@ double largest(double* v) {
 void sweepLanes(const Sweep<double>& s) {
     for (int k = 0; k < s.d; ++k) {
         const double* F = s.F + k * s.stride;
+        if (s.weight) {
+            double* const impulse = s.impulse + k * s.stride;
+            for (int j = 0; j < s.stride; j += 8) (Lanes::load(s.weight + j) * Lanes::load(F + j)).store(impulse + j);
+            F = impulse;
+        }
         double change = 0, scale = 0;
         for (int i = 0; i < s.stride; i += 8) {
             double* Z = s.Z + k * s.stride + i;

@@ -1,5 +1,6 @@
 /// One sweep of the fixed-point iteration over all nodes of a step (node_iteration.hpp):
-///     Z_k(i) <- base_k(i) + sum_j G(i, j) F_k(j) / mass_k,     Q_k(i) <- q_k + Z_k(i).
+///     Z_k(i) <- base_k(i) + sum_j G(i, j) w_j F_k(j) / mass_k,     Q_k(i) <- q_k + Z_k(i),
+/// and the impulses w_j F_k(j) themselves; without weights F takes their place.
 /// Arrays of d coordinates x `stride` nodes, node fastest; G by columns, G[j * stride + i]; stride is a multiple of 8.
 /// Gives the largest change of Z and the largest Z of each coordinate; NaNs may go unseen, and are then in Z.
 #pragma once
@@ -20,6 +21,8 @@ struct Sweep {
     const T* G = nullptr;
     const T* base = nullptr;
     const T* F = nullptr;
+    const T* weight = nullptr;  ///< w_j, or none
+    T* impulse = nullptr;       ///< w_j F_k(j), where there are weights
     const T* inverseMass = nullptr;  ///< d
     const T* q = nullptr;            ///< d
     T* Z = nullptr;
@@ -33,9 +36,14 @@ void sweep(const Sweep<T>& s) {
     using std::abs;
     for (int k = 0; k < s.d; ++k) {
         T change(0), scale(0);
+        const T* F = s.F + k * s.stride;
+        if (s.weight) {
+            for (int j = 0; j < s.stride; ++j) s.impulse[k * s.stride + j] = s.weight[j] * F[j];
+            F = s.impulse + k * s.stride;
+        }
         for (int i = 0; i < s.nodes; ++i) {
             T sum(0);
-            for (int j = 0; j < s.nodes; ++j) sum += s.G[j * s.stride + i] * s.F[k * s.stride + j];
+            for (int j = 0; j < s.nodes; ++j) sum += s.G[j * s.stride + i] * F[j];
             const T z = s.base[k * s.stride + i] + sum * s.inverseMass[k];
             T& Z = s.Z[k * s.stride + i];
             const T moved = abs(z - Z), far = abs(z);
