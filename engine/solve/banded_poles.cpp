@@ -18,6 +18,12 @@ using Complexes = std::vector<Complex>;
 /// What is smaller than this, relative to the result, does not reach its last bit.
 constexpr double negligible = 1e-18;
 
+/// 1/z without the care for overflow that makes std::complex ten times slower: entries are below 1e100.
+Complex inverse(Complex z) {
+    const double scale = 1 / (z.real() * z.real() + z.imag() * z.imag());
+    return {z.real() * scale, -z.imag() * scale};
+}
+
 /// Numbers in whole cache lines.
 class Lines {
 public:
@@ -65,6 +71,7 @@ struct BandedPoles::Impl {
         return {a.data()[i], a.data()[i + static_cast<std::size_t>(lanes())]};
     }
 
+    double factorBound(const CyclicBand& Y, const Complexes& zeta, int r) const;
     void chooseSegments(const CyclicBand& Y, const Complexes& zeta);
     void allocate();
     bool factorOne(const CyclicBand& Y, const Complexes& zeta, Complex up, Complex down);
@@ -73,6 +80,16 @@ struct BandedPoles::Impl {
     void solveMiddle() const;
     void correctCorners(Complex* v) const;
 };
+
+/// A bound of the factors of row r, both ends and all poles, where the band is one entry wide; 1 where there is none.
+double BandedPoles::Impl::factorBound(const CyclicBand& Y, const Complexes& zeta, int r) const {
+    double square = 1e300;
+    for (int e = 0; e < 2; ++e)
+        for (const Complex& pole : zeta)
+            square = std::min(square, std::norm(pole + Complex(0, Y.diagonal[static_cast<std::size_t>(place(e, r))])));
+    const double least = std::sqrt(square), off = std::abs(Y.offDiagonal[0]);
+    return least > 2 * off ? off / (least - off) : 1.0;
+}
 
 /// Far from the middle wave numbers are large and factors small: a substitution forgets where it came from within a few rows.
 /// Then each end is cut in two, and both halves go side by side, with as many rows in common as it takes to forget.
@@ -86,17 +103,9 @@ void BandedPoles::Impl::chooseSegments(const CyclicBand& Y, const Complexes& zet
     };
     one();
     if (band != 1 || poles > 4 || rows < 32) return;
-    const double off = std::abs(Y.offDiagonal[0]);
     const int cut = rows / 2;
-    /// A bound of the factors of row r, both ends and all poles; 1 where there is none.
-    const auto factor = [&](int r) {
-        double least = 1e300;
-        for (int e = 0; e < 2; ++e)
-            for (const Complex& pole : zeta)
-                least = std::min(least, std::abs(pole + Complex(0, Y.diagonal[static_cast<std::size_t>(place(e, r))])));
-        return least > 2 * off ? off / (least - off) : 1.0;
-    };
-    for (int r = 0; r < cut; ++r)
+    const auto factor = [&](int r) { return factorBound(Y, zeta, r); };
+    for (int r = cut; r-- > 0;)  // it is largest near the middle
         if (factor(r) == 1) return;
     int before = 0, after = 0;
     for (double left = 1; left > negligible; left *= factor(cut - before))
@@ -156,42 +165,52 @@ bool BandedPoles::Impl::factorOne(const CyclicBand& Y, const Complexes& zeta, Co
 
 /// Column q of Z is (1/pivot, ..) from the corner inwards, which dies out with the factors.
 bool BandedPoles::Impl::correctOne(const CyclicBand& Y, const Complexes& zeta, Complex up, Complex down) {
-    std::vector<std::array<Complexes, 2>> columns;
-    int rowsUsed = 12;
+    const Complex loop = up * down;  // -|y|^2
+    const double square = -loop.real();
+    std::vector<std::array<Complexes, 2>> columns(zeta.size());
+    int rowsUsed = 1;
+    for (double left = 1; left > negligible && rowsUsed < rows / 2; ++rowsUsed) {
+        const double bound = factorBound(Y, zeta, rowsUsed);
+        if (bound == 1) break;
+        left *= bound;
+    }
+    rowsUsed = std::max(rowsUsed, 12);
     for (bool isEnough = false; !isEnough; rowsUsed *= 2) {
         if (rowsUsed > rows / 2) return false;
-        columns.clear();
+        for (auto& both : columns)
+            for (Complexes& g : both) g.resize(static_cast<std::size_t>(rowsUsed));
+        // Every row waits for the one before: poles and ends side by side.
+        Complex inner[8] = {};
+        for (int r = rowsUsed - 1; r >= 0; --r)
+            for (std::size_t c = 0; c < 2 * zeta.size(); ++c) {
+                const double Yr = Y.diagonal[static_cast<std::size_t>(place(static_cast<int>(c % 2), r))];
+                const Complex d = zeta[c / 2];
+                inner[c] = columns[c / 2][c % 2][static_cast<std::size_t>(r)] =
+                    inverse({d.real() + square * inner[c].real(), d.imag() + Yr + square * inner[c].imag()});
+            }
         isEnough = true;
-        for (const Complex& pole : zeta) {
-            std::array<Complexes, 2> both;
+        for (auto& both : columns)
             for (int e = 0; e < 2; ++e) {
-                Complexes g(static_cast<std::size_t>(rowsUsed));
-                Complex inner = 0;
-                for (int r = rowsUsed - 1; r >= 0; --r)
-                    inner = g[static_cast<std::size_t>(r)] =
-                        1.0 / (pole + Complex(0, Y.diagonal[static_cast<std::size_t>(place(e, r))]) - up * down * inner);
+                Complexes& g = both[static_cast<std::size_t>(e)];
                 const Complex below = e == 0 ? down : up;
                 for (std::size_t r = 1; r < g.size(); ++r) g[r] *= -below * g[r - 1];
-                isEnough = isEnough && std::abs(g.back()) <= negligible * std::abs(g[0]);
-                both[static_cast<std::size_t>(e)] = std::move(g);
+                isEnough = isEnough && std::norm(g.back()) <= negligible * negligible * std::norm(g[0]);
             }
-            columns.push_back(std::move(both));
-        }
     }
     double scale = 0;
     for (std::size_t j = 0; j < zeta.size(); ++j) scale = std::max(scale, std::abs(residue[j]) / std::abs(zeta[j]));
     std::vector<std::array<Complex, 4>> inner;  // r_j (1 + C P^T Z)^{-1} C, C = [0 down; up 0]
     reach = 0;
     for (std::size_t j = 0; j < zeta.size(); ++j) {
-        const Complex a = columns[j][0][0], b = columns[j][1][0], s = residue[j] / (1.0 - a * b * up * down);
-        inner.push_back({-s * b * up * down, s * down, s * up, -s * a * up * down});
-        for (int e = 0; e < 2; ++e)
-            for (std::size_t r = 0; r < columns[j][0].size(); ++r) {
-                const auto row = static_cast<std::size_t>(2 * e);
-                const double size = std::abs(columns[j][static_cast<std::size_t>(e)][r]) *
-                                    std::max(std::abs(inner[j][row]), std::abs(inner[j][row + 1]));
-                if (size > negligible * scale) reach = std::max(reach, static_cast<int>(r) + 1);
-            }
+        const Complex a = columns[j][0][0], b = columns[j][1][0], s = residue[j] / (1.0 - a * b * loop);
+        inner.push_back({-s * b * loop, s * down, s * up, -s * a * loop});
+        for (std::size_t e = 0; e < 2; ++e) {
+            const double most = std::max(std::norm(inner[j][2 * e]), std::norm(inner[j][2 * e + 1]));
+            const double least = negligible * negligible * scale * scale;
+            const Complexes& g = columns[j][e];
+            for (std::size_t r = static_cast<std::size_t>(reach); r < g.size(); ++r)
+                if (std::norm(g[r]) * most > least) reach = static_cast<int>(r) + 1;
+        }
     }
     for (std::size_t j = 0; j < zeta.size(); ++j)
         for (std::size_t e = 0; e < 2; ++e)

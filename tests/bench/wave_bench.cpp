@@ -201,7 +201,7 @@ void compare(const Problem& p, const char* solver) {
     for (const char* id : {"srkn-14a", "srkn-11b", "blanes-moan-s6", "suzuki-4", "strang", "crank-nicolson", "chebyshev-propagation"})
         row(id, baselineMethod(id), std::string(id).starts_with("srkn") ? peer : nullptr);
     const bool isBanded = std::string(solver) == "banded";
-    for (const int degree : {4, 8, 16})
+    for (const int degree : {4, 8, 12, 16})
         for (const double tolerance : isBanded ? std::vector<double>{0, 1e-10} : std::vector<double>{1e-13})
             row("Gauss " + std::to_string(2 * degree) + ", " + solver + (isBanded ? tolerance > 0 ? ", fours" : ", pairs" : ""),
                 pairMethod(degree, solver, tolerance), best);
