@@ -94,9 +94,11 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     body()->addWidget(model_);
     body()->addWidget(parameters_);
     body()->addWidget(lagrangian_);
-    body()->addWidget(sectionLabel(tr("Initial data")));
+    initialTitle_ = sectionLabel(tr("Initial data"));
+    timeTitle_ = sectionLabel(tr("Time"));
+    body()->addWidget(initialTitle_);
     body()->addWidget(initial_);
-    body()->addWidget(sectionLabel(tr("Time")));
+    body()->addWidget(timeTitle_);
     body()->addWidget(time_);
     menu()->addAction(tr("Reset parameters"), this, [this] {
         if (const ModelEntry* entry = findModel(workspace_.scene().model.type)) {
@@ -130,6 +132,8 @@ void ScenePanel::rebuild() {
     parameters_->setVisible(!isTyped(*entry));
     lagrangian_->setVisible(isTyped(*entry));
     lagrangian_->refresh();
+    for (QWidget* part : std::initializer_list<QWidget*>{initialTitle_, initial_, timeTitle_, time_})
+        part->setVisible(!system.elliptic);  // solved at once, from nothing but its boundary values
     initial_->setFields(initialFields(workspace_, system));
     time_->setFields({{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
 }

@@ -26,6 +26,7 @@ private:
     Workspace& workspace_;
     QComboBox* model_;
     Form *parameters_, *initial_, *time_;
+    QLabel *initialTitle_, *timeTitle_;
     LagrangianEditor* lagrangian_;
     std::string shownModel_;
     std::string shownInitial_;  ///< which keys of the initial data are shown

@@ -72,7 +72,7 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
 void ValueEdit::makeText() {
     text_ = new QLineEdit;
     if (info_.type == FieldType::number) text_->setAlignment(Qt::AlignRight);
-    text_->setMinimumWidth(info_.type == FieldType::numbers ? 116 : 40);
+    text_->setMinimumWidth(info_.type == FieldType::numbers ? 72 : 40);
     text_->installEventFilter(this);
     connect(text_, &QLineEdit::editingFinished, this, &ValueEdit::submitText);
 }

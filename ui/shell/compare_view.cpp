@@ -150,8 +150,11 @@ void CompareView::arrange() {
     // Six half-columns: the stage is a little wider than what stands beside it.
     const int plotHeight = 168;
     stageCard_->setMinimumHeight(columns == 2 ? 225 : 240);
+    stageCard_->setVisible(hasStage_);
     int row = 0;
-    if (columns == 2) {
+    if (!hasStage_) {
+        if (!slots_.empty()) grid_->addWidget(slots_[0].card, 0, 0, 1, 12);
+    } else if (columns == 2) {
         grid_->addWidget(stageCard_, 0, 0, 1, 7);
         if (!slots_.empty()) grid_->addWidget(slots_[0].card, 0, 7, 1, 5);
     } else {
@@ -188,6 +191,11 @@ void CompareView::refresh() {
     if (!(systemModel_ == results->scene.model) || system_.id.empty()) {
         system_ = makeSystem(results->scene);
         systemModel_ = results->scene.model;
+        if (const bool draws = !system_.elliptic; draws != hasStage_) {  // nothing moves there
+            hasStage_ = draws;
+            columns_ = 0;
+            arrange();
+        }
     }
     for (const Slot& s : slots_) {
         const Figure figure = makeFigure(*results, s.view, &system_);

@@ -67,6 +67,7 @@ private:
     Settings systemModel_;
     System system_;
     int columns_ = 0;
+    bool hasStage_ = true;  ///< the model of the results has something to draw there
 };
 
 }  // namespace extremal

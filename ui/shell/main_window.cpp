@@ -138,7 +138,7 @@ void MainWindow::makePages() {
     splitter_->addWidget(centre);
     splitter_->addWidget(schemes_);
     splitter_->setStretchFactor(1, 1);
-    left->setMinimumWidth(250);  // the discretizer's six columns
+    left->setMinimumWidth(264);  // the discretizer's six columns and a scroll bar
     schemes_->setMinimumWidth(208);
     auto* work = new QWidget;
     auto* workRow = new QVBoxLayout(work);

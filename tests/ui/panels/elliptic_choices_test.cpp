@@ -14,6 +14,7 @@
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
+#include "ui/stage/stage_widget.hpp"
 
 namespace extremal {
 
@@ -24,6 +25,19 @@ private slots:
     void initTestCase() {
         loadFonts();
         applyTheme(*qApp, Theme::light());
+    }
+    void whatHasNoTimeAsksForNone() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:elliptic");
+        QVERIFY(waitForResults(window));
+        auto* stage = window.findChild<StageWidget*>();
+        auto* end = window.findChild<QWidget*>("field.end");
+        QVERIFY(stage && end);
+        QTRY_VERIFY(!stage->isVisible() && !end->isVisible());
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        QTRY_VERIFY(window.findChild<StageWidget*>()->isVisible() && window.findChild<QWidget*>("field.end")->isVisible());
     }
     void everyCellOfTheDiscretizerRuns() {
         MainWindow window(Theme::light(), false);
