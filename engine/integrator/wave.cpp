@@ -40,6 +40,9 @@ double costOf(WaveSolver solver, const Hamiltonian& h, int degree, double step) 
 }
 
 void checkSolver(WaveSolver solver, const Hamiltonian& h) {
+    if (solver != WaveSolver::dense && !h.isPeriodic())
+        throw InvalidScene("/solver/method", std::string(name(solver)) + " needs a periodic domain: it works on Fourier modes",
+                           "auto or dense");
     if (solver != WaveSolver::krylov && h.isTimeDependent())
         throw InvalidScene("/solver/method", std::string(name(solver)) + " needs a potential that does not depend on t",
                            "krylov");
@@ -76,6 +79,11 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
 }
 
 }  // namespace
+
+void requirePeriodic(const System& system, const std::string& pointer, const std::string& what, const std::string& hint) {
+    if (!system.wave->isPeriodic())
+        throw InvalidScene(pointer, what + " needs a periodic domain, and the boundary of this model is dirichlet", hint);
+}
 
 WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step) {
     const Hamiltonian& h = *system.wave;
@@ -121,6 +129,7 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
     const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
     if (system.wave->isTimeDependent() && pair.space.text("form") == "three-level")
         throw InvalidScene("/space/form", "three-level needs a potential that does not depend on t", "one-step");
+    if (pair.space.text("form") == "three-level") requirePeriodic(system, "/space/form", "three-level", "one-step");
     const int iterations = pair.solver.integer("max_iterations") > 0 ? pair.solver.integer("max_iterations") : 600;
     const double tolerance = given > 0 ? given : 1e-14;
     if (pair.space.text("form") == "three-level") {
@@ -153,6 +162,8 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
         throw InvalidScene("/space/type", pair.space.type + " needs a wave function, and " + system.id + " has none",
                            "another space: extremal list spaces");
     const int slabs = std::max(1, pair.space.integer("slabs"));
+    if (pair.space.text("time_basis") == "chebyshev")
+        requirePeriodic(system, "/space/time_basis", "chebyshev", "legendre");
     const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
     const auto make = [system, pair, plan, slabs](const Clock& of) -> std::unique_ptr<Integrator> {
         const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";

@@ -8,7 +8,7 @@
 ///
 /// How the solves are done, whichever is the cheapest by an estimate from N, s and the potential:
 ///     banded   elimination in Fourier space, where V has few harmonics (solve/banded_poles.hpp)
-///     dense    the eigenstates of H, once; N <= 512
+///     dense    the eigenstates of H, once; N <= 512; between walls the only one
 ///     krylov   GMRES with two transforms an iteration, preconditioned by the kinetic part; any V
 /// A potential that depends on time couples the stages of the Gauss nodes: it has no factors, and krylov solves for all of them
 /// together (integrator/wave_collocation.hpp).
@@ -25,6 +25,9 @@ enum class WaveSolver { banded, dense, krylov };
 constexpr const char* name(WaveSolver s) {
     return s == WaveSolver::banded ? "banded" : s == WaveSolver::dense ? "dense" : "krylov";
 }
+
+/// Throws InvalidScene at the pointer unless the domain is periodic: `what` needs it, `hint` does not.
+void requirePeriodic(const System& system, const std::string& pointer, const std::string& what, const std::string& hint);
 
 /// What was chosen, and why.
 struct WavePlan {

@@ -28,12 +28,11 @@ private:
     void restart() override { hasStates_ = false; }
     void step(double, Complex* v, StepReport& report) override {
         const std::size_t size = psi_.size();
-        const double root = std::sqrt(static_cast<double>(n()));
         if (!hasStates_) {
-            hamiltonian().fourier().rawToNodes(v, psi_.data());
+            hamiltonian().toReal(v, psi_.data());
             for (std::size_t j = 0; j < size; ++j) {
-                parts_[j] = psi_[j].real() / root;
-                parts_[size + j] = psi_[j].imag() / root;
+                parts_[j] = psi_[j].real();
+                parts_[size + j] = psi_[j].imag();
             }
             states_->toStates(parts_.data(), d_.data());
             hasStates_ = true;
@@ -44,8 +43,8 @@ private:
             d_[size + i] = turn_[i].real() * im + turn_[i].imag() * re;
         }
         states_->fromStates(d_.data(), parts_.data());
-        for (std::size_t j = 0; j < size; ++j) psi_[j] = Complex(parts_[j], parts_[size + j]) / root;
-        hamiltonian().fourier().rawToCoefficients(psi_.data(), v);
+        for (std::size_t j = 0; j < size; ++j) psi_[j] = Complex(parts_[j], parts_[size + j]);
+        hamiltonian().fromReal(psi_.data(), v);
         report.linearSolves = degree_;
     }
     std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {

@@ -19,6 +19,7 @@ using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 
 /// K_jl = (1/N) sum_a T_a cos(k_a (x_j - x_l)), which depends on j - l alone, and V on the diagonal.
 Matrix matrixAtNodes(const Hamiltonian& h) {
+    if (!h.isPeriodic()) return h.matrix();
     const int n = h.size();
     const auto size = static_cast<std::size_t>(n);
     std::vector<Complex> T(size), row(size);
@@ -32,13 +33,13 @@ Matrix matrixAtNodes(const Hamiltonian& h) {
 }
 
 bool isSame(const Hamiltonian& a, const Hamiltonian& b) {
-    return a.size() == b.size() && a.kinetic() == b.kinetic() && a.potential() == b.potential() &&
-           a.domain().length == b.domain().length;
+    return a.size() == b.size() && a.isPeriodic() == b.isPeriodic() && a.matrix() == b.matrix() && a.kinetic() == b.kinetic() &&
+           a.potential() == b.potential() && a.domain().length == b.domain().length;
 }
 
 }  // namespace
 
-Eigenstates::Eigenstates(const Hamiltonian& h) : fourier_(h.fourier()) {
+Eigenstates::Eigenstates(const Hamiltonian& h) : hamiltonian_(h) {
     const auto n = static_cast<std::size_t>(h.size());
     const auto [values, vectors] = dense::hermitianEigen<double>(matrixAtNodes(h));
     energies_.assign(values.data(), values.data() + n);
@@ -67,7 +68,8 @@ std::vector<Complex> Eigenstates::coefficients(int n) const {
     const std::size_t size = energies_.size();
     std::vector<Complex> psi(size), c(size);
     for (std::size_t j = 0; j < size; ++j) psi[j] = states_[static_cast<std::size_t>(n) * size + j];
-    fourier_.rawToCoefficients(psi.data(), c.data());
+    if (!hamiltonian_.isPeriodic()) return psi;
+    hamiltonian_.fourier().rawToCoefficients(psi.data(), c.data());
     for (Complex& v : c) v /= std::sqrt(static_cast<double>(size));
     return c;
 }
@@ -88,17 +90,16 @@ ExactSolution exactWave(const std::shared_ptr<const Hamiltonian>& hamiltonian, c
     const auto states = Eigenstates::of(hamiltonian);
     const int n = states->size();
     const auto size = static_cast<std::size_t>(n);
-    const double root = std::sqrt(static_cast<double>(n));
     std::vector<Complex> psi(size);
-    hamiltonian->fourier().rawToNodes(coefficients(initial.x.data()), psi.data());
+    hamiltonian->toReal(coefficients(initial.x.data()), psi.data());
     Matrix split(n, 2), d(n, 2);
     for (int j = 0; j < n; ++j) {
-        split(j, 0) = psi[static_cast<std::size_t>(j)].real() / root;
-        split(j, 1) = psi[static_cast<std::size_t>(j)].imag() / root;
+        split(j, 0) = psi[static_cast<std::size_t>(j)].real();
+        split(j, 1) = psi[static_cast<std::size_t>(j)].imag();
     }
     states->toStates(split.data(), d.data());
     // Many times at once are one matrix product.
-    return [states, hamiltonian, d, root, start = initial.t](std::span<const double> t, double* x) {
+    return [states, hamiltonian, d, start = initial.t](std::span<const double> t, double* x) {
         const Eigen::Index N = d.rows();
         const auto columns = static_cast<Eigen::Index>(t.size());
         Matrix turned(N, 2 * columns);
@@ -114,8 +115,8 @@ ExactSolution exactWave(const std::shared_ptr<const Hamiltonian>& hamiltonian, c
         std::vector<Complex> values(static_cast<std::size_t>(N));
         for (Eigen::Index k = 0; k < columns; ++k) {
             for (Eigen::Index j = 0; j < N; ++j)
-                values[static_cast<std::size_t>(j)] = Complex(nodes(j, 2 * k), nodes(j, 2 * k + 1)) / root;
-            hamiltonian->fourier().rawToCoefficients(values.data(), extremal::coefficients(x + 2 * N * k));
+                values[static_cast<std::size_t>(j)] = Complex(nodes(j, 2 * k), nodes(j, 2 * k + 1));
+            hamiltonian->fromReal(values.data(), extremal::coefficients(x + 2 * N * k));
         }
     };
 }

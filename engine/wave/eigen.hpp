@@ -1,7 +1,7 @@
-/// Eigenstates of a Hamiltonian that does not depend on time: H v = E v, from the matrix at the nodes, which is real and
-/// symmetric, all at once. For N up to denseLimit.
+/// Eigenstates of a Hamiltonian that does not depend on time: H v = E v, from the matrix in the coordinates v of
+/// Hamiltonian::toReal, which is real and symmetric, all at once. For N up to denseLimit.
 ///
-/// With psi_j sqrt(h) = sum_n U_jn d_n the motion is d_n(t) = e^{-i E_n t/hbar} d_n(0), exact but for round-off.
+/// With v_j = sum_n U_jn d_n the motion is d_n(t) = e^{-i E_n t/hbar} d_n(0), exact but for round-off.
 #pragma once
 
 #include <memory>
@@ -24,17 +24,17 @@ public:
     explicit Eigenstates(const Hamiltonian& hamiltonian);
     int size() const { return static_cast<int>(energies_.size()); }
     const std::vector<double>& energies() const { return energies_; }  ///< ascending
-    /// Column n: psi_j sqrt(h) of state n; j + n N.
+    /// Column n: v_j of state n; j + n N.
     const std::vector<double>& states() const { return states_; }
     /// Coefficients of state n, of norm 1.
     std::vector<Complex> coefficients(int n) const;
 
-    /// d = U^T psi and psi = U d, psi_j sqrt(h) at the nodes. Real and imaginary parts are apart: N numbers, then N.
+    /// d = U^T v and v = U d. Real and imaginary parts are apart: N numbers, then N.
     void toStates(const double* psi, double* d) const;
     void fromStates(const double* d, double* psi) const;
 
 private:
-    Fourier fourier_;
+    Hamiltonian hamiltonian_;
     std::vector<double> energies_, states_;
 };
 

@@ -1,14 +1,20 @@
-/// The Schroedinger operator on a Fourier grid, pseudo-spectrally: i hbar c' = H c,
+/// The Schroedinger operator i hbar c' = H c. On a periodic domain on a Fourier grid, pseudo-spectrally,
 ///     H = diag(hbar^2 k^2/2m) + F diag(V(x_j, t)) F^{-1},   F unitary (wave/fourier.hpp),
 /// Hermitian at any N, the coefficient at k = -N/2 included (the printed Nyquist rows of the seed are not). hbar^2 k^2/2m is
 /// the right kinetic term; the printed one lacks the mass. Against the exact convolution of the seed it differs by
 /// aliasing alone, which vanishes spectrally with N.
 ///
-/// The state of a run is c, as 2N numbers (re, im in turn): |c|^2 = h sum |psi_j|^2 is the norm squared.
+/// Between walls (Boundary::dirichlet, psi = 0 at both ends) there are polynomials instead, with mass and stiffness from the
+/// action (wave/interval.hpp): H is a real symmetric matrix in c, and V enters through its values at the points of the rule.
+///
+/// The state of a run is c, as 2N numbers (re, im in turn): |c|^2 is the norm squared, h sum |psi_j|^2 or u* M u.
 /// A Hamiltonian is immutable and shared; work arrays come from the caller and hold N numbers.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/wave/fourier.hpp"
@@ -16,17 +22,35 @@
 
 namespace extremal {
 
+class Interval;
+enum class Boundary { periodic, dirichlet };
+
 class Hamiltonian {
 public:
-    /// n even. Throws InvalidScene (pointer /potential) where V is not finite at a node.
-    Hamiltonian(int n, const wave::Domain& domain, double hbar, double mass, wave::Potential potential);
+    /// n even on a periodic domain; a potential that does not depend on time between walls. Throws InvalidScene (pointer /potential) where V is not finite at a node.
+    Hamiltonian(int n, const wave::Domain& domain, double hbar, double mass, wave::Potential potential,
+                Boundary boundary = Boundary::periodic);
 
-    int size() const { return fourier_.size(); }
+    int size() const { return static_cast<int>(x_.size()); }
+    bool isPeriodic() const { return fourier_.has_value(); }
     double hbar() const { return hbar_; }
     double mass() const { return mass_; }
     const wave::Domain& domain() const { return domain_; }
-    const Fourier& fourier() const { return fourier_; }
+    /// Of a periodic domain alone, as are kinetic() and the harmonics of V.
+    const Fourier& fourier() const { return *fourier_; }
+    /// Between walls alone: the reference element, and H.
+    const Interval& interval() const { return *interval_; }
+    const Eigen::MatrixXd& matrix() const { return matrix_; }
+    /// The nodes; between walls those inside.
     const std::vector<double>& x() const { return x_; }
+    /// Values of psi at the nodes from c, and back; not in place.
+    void toNodes(const Complex* c, Complex* psi) const;
+    void toCoefficients(const Complex* psi, Complex* c) const;
+    /// Orthonormal coordinates in which H is a real matrix: psi_j sqrt(h), or c itself between walls; and back, which uses v up.
+    void toReal(const Complex* c, Complex* v) const;
+    void fromReal(Complex* v, Complex* c) const;
+    /// Values at the middles of `rows` equal cells from those at the nodes, between walls: (row, node).
+    Eigen::MatrixXd resampling(int rows) const;
     /// hbar^2 k^2/2m by place in c.
     const std::vector<double>& kinetic() const { return kinetic_; }
     bool isTimeDependent() const { return potential_.isTimeDependent(); }
@@ -41,10 +65,11 @@ public:
 
     /// The same operator on another grid.
     std::shared_ptr<const Hamiltonian> withModes(int n) const {
-        return std::make_shared<const Hamiltonian>(n, domain_, hbar_, mass_, potential_);
+        return std::make_shared<const Hamiltonian>(n, domain_, hbar_, mass_, potential_,
+                                                   isPeriodic() ? Boundary::periodic : Boundary::dirichlet);
     }
 
-    /// out = H c with these values of V.
+    /// out = H c with these values of V; between walls with its own.
     void apply(const double* V, const Complex* c, Complex* out, Complex* work) const;
     /// <H>/<1> at t.
     double energy(double t, const Complex* c) const;
@@ -56,7 +81,12 @@ private:
     wave::Domain domain_;
     double hbar_, mass_;
     wave::Potential potential_;
-    Fourier fourier_;
+    void onCircle(int n);
+    void onInterval(int n);
+
+    std::optional<Fourier> fourier_;
+    std::shared_ptr<const Interval> interval_;
+    Eigen::MatrixXd matrix_;
     std::vector<double> x_, kinetic_, V_;
     std::vector<Complex> Vhat_;
     int harmonics_ = 0;
@@ -65,6 +95,13 @@ private:
 
 inline const Complex* coefficients(const double* x) { return reinterpret_cast<const Complex*>(x); }
 inline Complex* coefficients(double* x) { return reinterpret_cast<Complex*>(x); }
+
+/// A wave function between walls for pictures, from its values at the nodes (all real parts, then all imaginary parts): at
+/// `rows` equally spaced points and the walls. Nodes crowd at the walls and are far apart in the middle.
+struct EvenSamples {
+    std::vector<double> x, re, im;
+};
+EvenSamples evenSamples(const Hamiltonian& h, const double* values, int rows);
 
 /// sum |c_i|^2.
 double squaredNorm(const Complex* c, int n);

@@ -26,7 +26,7 @@ std::vector<Complex> fromNodes(const Context& context, const std::vector<Complex
         if (!std::isfinite(psi[j].real()) || !std::isfinite(psi[j].imag()))
             throw InvalidScene(context.pointer, "is not finite at x = " + formatNumber(context.hamiltonian->x()[j], 6));
     std::vector<Complex> c(psi.size());
-    context.hamiltonian->fourier().toCoefficients(psi.data(), c.data());
+    context.hamiltonian->toCoefficients(psi.data(), c.data());
     return c;
 }
 
@@ -113,11 +113,15 @@ std::vector<Complex> packet(const Context& context, const Value& psi, const std:
     };
     if (name == "gaussian") {
         const auto p = read({{"centre", middle}, {"width", L / 20, false, true}, {"wave_number", 0}});
-        return sampled(context, [p, L](double x) {
-            const double d = x - p[0] - L * std::round((x - p[0]) / L);
+        const double period = context.hamiltonian->isPeriodic() ? L : 0;
+        return sampled(context, [p, L, period](double x) {
+            const double d = x - p[0] - period * std::round((x - p[0]) / L);
             return std::exp(-d * d / (4 * p[1] * p[1])) * std::polar(1.0, p[2] * (p[0] + d));
         });
     }
+    if (!context.hamiltonian->isPeriodic() && (name == "periodic-gaussian" || name == "plane-wave"))
+        throw InvalidScene(context.pointer + "/packet", name + " needs a periodic domain: it does not vanish at the walls",
+                           "gaussian or eigenstate, re and im in x, or the boundary periodic");
     if (name == "periodic-gaussian") {
         const auto p = read({{"kappa", 20, false, true}, {"centre", middle}, {"wave_number", 0}});
         return sampled(context, [p, L](double x) {

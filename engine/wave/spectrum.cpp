@@ -4,11 +4,42 @@
 #include <numbers>
 
 #include "engine/core/text.hpp"
+#include "engine/wave/interval.hpp"
 
 namespace extremal {
+namespace {
+
+/// sum_i row_i c_i.
+Complex combined(const double* row, Eigen::Index stride, const Complex* c, int n) {
+    double re = 0, im = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        re += row[i * stride] * c[i].real();
+        im += row[i * stride] * c[i].imag();
+    }
+    return {re, im};
+}
+Complex atPoint(const Eigen::MatrixXd& basis, Eigen::Index k, const Complex* c) {
+    return combined(basis.data() + k * basis.rows(), 1, c, static_cast<int>(basis.rows()));
+}
+
+}  // namespace
+
+Complex chebyshevCoefficient(const Hamiltonian& h, const Complex* c, int k) {
+    const Eigen::MatrixXd& T = h.interval().coefficient;
+    return combined(T.data() + k, T.rows(), c, h.size()) / std::sqrt(h.domain().length / 2);
+}
 
 double spectrumTail(const Hamiltonian& h, const Complex* c) {
     double tail = 0, all = 0;
+    if (!h.isPeriodic()) {
+        const int N = h.size() + 1;
+        for (int k = 0; k <= N; ++k) {
+            const double weight = std::norm(chebyshevCoefficient(h, c, k));
+            all += weight;
+            if (8 * k > 7 * N) tail += weight;
+        }
+        return all > 0 ? std::sqrt(tail / all) : 0;
+    }
     for (int i = 0; i < h.size(); ++i) {
         const double weight = std::norm(c[i]);
         all += weight;
@@ -26,6 +57,12 @@ std::string resolutionCaution(const Hamiltonian& h, const Complex* c) {
 
 double meanMomentum(const Hamiltonian& h, const Complex* c) {
     double sum = 0, all = 0;
+    if (!h.isPeriodic()) {
+        const Interval& I = h.interval();
+        for (Eigen::Index k = 0; k < I.points.size(); ++k)
+            sum += I.weights(k) * (std::conj(atPoint(I.values, k, c)) * atPoint(I.slopes, k, c)).imag();
+        return h.hbar() * sum / (h.domain().length / 2) / squaredNorm(c, h.size());
+    }
     for (int i = 0; i < h.size(); ++i) {
         const double weight = std::norm(c[i]);
         all += weight;
@@ -35,10 +72,23 @@ double meanMomentum(const Hamiltonian& h, const Complex* c) {
 }
 
 NodeMeans nodeMeans(const Hamiltonian& h, const Complex* c, Complex* work) {
-    h.fourier().rawToNodes(c, work);
     const double k = 2 * std::numbers::pi / h.domain().length, left = h.domain().left;
     NodeMeans means;
     double all = 0;
+    if (!h.isPeriodic()) {
+        const Interval& I = h.interval();
+        for (Eigen::Index i = 0; i < I.points.size(); ++i) {
+            const double weight = I.weights(i) * std::norm(atPoint(I.values, i, c));
+            const double x = left + (1 + I.points(i)) * h.domain().length / 2;
+            all += weight;
+            means.x += weight * x;
+            means.cosine += weight * std::cos(k * (x - left) + left);
+        }
+        means.x /= all;
+        means.cosine /= all;
+        return means;
+    }
+    h.fourier().rawToNodes(c, work);
     for (std::size_t j = 0; j < h.x().size(); ++j) {
         const double weight = std::norm(work[j]), x = h.x()[j];
         all += weight;
@@ -52,6 +102,12 @@ NodeMeans nodeMeans(const Hamiltonian& h, const Complex* c, Complex* work) {
 
 double currentInTheMiddle(const Hamiltonian& h, const Complex* c, Complex* work, Complex* slope) {
     const int n = h.size();
+    if (!h.isPeriodic()) {
+        const double half = h.domain().length / 2;
+        const Interval& I = h.interval();
+        return h.hbar() / (h.mass() * half * half) *
+               (std::conj(atPoint(I.values, n + 1, c)) * atPoint(I.slopes, n + 1, c)).imag();
+    }
     const auto middle = static_cast<std::size_t>(n / 2);
     for (int i = 0; i < n; ++i)
         slope[i] = 2 * i == n ? Complex(0) : Complex(0, h.fourier().waveNumber(i)) * c[i];

@@ -6,66 +6,13 @@
 
 #include "engine/core/dense.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/wave/interval.hpp"
 
 namespace extremal {
 namespace {
 
 using Matrix = Eigen::MatrixXcd;
 using Vector = Eigen::VectorXcd;
-
-/// Chebyshev extrema in [-1, 1], ascending.
-Eigen::VectorXd chebyshevPoints(int N) {
-    Eigen::VectorXd x(N + 1);
-    for (int j = 0; j <= N; ++j) x(j) = std::sin(std::numbers::pi * (2 * j - N) / (2.0 * N));
-    return x;
-}
-
-/// Barycentric weights of these points.
-double weightOf(int j, int N) { return (j % 2 == 0 ? 1.0 : -1.0) * (j == 0 || j == N ? 0.5 : 1.0); }
-
-/// (i, j): cardinal polynomial j at point i.
-Eigen::MatrixXd cardinals(const Eigen::VectorXd& points, const Eigen::VectorXd& nodes) {
-    const auto N = static_cast<int>(nodes.size()) - 1;
-    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(points.size(), N + 1);
-    for (Eigen::Index i = 0; i < points.size(); ++i) {
-        Eigen::Index same = -1;
-        double sum = 0;
-        for (int j = 0; j <= N; ++j) {
-            const double d = points(i) - nodes(j);
-            if (d == 0) {
-                same = j;
-                break;
-            }
-            values(i, j) = weightOf(j, N) / d;
-            sum += values(i, j);
-        }
-        if (same >= 0) {
-            values.row(i).setZero();
-            values(i, same) = 1;
-        } else {
-            values.row(i) /= sum;
-        }
-    }
-    return values;
-}
-
-/// (i, j): derivative of cardinal polynomial j at node i.
-Eigen::MatrixXd differentiation(const Eigen::VectorXd& nodes) {
-    const auto N = static_cast<int>(nodes.size()) - 1;
-    Eigen::MatrixXd D(N + 1, N + 1);
-    for (int i = 0; i <= N; ++i) {
-        double sum = 0;
-        for (int j = 0; j <= N; ++j) {
-            if (i == j) continue;
-            // The difference of two sines as a product keeps the digits near the ends.
-            const double a = std::numbers::pi * (2 * i - N) / (2.0 * N), b = std::numbers::pi * (2 * j - N) / (2.0 * N);
-            D(i, j) = weightOf(j, N) / weightOf(i, N) / (2 * std::cos((a + b) / 2) * std::sin((a - b) / 2));
-            sum += D(i, j);
-        }
-        D(i, i) = -sum;
-    }
-    return D;
-}
 
 }  // namespace
 
@@ -129,7 +76,7 @@ StationaryProblem convolutionGalerkin(const Hamiltonian& h) {
 
 StationaryProblem chebyshevInterval(int N, const wave::Domain& domain, double hbar, double mass, const wave::Potential& potential) {
     const Rule<double> rule = clenshawCurtis<double>(2 * N + 1);
-    const Eigen::VectorXd nodes = chebyshevPoints(N);
+    const Eigen::VectorXd nodes = chebyshev::extrema(N);
     Eigen::VectorXd points(rule.size()), weights(rule.size()), inPotential(rule.size());
     for (int i = 0; i < rule.size(); ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -138,7 +85,8 @@ StationaryProblem chebyshevInterval(int N, const wave::Domain& domain, double hb
         weights(i) = rule.b[k] * domain.length;
         inPotential(i) = potential.function.value(domain.left + domain.length * rule.c[k], 0) * weights(i);
     }
-    const Eigen::MatrixXd all = cardinals(points, nodes), slope = all * differentiation(nodes) * (2 / domain.length);
+    const Eigen::MatrixXd all = chebyshev::cardinals(points, nodes),
+                          slope = all * chebyshev::differentiation(nodes) * (2 / domain.length);
     // psi vanishes at both ends: the inner nodes alone.
     const Eigen::MatrixXd phi = all.middleCols(1, N - 1), dphi = slope.middleCols(1, N - 1);
     const Eigen::MatrixXd M = phi.transpose() * weights.asDiagonal() * phi;

@@ -15,6 +15,7 @@ BaselineEntry leapfrog() {
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         if (system.wave->isTimeDependent())
             throw InvalidScene("/baseline", "leapfrog needs a potential that does not depend on t", "strang");
+        requirePeriodic(system, "/baseline", "leapfrog", "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
         const Settings space{"fourier", {{"degree", 2.0}}, {}};
         return makeThreeLevelWave(system.wave, options.clock, 0,
                                   {0, WaveStart::gauss, planWave(system, space, {}, options.clock.step).solver, 1e-14, 600});

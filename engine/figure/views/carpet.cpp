@@ -4,23 +4,37 @@
 #include <numbers>
 
 #include "engine/figure/build.hpp"
+#include "engine/wave/hamiltonian.hpp"
 
 namespace extremal::views {
 namespace {
 
-constexpr int mostColumns = 800, mostRows = 400;
+constexpr int mostColumns = 800, mostRows = 400, interpolatedRows = 256;
 
-HeatMap heatOf(const FieldSampling& field, const SchemeResult& scheme, double start, double end) {
+/// Both parts at equal cells, from nodes between walls, which are not equally spaced: N numbers, then N.
+std::vector<double> resampled(const Eigen::MatrixXd& to, const std::vector<double>& values) {
+    const Eigen::MatrixXd parts = to * Eigen::Map<const Eigen::MatrixXd>(values.data(), to.cols(), 2);
+    return {parts.data(), parts.data() + parts.size()};
+}
+
+HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, double end) {
+    const FieldSampling& field = system.field;
     const auto& frames = scheme.frames;
-    const std::size_t n = field.x.size();
+    const bool isUneven = system.hasWave() && !system.wave->isPeriodic();
+    const std::size_t n = isUneven ? interpolatedRows : field.x.size();
+    const Eigen::MatrixXd to = isUneven ? system.wave->resampling(interpolatedRows) : Eigen::MatrixXd();
     HeatMap heat;
     heat.columns = static_cast<int>(std::min<std::size_t>(frames.size(), mostColumns));
     heat.rows = static_cast<int>(std::min<std::size_t>(n, mostRows));
-    const double step = n > 1 ? field.x[1] - field.x[0] : 1;
+    const double step = isUneven ? 0 : n > 1 ? field.x[1] - field.x[0] : 1;
     heat.left = start;
     heat.right = end;
     heat.bottom = field.x.front();
     heat.top = field.x.back() + step;
+    if (isUneven) {
+        heat.bottom = system.wave->domain().left;
+        heat.top = heat.bottom + system.wave->domain().length;
+    }
     const bool isComplex = field.components.size() == 2 && field.components[0] == "re";
     const double last = frames.back().t, seconds = end - start;
     for (int column = 0; column < heat.columns; ++column) {
@@ -28,9 +42,11 @@ HeatMap heatOf(const FieldSampling& field, const SchemeResult& scheme, double st
         auto after = std::lower_bound(frames.begin(), frames.end(), t, [](const Frame& f, double at) { return f.t < at; });
         if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
         const bool isThere = t <= last + seconds / heat.columns;
+        const std::vector<double> between = isUneven ? resampled(to, *after->values) : std::vector<double>();
+        const std::vector<double>& values = isUneven ? between : *after->values;
         for (int row = 0; row < heat.rows; ++row) {
             const auto j = static_cast<std::size_t>((row + 0.5) * static_cast<double>(n) / heat.rows);
-            const double a = (*after->values)[j], b = isComplex ? (*after->values)[n + j] : 0;
+            const double a = values[j], b = isComplex ? values[n + j] : 0;
             heat.values.push_back(!isThere ? Summary::unknown : isComplex ? std::hypot(a, b) : a);
             if (isComplex) heat.hues.push_back(std::atan2(b, a) / (2 * std::numbers::pi));
         }
@@ -48,7 +64,7 @@ Figure makeCarpet(const FigureContext& context) {
     if (scheme && context.system && context.system->field) {
         const auto& time = context.comparison.scene;
         figure.title = "Carpet of " + scheme->spec.label;
-        figure.heat = heatOf(context.system->field, *scheme, time.start.value, time.end.value);
+        figure.heat = heatOf(*context.system, *scheme, time.start.value, time.end.value);
         figure.y.range = {figure.heat->bottom, figure.heat->top};
         if (!figure.heat->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase · at most " + shortNumber(figure.heat->high);
     } else if (context.system && !context.system->field) {

@@ -16,8 +16,10 @@ Series potentialOf(const Hamiltonian& h) {
     s.style = 7;
     s.x = h.x();
     s.y = h.potential();
-    s.x.push_back(h.domain().left + h.domain().length);
-    s.y.push_back(h.potential().front());
+    if (h.isPeriodic()) {
+        s.x.push_back(h.domain().left + h.domain().length);
+        s.y.push_back(h.potential().front());
+    }
     return s;
 }
 
@@ -32,7 +34,7 @@ Series levelOf(const Hamiltonian& h, std::size_t k, double E) {
         s.y.push_back(h.potential()[j] <= E ? E : Summary::unknown);
     }
     s.x.push_back(end);
-    s.y.push_back(h.potential().front() <= E ? E : Summary::unknown);
+    s.y.push_back((h.isPeriodic() ? h.potential().front() : h.potential().back()) <= E ? E : Summary::unknown);
     return s;
 }
 

@@ -40,7 +40,13 @@ Figure makeProfile(const FigureContext& context) {
         const auto& values = *scheme->frames.back().values;
         const std::size_t n = field.x.size();
         Series s = startOf(*scheme, field);
-        for (std::size_t j = 0; j < n; ++j)
+        const bool isUneven = context.system->hasWave() && !context.system->wave->isPeriodic();
+        if (isUneven) {
+            const EvenSamples even = evenSamples(*context.system->wave, values.data(), 400);
+            s.x = even.x;
+            for (std::size_t j = 0; j < even.x.size(); ++j) s.y.push_back(std::hypot(even.re[j], even.im[j]));
+        }
+        for (std::size_t j = 0; !isUneven && j < n; ++j)
             s.y.push_back(context.system->hasWave() ? std::hypot(values[j], values[n + j]) : values[j]);
         height = std::max(height, maxMagnitude(s.y));
         figure.series.push_back(std::move(s));

@@ -1,9 +1,10 @@
-/// The size of each Fourier coefficient of the wave function at the end, on a logarithmic axis: is N enough?
+/// The size of each Fourier coefficient of the wave function at the end, between walls of each Chebyshev coefficient, on a
+/// logarithmic axis: is N enough?
 #include <algorithm>
 #include <cmath>
 
 #include "engine/figure/build.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/wave/spectrum.hpp"
 
 namespace extremal::views {
 namespace {
@@ -13,11 +14,15 @@ Series spectrumOf(const SchemeResult& scheme, const Hamiltonian& h) {
     const auto& values = *scheme.frames.back().values;
     std::vector<Complex> psi(n), c(n);
     for (std::size_t j = 0; j < n; ++j) psi[j] = {values[j], values[n + j]};
-    h.fourier().toCoefficients(psi.data(), c.data());
+    h.toCoefficients(psi.data(), c.data());
     Series s;
     s.label = scheme.spec.label;
     s.style = scheme.style;
-    for (std::size_t a = 0; a < n; ++a) {
+    for (int k = 0; !h.isPeriodic() && k <= h.size() + 1; ++k) {
+        s.x.push_back(k);
+        s.y.push_back(std::abs(chebyshevCoefficient(h, c.data(), k)));
+    }
+    for (std::size_t a = 0; h.isPeriodic() && a < n; ++a) {
         const auto i = static_cast<int>((a + n / 2) % n);
         s.x.push_back(h.fourier().number(i));
         s.y.push_back(std::abs(c[static_cast<std::size_t>(i)]));
@@ -36,17 +41,21 @@ Figure makeSpectrum(const FigureContext& context) {
     if (context.system && context.system->hasWave()) {
         const double half = context.system->wave->size() / 2.0;
         figure.x.range = {-half, half};
+        if (!context.system->wave->isPeriodic()) {
+            figure.x.title = "degree";
+            figure.x.range = {0, 2 * half + 1};
+        }
     } else if (context.system) {
         figure.message = "The model is no wave function";
     }
-    finishFigure(figure, context, "Size of the Fourier coefficients at the end");
+    finishFigure(figure, context, "Size of the coefficients at the end");
     return figure;
 }
 
 }  // namespace
 
 ViewEntry spectrum() {
-    return {{"spectrum", "Spectrum", "size of the Fourier coefficients of the wave function at the end, logarithmic", {}, {}, {}},
+    return {{"spectrum", "Spectrum", "size of the Fourier or Chebyshev coefficients of the wave function at the end, logarithmic", {}, {}, {}},
             "", makeSpectrum, nullptr, {true, false, true}};
 }
 

@@ -1,4 +1,5 @@
-/// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain.
+/// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain, or between
+/// walls where psi = 0 (V(x) then).
 ///
 /// The state is the coefficients of the wave function (wave/hamiltonian.hpp): no column of a row, but what fields are
 /// sampled from. hbar and m are free; nothing else has a unit.
@@ -40,7 +41,7 @@ FieldSampling samplingOf(const Shared& h) {
     f.sample = [h](const double* x, double* values) {
         const auto n = static_cast<std::size_t>(h->size());
         std::vector<Complex> psi(n);
-        h->fourier().toNodes(coefficients(x), psi.data());
+        h->toNodes(coefficients(x), psi.data());
         for (std::size_t j = 0; j < n; ++j) {
             values[j] = psi[j].real();
             values[n + j] = psi[j].imag();
@@ -69,21 +70,28 @@ void drawSchrodinger(const Hamiltonian& h, const double* values, Drawing& drawin
     const double L = h.domain().length, left = h.domain().left, unit = 0.1 * L * std::sqrt(L);
     const auto& V = h.potential();
     const auto [low, high] = std::minmax_element(V.begin(), V.end());
+    // A periodic domain is closed by the first node.
+    const auto place = [&](std::size_t j) { return j < n ? h.x()[j] : left + L; };
     if (*high > *low) {
-        const std::size_t every = std::max<std::size_t>(1, n / 256);
-        const auto at = [&](std::size_t j) {
-            const std::size_t k = j % n;
-            return Point{left + L * static_cast<double>(j) / static_cast<double>(n), 0.3 * L * (V[k] - *low) / (*high - *low), 0};
-        };
-        for (std::size_t j = 0; j + every <= n; j += every)
+        const std::size_t every = std::max<std::size_t>(1, n / 256), last = h.isPeriodic() ? n : n - 1;
+        const auto at = [&](std::size_t j) { return Point{place(j), 0.3 * L * (V[j % n] - *low) / (*high - *low), 0}; };
+        for (std::size_t j = 0; j + every <= last; j += every)
             drawing.shapes.push_back(Segment{at(j), at(j + every), 1.2, ShapeRole::scenery});
     }
     drawing.shapes.push_back(Segment{{left, 0, 0}, {left + L, 0, 0}, 1.2, ShapeRole::scenery});
+    if (!h.isPeriodic())
+        for (const double wall : {left, left + L})
+            drawing.shapes.push_back(Segment{{wall, 0, 0}, {wall, 0.3 * L, 0}, 2, ShapeRole::scenery});
     Curtain curtain;
-    for (std::size_t j = 0; j <= n; ++j) {
-        const double re = values[j % n], im = values[n + j % n];
-        curtain.top.push_back({left + L * static_cast<double>(j) / static_cast<double>(n), unit * std::hypot(re, im), 0});
+    const auto add = [&](double x, double re, double im) {
+        curtain.top.push_back({x, unit * std::hypot(re, im), 0});
         curtain.hues.push_back(std::atan2(im, re) / (2 * std::numbers::pi));
+    };
+    if (h.isPeriodic()) {
+        for (std::size_t j = 0; j <= n; ++j) add(place(j), values[j % n], values[n + j % n]);
+    } else {
+        const EvenSamples even = evenSamples(h, values, 256);
+        for (std::size_t j = 0; j < even.x.size(); ++j) add(even.x[j], even.re[j], even.im[j]);
     }
     drawing.shapes.push_back(std::move(curtain));
 }
@@ -94,12 +102,23 @@ Shared hamiltonianOf(const Settings& settings) {
         throw InvalidScene("/domain", "must go from left to right, got " + formatNumber(domain[0]) + " to " +
                                           formatNumber(domain[1]));
     const int n = settings.integer("modes");
-    if (n % 2 != 0) throw InvalidScene("/modes", "must be even, got " + std::to_string(n), std::to_string(n + 1));
+    const bool isPeriodic = settings.text("boundary") != "dirichlet";
+    if (isPeriodic && n % 2 != 0)
+        throw InvalidScene("/modes", "must be even, got " + std::to_string(n), std::to_string(n + 1));
+    if (!isPeriodic && n > Eigenstates::denseLimit)
+        throw InvalidScene("/modes",
+                           "must be at most " + std::to_string(Eigenstates::denseLimit) + " where the boundary is dirichlet, got " +
+                               std::to_string(n),
+                           "fewer modes, or the boundary periodic");
     const wave::Domain where{domain[0], domain[1] - domain[0]};
     const double hbar = settings.number("hbar"), m = settings.number("m");
     const Value* potential = settings.find("potential");
-    return std::make_shared<const Hamiltonian>(
-        n, where, hbar, m, wave::makePotential(*potential, "/potential", where, {{"hbar", hbar}, {"m", m}}));
+    wave::Potential V = wave::makePotential(*potential, "/potential", where, {{"hbar", hbar}, {"m", m}});
+    if (!isPeriodic && V.isTimeDependent())
+        throw InvalidScene("/potential", "depends on t, which is for the boundary periodic alone",
+                           "a potential in x, or the boundary periodic");
+    return std::make_shared<const Hamiltonian>(n, where, hbar, m, std::move(V),
+                                               isPeriodic ? Boundary::periodic : Boundary::dirichlet);
 }
 
 System makeSchrodinger(const Settings& settings) {
@@ -133,8 +152,10 @@ std::vector<FieldInfo> parameters() {
     FieldInfo domain = numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, "2*pi"}, "Ends of the interval.");
     domain.fallback = Value::Array{0.0, 2 * std::numbers::pi};
     return {hbar, positive("m", "mass", "", 1, "The mass."), potential, domain,
-            choiceField("boundary", "boundary", {"periodic"}, "What holds at the ends of the interval."),
-            integerField("modes", "N", 8, 65536, 128, "Number of Fourier modes and of nodes, even.")};
+            choiceField("boundary", "boundary", {"periodic", "dirichlet"},
+                        "What holds at the ends of the interval: periodic, or dirichlet: walls, where psi is zero."),
+            integerField("modes", "N", 8, 65536, 128,
+                         "Number of modes and of nodes: Fourier modes, even; between walls polynomials, at most 512.")};
 }
 
 std::vector<FieldInfo> initialFields() {
@@ -148,7 +169,7 @@ std::vector<FieldInfo> initialFields() {
 
 ModelEntry schrodinger() {
     ModelEntry e;
-    e.item = {"schrodinger", "Schrödinger equation", "A wave function in one dimension, periodic; potential typed or by name.",
+    e.item = {"schrodinger", "Schrödinger equation", "A wave function in one dimension, periodic or between walls; potential typed or by name.",
               parameters(), {}, ""};
     e.initial = initialFields();
     e.exampleInitial = {{"psi", Value::Object{{"packet", "gaussian"}, {"wave_number", 5.0}}}, {"normalise", true}};

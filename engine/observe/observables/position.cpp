@@ -13,13 +13,14 @@ ObservableEntry position() {
     e.applies = [](const System& system) { return system.hasWave(); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
-        o.columns = {{"position", "⟨x⟩", "", {}, {}}, {"cos_x", "⟨cos x⟩", "", {}, {}}};
+        o.columns = {{"position", "⟨x⟩", "", {}, {}}};
+        if (context.system.wave->isPeriodic()) o.columns.push_back({"cos_x", "⟨cos x⟩", "", {}, {}});
         o.evaluate = [h = context.system.wave, work = std::vector<Complex>(static_cast<std::size_t>(context.system.wave->size()))](
                          const NodeBlock& nodes, double* values, std::size_t stride) mutable {
             for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
                 const NodeMeans means = nodeMeans(*h, coefficients(nodes.x(i)), work.data());
                 values[0] = means.x;
-                values[1] = means.cosine;
+                if (h->isPeriodic()) values[1] = means.cosine;
             }
         };
         return o;

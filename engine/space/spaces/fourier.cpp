@@ -17,7 +17,7 @@ SpaceEntry fourier() {
         choiceField("start", "start", {"gauss", "variational", "exact"}, "First step of the three-level form.");
     SpaceEntry e;
     e.item = {"fourier", "Fourier",
-              "Wave functions: Fourier modes in space, as many as the model has, and polynomials in time.",
+              "Wave functions: the modes of the model in space, Fourier or between walls Chebyshev, and polynomials in time.",
               {degree, shift, form, start}, {},
               "a wave function"};
     e.make = [](const Settings& settings) {
