@@ -80,8 +80,10 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
 
 }  // namespace
 
+bool isBetweenWalls(const System& system) { return system.hasWave() && !system.wave->isPeriodic(); }
+
 void requirePeriodic(const System& system, const std::string& pointer, const std::string& what, const std::string& hint) {
-    if (!system.wave->isPeriodic())
+    if (isBetweenWalls(system))
         throw InvalidScene(pointer, what + " needs a periodic domain, and the boundary of this model is dirichlet", hint);
 }
 

@@ -26,6 +26,8 @@ constexpr const char* name(WaveSolver s) {
     return s == WaveSolver::banded ? "banded" : s == WaveSolver::dense ? "dense" : "krylov";
 }
 
+/// A wave function whose domain has walls at its ends.
+bool isBetweenWalls(const System& system);
 /// Throws InvalidScene at the pointer unless the domain is periodic: `what` needs it, `hint` does not.
 void requirePeriodic(const System& system, const std::string& pointer, const std::string& what, const std::string& hint);
 

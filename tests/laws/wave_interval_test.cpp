@@ -118,7 +118,7 @@ private slots:
             QVERIFY(worst < before);
             before = worst / 100;
         }
-        QVERIFY(before < 1e-14);
+        QVERIFY(before < 1e-14);  // 6.6e-2, 3.3e-6, 1.6e-14 measured
     }
 
     void errorFallsSpectrallyInSpace() {
@@ -131,7 +131,7 @@ private slots:
             QVERIFY(error < before);
             before = error / (modes < 26 ? 8 : 1);
         }
-        QVERIFY(before < 1e-9);
+        QVERIFY(before < 1e-11);  // 6.6e-13 measured
     }
 
     void orderInTimeIsTwiceTheDegree_data() {
@@ -155,7 +155,7 @@ private slots:
         for (auto* v : {&h, &e}) v->erase(v->begin(), v->end() - points);
         const double order = slope(h, e);
         qInfo("order %.3f", order);
-        QVERIFY(std::abs(order - 2 * degree) < 0.06 * degree);
+        QVERIFY(std::abs(order - 2 * degree) < 0.06 * degree);  // 2.00, 4.00, 6.00, 7.97, 11.67
     }
 
     void everyDegreeAgreesWithTheSines() {
@@ -177,7 +177,7 @@ private slots:
         double mirrored = 0;
         for (int j = 0; j < 40; ++j) mirrored = std::max(mirrored, std::abs(atNode(system, half, j) + atNode(system, start, 39 - j)));
         qInfo("back by %.2g, mirrored by %.2g", back, mirrored);
-        QVERIFY(back < 1e-10 && mirrored < 1e-10);
+        QVERIFY(back < 1e-10 && mirrored < 1e-10);  // 8e-13 and 4e-13 measured
         // Teeth: a hundredth of the time later it is another wave function.
         QVERIFY(waveDistance(run(system, 16, start, 1.01 * T, 200), start) > 0.1);
     }
@@ -200,7 +200,8 @@ private slots:
             const auto again = after(*back, state, 2000);
             QVERIFY(again.has_value());
             qInfo("degree %d: norm %.2g, energy %.2g, there and back %.2g", s, worst, energy, waveDistance(*again, start));
-            QVERIFY(worst < 1e-12 && energy < 1e-10 && waveDistance(*again, start) < 1e-9);
+            // 6e-14, 8e-14 and 2e-12 measured.
+            QVERIFY(worst < 5e-13 && energy < 1e-12 && waveDistance(*again, start) < 2e-11);
         }
     }
     void collocationInSpaceLosesTheNorm() {
@@ -226,7 +227,7 @@ private slots:
             QVERIFY(own->advance(state).outcome == Outcome::converged);
         }
         qInfo("norm off by %.2g, by our form %.2g", worst, normOf(system, state) - 1);
-        QVERIFY(worst > 1e-4 && std::abs(normOf(system, state) - 1) < 1e-13);
+        QVERIFY(worst > 0.01 && std::abs(normOf(system, state) - 1) < 1e-13);
     }
 
     void meanValuesFollowEhrenfest() {
@@ -246,7 +247,7 @@ private slots:
         const double velocity = (8 * (position(0.4 + d) - position(0.4 - d)) - (position(0.4 + 2 * d) - position(0.4 - 2 * d))) / (12 * d);
         const double momentum = meanMomentum(*system.wave, coefficients(now.x.data()));
         qInfo("m d<x>/dt = %.12g, <p> = %.12g", mass * velocity, momentum);
-        QVERIFY(std::abs(mass * velocity - momentum) < 1e-8);
+        QVERIFY(std::abs(mass * velocity - momentum) < 1e-9);  // 4e-11 measured, the differences' own
         QVERIFY(std::abs(momentum - meanMomentum(*system.wave, coefficients(start.x.data()))) > 0.01);
         // Current and position by the sines: Im(conj psi psi_x) by differences, <x> by a fine midpoint rule.
         const double middle = left + length / 2, e = 1e-3;

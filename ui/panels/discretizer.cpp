@@ -41,11 +41,12 @@ Settings spaceOfRow(const SpaceRow& row) {
     return space;
 }
 /// The rows for models with coordinates, for bodies, and for wave functions.
-std::vector<SpaceRow> rowsFor(const std::string& space) {
+std::vector<SpaceRow> rowsFor(const std::string& space, bool isPeriodic) {
     if (space == "fourier") {
         std::vector<SpaceRow> waves;
-        for (const int degree : {1, 2, 3, 4, 6, 8, 12}) waves.push_back({"fourier", "Fourier", degree});
-        waves.push_back({"fourier", "3-level", 1, "three-level"});
+        for (const int degree : {1, 2, 3, 4, 6, 8, 12})
+            waves.push_back({"fourier", isPeriodic ? "Fourier" : "modes", degree});
+        if (isPeriodic) waves.push_back({"fourier", "3-level", 1, "three-level"});
         return waves;
     }
     const bool isLie = space == "lie-polynomial";
@@ -67,7 +68,7 @@ QString spaceText(const Settings& space) {
                                                     : QObject::tr("%1 elements that know the coefficient"))
             .arg(space.integer("elements"));
     if (space.text("form") == "three-level") return QObject::tr("lines in time over Fourier modes, in three levels");
-    if (space.type == "fourier") return QObject::tr("polynomials of degree %1 in time over Fourier modes").arg(degree);
+    if (space.type == "fourier") return QObject::tr("polynomials of degree %1 in time over the modes of the model").arg(degree);
     if (space.type == "lie-polynomial") return QObject::tr("polynomials of degree %1 in the algebra").arg(degree);
     return QObject::tr("polynomials of degree %1").arg(degree);
 }
@@ -195,13 +196,14 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
 Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     : Card(tr("Discretizer"), parent), workspace_(workspace) {
     setSubtitle(tr("space × quadrature"));
-    fill("polynomial");
+    fill("polynomial", true);
     connect(&workspace_, &Workspace::sceneChanged, this, &Discretizer::refresh);
 }
 
 /// One row per degree of the space, one column per rule.
-void Discretizer::fill(const std::string& space) {
+void Discretizer::fill(const std::string& space, bool isPeriodic) {
     space_ = space;
+    isPeriodic_ = isPeriodic;
     cells_.clear();
     delete grid_;
     grid_ = new QWidget;
@@ -213,7 +215,7 @@ void Discretizer::fill(const std::string& space) {
     const bool isOfElements = isElliptic({space, {}, {}});
     setSubtitle(isOfElements ? tr("functions × elements") : tr("space × quadrature"));
     if (isOfElements) return fillElements(*grid);
-    const std::vector<SpaceRow> rows = rowsFor(space);
+    const std::vector<SpaceRow> rows = rowsFor(space, isPeriodic);
     int column = 1;
     for (const RuleColumn& rule : columns) {
         QLabel* heading = makeLabel(QString::fromUtf8(rule.heading), "caption");
@@ -269,7 +271,9 @@ DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
 }
 
 void Discretizer::refresh() {
-    if (const std::string space = pairSpace(workspace_.scene()); space != space_) fill(space);
+    const bool isPeriodic = workspace_.scene().model.text("boundary") != "dirichlet";
+    if (const std::string space = pairSpace(workspace_.scene()); space != space_ || isPeriodic != isPeriodic_)
+        fill(space, isPeriodic);
     for (DiscretizerCell* cell : cells_)
         cell->setPresent(findPair(workspace_.scene(), cell->space(), cell->quadrature()) >= 0);
 }

@@ -51,7 +51,7 @@ public:
     DiscretizerCell* cell(int degree, const QString& rule) const;
 
 private:
-    void fill(const std::string& space);
+    void fill(const std::string& space, bool isPeriodic);
     void fillElements(QGridLayout& grid);
     void addCell(QGridLayout& grid, const Settings& space, const Settings& rule, int row, int column);
     void refresh();
@@ -60,6 +60,7 @@ private:
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;
     std::string space_;  ///< of the cells
+    bool isPeriodic_ = true;  ///< wave functions: no walls
     QWidget* grid_ = nullptr;
     const Theme* theme_ = nullptr;
 };

@@ -327,7 +327,8 @@ void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t,
         const auto value = pointAt(s, t);
         if (!value) continue;
         const QPointF p = map(value->first, value->second);
-        if (!map.rect.adjusted(-1, -1, 1, 1).contains(p)) continue;
+        // A rectangle "contains" what is no number.
+        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !map.rect.adjusted(-1, -1, 1, 1).contains(p)) continue;
         painter.setPen(QPen(isPinned ? shared_.colorOf(s.style) : theme.panel, 1.2));
         painter.setBrush(isPinned ? theme.panel : shared_.colorOf(s.style));
         painter.drawEllipse(p, 3.6, 3.6);
