@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/figure/build.hpp"
+#include "engine/figure/sample.hpp"
 
 namespace extremal {
 namespace {
@@ -48,9 +49,9 @@ std::string digest(const Figure& figure) {
     std::string text = figure.view + ": " + figure.title + " (" + figure.subtitle + ")\n";
     text += axisLine("x", figure.x) + axisLine("y", figure.y);
     for (const Series& s : figure.series) {
-        text += "series " + std::to_string(s.style) + " " + s.label + ": " + std::to_string(s.x.size()) + " points, " +
+        text += "series " + std::to_string(s.style) + " " + seriesName(s) + ": " + std::to_string(s.x.size()) + " points, " +
                 std::to_string(s.hidden) + " hidden" + (s.isCurve ? ", curve" : "") + (s.hasMarkers ? ", markers" : "") +
-                (s.hasLine ? ", line" : "") + (s.isCells ? ", cells" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " +
+                (s.hasLine ? ", line" : "") + (s.isCells ? ", cells" : "") + (s.isPale ? ", pale" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " +
                 nineDigits(maxMagnitude(s.y)) + "\n";
     }
     if (figure.heat)

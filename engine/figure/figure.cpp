@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/figure/against.hpp"
 #include "engine/figure/view.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
@@ -35,6 +36,10 @@ ViewAxes axesOf(const View& view, const System& system) {
                         (scales.across == Across::column && entry->xColumn && entry->xColumn(view, system) == "t");
     if (isTime) axes.variable = system.independent;
     if (scales.across == Across::place) axes.variable = "x";
+    if (isAgainstSteps(view)) {
+        axes.isXLog = true;
+        axes.variable = "n";
+    }
     return axes;
 }
 

@@ -25,6 +25,8 @@ inline constexpr int formulaStyle = -1, exactStyle = -2;
 
 struct Series {
     std::string label;   ///< the scheme's label
+    std::string part = {};     ///< of several curves of one scheme, which: "Re ψ"
+    bool isPale = false;       ///< a further curve of one scheme
     int style = 0;       ///< colour and dash of the scheme
     bool isCurve = false;      ///< x is not monotone (phase portrait): drawn as a parametric curve
     bool hasMarkers = false;   ///< a point at every value
@@ -32,7 +34,7 @@ struct Series {
     bool isCells = false;      ///< a unit square around every point
     bool isHollow = false;     ///< cells are pale
     std::vector<double> x, y;  ///< NaN is a gap
-    std::vector<double> t;     ///< of the points of a curve, so that a cursor in time finds its place; else empty
+    std::vector<double> t;     ///< of the points, where x is not the time: a cursor in time finds its place; else empty
     int hidden = 0;      ///< values a log axis cannot show (<= 0) or that are not finite
 };
 

@@ -25,6 +25,29 @@ std::vector<double> valuesWithin(const Series& s, std::pair<double, double> part
     return inside;
 }
 
+/// The largest values over equal parts of a logarithmic axis: those of the first decades count as much as the many of the last.
+std::vector<double> valuesByRatio(const Series& s) {
+    constexpr std::size_t parts = 300;
+    double first = std::numeric_limits<double>::infinity(), last = 0;
+    for (const double x : s.x)
+        if (x > 0 && std::isfinite(x)) first = std::min(first, x), last = std::max(last, x);
+    if (s.x.size() <= parts || !(last > first)) return s.y;
+    const double width = std::log(last / first) / static_cast<double>(parts);
+    std::vector<double> largest;
+    double end = -1;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+        if (!(s.x[i] > 0) || !std::isfinite(s.y[i])) continue;
+        const double at = std::log(s.x[i] / first);
+        if (at >= end) {
+            largest.push_back(s.y[i]);
+            end = at + width;
+        } else {
+            largest.back() = std::max(largest.back(), s.y[i]);
+        }
+    }
+    return largest;
+}
+
 /// The range that fits the values of all series, or those in a part of x.
 std::pair<double, double> fitted(const Figure& figure, std::vector<double> Series::*values, bool isLog,
                                  const std::optional<std::pair<double, double>>& part = {}) {
@@ -34,8 +57,10 @@ std::pair<double, double> fitted(const Figure& figure, std::vector<double> Serie
     std::vector<RangeInput> inputs;
     for (std::size_t i = 0; i < figure.series.size(); ++i) {
         const Series& s = figure.series[i];
+        const bool isByRatio = !part && figure.x.isLog && values == &Series::y && s.hasLine && !s.isCurve;
         if (part) cut[i] = valuesWithin(s, *part);
-        inputs.push_back({part ? cut[i] : s.*values, failed.count(s.label) > 0});
+        if (isByRatio) cut[i] = valuesByRatio(s);
+        inputs.push_back({part || isByRatio ? cut[i] : s.*values, failed.count(s.label) > 0});
     }
     return fitRange(inputs, isLog);
 }
@@ -47,7 +72,7 @@ std::optional<std::pair<double, double>> askedFor(const std::optional<ViewRange>
 
 }  // namespace
 
-Series formulaSeries(const ViewCurve& curve, const std::string& variable, double low, double high) {
+Series formulaSeries(const ViewCurve& curve, const std::string& variable, double low, double high, bool isLog) {
     constexpr std::size_t fewest = 4000, most = 16 * fewest;
     const Expression expression = parseExpression(curve.expression);
     const auto valueAt = [&](double x) {
@@ -63,7 +88,8 @@ Series formulaSeries(const ViewCurve& curve, const std::string& variable, double
     s.label = curve.expression;
     s.style = formulaStyle;
     const auto placeOf = [&](std::size_t i, std::size_t n) {
-        return low + (high - low) * static_cast<double>(i) / static_cast<double>(n);
+        const double part = static_cast<double>(i) / static_cast<double>(n);
+        return isLog ? low * std::pow(high / low, part) : low + (high - low) * part;
     };
     std::size_t n = fewest;
     for (std::size_t i = 0; i <= n; ++i) s.y.push_back(valueAt(placeOf(i, n)));
@@ -97,7 +123,7 @@ void fitAxes(Figure& figure, const View& view, const std::string& variable) {
     const auto wholeX = *x.range;
     if (xAsked) x.range = xAsked;
     if (!view.curve.expression.empty() && !variable.empty()) {
-        Series s = formulaSeries(view.curve, variable, x.range->first, x.range->second);
+        Series s = formulaSeries(view.curve, variable, x.range->first, x.range->second, x.isLog);
         for (double& v : s.y)
             if (y.isLog && v <= 0) v = std::numeric_limits<double>::quiet_NaN(), ++s.hidden;
         figure.series.push_back(std::move(s));

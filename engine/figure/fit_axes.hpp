@@ -11,6 +11,7 @@ void fitAxes(Figure& figure, const View& view, const std::string& variable);
 
 /// The curve of a view between two places, as a series of style `formulaStyle`. Points are added until the largest distance
 /// of a chord from the curve is a hundredth of the curve's height, up to 64000; the label says if that was not enough.
-Series formulaSeries(const ViewCurve& curve, const std::string& variable, double low, double high);
+/// The points are equally spaced on the axis, which may be logarithmic.
+Series formulaSeries(const ViewCurve& curve, const std::string& variable, double low, double high, bool isLog = false);
 
 }  // namespace extremal

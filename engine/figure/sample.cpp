@@ -8,7 +8,7 @@
 namespace extremal {
 
 std::optional<std::pair<double, double>> pointAt(const Series& series, double t) {
-    const std::vector<double>& time = series.isCurve ? series.t : series.x;
+    const std::vector<double>& time = series.isCurve || !series.t.empty() ? series.t : series.x;
     if (time.size() != series.y.size() || time.empty() || series.hasMarkers || series.isCells) return {};
     if (!(t >= time.front() && t <= time.back())) return {};
     const auto next = std::upper_bound(time.begin(), time.end(), t);
@@ -84,11 +84,15 @@ std::optional<HeatCell> cellAt(const Figure& figure, double x, double y) {
     return HeatCell{c, r, heat.xs[c], heat.ys[r], std::move(text)};
 }
 
+std::string seriesName(const Series& series) {
+    return series.part.empty() ? series.label : series.label + ", " + series.part;
+}
+
 std::string figureCsv(const Figure& figure, bool isVisibleOnly) {
     if (figure.heat && !figure.heat->scale.empty()) return heatCsv(figure, isVisibleOnly);
     std::string csv = "scheme," + quoted(figure.x.title) + "," + quoted(figure.y.title) + "\n";
     for (const Series& s : figure.series) {
-        const std::string label = quoted(s.label);
+        const std::string label = quoted(seriesName(s));
         for (std::size_t r = 0; r < s.x.size(); ++r) {
             if (isVisibleOnly && !(isWithin(s.x[r], figure.x) && (isWithin(s.y[r], figure.y) || std::isnan(s.y[r])))) continue;
             csv.append(label).append(",").append(cell(s.x[r])).append(",").append(cell(s.y[r])).append("\n");

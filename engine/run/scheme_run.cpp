@@ -47,6 +47,14 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
     return sxx > 0 ? sxy / sxx : Summary::unknown;
 }
 
+/// Every m-th value from the first, and the last.
+std::vector<double> thinned(const std::vector<double>& values, std::size_t m) {
+    std::vector<double> kept;
+    for (std::size_t r = 0; r < values.size(); r += m) kept.push_back(values[r]);
+    if ((values.size() - 1) % m != 0) kept.push_back(values.back());
+    return kept;
+}
+
 void growTo(double& extreme, double value) {
     if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
 }
@@ -144,13 +152,14 @@ struct SchemeRun::Pass {
             if (b.extreme == &Summary::maxError) result.summary.finalError = v[(nodes.size() - 1) * width];
         }
     }
-    /// Makes node i of the block last looked at a row.
-    void keep(const NodeBlock& nodes, std::size_t i) {
+    /// Makes node i of the block last looked at a row, `done` steps from the start.
+    void keep(const NodeBlock& nodes, std::size_t i, double done) {
         const std::size_t width = result.trajectory.columns.size();
         double* row = values.data() + i * width;
         row[0] = nodes.t(i);
         std::copy_n(nodes.x(i), stateWidth, row + 1);
         for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
+        result.trajectory.nodes.push_back(done);
         if (system.field) keepFrame(nodes.t(i), nodes.x(i), false);
         if (system.caution && result.summary.caution.empty()) {
             result.summary.caution = system.caution(nodes.x(i));
@@ -165,10 +174,10 @@ struct SchemeRun::Pass {
         }, result.frames);
     }
     /// A row off the nodes, or at the last of them.
-    void keepAlone(const State& at, const StepReport& report) {
+    void keepAlone(const State& at, const StepReport& report, double done) {
         const NodeBlock one(at, report);
         look(one);
-        keep(one, 0);
+        keep(one, 0, done);
     }
     bool isDone() const {
         return isAdaptiveScheme ? state.t >= scene.end.value : state.node >= steps;
@@ -208,10 +217,14 @@ struct SchemeRun::Pass {
             const double t = start + static_cast<double>(next) * every;
             if (t > state.t + 1e-12 * step || t > scene.end.value + 1e-9 * every) break;
             State at = state;
-            if (std::abs(t - state.t) > 1e-12 * (state.t - before))
-                integrator->curve((t - before) / (state.t - before), at.x);
+            double done = static_cast<double>(state.node);
+            if (std::abs(t - state.t) > 1e-12 * (state.t - before)) {
+                const double part = (t - before) / (state.t - before);
+                integrator->curve(part, at.x);
+                done += part - 1;
+            }
             at.t = t;
-            keepAlone(at, report);
+            keepAlone(at, report, done);
             isLastNodeRow = t >= state.t - 1e-12 * (state.t - before);
         }
     }
@@ -233,7 +246,7 @@ struct SchemeRun::Pass {
         nodes.push(state, {});
         look(nodes);
         measure(nodes);
-        keep(nodes, 0);
+        keep(nodes, 0, 0);
         isLastNodeRow = true;
         std::size_t blockSize = 1;
         State start = state;  // of the block at hand
@@ -268,7 +281,7 @@ struct SchemeRun::Pass {
                 for (std::size_t i = 0; i < nodes.size(); ++i) {
                     count(nodes.report(i));
                     isLastNodeRow = !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
-                    if (isLastNodeRow) keep(nodes, i);
+                    if (isLastNodeRow) keep(nodes, i, static_cast<double>(nodes.node(i)));
                 }
                 lastReport = nodes.report(nodes.size() - 1);
                 if (isDense) lookDense(start.t, lastReport, nextMultiple);
@@ -278,6 +291,7 @@ struct SchemeRun::Pass {
             if (hasOverflown) {
                 // More nodes than can be held: count on, keep nothing; a second pass knows the stride.
                 for (Column& c : result.trajectory.columns) c.values.clear();
+                result.trajectory.nodes.clear();
                 result.frames.clear();
             }
             result.fraction = fraction();
@@ -291,7 +305,7 @@ struct SchemeRun::Pass {
     template <class Publish>
     void run(Publish&& publish) {
         const Outcome outcome = integrate(publish);
-        if (!isLastNodeRow) keepAlone(state, lastReport);
+        if (!isLastNodeRow) keepAlone(state, lastReport, static_cast<double>(state.node));
         if (system.field) keepFrame(state.t, state.x.data(), true);
         finish(outcome);
     }
@@ -353,13 +367,8 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
             if (p.hasOverflown) {
                 result = std::move(pass(m, 0).result);
             } else if (m > 1) {
-                for (Column& c : result.trajectory.columns) {
-                    std::vector<double> thinned;
-                    for (std::size_t r = 0; r < c.values.size(); r += static_cast<std::size_t>(m))
-                        thinned.push_back(c.values[r]);
-                    if ((c.values.size() - 1) % static_cast<std::size_t>(m) != 0) thinned.push_back(c.values.back());
-                    c.values = std::move(thinned);
-                }
+                for (Column& c : result.trajectory.columns) c.values = thinned(c.values, static_cast<std::size_t>(m));
+                result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
             }
         }
         const bool wantsOrder =

@@ -162,6 +162,21 @@ void ViewReader::warnOfNothing(const View& view) const {
     }
 }
 
+const CatalogItem* itemOf(const Value* id) {
+    for (const CatalogItem& item : viewCatalog())
+        if (id && *id == Value(item.id)) return &item;
+    return nullptr;
+}
+
+/// Keys that only this kind of view has. Those at their defaults are left out, so that a view without any is its name alone.
+void readOwnKeys(Reader& reader, const Value& object, const std::string& pointer, const CatalogItem& item, View& view) {
+    std::vector<FieldInfo> own = item.parameters;
+    std::erase_if(own, [](const FieldInfo& field) { return isOneOf(format::view, field.key); });  // read by the others here
+    if (!readFields(reader, object, pointer, own, format::view, view.keys)) view.keys = {};
+    for (const FieldInfo& field : own)
+        std::erase_if(view.keys.keys, [&](const Value::Member& m) { return m.first == field.key && m.second == field.fallback; });
+}
+
 }  // namespace
 
 void readViews(Reader& reader, const Value& document, const System* system, Scene& scene) {
@@ -181,8 +196,9 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         const Value& value = views->asArray()[i];
         const Value object = value.isString() ? Value(Value::Object{{"view", value}}) : value;
         if (!reader.isObject(object, pointer)) continue;
-        const bool isMap = object.find("view") && *object.find("view") == Value(mapView);
-        if (!isMap) reader.checkKeys(object, pointer, format::view);
+        const CatalogItem* item = itemOf(object.find("view"));
+        const bool isMap = item && item->id == mapView;
+        if (!item) reader.checkKeys(object, pointer, format::view);
         const std::string place = value.isString() ? pointer : pointer + "/view";
         const Value* name = object.find("view");
         if (!name) {
@@ -193,6 +209,7 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         view.id = reader.text(*name, place).value_or("");
         const bool isKnown = isOneOf(known, view.id);
         if (name->isString() && !isKnown) reader.unknownName(place, "view", view.id, known);
+        if (item && !isMap) readOwnKeys(reader, object, pointer, *item, view);
         const ViewReader parts{reader, system, scene, object, pointer};
         parts.readColumns(view);
         parts.readScheme(view);

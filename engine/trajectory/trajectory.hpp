@@ -21,6 +21,7 @@ struct Column {
 
 struct Trajectory {
     std::vector<Column> columns;  ///< columns[0] is t
+    std::vector<double> nodes = {};  ///< steps done at each row, with a fraction inside a step; empty where not kept
 
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
     /// The column of that name, or null.

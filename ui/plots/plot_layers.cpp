@@ -95,7 +95,16 @@ void CurvesLayer::draw(QCPPainter* painter) {
     drawKey(*painter, map);
 }
 
-/// The names of curves that are no scheme's, top right: the legend has the schemes alone.
+/// How many points of curves a box would hide, of some hundreds of each.
+std::size_t CurvesLayer::crowdIn(const QRectF& box, const PixelMap& map) const {
+    std::size_t crowd = 0;
+    for (const Series& s : shared_.figure.series)
+        for (std::size_t i = 0, stride = s.x.size() / 500 + 1; i < s.x.size() && shared_.isShown(s); i += stride)
+            crowd += box.contains(map(s.x[i], s.y[i]));
+    return crowd;
+}
+
+/// The names of curves that are no scheme's, top right, or top left where less is hidden: the legend has the schemes alone.
 void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
     constexpr double sample = 22, gap = 5, edge = 5;
     const QFont font = small(shared_.theme);
@@ -107,7 +116,10 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
         const QString text = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight,
                                                 map.rect.width() - sample - gap - 2 * edge - 8);
         const double width = sample + gap + metrics.horizontalAdvance(text) + 2 * edge;
-        const QRectF box(map.rect.right() - 4 - width, top, width, metrics.height() + 4);
+        const QRectF right(map.rect.right() - 4 - width, top, width, metrics.height() + 4);
+        const QRectF left(map.rect.left() + 4, top, width, right.height());
+        const bool isFree = shared_.figure.failures.empty();  // marks of failures are top left
+        const QRectF box = isFree && crowdIn(right, map) > crowdIn(left, map) ? left : right;
         QColor ground = shared_.theme.panel;
         ground.setAlphaF(0.88f);
         painter.setPen(Qt::NoPen);
@@ -194,7 +206,7 @@ void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
 void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const {
     const SeriesStyle style = shared_.theme.series(series.style);
     const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
-    const QColor color = shared_.colorOf(series.style);
+    const QColor color = series.isPale ? shared_.theme.pale(shared_.colorOf(series.style), paleLine) : shared_.colorOf(series.style);
     if (series.hasLine) {
         const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
@@ -221,11 +233,7 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
 /// Unit squares with a hairline between them where there is room.
 void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const {
     QColor color = shared_.colorOf(series.style);
-    if (series.isHollow) {
-        const QColor ground = shared_.theme.panel;
-        const auto pale = [](int a, int b) { return (40 * a + 60 * b) / 100; };
-        color.setRgb(pale(color.red(), ground.red()), pale(color.green(), ground.green()), pale(color.blue(), ground.blue()));
-    }
+    if (series.isHollow) color = shared_.theme.pale(color, 40);
     const double side = std::abs(map(1, 0).x() - map(0, 0).x()), gap = side > 5 ? 0.5 : 0;
     for (std::size_t i = 0; i < series.x.size(); ++i) {
         const QRectF cell = QRectF(map(series.x[i] - 0.5, series.y[i] + 0.5), map(series.x[i] + 0.5, series.y[i] - 0.5));
@@ -323,7 +331,7 @@ void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t,
         }
     }
     for (const Series& s : shared_.figure.series) {
-        if (!shared_.isShown(s)) continue;
+        if (!shared_.isShown(s) || (!shared_.figure.x.isTime && s.t.empty())) continue;
         const auto value = pointAt(s, t);
         if (!value) continue;
         const QPointF p = map(value->first, value->second);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/figure/sample.hpp"
 #include "ui/plots/figure_plot.hpp"
 
 namespace extremal {
@@ -55,7 +56,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     double x = rect.left(), y = rect.top();
     for (const Series& s : figure.series) {
         if (s.isCells || s.style < 0) continue;  // named by the title, and in the plot itself
-        const QString label = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight, rect.width() - sample - gap);
+        const QString label = metrics.elidedText(QString::fromStdString(seriesName(s)), Qt::ElideRight, rect.width() - sample - gap);
         const double width = sample + gap + metrics.horizontalAdvance(label);
         if (x > rect.left() && x + width > rect.right()) {
             x = rect.left();
@@ -63,7 +64,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         if (painter) {
             const SeriesStyle style = theme.series(s.style);
-            QPen pen(style.color, 1.8, Qt::SolidLine, Qt::FlatCap);
+            QPen pen(s.isPale ? theme.pale(style.color, paleLine) : style.color, 1.8, Qt::SolidLine, Qt::FlatCap);
             if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
             const double middle = y + metrics.height() / 2;
             if (s.hasLine) {

@@ -295,7 +295,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 }
                 const Series& series = figure().series[hit->series];
                 c.hoverText = QStringLiteral("%1\n%2, %3")
-                                  .arg(QString::fromStdString(series.label))
+                                  .arg(QString::fromStdString(seriesName(series)))
                                   .arg(series.x[hit->row], 0, 'g', 6)
                                   .arg(series.y[hit->row], 0, 'g', 6);
                 c.hoverPoint = hit->at;

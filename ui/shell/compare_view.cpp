@@ -10,6 +10,7 @@
 #include "engine/figure/figure.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/map_grid.hpp"
 #include "engine/scene/view_axes.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_group.hpp"
@@ -24,9 +25,10 @@
 namespace extremal {
 namespace {
 
-/// Views of the same plot: their part and curve may differ, which follow the parameters.
+/// Views of the same plot: their part and curve may differ, which follow the parameters, but for keys that choose its axes.
 bool isSameCard(const View& a, const View& b) {
-    return a.id == b.id && a.x == b.x && a.y == b.y && a.at == b.at && a.scheme == b.scheme;
+    return a.id == b.id && a.x == b.x && a.y == b.y && a.at == b.at && a.scheme == b.scheme &&
+           (a.id == mapView || a.keys == b.keys);
 }
 
 }  // namespace
@@ -104,13 +106,16 @@ void CompareView::rebuild() {
         menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
         menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
         menu->addSeparator();
-        addSceneActions(*menu, slots_.size());
+        const std::size_t slot = slots_.size();
+        slots_.push_back({view, card, plot});
+        addSceneActions(*menu, slot);
+        menu->addSeparator();
+        addChoices(*menu, workspace_, view.id, [this, slot] { return slots_[slot].view; });
         menu->addSeparator();
         menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
         menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
         group_->add(plot);
         connect(plot, &PlotWidget::cellChosen, this, [this, view](double value, double step) { loadCase(view, value, step); });
-        slots_.push_back({view, card, plot});
     }
     columns_ = 0;
     arrange();

@@ -1,16 +1,19 @@
 #include "ui/shell/plot_edits.hpp"
 
+#include <QActionGroup>
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QFontDatabase>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
 
-#include "engine/figure/figure.hpp"
+#include "engine/figure/view.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/view_axes.hpp"
@@ -56,6 +59,38 @@ void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot) {
     if (plot.isUserZoomed(PlotAxis::x)) after.xRange = roundedRange(plot.visibleRange(PlotAxis::x), plot.figure().x.isLog);
     if (plot.isUserZoomed(PlotAxis::y)) after.yRange = roundedRange(plot.visibleRange(PlotAxis::y), plot.figure().y.isLog);
     workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Keep the part a plot shows"));
+}
+
+void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view) {
+    const ViewEntry* entry = findView(id);
+    if (!entry) return;
+    for (const FieldInfo& field : entry->item.parameters) {
+        if (field.type != FieldType::choice) continue;
+        QString title = QString::fromStdString(field.title);
+        title[0] = title[0].toUpper();
+        QMenu* choices = menu.addMenu(title);
+        choices->setToolTip(QString::fromStdString(field.description));
+        auto* group = new QActionGroup(choices);
+        const std::string given = view().keys.text(field.key), now = given.empty() ? field.choices.front() : given;
+        for (const std::string& choice : field.choices) {
+            QAction* action = choices->addAction(QString::fromStdString(choice));
+            action->setCheckable(true);
+            action->setChecked(choice == now);
+            group->addAction(action);
+            const auto choose = [&workspace, view, key = field.key, choice] {
+                const View before = view();
+                View after = before;
+                std::erase_if(after.keys.keys, [&](const Value::Member& m) { return m.first == key; });
+                after.keys.keys.emplace_back(key, choice);
+                after.xRange = after.yRange = {};
+                const System system = makeSystem(workspace.scene());
+                if (axesOf(before, system).variable != axesOf(after, system).variable) after.curve = {};
+                workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
+            };
+            // After the menu has closed: the card is made anew, and its menu with it.
+            QObject::connect(action, &QAction::triggered, &workspace, [&workspace, choose] { QTimer::singleShot(0, &workspace, choose); });
+        }
+    }
 }
 
 void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {

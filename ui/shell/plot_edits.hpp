@@ -1,12 +1,14 @@
 /// What the scene keeps of a plot, as edits of the document: the part it shows, and a curve to compare with.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "engine/scene/scene.hpp"
 #include "ui/plots/view_state.hpp"
 #include "ui/shell/document.hpp"
 
+class QMenu;
 class QWidget;
 
 namespace extremal {
@@ -22,6 +24,9 @@ ViewRange roundedRange(PlotRange range, bool isLog);
 
 /// Makes the part that the plot shows now that of the scene, along the axes that the user zoomed.
 void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot);
+/// Submenus for what a view lets one choose ("against": time or steps). `view` gives it as it is when chosen. A part that
+/// was kept goes, and a curve whose variable the choice changes.
+void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view);
 /// Asks for an expression and draws it in the plot; an empty one removes it.
 void askForCurve(Workspace& workspace, const View& view, QWidget* parent);
 

@@ -62,6 +62,11 @@ Theme Theme::dark() {
     return t;
 }
 
+QColor Theme::pale(const QColor& color, int percent) const {
+    const auto mix = [percent](int a, int b) { return (percent * a + (100 - percent) * b) / 100; };
+    return {mix(color.red(), panel.red()), mix(color.green(), panel.green()), mix(color.blue(), panel.blue())};
+}
+
 SeriesStyle Theme::series(int style) const {
     static const std::array<QList<qreal>, 8> dashes = {{
         {},                        // solid

@@ -26,6 +26,9 @@ class QWidget;
 
 namespace extremal {
 
+/// The share of its colour that a second curve of a scheme has, in percent.
+inline constexpr int paleLine = 50;
+
 /// How a scheme is drawn everywhere. The dash is in units of the pen's width, as QPen wants it; empty is solid.
 struct SeriesStyle {
     QColor color;
@@ -50,6 +53,9 @@ struct Theme {
     /// Colour and dash of the scheme with this place in the scene (0, 1, ...). Eight colours, each with its own dash;
     /// from the ninth scheme on the colours return with other dashes.
     SeriesStyle series(int style) const;  ///< of a scheme, or of a curve that is none's
+
+    /// Between a colour and the ground of plots: so many percent of the colour.
+    QColor pale(const QColor& color, int percent) const;
 
     QFont body() const;      ///< 12 px
     QFont strong() const;    ///< 12 px semi-bold: values, axis titles

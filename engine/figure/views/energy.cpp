@@ -1,20 +1,20 @@
 /// |H(t) - H(0)| on a logarithmic axis; says how many schemes keep it bounded.
 #include <cmath>
 
-#include "engine/figure/build.hpp"
+#include "engine/figure/against.hpp"
 
 namespace extremal::views {
 namespace {
 
 Figure makeEnergy(const FigureContext& context) {
     Figure figure = startFigure(context, "Energy error");
-    figure.x = timeAxis(context);
     const std::string unit = context.system ? context.system->energyUnit : columnInfo(context, "energy").unit;
     figure.y = logAxis(axisTitle("|H − H(0)|", unit));
-    addAgainstTime(figure, context, "energy_error", Take::magnitude);
+    addErrors(figure, context, "energy_error");
 
     const double scale = initialNorm(context.comparison, "energy");  // at t = 0 energy_error adds nothing
     if (scale > 0) figure.floor = 0x1p-52 * scale;
+    addChance(figure, context);
     int bounded = 0, known = 0;
     for (const auto& scheme : context.comparison.schemes) {
         const auto error = scheme->trajectory["energy_error"];
@@ -25,14 +25,19 @@ Figure makeEnergy(const FigureContext& context) {
     const bool isForced = context.system && context.system->mechanics.isTimeDependent;
     if (known > 0) figure.subtitle = "bounded: " + std::to_string(bounded) + " of " + std::to_string(known);
     if (known > 0 && isForced) figure.subtitle = "no invariant: the Lagrangian depends on time";
-    finishFigure(figure, context, "Energy error against time, " + (known ? figure.subtitle : "not measured"));
+    std::vector<std::pair<double, std::string>> largest;
+    if (isAgainstSteps(context.view) && scale > 0)
+        for (const Series& s : figure.series)
+            if (s.style >= 0) largest.emplace_back(maxMagnitude(s.y) / scale, s.label);
+    if (!largest.empty()) figure.subtitle = "relative, at most: " + leastToMost(largest);
+    finishFigure(figure, context, "Energy error " + againstText(context.view) + ", " + (known ? figure.subtitle : "not measured"));
     return figure;
 }
 
 }  // namespace
 
 ViewEntry energy() {
-    return {{"energy", "Energy error", "|H(t) − H(0)| of every scheme against time, logarithmic", {}, {}, {}},
+    return {{"energy", "Energy error", "|H(t) − H(0)| of every scheme against time or steps, logarithmic", {againstField()}, {}, {}},
             "energy", makeEnergy, nullptr, logAgainstTime};
 }
 

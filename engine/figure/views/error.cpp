@@ -1,7 +1,7 @@
 /// Distance to the reference on a logarithmic axis, with the floor below which the reference itself is no better.
 #include <cmath>
 
-#include "engine/figure/build.hpp"
+#include "engine/figure/against.hpp"
 
 namespace extremal::views {
 namespace {
@@ -23,9 +23,8 @@ std::string referenceText(const ReferenceInfo& reference) {
 
 Figure makeError(const FigureContext& context) {
     Figure figure = startFigure(context, "Error");
-    figure.x = timeAxis(context);
     figure.y = logAxis(axisTitle(symbolOf(context), columnInfo(context, "error").unit));
-    addAgainstTime(figure, context, "error", Take::magnitude);
+    addErrors(figure, context, "error");
 
     const ReferenceInfo& reference = context.comparison.reference;
     figure.subtitle = referenceText(reference);
@@ -37,14 +36,15 @@ Figure makeError(const FigureContext& context) {
         figure.doubtfulBelow = 10 * reference.estimatedError;
     }
     if (reference.type == "none") figure.message = "Without a reference there is no error to show";
-    finishFigure(figure, context, "Distance to the reference against time (" + figure.subtitle + ")");
+    finishFigure(figure, context, "Distance to the reference " + againstText(context.view) + " (" + figure.subtitle + ")");
     return figure;
 }
 
 }  // namespace
 
 ViewEntry error() {
-    return {{"error", "Error", "distance to the reference solution against time, logarithmic", {}, {}, {}}, "error", makeError, nullptr, logAgainstTime};
+    return {{"error", "Error", "distance to the reference solution against time or steps, logarithmic", {againstField()}, {}, {}},
+            "error", makeError, nullptr, logAgainstTime};
 }
 
 }  // namespace extremal::views

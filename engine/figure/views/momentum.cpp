@@ -1,14 +1,13 @@
 /// Norm of the change of the conserved momenta, on a logarithmic axis.
 #include <algorithm>
 
-#include "engine/figure/build.hpp"
+#include "engine/figure/against.hpp"
 
 namespace extremal::views {
 namespace {
 
 Figure makeMomentum(const FigureContext& context) {
     Figure figure = startFigure(context, "Momentum error");
-    figure.x = timeAxis(context);
     std::string symbol = "‖J − J(0)‖", unit = columnInfo(context, "momentum_error").unit;
     if (context.system && context.system->momenta.size() == 1) {
         const MomentumMap& only = context.system->momenta.front();
@@ -16,7 +15,7 @@ Figure makeMomentum(const FigureContext& context) {
         unit = only.unit;
     }
     figure.y = logAxis(axisTitle(symbol, unit));
-    addAgainstTime(figure, context, "momentum_error", Take::magnitude);
+    addErrors(figure, context, "momentum_error");
 
     const double scale = initialNorm(context.comparison, "momentum.");
     if (scale > 0) figure.floor = 0x1p-52 * scale;
@@ -29,7 +28,8 @@ Figure makeMomentum(const FigureContext& context) {
     });
     if (isExact) figure.message = "Kept to the last bit by every scheme";
     if (context.system && context.system->momenta.empty()) figure.message = "This model has no conserved momentum";
-    finishFigure(figure, context, "Momentum error against time, " +
+    if (figure.message.empty()) addChance(figure, context);
+    finishFigure(figure, context, "Momentum error " + againstText(context.view) + ", " +
                                       (figure.subtitle.empty() ? std::string("not measured") : figure.subtitle));
     return figure;
 }
@@ -37,7 +37,8 @@ Figure makeMomentum(const FigureContext& context) {
 }  // namespace
 
 ViewEntry momentum() {
-    return {{"momentum", "Momentum error", "norm of the change of the conserved momenta against time, logarithmic", {}, {}, {}},
+    return {{"momentum", "Momentum error", "norm of the change of the conserved momenta against time or steps, logarithmic",
+             {againstField()}, {}, {}},
             "momentum", makeMomentum, nullptr, logAgainstTime};
 }
 

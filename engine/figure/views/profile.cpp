@@ -1,4 +1,4 @@
-/// A field over space at the last time of each scheme; of wave functions the modulus, and of the first scheme the parts too.
+/// A field over space at the last time of each scheme; of wave functions the modulus, or the real and imaginary parts.
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +7,27 @@
 
 namespace extremal::views {
 namespace {
+
+enum class Part { modulus, real, imaginary };
+
+struct Shown {
+    Part part;
+    const char* symbol;
+};
+
+/// The curves of each scheme, the first in its own colour, a second one pale.
+std::vector<Shown> shownParts(const View& view) {
+    constexpr Shown real{Part::real, "Re ψ"}, imaginary{Part::imaginary, "Im ψ"};
+    const std::string part = view.keys.text("part");
+    if (part == "real") return {real};
+    if (part == "imaginary") return {imaginary};
+    if (part == "both") return {real, imaginary};
+    return {{Part::modulus, "|ψ|"}};
+}
+
+double valueOf(Part part, double re, double im) {
+    return part == Part::real ? re : part == Part::imaginary ? im : std::hypot(re, im);
+}
 
 Series startOf(const SchemeResult& scheme, const FieldSampling& field) {
     Series s;
@@ -32,29 +53,34 @@ void addPotential(Figure& figure, const Hamiltonian& h, double height) {
 Figure makeProfile(const FigureContext& context) {
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";
-    figure.y.title = context.system && context.system->hasWave() ? "|ψ|" : "u";
+    const bool isWave = context.system && context.system->hasWave();
+    const std::vector<Shown> parts = isWave ? shownParts(context.view) : std::vector<Shown>(1);
+    figure.y.title = !isWave ? "u" : parts.size() > 1 ? "ψ" : parts.front().symbol;
     double height = 0;
     for (const auto& scheme : context.comparison.schemes) {
         if (!context.system || !context.system->field || scheme->frames.empty()) continue;
         const FieldSampling& field = context.system->field;
         const auto& values = *scheme->frames.back().values;
         const std::size_t n = field.x.size();
-        Series s = startOf(*scheme, field);
-        const bool isUneven = context.system->hasWave() && !context.system->wave->isPeriodic();
-        if (isUneven) {
-            const EvenSamples even = evenSamples(*context.system->wave, values.data(), 400);
-            s.x = even.x;
-            for (std::size_t j = 0; j < even.x.size(); ++j) s.y.push_back(std::hypot(even.re[j], even.im[j]));
+        const bool isUneven = isWave && !context.system->wave->isPeriodic();
+        const EvenSamples even = isUneven ? evenSamples(*context.system->wave, values.data(), 400) : EvenSamples{};
+        const double* const re = isUneven ? even.re.data() : values.data();
+        const double* const im = isUneven ? even.im.data() : values.data() + n;
+        for (const Shown& shown : parts) {
+            Series s = startOf(*scheme, field);
+            if (isUneven) s.x = even.x;
+            if (parts.size() > 1) s.part = shown.symbol;
+            s.isPale = &shown != &parts.front();
+            for (std::size_t j = 0; j < s.x.size(); ++j) s.y.push_back(isWave ? valueOf(shown.part, re[j], im[j]) : re[j]);
+            height = std::max(height, maxMagnitude(s.y));
+            figure.series.push_back(std::move(s));
         }
-        for (std::size_t j = 0; !isUneven && j < n; ++j)
-            s.y.push_back(context.system->hasWave() ? std::hypot(values[j], values[n + j]) : values[j]);
-        height = std::max(height, maxMagnitude(s.y));
-        figure.series.push_back(std::move(s));
-        if (!context.system->hasWave() || figure.series.size() > 1) continue;
+        if (!isWave || figure.series.size() > parts.size()) continue;
         figure.subtitle = "at t = " + shortNumber(scheme->frames.back().t, 4);
+        if (parts.size() > 1) figure.subtitle += ", Im ψ is pale";
     }
     if (context.system && !context.system->field) figure.message = "The model is no field";
-    if (context.system && context.system->hasWave() && height > 0 && !context.system->field.x.empty())
+    if (isWave && height > 0 && !context.system->field.x.empty())
         addPotential(figure, *context.system->wave, height);
     finishFigure(figure, context, "Profile over space");
     return figure;
@@ -63,7 +89,10 @@ Figure makeProfile(const FigureContext& context) {
 }  // namespace
 
 ViewEntry profile() {
-    return {{"profile", "Profile", "a field over space at the end; of wave functions the modulus, and the potential", {}, {}, {}},
+    FieldInfo part = choiceField("part", "part", {"modulus", "real", "imaginary", "both"},
+                                 "Of wave functions: the modulus, the real part, the imaginary part, or both parts.");
+    return {{"profile", "Profile", "a field over space at the end; of wave functions modulus or parts, and the potential",
+             {std::move(part)}, {}, {}},
             "", makeProfile, nullptr, againstPlace};
 }
 

@@ -38,6 +38,25 @@ class PlotEditsTest : public QObject {
         return false;
     }
 
+    static QAction* entryOf(MainWindow& window, std::size_t i, const QString& submenu, const QString& text) {
+        QWidget* parent = plot(window, i)->parentWidget();
+        while (parent && !qobject_cast<Card*>(parent)) parent = parent->parentWidget();
+        for (QAction* action : qobject_cast<Card*>(parent)->menu()->actions())
+            if (action->menu() && action->text() == submenu)
+                for (QAction* entry : action->menu()->actions())
+                    if (entry->text() == text) return entry;
+        return nullptr;
+    }
+    static bool chooseIn(MainWindow& window, std::size_t i, const QString& submenu, const QString& text) {
+        QAction* entry = entryOf(window, i, submenu, text);
+        if (entry) entry->trigger();
+        return entry;
+    }
+    static bool isChosen(MainWindow& window, std::size_t i, const QString& submenu, const QString& text) {
+        const QAction* entry = entryOf(window, i, submenu, text);
+        return entry && entry->isChecked();
+    }
+
 private slots:
     void initTestCase() {
         loadFonts();
@@ -104,6 +123,36 @@ private slots:
         QVERIFY(waitForResults(window));
         QTest::qWait(50);
         QVERIFY(!plot(window, 1)->isUserZoomed() && plot(window, 1)->visibleRange(PlotAxis::x) == all);
+    }
+    void whatAPlotShowsIsChosenInItsMenu() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        QVERIFY(waitForResults(window));
+        QCOMPARE(plot(window, 1)->figure().view, std::string("energy"));
+        QVERIFY(plot(window, 1)->figure().x.isTime);
+        QTest::qWait(50);
+        plot(window, 1)->setTimeRange(PlotRange{1, 2});
+        QVERIFY(choose(window, 1, "Keep this part in the scene"));
+        const auto energyView = [&] {
+            const auto& views = window.workspace().scene().views;
+            return *std::find_if(views.begin(), views.end(), [](const View& v) { return v.id == "energy"; });
+        };
+        QVERIFY(energyView().xRange);
+        QVERIFY(waitForResults(window));
+        QVERIFY(chooseIn(window, 1, "Against", "steps"));
+        QTRY_COMPARE(energyView().keys.text("against"), std::string("steps"));
+        QVERIFY(!energyView().xRange);  // a part of time is no part of the steps
+        QVERIFY(!window.workspace().hasDrafts());
+        QVERIFY(waitForResults(window));
+        QTRY_VERIFY(plot(window, 1)->figure().x.isLog && !plot(window, 1)->figure().x.isTime);
+        QVERIFY(plot(window, 1)->visibleRange(PlotAxis::x).low > 0);
+        QVERIFY(isChosen(window, 1, "Against", "steps") && !isChosen(window, 1, "Against", "time"));
+        QVERIFY(chooseIn(window, 1, "Against", "time"));
+        QTRY_VERIFY(energyView().keys.keys.empty());
+        QTRY_VERIFY(plot(window, 1)->figure().x.isTime);
+        window.workspace().undo();
+        QCOMPARE(energyView().keys.text("against"), std::string("steps"));
     }
     void aCurveIsAskedForAndItsMistakesAreShown() {
         MainWindow window(Theme::light(), false);

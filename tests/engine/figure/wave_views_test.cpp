@@ -1,0 +1,90 @@
+/// Profiles of wave functions: modulus, real and imaginary part, from a plane wave whose parts are known.
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/figure/digest.hpp"
+#include "engine/figure/sample.hpp"
+#include "engine/figure/view.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/codec.hpp"
+
+namespace extremal {
+namespace {
+
+ReadScene waveScene(const std::string& views) {
+    return readScene(R"({"extremal": 1, "model": {"type": "schrodinger", "potential": "free", "modes": 32},
+        "initial": {"psi": {"packet": "plane-wave", "wave_number": 3}}, "time": {"end": 0.5},
+        "schemes": [{"label": "a", "step": 0.05, "scheme": "schrodinger-gauss-8"}, {"label": "b", "step": 0.05, "baseline": "strang"}],
+        "observe": ["norm"], "views": )" + views + "}");
+}
+
+}  // namespace
+
+class WaveViewsTest : public QObject {
+    Q_OBJECT
+
+    static Figure profile(const std::string& part) {
+        static const Scene scene = waveScene(R"(["profile"])").scene;
+        static const Comparison comparison = run(scene);
+        static const System system = makeSystem(scene);
+        View view{"profile", "", ""};
+        if (!part.empty()) view.keys.keys.emplace_back("part", part);
+        return makeFigure(comparison, view, &system);
+    }
+
+private slots:
+    /// exp(i (3 x - 4.5 t))/sqrt(2 pi) at t = 0.5; Gauss 16 and the splitting, without a potential, are exact to round-off.
+    void partsAreThoseOfThePlaneWave() {
+        const auto largest = [](const Series& s, const auto& exact) {
+            double worst = 0;
+            for (std::size_t j = 0; j < s.x.size(); ++j) worst = std::max(worst, std::abs(s.y[j] - exact(3 * s.x[j] - 2.25)));
+            return worst;
+        };
+        const double size = 1 / std::sqrt(2 * M_PI);
+        const auto cosine = [&](double phase) { return size * std::cos(phase); };
+        const auto sine = [&](double phase) { return size * std::sin(phase); };
+        for (std::size_t scheme = 0; scheme < 2; ++scheme) {
+            QVERIFY(largest(profile("real").series.at(scheme), cosine) < 1e-13);       // measured 5.1e-15
+            QVERIFY(largest(profile("imaginary").series.at(scheme), sine) < 1e-13);
+            QVERIFY(largest(profile("modulus").series.at(scheme), [&](double) { return size; }) < 1e-13);
+            QVERIFY(largest(profile("imaginary").series.at(scheme), cosine) > 0.3);    // parts are not exchanged
+            QVERIFY(largest(profile("imaginary").series.at(scheme), [&](double p) { return -sine(p); }) > 0.3);
+        }
+        QCOMPARE(profile("real").y.title, std::string("Re ψ"));
+        QCOMPARE(profile("imaginary").y.title, std::string("Im ψ"));
+        QCOMPARE(profile("").y.title, std::string("|ψ|"));
+        QCOMPARE(digest(profile("")), digest(profile("modulus")));
+    }
+    void bothPartsBelongToTheirScheme() {
+        const Figure both = profile("both");
+        QCOMPARE(both.series.size(), std::size_t(4));
+        for (std::size_t i = 0; i < 4; ++i) {
+            const Series& s = both.series[i];
+            QCOMPARE(s.label, std::string(i < 2 ? "a" : "b"));
+            QCOMPARE(s.style, i < 2 ? 0 : 1);
+            QCOMPARE(s.isPale, i % 2 == 1);
+            QVERIFY(s.y == profile(i % 2 == 0 ? "real" : "imaginary").series.at(i / 2).y);
+        }
+        QCOMPARE(both.y.title, std::string("ψ"));
+        QCOMPARE(both.subtitle, std::string("at t = 0.5, Im ψ is pale"));
+        const std::string csv = figureCsv(both, false);
+        QVERIFY(csv.find("\n\"a, Re ψ\",0,") != std::string::npos && csv.find("\n\"b, Im ψ\",0,") != std::string::npos);
+    }
+    void theKeyIsReadAndChecked() {
+        const auto read = waveScene(R"([{"view": "profile", "part": "both"}, {"view": "profile", "part": "modulus"}, "profile"])");
+        QVERIFY(read.errors.empty());
+        QCOMPARE(read.scene.views.at(0).keys.text("part"), std::string("both"));
+        QVERIFY(read.scene.views.at(1) == read.scene.views.at(2));
+        const auto wrong = waveScene(R"([{"view": "profile", "part": "phase"}])");
+        QCOMPARE(wrong.errors.at(0).pointer, std::string("/views/0/part"));
+        QVERIFY(!waveScene(R"([{"view": "carpet", "part": "real"}])").errors.empty());
+    }
+};
+
+}  // namespace extremal
+
+QTEST_GUILESS_MAIN(extremal::WaveViewsTest)
+#include "wave_views_test.moc"
