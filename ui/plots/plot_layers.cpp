@@ -95,31 +95,49 @@ void CurvesLayer::draw(QCPPainter* painter) {
     drawKey(*painter, map);
 }
 
-/// How many points of curves a box would hide, of some hundreds of each.
-std::size_t CurvesLayer::crowdIn(const QRectF& box, const PixelMap& map) const {
-    std::size_t crowd = 0;
-    for (const Series& s : shared_.figure.series)
-        for (std::size_t i = 0, stride = s.x.size() / 500 + 1; i < s.x.size() && shared_.isShown(s); i += stride)
-            crowd += box.contains(map(s.x[i], s.y[i]));
-    return crowd;
+/// The length of curves that a box would hide, by some thousands of points of each.
+double CurvesLayer::hiddenBy(const QRectF& box, const PixelMap& map) const {
+    constexpr double spacing = 5;
+    double hidden = 0;
+    for (const Series& s : shared_.figure.series) {
+        const std::size_t stride = s.x.size() / 4000 + 1;
+        for (std::size_t i = stride; i < s.x.size() && shared_.isShown(s) && s.hasLine; i += stride) {
+            const QPointF from = map(s.x[i - stride], s.y[i - stride]), to = map(s.x[i], s.y[i]);
+            const double length = std::hypot(to.x() - from.x(), to.y() - from.y());
+            if (!std::isfinite(length)) continue;
+            const int points = std::clamp(static_cast<int>(length / spacing), 1, 200);
+            for (int k = 0; k < points; ++k)
+                if (box.contains(from + (to - from) * ((k + 0.5) / points))) hidden += length / points;
+        }
+    }
+    return hidden;
 }
 
-/// The names of curves that are no scheme's, top right, or top left where less is hidden: the legend has the schemes alone.
+/// The names of curves that are no scheme's, in the corner where they hide least, first of all top right: the
+/// legend has the schemes alone.
 void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
     constexpr double sample = 22, gap = 5, edge = 5;
     const QFont font = small(shared_.theme);
     const QFontMetricsF metrics(font);
-    double top = map.rect.top() + 4;
+    double topRight = map.rect.top() + 4, topLeft = topRight, bottomRight = map.rect.bottom() - 4, bottomLeft = bottomRight;
     for (const Series& s : shared_.figure.series) {
         const bool isTitled = s.style == exactStyle && shared_.figure.series.size() == 1;
         if (s.style >= 0 || isTitled || map.rect.width() < 100) continue;
         const QString text = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight,
                                                 map.rect.width() - sample - gap - 2 * edge - 8);
         const double width = sample + gap + metrics.horizontalAdvance(text) + 2 * edge;
-        const QRectF right(map.rect.right() - 4 - width, top, width, metrics.height() + 4);
-        const QRectF left(map.rect.left() + 4, top, width, right.height());
-        const bool isFree = shared_.figure.failures.empty();  // marks of failures are top left
-        const QRectF box = isFree && crowdIn(right, map) > crowdIn(left, map) ? left : right;
+        // Marks of failures are top left.
+        const QSizeF size(width, metrics.height() + 4);
+        const double left = map.rect.left() + 4, right = map.rect.right() - 4 - width;
+        std::array<double*, 4> edges{&topRight, &topLeft, &bottomRight, &bottomLeft};
+        std::array<QRectF, 4> boxes{QRectF(QPointF(right, topRight), size), QRectF(QPointF(left, topLeft), size),
+                                    QRectF(QPointF(right, bottomRight - size.height()), size),
+                                    QRectF(QPointF(left, bottomLeft - size.height()), size)};
+        std::size_t corner = 0;
+        for (std::size_t i = 1; i < 4; ++i)
+            if ((i != 1 || shared_.figure.failures.empty()) && hiddenBy(boxes[i], map) < hiddenBy(boxes[corner], map) - 1) corner = i;
+        const QRectF box = boxes[corner];
+        *edges[corner] = corner < 2 ? box.bottom() + 2 : box.top() - 2;
         QColor ground = shared_.theme.panel;
         ground.setAlphaF(0.88f);
         painter.setPen(Qt::NoPen);
@@ -134,7 +152,6 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
         painter.setPen(shared_.theme.muted);
         painter.drawText(QRectF(box.left() + edge + sample + gap, box.top(), width, box.height()), Qt::AlignVCenter | Qt::AlignLeft,
                          text);
-        top = box.bottom() + 2;
     }
 }
 

@@ -37,7 +37,7 @@ protected:
 private:
     void drawHeat(QCPPainter& painter, const PixelMap& map) const;
     void drawFloor(QCPPainter& painter, const PixelMap& map) const;
-    std::size_t crowdIn(const QRectF& box, const PixelMap& map) const;
+    double hiddenBy(const QRectF& box, const PixelMap& map) const;
     void drawKey(QCPPainter& painter, const PixelMap& map) const;
     void drawGuides(QCPPainter& painter, const PixelMap& map) const;
     void drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const;
