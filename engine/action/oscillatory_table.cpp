@@ -141,9 +141,9 @@ Matrix<T> smoothestPart(const OscillatoryBasis& basis, const Functions<T>& f) {
         first += 2 * (k.degree + 1);
     }
     const Matrix<T> onto = Matrix<T>(f.gram * f.change)(kept, Eigen::all);
-    const Matrix<T> product = f.gram(kept, kept);
+    const Matrix<double> product = Matrix<T>(f.gram(kept, kept)).template cast<double>();
     Matrix<T> part = Matrix<T>::Zero(f.gram.rows(), f.change.cols());
-    const Matrix<T> coefficients = dense::solve<T>(product, onto);
+    const Matrix<T> coefficients = dense::solve<double>(product, onto.template cast<double>()).template cast<T>();  // a guess
     for (std::size_t i = 0; i < kept.size(); ++i) part.row(kept[i]) = coefficients.row(static_cast<Eigen::Index>(i));
     return part;
 }

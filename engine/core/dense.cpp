@@ -61,11 +61,9 @@ Eigen::VectorXd rankPivots(Given<double> A) {
 using Quad = boost::multiprecision::float128;
 
 template class Lu<double>;
-template class Lu<long double>;
 template class Lu<Quad>;
 template class Lu<std::complex<double>>;
 template Matrix<double> solve<double>(Given<double>, Given<double>);
-template Matrix<long double> solve<long double>(Given<long double>, Given<long double>);
 template Matrix<Quad> solve<Quad>(Given<Quad>, Given<Quad>);
 template Matrix<std::complex<double>> solve<std::complex<double>>(Given<std::complex<double>>, Given<std::complex<double>>);
 template Matrix<double> inverse<double>(Given<double>);
