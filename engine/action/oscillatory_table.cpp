@@ -76,11 +76,17 @@ struct Samples {
     }
 };
 
-/// Integrates products of two functions along the curve, to round-off.
-Points<long double> curvePoints(const OscillatoryBasis& basis, const Phases<double>& z) {
+/// What the fastest harmonic turns by.
+double fastestPhase(const OscillatoryBasis& basis, const Phases<double>& z) {
     double fastest = 0;
     for (const Harmonic& k : basis.harmonics) fastest = std::max(fastest, std::abs(k.times(z)));
-    return pointsOf<long double>(composite(gauss<double>(basis.highestDegree() + 10), 1 + static_cast<int>(fastest / 3)), z);
+    return fastest;
+}
+
+/// Integrates products of two functions along the curve, to round-off.
+Points<long double> curvePoints(const OscillatoryBasis& basis, const Phases<double>& z) {
+    const int panels = 1 + static_cast<int>(fastestPhase(basis, z) / 3);
+    return pointsOf<long double>(composite(gauss<double>(basis.highestDegree() + 10), panels), z);
 }
 
 /// The same over all phases, as if these were independent of the position: what a grid sees.
@@ -193,17 +199,6 @@ void checkRule(const Table<double>& t, const std::string& remedy) {
                        remedy);
 }
 
-/// A plain rule must resolve the square of the highest harmonic.
-void checkResolution(const OscillatoryBasis& basis, const Phases<double>& z, const Rule<double>& rule) {
-    double fastest = 0;
-    for (const Harmonic& k : basis.harmonics) fastest = std::max(fastest, std::abs(k.times(z)));
-    const double periods = fastest / (2 * std::numbers::pi);
-    if (rule.size() > 4 * periods) return;
-    throw InvalidScene("/quadrature", formatNumber(rule.size()) + " nodes do not resolve the " + formatNumber(periods, 4) +
-                                          " periods of the fastest harmonic in a step",
-                       "some 24 for each fast period, or a Filon rule");
-}
-
 template <class T>
 Table<double> build(const OscillatoryBasis& basis, const Phases<double>& turns, const Points<T>& points, const Points<T>& product,
                     const std::string& remedy) {
@@ -244,6 +239,14 @@ Table<double> build(const OscillatoryBasis& basis, const Phases<double>& turns, 
 
 }  // namespace
 
+void checkResolution(double z, const Rule<double>& rule) {
+    const double periods = std::abs(z) / (2 * std::numbers::pi);
+    if (rule.size() > 4 * periods) return;
+    throw InvalidScene("/quadrature", formatNumber(rule.size()) + " nodes do not resolve the " + formatNumber(periods, 4) +
+                                          " periods of the fastest harmonic in a step",
+                       "some 24 for each fast period, or a Filon rule");
+}
+
 Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<double>& z, FilonNodes nodes, int count,
                                    const Multiples& phases) {
     const FilonGrid grid = filonGrid(nodes, count, phases, z);
@@ -259,7 +262,7 @@ Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<d
 }
 
 Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<double>& z, const Rule<double>& rule) {
-    checkResolution(basis, z, rule);
+    checkResolution(fastestPhase(basis, z), rule);
     Table<double> t = build<long double>(basis, z, pointsOf<long double>(rule, z), curvePoints(basis, z),
                                          "more nodes or panels, or a Filon rule");
     t.rule = rule;

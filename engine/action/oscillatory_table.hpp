@@ -19,6 +19,9 @@
 
 namespace extremal {
 
+/// Throws InvalidScene where a plain rule does not resolve the square of an oscillation by z in a step.
+void checkResolution(double z, const Rule<double>& rule);
+
 /// Throws InvalidScene where the rule does not see all functions, or misses their kinetic energy. phases of each frequency;
 /// the second 1 where there is one.
 Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<double>& z, FilonNodes nodes, int count,

@@ -161,15 +161,20 @@ Settings ruleFor(const Settings& quadrature, const Extent& extent, const Phases<
     if (!quadrature.type.empty() && quadrature.type != "auto") return quadrature;
     const bool areTwo = z[1] != 0;
     const double fastest = std::max(std::abs(z[0]), std::abs(z[1])), slowest = areTwo ? std::min(std::abs(z[0]), std::abs(z[1])) : fastest;
-    const double points = std::max(pointsPerPeriod * fastest / (2 * std::numbers::pi), 2.0 * extent.degree + 4);
-    const int panels = static_cast<int>(std::min(1e6, std::ceil(points / panelNodes)));
+    const Settings resolving = resolvingRule(fastest, extent.degree);
     const int grid = extent.filonNodes() * extent.filonPhases() * (areTwo ? extent.filonPhases() : 1);
-    if (slowest >= smallestFilonPhase && grid <= panels * panelNodes)
+    if (slowest >= smallestFilonPhase && grid <= resolving.integer("panels") * panelNodes)
         return {"filon-lobatto", {{"nodes", extent.filonNodes()}, {"phases", extent.filonPhases()}}, {}};
-    return {"gauss", {{"nodes", panelNodes}, {"panels", panels}}, {}};
+    return resolving;
 }
 
 }  // namespace
+
+Settings resolvingRule(double z, int degree) {
+    const double points = std::max(pointsPerPeriod * std::abs(z) / (2 * std::numbers::pi), 2.0 * degree + 4);
+    const int panels = static_cast<int>(std::min(1e6, std::ceil(points / panelNodes)));
+    return {"gauss", {{"nodes", panelNodes}, {"panels", panels}}, {}};
+}
 
 bool isOscillatory(const Settings& space) { return space.type == "oscillatory"; }
 bool isFilon(const Settings& quadrature) {

@@ -28,6 +28,9 @@ std::vector<OscillatoryBasis> oscillatoryBases(const Settings& space, const Syst
 
 /// z = step * frequency, for each frequency of the space; the second 0 where there is one.
 Phases<double> oscillatoryPhases(const System& system, const Settings& space, double step);
+/// A plain rule that resolves a step of phase z: 24 Gauss points a period, and enough for amplitudes of this degree.
+Settings resolvingRule(double z, int degree);
+
 /// One table for each coordinate. `omega` must not be "estimate" any more: see settled (integrator/scheme.hpp).
 std::vector<Table<double>> oscillatoryTables(const System& system, const Discretization& pair, double step);
 

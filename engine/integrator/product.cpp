@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/action/oscillatory_table.hpp"
 #include "engine/core/dense.hpp"
 #include "engine/core/jet.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/family.hpp"
-#include "engine/integrator/multiscale.hpp"
 #include "engine/integrator/oscillatory.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/small_lu.hpp"
@@ -130,20 +130,18 @@ private:
     double* own(std::size_t k) { return unknowns_.data() + offset_[k]; }
     const double* own(std::size_t k) const { return unknowns_.data() + offset_[k]; }
 
-    /// Coefficients of P_0..P_n, sin and cos in a curve from its samples.
+    /// Coefficients of P_0..P_n, cos and sin in a curve from its samples.
     Eigen::MatrixXd fitOf(const ProductCurve& c) const {
-        Eigen::MatrixXd A(fitSamples, c.degree + 3);
+        const OscillatoryBasis added(c.degree, {0});
+        const double z = c.frequency * clock_.step;
+        const auto n = static_cast<std::size_t>(added.size());
+        Eigen::MatrixXd functions(added.size(), fitSamples);
+        std::vector<double> slopes(n);
         for (int i = 0; i < fitSamples; ++i) {
-            const double tau = (i + 0.5) / fitSamples, x = 2 * tau - 1, wave = c.frequency * tau * clock_.step;
-            double P = 1, lower = 0;
-            for (int j = 0; j <= c.degree; ++j) {
-                A(i, j) = P;
-                P = ((2 * j + 1) * x * P - j * std::exchange(lower, P)) / (j + 1);
-            }
-            A(i, c.degree + 1) = std::sin(wave);
-            A(i, c.degree + 2) = std::cos(wave);
+            const double tau = (i + 0.5) / fitSamples;
+            added.evaluate<double>(tau, {z * tau, 0}, {z, 0}, {functions.col(i).data(), n}, slopes);
         }
-        return dense::leastSquares<double>(A, Eigen::MatrixXd::Identity(fitSamples, fitSamples));
+        return dense::leastSquares<double>(functions.transpose(), Eigen::MatrixXd::Identity(fitSamples, fitSamples));
     }
 
     /// The additive curve with its amplitudes over the mean of P. Where even that has no solution, a constant.
@@ -163,7 +161,8 @@ private:
             double* X = own(k);
             for (int j = 0; j <= c.degree; ++j) X[j] = fit(j);
             const double mean = fit(0);
-            for (int j = 1; j <= 2; ++j) X[c.degree + j] = mean != 0 ? fit(c.degree + j) / mean : 0;
+            X[c.degree + 1] = mean != 0 ? fit(c.degree + 2) / mean : 0;
+            X[c.degree + 2] = mean != 0 ? fit(c.degree + 1) / mean : 0;
             if (c.isFree) X[c.degree + 3] = c.frequency;
             X[c.size()] = fitted_.x[d + k];
         }
@@ -347,13 +346,8 @@ std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Di
         curves.push_back({basis.degree, isFree, z[0] / clock.step});
         degree = std::max(degree, basis.degree);
     }
-    Settings rule = pair.quadrature;
-    if (rule.type == "auto")
-        rule = {"gauss", {{"nodes", 12.0}, {"panels", std::max(std::ceil(2 * periods), std::ceil((degree + 2) / 12.0))}}, {}};
-    const Rule<double> made = makeRule<double>(rule);
-    if (made.size() <= 4 * periods)
-        throw InvalidScene("/quadrature", formatNumber(made.size()) + " nodes do not resolve the " + formatNumber(periods, 4) +
-                                              " fast periods of a step", "some 24 for each period");
+    const Rule<double> made = makeRule<double>(pair.quadrature.type == "auto" ? resolvingRule(z[0], degree) : pair.quadrature);
+    checkResolution(z[0], made);
     return std::make_unique<Product>(system, std::move(curves), made, clock, policy, makeIntegrator(system, additive, clock));
 }
 

@@ -31,19 +31,15 @@ Complex chebyshevCoefficient(const Hamiltonian& h, const Complex* c, int k) {
 
 double spectrumTail(const Hamiltonian& h, const Complex* c) {
     double tail = 0, all = 0;
-    if (!h.isPeriodic()) {
-        const int N = h.size() + 1;
-        for (int k = 0; k <= N; ++k) {
-            const double weight = std::norm(chebyshevCoefficient(h, c, k));
-            all += weight;
-            if (8 * k > 7 * N) tail += weight;
-        }
-        return all > 0 ? std::sqrt(tail / all) : 0;
-    }
-    for (int i = 0; i < h.size(); ++i) {
-        const double weight = std::norm(c[i]);
+    const auto add = [&](double weight, bool isInTail) {
         all += weight;
-        if (16 * std::abs(h.fourier().number(i)) > 7 * h.size()) tail += weight;
+        if (isInTail) tail += weight;
+    };
+    if (h.isPeriodic()) {
+        for (int i = 0; i < h.size(); ++i) add(std::norm(c[i]), 16 * std::abs(h.fourier().number(i)) > 7 * h.size());
+    } else {
+        const int N = h.size() + 1;
+        for (int k = 0; k <= N; ++k) add(std::norm(chebyshevCoefficient(h, c, k)), 8 * k > 7 * N);
     }
     return all > 0 ? std::sqrt(tail / all) : 0;
 }
@@ -75,25 +71,18 @@ NodeMeans nodeMeans(const Hamiltonian& h, const Complex* c, Complex* work) {
     const double k = 2 * std::numbers::pi / h.domain().length, left = h.domain().left;
     NodeMeans means;
     double all = 0;
-    if (!h.isPeriodic()) {
-        const Interval& I = h.interval();
-        for (Eigen::Index i = 0; i < I.points.size(); ++i) {
-            const double weight = I.weights(i) * std::norm(atPoint(I.values, i, c));
-            const double x = left + (1 + I.points(i)) * h.domain().length / 2;
-            all += weight;
-            means.x += weight * x;
-            means.cosine += weight * std::cos(k * (x - left) + left);
-        }
-        means.x /= all;
-        means.cosine /= all;
-        return means;
-    }
-    h.fourier().rawToNodes(c, work);
-    for (std::size_t j = 0; j < h.x().size(); ++j) {
-        const double weight = std::norm(work[j]), x = h.x()[j];
+    const auto add = [&](double x, double weight) {
         all += weight;
         means.x += weight * x;
         means.cosine += weight * std::cos(k * (x - left) + left);
+    };
+    if (h.isPeriodic()) {
+        h.fourier().rawToNodes(c, work);
+        for (std::size_t j = 0; j < h.x().size(); ++j) add(h.x()[j], std::norm(work[j]));
+    } else {
+        const Interval& I = h.interval();
+        for (Eigen::Index i = 0; i < I.points.size(); ++i)
+            add(left + (1 + I.points(i)) * h.domain().length / 2, I.weights(i) * std::norm(atPoint(I.values, i, c)));
     }
     means.x /= all;
     means.cosine /= all;

@@ -3,8 +3,11 @@
 /// A: hbar = m = 1, V = 50 (1 - cos x), a packet of width 0.16 in the well, T = 1. S: hbar = 0.01, V = 1 - cos x, T = 2.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <complex>
 #include <string>
+#include <vector>
 
 #include "engine/wave/hamiltonian.hpp"
 #include "tests/laws/laws.hpp"
@@ -38,6 +41,24 @@ inline Discretization wavePair(int degree, const std::string& solver = "auto", c
 }
 
 inline double waveDistance(const State& a, const State& b) { return distance(a.x, b.x, 0, a.x.size()); }
+
+/// Order in time: the slope of the last four errors, over numbers of steps that grow by a fifth, between `least` and 1e-2.
+/// Not a number where fewer than three are.
+template <class ErrorOf>
+double timeOrder(ErrorOf&& errorOf, double least) {
+    std::vector<double> h, e;
+    for (double n = 2; n < 3e4; n = std::ceil(1.2 * n)) {
+        const double error = errorOf(static_cast<int>(n));
+        if (error > 1e-2) continue;
+        if (error < least) break;
+        h.push_back(-std::log(n));
+        e.push_back(std::log(error));
+    }
+    const auto points = static_cast<std::ptrdiff_t>(std::min<std::size_t>(4, h.size()));
+    if (points < 3) return std::nan("");
+    for (auto* v : {&h, &e}) v->erase(v->begin(), v->end() - points);
+    return slope(h, e);
+}
 
 /// The wave function at node j.
 inline std::complex<double> atNode(const System& system, const State& state, int j) {
