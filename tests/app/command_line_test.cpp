@@ -9,6 +9,10 @@
 #include <csignal>
 #include <unistd.h>
 
+#include "tests/tools/test.hpp"
+
+namespace extremal::command_line_test {
+
 namespace {
 
 struct Answer {
@@ -276,5 +280,7 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(CommandLineTest)
+EXTREMAL_TEST(CommandLineTest)
+}  // namespace extremal::command_line_test
+
 #include "command_line_test.moc"

@@ -6,6 +6,10 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include "tests/tools/test.hpp"
+
+namespace extremal::readme_test {
+
 namespace {
 
 QString fileText(const QString& path) {
@@ -74,5 +78,7 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(ReadmeTest)
+EXTREMAL_TEST(ReadmeTest)
+}  // namespace extremal::readme_test
+
 #include "readme_test.moc"

@@ -7,6 +7,10 @@
 #include <QProcess>
 #include <QTemporaryDir>
 
+#include "tests/tools/test.hpp"
+
+namespace extremal::snapshot_test {
+
 namespace {
 
 struct Answer {
@@ -120,5 +124,7 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(SnapshotVerbTest)
+EXTREMAL_TEST(SnapshotVerbTest)
+}  // namespace extremal::snapshot_test
+
 #include "snapshot_test.moc"

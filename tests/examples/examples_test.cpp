@@ -10,8 +10,9 @@
 #include "tests/examples/quartic_oscillator.cpp"
 #include "tests/examples/trigonometric.cpp"
 #include "tests/examples/virial.cpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::examples_test {
 
 namespace {
 
@@ -94,5 +95,7 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(ExamplesTest)
+EXTREMAL_TEST(ExamplesTest)
+}  // namespace extremal::examples_test
+
 #include "examples_test.moc"

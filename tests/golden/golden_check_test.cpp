@@ -1,5 +1,6 @@
 /// The comparison with kept pictures must itself be able to fail.
 #include "tests/golden/golden_check.hpp"
+#include "tests/tools/test.hpp"
 
 #include <QPainter>
 #include <QTemporaryDir>
@@ -7,7 +8,7 @@
 
 #include <cmath>
 
-using namespace extremal;
+namespace extremal::golden_check_test {
 
 class GoldenCheckTest : public QObject {
     Q_OBJECT
@@ -80,5 +81,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(GoldenCheckTest)
+EXTREMAL_TEST(GoldenCheckTest)
+}  // namespace extremal::golden_check_test
+
 #include "golden_check_test.moc"

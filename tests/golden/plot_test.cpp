@@ -7,9 +7,10 @@
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/engine/figure/hand_made_map.hpp"
 #include "tests/golden/golden_check.hpp"
+#include "tests/tools/test.hpp"
 #include "ui/plots/plot_renderer.hpp"
 
-using namespace extremal;
+namespace extremal::plot_test {
 
 class PlotGoldenTest : public QObject {
     Q_OBJECT
@@ -95,5 +96,7 @@ private slots:
     void theSameFigureIsTheSamePicture() { QCOMPARE(picture(figure("energy")), picture(figure("energy"))); }
 };
 
-QTEST_MAIN(PlotGoldenTest)
+EXTREMAL_TEST(PlotGoldenTest)
+}  // namespace extremal::plot_test
+
 #include "plot_test.moc"

@@ -2,10 +2,11 @@
 #include <QtTest>
 
 #include "tests/golden/golden_check.hpp"
+#include "tests/tools/test.hpp"
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/stage/snapshot.hpp"
 
-using namespace extremal;
+namespace extremal::snapshot_test {
 
 class SnapshotGoldenTest : public QObject {
     Q_OBJECT
@@ -32,5 +33,7 @@ private slots:
     void oneViewFillsThePage() { check(fake::kepler(), request("stage", 600, 400, 6.2), "snapshot-stage"); }
 };
 
-QTEST_MAIN(SnapshotGoldenTest)
+EXTREMAL_TEST(SnapshotGoldenTest)
+}  // namespace extremal::snapshot_test
+
 #include "snapshot_test.moc"

@@ -3,13 +3,14 @@
 #include <QtTest>
 
 #include "tests/golden/golden_check.hpp"
+#include "tests/tools/test.hpp"
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/stage/stage_overlay.hpp"
 #include "ui/stage/stage_picture.hpp"
 #include "ui/stage/stage_player.hpp"
 
-using namespace extremal;
+namespace extremal::stage_test {
 
 class StageGoldenTest : public QObject {
     Q_OBJECT
@@ -61,5 +62,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(StageGoldenTest)
+EXTREMAL_TEST(StageGoldenTest)
+}  // namespace extremal::stage_test
+
 #include "stage_test.moc"

@@ -6,10 +6,11 @@
 #include "engine/scene/codec.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/golden/golden_check.hpp"
+#include "tests/tools/test.hpp"
 #include "ui/plots/plot_renderer.hpp"
 #include "ui/stage/snapshot.hpp"
 
-using namespace extremal;
+namespace extremal::wave_test {
 
 class WaveGoldenTest : public QObject {
     Q_OBJECT
@@ -79,5 +80,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(WaveGoldenTest)
+EXTREMAL_TEST(WaveGoldenTest)
+}  // namespace extremal::wave_test
+
 #include "wave_test.moc"

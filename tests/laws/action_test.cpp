@@ -14,8 +14,9 @@
 #include "engine/solve/multipliers.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::action_test {
 namespace {
 
 using Quad = boost::multiprecision::float128;
@@ -272,7 +273,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(ActionTest)
+}  // namespace extremal::laws::action_test
 
-QTEST_APPLESS_MAIN(extremal::laws::ActionTest)
 #include "action_test.moc"

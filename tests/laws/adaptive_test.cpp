@@ -9,8 +9,9 @@
 #include "engine/baseline/adaptive_method.hpp"
 #include "engine/core/problem.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::adaptive_test {
 namespace {
 
 struct AdaptiveRun {
@@ -174,7 +175,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(AdaptiveTest)
+}  // namespace extremal::laws::adaptive_test
 
-QTEST_APPLESS_MAIN(extremal::laws::AdaptiveTest)
 #include "adaptive_test.moc"

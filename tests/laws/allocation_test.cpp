@@ -3,8 +3,9 @@
 
 #include "tests/laws/allocations.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::allocation_test {
 
 class AllocationTest : public QObject {
     Q_OBJECT
@@ -49,7 +50,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(AllocationTest)
+}  // namespace extremal::laws::allocation_test
 
-QTEST_APPLESS_MAIN(extremal::laws::AllocationTest)
 #include "allocation_test.moc"

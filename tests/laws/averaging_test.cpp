@@ -11,8 +11,9 @@
 
 #include "engine/group/so3.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::averaging_test {
 namespace {
 
 using Matrix = so3::Matrix<double>;
@@ -81,7 +82,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(AveragingTest)
+}  // namespace extremal::averaging_test
 
-QTEST_APPLESS_MAIN(extremal::AveragingTest)
 #include "averaging_test.moc"

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::block_test {
 
 class BlockTest : public QObject {
     Q_OBJECT
@@ -49,7 +50,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(BlockTest)
+}  // namespace extremal::laws::block_test
 
-QTEST_APPLESS_MAIN(extremal::laws::BlockTest)
 #include "block_test.moc"

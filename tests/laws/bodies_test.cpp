@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::bodies_test {
 namespace {
 
 struct LongRun {
@@ -239,7 +240,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(BodiesTest)
+}  // namespace extremal::laws::bodies_test
 
-QTEST_APPLESS_MAIN(extremal::laws::BodiesTest)
 #include "bodies_test.moc"

@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::body_claims_test {
 namespace {
 
 /// Everything that fits the body: lie-1..3, pairs of their own, and each baseline in each of its orders.
@@ -192,7 +193,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(BodyClaimsTest)
+}  // namespace extremal::laws::body_claims_test
 
-QTEST_APPLESS_MAIN(extremal::laws::BodyClaimsTest)
 #include "body_claims_test.moc"

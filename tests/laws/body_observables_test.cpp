@@ -8,8 +8,9 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::body_observables_test {
 namespace {
 
 Comparison runOf(const std::string& model, const std::string& schemes, const std::string& observe) {
@@ -99,7 +100,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(BodyObservablesTest)
+}  // namespace extremal::laws::body_observables_test
 
-QTEST_APPLESS_MAIN(extremal::laws::BodyObservablesTest)
 #include "body_observables_test.moc"

@@ -9,8 +9,9 @@
 #include "engine/model/bind.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::body_routes_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -227,7 +228,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(BodyRoutesTest)
+}  // namespace extremal::laws::body_routes_test
 
-QTEST_APPLESS_MAIN(extremal::laws::BodyRoutesTest)
 #include "body_routes_test.moc"

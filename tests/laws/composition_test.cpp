@@ -9,8 +9,9 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/measured_order.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::composition_test {
 namespace {
 
 Settings to(const std::string& type, int order) {
@@ -249,7 +250,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(CompositionTest)
+}  // namespace extremal::laws::composition_test
 
-QTEST_APPLESS_MAIN(extremal::laws::CompositionTest)
 #include "composition_test.moc"

@@ -9,8 +9,9 @@
 
 #include "engine/integrator/composition.hpp"
 #include "tests/laws/subjects.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::everything_test {
 namespace {
 
 std::vector<Case> schemesOn(const System& system) {
@@ -276,7 +277,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(EverythingTest)
+}  // namespace extremal::laws::everything_test
 
-QTEST_APPLESS_MAIN(extremal::laws::EverythingTest)
 #include "everything_test.moc"

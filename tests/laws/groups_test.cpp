@@ -9,8 +9,9 @@
 
 #include "engine/group/se3.hpp"
 #include "engine/group/so3.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::groups_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -313,7 +314,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(GroupsTest)
+}  // namespace extremal::groups_test
 
-QTEST_APPLESS_MAIN(extremal::GroupsTest)
 #include "groups_test.moc"

@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::hard_bodies_test {
 namespace {
 
 /// Errors at the end of a run; `hasFailed` where the run ended in an outcome.
@@ -165,7 +166,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(HardBodiesTest)
+}  // namespace extremal::laws::hard_bodies_test
 
-QTEST_APPLESS_MAIN(extremal::laws::HardBodiesTest)
 #include "hard_bodies_test.moc"

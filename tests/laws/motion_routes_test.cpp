@@ -8,8 +8,9 @@
 #include "engine/group/se3.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::motion_routes_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -248,7 +249,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(MotionRoutesTest)
+}  // namespace extremal::laws::motion_routes_test
 
-QTEST_APPLESS_MAIN(extremal::laws::MotionRoutesTest)
 #include "motion_routes_test.moc"

@@ -5,8 +5,9 @@
 #include <algorithm>
 
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::motions_test {
 namespace {
 
 using Vector = so3::Vector<double>;
@@ -246,7 +247,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(MotionsTest)
+}  // namespace extremal::laws::motions_test
 
-QTEST_APPLESS_MAIN(extremal::laws::MotionsTest)
 #include "motions_test.moc"

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::multiscale_table_test {
 namespace {
 
 struct Row {
@@ -132,7 +133,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(MultiscaleTableTest)
+}  // namespace extremal::laws::multiscale_table_test
 
-QTEST_APPLESS_MAIN(extremal::laws::MultiscaleTableTest)
 #include "multiscale_table_test.moc"

@@ -10,8 +10,9 @@
 #include "engine/integrator/oscillatory.hpp"
 #include "engine/integrator/resonance.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::multiscale_test {
 namespace {
 
 State springStart(double k) { return {0, 0, {0.05 * std::sqrt(1e4 / k), 1, 0, 0}}; }
@@ -273,7 +274,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(MultiscaleTest)
+}  // namespace extremal::laws::multiscale_test
 
-QTEST_APPLESS_MAIN(extremal::laws::MultiscaleTest)
 #include "multiscale_test.moc"

@@ -6,8 +6,9 @@
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/laws/measured_order.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::order_test {
 class OrderTest : public QObject {
     Q_OBJECT
 private slots:
@@ -59,7 +60,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(OrderTest)
+}  // namespace extremal::laws::order_test
 
-QTEST_APPLESS_MAIN(extremal::laws::OrderTest)
 #include "order_test.moc"

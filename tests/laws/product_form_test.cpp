@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::product_form_test {
 namespace {
 
 Discretization product(int slow, int fast, const char* frequency, Value omega = "model") {
@@ -112,7 +113,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(ProductFormTest)
+}  // namespace extremal::laws::product_form_test
 
-QTEST_APPLESS_MAIN(extremal::laws::ProductFormTest)
 #include "product_form_test.moc"

@@ -7,8 +7,9 @@
 #include "engine/integrator/lie_step_build.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::quadruple_bodies_test {
 namespace {
 
 using Quad = boost::multiprecision::float128;
@@ -80,7 +81,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(QuadrupleBodiesTest)
+}  // namespace extremal::laws::quadruple_bodies_test
 
-QTEST_APPLESS_MAIN(extremal::laws::QuadrupleBodiesTest)
 #include "quadruple_bodies_test.moc"

@@ -12,8 +12,9 @@
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/quadruple_kepler.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::quadruple_order_test {
 class QuadrupleOrderTest : public QObject {
     Q_OBJECT
 private slots:
@@ -53,7 +54,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(QuadrupleOrderTest)
+}  // namespace extremal::laws::quadruple_order_test
 
-QTEST_APPLESS_MAIN(extremal::laws::QuadrupleOrderTest)
 #include "quadruple_order_test.moc"

@@ -7,8 +7,9 @@
 #include <cstdlib>
 
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::random_walk_test {
 namespace {
 
 /// Energy against time of eight orbits at H = 0.13, sampled 1000 times.
@@ -67,7 +68,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(RandomWalkTest)
+}  // namespace extremal::laws::random_walk_test
 
-QTEST_APPLESS_MAIN(extremal::laws::RandomWalkTest)
 #include "random_walk_test.moc"

@@ -5,8 +5,9 @@
 
 #include "engine/quadrature/rule.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::routes_test {
 namespace {
 
 State randomState(std::mt19937& random, const System& system) {
@@ -248,7 +249,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(RoutesTest)
+}  // namespace extremal::laws::routes_test
 
-QTEST_APPLESS_MAIN(extremal::laws::RoutesTest)
 #include "routes_test.moc"

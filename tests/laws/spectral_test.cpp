@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::spectral_test {
 namespace {
 
 /// Largest error over four steps of half a unit each, on Kepler's orbit.
@@ -79,7 +80,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(SpectralTest)
+}  // namespace extremal::laws::spectral_test
 
-QTEST_APPLESS_MAIN(extremal::laws::SpectralTest)
 #include "spectral_test.moc"

@@ -5,8 +5,9 @@
 #include <array>
 
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::structure_test {
 namespace {
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
@@ -187,7 +188,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(StructureTest)
+}  // namespace extremal::laws::structure_test
 
-QTEST_APPLESS_MAIN(extremal::laws::StructureTest)
 #include "structure_test.moc"

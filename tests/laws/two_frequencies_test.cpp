@@ -8,8 +8,9 @@
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::two_frequencies_test {
 namespace {
 
 /// The preset of two springs, with edits of its text.
@@ -97,7 +98,7 @@ private:
     Comparison asItIs_;
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(TwoFrequenciesTest)
+}  // namespace extremal::laws::two_frequencies_test
 
-QTEST_APPLESS_MAIN(extremal::laws::TwoFrequenciesTest)
 #include "two_frequencies_test.moc"

@@ -11,8 +11,9 @@
 #include "engine/quadrature/rule.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::unisolvence_test {
 namespace {
 
 /// Rank of the velocities at the nodes, of monomials t, t^2, ..., t^s: s where no motion inside the step is
@@ -131,7 +132,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(UnisolvenceTest)
+}  // namespace extremal::laws::unisolvence_test
 
-QTEST_APPLESS_MAIN(extremal::laws::UnisolvenceTest)
 #include "unisolvence_test.moc"

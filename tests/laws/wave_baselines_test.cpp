@@ -3,8 +3,9 @@
 
 #include "engine/scene/codec.hpp"
 #include "tests/laws/waves.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::wave_baselines_test {
 namespace {
 
 std::unique_ptr<Integrator> make(const char* id, const System& system, const Clock& clock) {
@@ -113,7 +114,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(WaveBaselinesTest)
+}  // namespace extremal::laws::wave_baselines_test
 
-QTEST_APPLESS_MAIN(extremal::laws::WaveBaselinesTest)
 #include "wave_baselines_test.moc"

@@ -3,8 +3,9 @@
 
 #include "engine/integrator/wave_collocation.hpp"
 #include "tests/laws/waves.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::wave_collocation_test {
 namespace {
 
 State run(Integrator& integrator, const State& start, int n) {
@@ -141,7 +142,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(WaveCollocationTest)
+}  // namespace extremal::laws::wave_collocation_test
 
-QTEST_APPLESS_MAIN(extremal::laws::WaveCollocationTest)
 #include "wave_collocation_test.moc"

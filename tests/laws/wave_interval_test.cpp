@@ -11,8 +11,9 @@
 #include "engine/wave/interval.hpp"
 #include "engine/wave/spectrum.hpp"
 #include "tests/laws/waves.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::wave_interval_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -322,7 +323,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(WaveIntervalTest)
+}  // namespace extremal::laws::wave_interval_test
 
-QTEST_APPLESS_MAIN(extremal::laws::WaveIntervalTest)
 #include "wave_interval_test.moc"

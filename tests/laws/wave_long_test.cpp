@@ -6,8 +6,9 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::wave_long_test {
 namespace {
 
 constexpr double normEach = 2e-16, energyInAll = 1e-10;
@@ -60,7 +61,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(WaveLongTest)
+}  // namespace extremal::laws::wave_long_test
 
-QTEST_GUILESS_MAIN(extremal::laws::WaveLongTest)
 #include "wave_long_test.moc"

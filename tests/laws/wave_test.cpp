@@ -9,8 +9,9 @@
 #include "engine/wave/spectrum.hpp"
 #include "tests/laws/allocations.hpp"
 #include "tests/laws/waves.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::wave_test {
 namespace {
 
 State run(const System& system, const Discretization& pair, const State& start, double T, int n) {
@@ -265,7 +266,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(WaveTest)
+}  // namespace extremal::laws::wave_test
 
-QTEST_APPLESS_MAIN(extremal::laws::WaveTest)
 #include "wave_test.moc"

@@ -5,8 +5,9 @@
 #include "engine/integrator/wave_three_level.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/waves.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::wave_three_level_test {
 namespace {
 
 Discretization threeLevels(const char* start, const Settings& rule = {"exact", {}, {}}, const Value& shift = 0.0,
@@ -153,7 +154,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(WaveThreeLevelTest)
+}  // namespace extremal::laws::wave_three_level_test
 
-QTEST_APPLESS_MAIN(extremal::laws::WaveThreeLevelTest)
 #include "wave_three_level_test.moc"

@@ -7,8 +7,9 @@
 #include <cmath>
 
 #include "tests/tools/filon_table.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::tools {
+namespace extremal::tools::filon_test {
 namespace {
 
 constexpr FilonNodes gaussAndLobatto[] = {FilonNodes::gauss, FilonNodes::lobatto};
@@ -118,7 +119,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::tools
+EXTREMAL_TEST(FilonPageTest)
+}  // namespace extremal::tools::filon_test
 
-QTEST_APPLESS_MAIN(extremal::tools::FilonPageTest)
 #include "filon_test.moc"

@@ -13,8 +13,9 @@
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/space/catalog.hpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::handbook_test {
 
 namespace {
 
@@ -113,5 +114,7 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(HandbookTest)
+EXTREMAL_TEST(HandbookTest)
+}  // namespace extremal::handbook_test
+
 #include "handbook_test.moc"

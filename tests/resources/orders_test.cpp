@@ -7,8 +7,9 @@
 #include <map>
 
 #include "tests/tools/order_table.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::tools {
+namespace extremal::tools::orders_test {
 namespace {
 
 /// The text of every row, by section and rule.
@@ -90,7 +91,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::tools
+EXTREMAL_TEST(OrdersTest)
+}  // namespace extremal::tools::orders_test
 
-QTEST_APPLESS_MAIN(extremal::tools::OrdersTest)
 #include "orders_test.moc"

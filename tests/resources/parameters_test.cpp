@@ -4,6 +4,9 @@
 #include <QTest>
 
 #include "tests/tools/parameters_page.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::parameters_test {
 
 class ParametersTest : public QObject {
     Q_OBJECT
@@ -20,5 +23,7 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(ParametersTest)
+EXTREMAL_TEST(ParametersTest)
+}  // namespace extremal::parameters_test
+
 #include "parameters_test.moc"

@@ -5,8 +5,9 @@
 
 #include "engine/baseline/partitioned.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::partitioned_test {
 
 class PartitionedTest : public QObject {
     Q_OBJECT
@@ -84,7 +85,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(PartitionedTest)
+}  // namespace extremal::partitioned_test
 
-QTEST_APPLESS_MAIN(extremal::PartitionedTest)
 #include "partitioned_test.moc"

@@ -13,8 +13,9 @@
 
 #include "engine/baseline/splitting_table.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::splitting_table_test {
 namespace {
 
 constexpr int highest = 7;
@@ -248,7 +249,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(SplittingTableTest)
+}  // namespace extremal::splitting_table_test
 
-QTEST_APPLESS_MAIN(extremal::SplittingTableTest)
 #include "splitting_table_test.moc"

@@ -4,8 +4,9 @@
 #include <numbers>
 
 #include "engine/core/expression.hpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::expression_test {
 
 namespace {
 
@@ -109,5 +110,7 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(ExpressionTest)
+EXTREMAL_TEST(ExpressionTest)
+}  // namespace extremal::expression_test
+
 #include "expression_test.moc"

@@ -7,8 +7,9 @@
 #include <random>
 
 #include "engine/core/text.hpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::text_test {
 
 class TextTest : public QObject {
     Q_OBJECT
@@ -52,5 +53,7 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(TextTest)
+EXTREMAL_TEST(TextTest)
+}  // namespace extremal::text_test
+
 #include "text_test.moc"

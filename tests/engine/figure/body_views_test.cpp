@@ -10,8 +10,9 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::body_views_test {
 namespace {
 
 Scene bodyScene(const std::string& views) {
@@ -101,7 +102,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(BodyViewsTest)
+}  // namespace extremal::body_views_test
 
-QTEST_APPLESS_MAIN(extremal::BodyViewsTest)
 #include "body_views_test.moc"

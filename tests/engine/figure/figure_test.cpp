@@ -8,8 +8,9 @@
 #include "engine/figure/range.hpp"
 #include "engine/observe/catalog.hpp"
 #include "tests/engine/figure/hand_made.hpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::figure_test {
 
 namespace {
 Figure energyFigure(const Comparison& comparison) {
@@ -172,5 +173,7 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(FigureTest)
+EXTREMAL_TEST(FigureTest)
+}  // namespace extremal::figure_test
+
 #include "figure_test.moc"

@@ -9,8 +9,9 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::framework_views_test {
 namespace {
 
 ReadScene pendulum(const std::string& views, const std::string& schemes) {
@@ -87,7 +88,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(FrameworkViewsTest)
+}  // namespace extremal::framework_views_test
 
-QTEST_APPLESS_MAIN(extremal::FrameworkViewsTest)
 #include "framework_views_test.moc"

@@ -5,8 +5,9 @@
 
 #include "engine/figure/sample.hpp"
 #include "tests/engine/figure/hand_made_map.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::map_view_test {
 
 class MapViewTest : public QObject {
     Q_OBJECT
@@ -72,7 +73,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(MapViewTest)
+}  // namespace extremal::map_view_test
 
-QTEST_GUILESS_MAIN(extremal::MapViewTest)
 #include "map_view_test.moc"

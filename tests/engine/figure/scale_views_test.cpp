@@ -8,8 +8,9 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::scale_views_test {
 namespace {
 
 ReadScene spring(const std::string& model, const std::string& observe) {
@@ -82,7 +83,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(ScaleViewsTest)
+}  // namespace extremal::scale_views_test
 
-QTEST_APPLESS_MAIN(extremal::ScaleViewsTest)
 #include "scale_views_test.moc"

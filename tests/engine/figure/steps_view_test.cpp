@@ -13,8 +13,9 @@
 #include "engine/scene/json.hpp"
 #include "engine/scene/view_axes.hpp"
 #include "tests/engine/figure/hand_made.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::steps_view_test {
 namespace {
 
 std::string pendulumText(const std::string& scheme, const std::string& end, const std::string& views, const std::string& more = "") {
@@ -171,7 +172,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(StepsViewTest)
+}  // namespace extremal::steps_view_test
 
-QTEST_GUILESS_MAIN(extremal::StepsViewTest)
 #include "steps_view_test.moc"

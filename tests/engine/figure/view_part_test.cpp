@@ -13,8 +13,9 @@
 #include "engine/scene/preset.hpp"
 #include "engine/scene/view_axes.hpp"
 #include "tests/engine/figure/hand_made.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::view_part_test {
 namespace {
 
 Number number(double value) { return {value, {}}; }
@@ -141,7 +142,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(ViewPartTest)
+}  // namespace extremal::view_part_test
 
-QTEST_APPLESS_MAIN(extremal::ViewPartTest)
 #include "view_part_test.moc"

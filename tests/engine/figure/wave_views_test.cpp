@@ -10,8 +10,9 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::wave_views_test {
 namespace {
 
 ReadScene waveScene(const std::string& views) {
@@ -84,7 +85,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(WaveViewsTest)
+}  // namespace extremal::wave_views_test
 
-QTEST_GUILESS_MAIN(extremal::WaveViewsTest)
 #include "wave_views_test.moc"

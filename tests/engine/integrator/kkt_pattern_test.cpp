@@ -6,8 +6,9 @@
 #include "engine/integrator/exact_actions.hpp"
 #include "engine/integrator/kkt_pattern.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::kkt_pattern_test {
 namespace {
 
 /// Cells and other functions that overlap with the tent in the middle of a tensor mesh of some dimensions:
@@ -142,7 +143,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(KktPatternTest)
+}  // namespace extremal::laws::kkt_pattern_test
 
-QTEST_APPLESS_MAIN(extremal::laws::KktPatternTest)
 #include "kkt_pattern_test.moc"

@@ -8,8 +8,9 @@
 #include "engine/action/oscillatory_table.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::oscillatory_step_test {
 namespace {
 
 struct Known {
@@ -60,7 +61,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(OscillatoryStepTest)
+}  // namespace extremal::oscillatory_step_test
 
-QTEST_APPLESS_MAIN(extremal::OscillatoryStepTest)
 #include "oscillatory_step_test.moc"

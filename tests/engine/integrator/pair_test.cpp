@@ -6,8 +6,9 @@
 #include "engine/integrator/scheme.hpp"
 #include "engine/space/polynomial.hpp"
 #include "engine/space/spline.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::pair_test {
 namespace {
 
 Settings polynomial(int degree) { return {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}}; }
@@ -72,7 +73,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(PairTest)
+}  // namespace extremal::pair_test
 
-QTEST_APPLESS_MAIN(extremal::PairTest)
 #include "pair_test.moc"

@@ -7,8 +7,9 @@
 
 #include "engine/group/so3.hpp"
 #include "engine/model/body_shape.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::body_shape_test {
 namespace {
 
 using Vector = so3::Vector<double>;
@@ -141,7 +142,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(BodyShapeTest)
+}  // namespace extremal::body_shape_test
 
-QTEST_APPLESS_MAIN(extremal::BodyShapeTest)
 #include "body_shape_test.moc"

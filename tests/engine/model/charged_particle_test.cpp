@@ -6,8 +6,9 @@
 
 #include "engine/core/problem.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::charged_particle_test {
 namespace {
 
 System particle(Value::Array A, Value phi, double m = 1, double charge = 1) {
@@ -124,7 +125,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(ChargedParticleTest)
+}  // namespace extremal::charged_particle_test
 
-QTEST_APPLESS_MAIN(extremal::ChargedParticleTest)
 #include "charged_particle_test.moc"

@@ -7,8 +7,9 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/elliptic.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::elliptic_test {
 namespace {
 
 EllipticProblem wavy(double epsilon) {
@@ -134,7 +135,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(EllipticTest)
+}  // namespace extremal::elliptic_test
 
-QTEST_APPLESS_MAIN(extremal::EllipticTest)
 #include "elliptic_test.moc"

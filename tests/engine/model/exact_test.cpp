@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::exact_test {
 
 class ExactTest : public QObject {
     Q_OBJECT
@@ -81,7 +82,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(ExactTest)
+}  // namespace extremal::exact_test
 
-QTEST_APPLESS_MAIN(extremal::ExactTest)
 #include "exact_test.moc"

@@ -4,8 +4,9 @@
 #include <random>
 
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::free_body_motion_test {
 namespace {
 
 /// |xdot - rate(x)| by central differences of order 6, relative to the rates.
@@ -103,7 +104,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(FreeBodyMotionTest)
+}  // namespace extremal::laws::free_body_motion_test
 
-QTEST_APPLESS_MAIN(extremal::laws::FreeBodyMotionTest)
 #include "free_body_motion_test.moc"

@@ -5,8 +5,9 @@
 
 #include "engine/observe/catalog.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::system_test {
 
 class SystemTest : public QObject {
     Q_OBJECT
@@ -66,7 +67,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(SystemTest)
+}  // namespace extremal::system_test
 
-QTEST_APPLESS_MAIN(extremal::SystemTest)
 #include "system_test.moc"

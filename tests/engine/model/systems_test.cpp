@@ -8,8 +8,9 @@
 
 #include "engine/core/dense.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::systems_test {
 namespace {
 
 /// A state near the example of a system, and velocities near its own.
@@ -171,7 +172,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(SystemsTest)
+}  // namespace extremal::systems_test
 
-QTEST_APPLESS_MAIN(extremal::SystemsTest)
 #include "systems_test.moc"

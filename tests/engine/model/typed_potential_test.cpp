@@ -8,8 +8,9 @@
 #include "engine/group/se3.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed_potential.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::typed_potential_test {
 namespace {
 
 using Vector = so3::Vector<double>;
@@ -149,7 +150,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(TypedPotentialTest)
+}  // namespace extremal::typed_potential_test
 
-QTEST_APPLESS_MAIN(extremal::TypedPotentialTest)
 #include "typed_potential_test.moc"

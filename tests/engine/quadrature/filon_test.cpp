@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "engine/quadrature/filon.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::filon_test {
 
 using Wide = boost::multiprecision::cpp_bin_float_50;
 using Complex = std::complex<double>;
@@ -271,7 +272,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(FilonTest)
+}  // namespace extremal::filon_test
 
-QTEST_APPLESS_MAIN(extremal::FilonTest)
 #include "filon_test.moc"

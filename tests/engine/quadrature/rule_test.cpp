@@ -3,8 +3,9 @@
 #include <boost/multiprecision/float128.hpp>
 
 #include "engine/quadrature/rule.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::rule_test {
 
 using Quad = boost::multiprecision::float128;
 
@@ -93,7 +94,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(RuleTest)
+}  // namespace extremal::rule_test
 
-QTEST_APPLESS_MAIN(extremal::RuleTest)
 #include "rule_test.moc"

@@ -9,8 +9,9 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::curve_test {
 namespace {
 
 Scene kepler(const std::string& scheme, double step, double end) {
@@ -205,7 +206,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(CurveTest)
+}  // namespace extremal::curve_test
 
-QTEST_APPLESS_MAIN(extremal::CurveTest)
 #include "curve_test.moc"

@@ -13,8 +13,9 @@
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::export_test {
 namespace fs = std::filesystem;
 
 namespace {
@@ -127,5 +128,7 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(ExportTest)
+EXTREMAL_TEST(ExportTest)
+}  // namespace extremal::export_test
+
 #include "export_test.moc"

@@ -6,8 +6,9 @@
 #include "engine/run/export.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::field_test {
 
 namespace {
 
@@ -78,5 +79,7 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(FieldTest)
+EXTREMAL_TEST(FieldTest)
+}  // namespace extremal::field_test
+
 #include "field_test.moc"

@@ -13,8 +13,9 @@
 #include "engine/run/export.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::map_test {
 namespace {
 
 const std::string stiffSchemes = R"({"label":"SV","step":0.05,"baseline":"stormer-verlet"},
@@ -264,7 +265,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(MapTest)
+}  // namespace extremal::map_test
 
-QTEST_GUILESS_MAIN(extremal::MapTest)
 #include "map_test.moc"

@@ -11,8 +11,9 @@
 #include "engine/run/scheme_run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::run_test {
 namespace {
 
 Scene sceneFrom(const std::string& model, const std::string& initial, const std::string& end, const std::string& schemes,
@@ -174,7 +175,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(RunTest)
+}  // namespace extremal::run_test
 
-QTEST_GUILESS_MAIN(extremal::RunTest)
 #include "run_test.moc"

@@ -8,8 +8,9 @@
 #include "engine/scene/json.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/scene/schema.hpp"
+#include "tests/tools/test.hpp"
 
-using namespace extremal;
+namespace extremal::codec_test {
 
 namespace {
 
@@ -371,5 +372,7 @@ private slots:
     }
 };
 
-QTEST_APPLESS_MAIN(CodecTest)
+EXTREMAL_TEST(CodecTest)
+}  // namespace extremal::codec_test
+
 #include "codec_test.moc"

@@ -5,8 +5,9 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::oscillatory_scene_test {
 namespace {
 
 std::string scene(const std::string& scheme, const std::string& model = R"({"type":"spring-pendulum","k":1e6})") {
@@ -112,7 +113,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(OscillatorySceneTest)
+}  // namespace extremal::oscillatory_scene_test
 
-QTEST_APPLESS_MAIN(extremal::OscillatorySceneTest)
 #include "oscillatory_scene_test.moc"

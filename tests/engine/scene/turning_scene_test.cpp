@@ -5,8 +5,9 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::turning_scene_test {
 namespace {
 
 /// A body with |omega| = 1 at the start, over 60 rad.
@@ -71,7 +72,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(TurningSceneTest)
+}  // namespace extremal::turning_scene_test
 
-QTEST_APPLESS_MAIN(extremal::TurningSceneTest)
 #include "turning_scene_test.moc"

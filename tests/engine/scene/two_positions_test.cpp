@@ -6,8 +6,9 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/two_positions.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::two_positions_test {
 namespace {
 
 std::string sceneText(const std::string& initial, const std::string& schemes, const std::string& more = "") {
@@ -107,7 +108,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(TwoPositionsTest)
+}  // namespace extremal::two_positions_test
 
-QTEST_APPLESS_MAIN(extremal::TwoPositionsTest)
 #include "two_positions_test.moc"

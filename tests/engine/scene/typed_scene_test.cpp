@@ -6,8 +6,9 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::typed_scene_test {
 namespace {
 
 const std::string spring = R"({"extremal": 1,
@@ -130,7 +131,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(TypedSceneTest)
+}  // namespace extremal::typed_scene_test
 
-QTEST_APPLESS_MAIN(extremal::TypedSceneTest)
 #include "typed_scene_test.moc"

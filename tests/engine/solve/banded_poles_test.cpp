@@ -7,8 +7,9 @@
 
 #include "engine/integrator/pade.hpp"
 #include "engine/solve/banded_poles.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::banded_poles_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -86,7 +87,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(BandedPolesTest)
+}  // namespace extremal::banded_poles_test
 
-QTEST_APPLESS_MAIN(extremal::BandedPolesTest)
 #include "banded_poles_test.moc"

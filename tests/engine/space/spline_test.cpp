@@ -4,8 +4,9 @@
 
 #include "engine/space/polynomial.hpp"
 #include "engine/space/spline.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::spline_test {
 namespace {
 
 struct Values {
@@ -95,7 +96,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(SplineTest)
+}  // namespace extremal::spline_test
 
-QTEST_APPLESS_MAIN(extremal::SplineTest)
 #include "spline_test.moc"

@@ -2,8 +2,9 @@
 #include <QTest>
 
 #include "engine/trajectory/frames.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::frames_test {
 namespace {
 
 std::vector<Frame> offerRows(int rows, std::size_t size) {
@@ -39,7 +40,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(FramesTest)
+}  // namespace extremal::frames_test
 
-QTEST_APPLESS_MAIN(extremal::FramesTest)
 #include "frames_test.moc"

@@ -8,8 +8,9 @@
 
 #include "engine/wave/eigen.hpp"
 #include "engine/wave/stationary.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal {
+namespace extremal::stationary_test {
 namespace {
 
 const wave::Constants units{{"hbar", 1}, {"m", 1}};
@@ -118,7 +119,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(StationaryTest)
+}  // namespace extremal::stationary_test
 
-QTEST_APPLESS_MAIN(extremal::StationaryTest)
 #include "stationary_test.moc"

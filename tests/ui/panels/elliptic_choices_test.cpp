@@ -8,6 +8,7 @@
 #include "engine/integrator/elliptic.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
+#include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_editor.hpp"
@@ -16,7 +17,7 @@
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
 
-namespace extremal {
+namespace extremal::elliptic_choices_test {
 
 class EllipticChoicesTest : public QObject {
     Q_OBJECT
@@ -100,7 +101,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(EllipticChoicesTest)
+}  // namespace extremal::elliptic_choices_test
 
-QTEST_MAIN(extremal::EllipticChoicesTest)
 #include "elliptic_choices_test.moc"

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/lagrangian_edits.hpp"
@@ -17,7 +18,7 @@
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/workspace.hpp"
 
-namespace extremal {
+namespace extremal::lagrangian_editor_test {
 
 class LagrangianEditorTest : public QObject {
     Q_OBJECT
@@ -187,7 +188,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(LagrangianEditorTest)
+}  // namespace extremal::lagrangian_editor_test
 
-QTEST_MAIN(extremal::LagrangianEditorTest)
 #include "lagrangian_editor_test.moc"

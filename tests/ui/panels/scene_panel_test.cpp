@@ -2,13 +2,14 @@
 #include <QLineEdit>
 #include <QTest>
 
+#include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/workspace.hpp"
 
-namespace extremal {
+namespace extremal::scene_panel_test {
 
 class ScenePanelTest : public QObject {
     Q_OBJECT
@@ -50,7 +51,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(ScenePanelTest)
+}  // namespace extremal::scene_panel_test
 
-QTEST_MAIN(extremal::ScenePanelTest)
 #include "scene_panel_test.moc"

@@ -4,13 +4,14 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/integrator/scheme.hpp"
 #include "engine/scene/bind.hpp"
+#include "tests/tools/test.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
 
-namespace extremal {
+namespace extremal::wave_choices_test {
 
 class WaveChoicesTest : public QObject {
     Q_OBJECT
@@ -58,7 +59,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(WaveChoicesTest)
+}  // namespace extremal::wave_choices_test
 
-QTEST_MAIN(extremal::WaveChoicesTest)
 #include "wave_choices_test.moc"

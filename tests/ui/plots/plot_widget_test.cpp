@@ -9,11 +9,12 @@
 
 #include "engine/figure/sample.hpp"
 #include "tests/engine/figure/hand_made.hpp"
+#include "tests/tools/test.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/theme.hpp"
 
-namespace extremal {
+namespace extremal::plot_widget_test {
 namespace {
 
 Figure figureOf(const char* view) {
@@ -193,7 +194,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(PlotWidgetTest)
+}  // namespace extremal::plot_widget_test
 
-QTEST_MAIN(extremal::PlotWidgetTest)
 #include "plot_widget_test.moc"

@@ -5,10 +5,11 @@
 #include <limits>
 #include <map>
 
+#include "tests/tools/test.hpp"
 #include "ui/plots/polyline.hpp"
 #include "ui/plots/tickers.hpp"
 
-namespace extremal {
+namespace extremal::polyline_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -101,7 +102,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(PolylineTest)
+}  // namespace extremal::polyline_test
 
-QTEST_APPLESS_MAIN(extremal::PolylineTest)
 #include "polyline_test.moc"

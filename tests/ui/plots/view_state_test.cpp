@@ -4,9 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/tools/test.hpp"
 #include "ui/plots/view_state.hpp"
 
-namespace extremal {
+namespace extremal::view_state_test {
 
 class ViewStateTest : public QObject {
     Q_OBJECT
@@ -67,7 +68,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(ViewStateTest)
+}  // namespace extremal::view_state_test
 
-QTEST_APPLESS_MAIN(extremal::ViewStateTest)
 #include "view_state_test.moc"

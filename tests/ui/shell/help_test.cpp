@@ -5,12 +5,13 @@
 #include <QTest>
 #include <QTextBrowser>
 
+#include "tests/tools/test.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/help_window.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/theme.hpp"
 
-namespace extremal {
+namespace extremal::help_test {
 namespace {
 
 QString keysPage(const Actions& actions) {
@@ -74,7 +75,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(HelpTest)
+}  // namespace extremal::help_test
 
-QTEST_MAIN(extremal::HelpTest)
 #include "help_test.moc"

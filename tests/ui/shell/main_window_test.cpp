@@ -16,6 +16,7 @@
 
 #include "engine/scene/bind.hpp"
 #include "engine/scene/json.hpp"
+#include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_editor.hpp"
@@ -28,7 +29,7 @@
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
 
-namespace extremal {
+namespace extremal::main_window_test {
 
 class MainWindowTest : public QObject {
     Q_OBJECT
@@ -305,7 +306,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(MainWindowTest)
+}  // namespace extremal::main_window_test
 
-QTEST_MAIN(extremal::MainWindowTest)
 #include "main_window_test.moc"

@@ -13,6 +13,7 @@
 
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
+#include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_widget.hpp"
@@ -21,7 +22,7 @@
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
 
-namespace extremal {
+namespace extremal::plot_edits_test {
 
 class PlotEditsTest : public QObject {
     Q_OBJECT
@@ -180,7 +181,7 @@ private slots:
     }
 };
 
-}  // namespace extremal
+EXTREMAL_TEST(PlotEditsTest)
+}  // namespace extremal::plot_edits_test
 
-QTEST_MAIN(extremal::PlotEditsTest)
 #include "plot_edits_test.moc"

@@ -1,3 +1,4 @@
+#include "tests/tools/test.hpp"
 #include "ui/shell/theme.hpp"
 
 #include <QApplication>
@@ -5,7 +6,7 @@
 #include <QTest>
 #include <set>
 
-using namespace extremal;
+namespace extremal::theme_test {
 
 class ThemeTest : public QObject {
     Q_OBJECT
@@ -63,5 +64,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(ThemeTest)
+EXTREMAL_TEST(ThemeTest)
+}  // namespace extremal::theme_test
+
 #include "theme_test.moc"

@@ -66,7 +66,7 @@ inline std::shared_ptr<const SchemeResult> result(const Curve& curve, int style)
     return r;
 }
 
-inline std::shared_ptr<const Comparison> comparison(const std::vector<Curve>& curves) {
+inline std::shared_ptr<const Comparison> comparisonOf(const std::vector<Curve>& curves) {
     auto c = std::make_shared<Comparison>();
     c->scene.title = "Swing";
     c->isFinished = true;

@@ -1,3 +1,4 @@
+#include "tests/tools/test.hpp"
 #include "ui/stage/image_compare.hpp"
 
 #include <QPainter>
@@ -5,7 +6,7 @@
 
 #include <cmath>
 
-using namespace extremal;
+namespace extremal::image_compare_test {
 
 class ImageCompareTest : public QObject {
     Q_OBJECT
@@ -59,5 +60,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(ImageCompareTest)
+EXTREMAL_TEST(ImageCompareTest)
+}  // namespace extremal::image_compare_test
+
 #include "image_compare_test.moc"

@@ -1,3 +1,4 @@
+#include "tests/tools/test.hpp"
 #include "ui/stage/snapshot.hpp"
 
 #include <QTemporaryDir>
@@ -6,7 +7,7 @@
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/stage/snapshot_page.hpp"
 
-using namespace extremal;
+namespace extremal::snapshot_test {
 
 class SnapshotTest : public QObject {
     Q_OBJECT
@@ -131,5 +132,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(SnapshotTest)
+EXTREMAL_TEST(SnapshotTest)
+}  // namespace extremal::snapshot_test
+
 #include "snapshot_test.moc"

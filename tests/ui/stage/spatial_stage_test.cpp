@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/tools/test.hpp"
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/stage/stage_player.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/stage/strokes.hpp"
 
-using namespace extremal;
+namespace extremal::spatial_stage_test {
 
 class SpatialStageTest : public QObject {
     Q_OBJECT
@@ -104,5 +105,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(SpatialStageTest)
+EXTREMAL_TEST(SpatialStageTest)
+}  // namespace extremal::spatial_stage_test
+
 #include "spatial_stage_test.moc"

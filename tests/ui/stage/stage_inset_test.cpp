@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "engine/model/energy_curves.hpp"
+#include "tests/tools/test.hpp"
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/stage/stage_inset.hpp"
 #include "ui/stage/stage_player.hpp"
 #include "ui/stage/strokes.hpp"
 
-using namespace extremal;
+namespace extremal::stage_inset_test {
 
 namespace {
 
@@ -117,5 +118,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(StageInsetTest)
+EXTREMAL_TEST(StageInsetTest)
+}  // namespace extremal::stage_inset_test
+
 #include "stage_inset_test.moc"

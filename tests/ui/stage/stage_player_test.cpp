@@ -1,3 +1,4 @@
+#include "tests/tools/test.hpp"
 #include "ui/stage/stage_player.hpp"
 
 #include <QtTest>
@@ -7,7 +8,7 @@
 #include "tests/ui/stage/fake_comparison.hpp"
 #include "ui/stage/strokes.hpp"
 
-using namespace extremal;
+namespace extremal::stage_player_test {
 
 class StagePlayerTest : public QObject {
     Q_OBJECT
@@ -20,7 +21,7 @@ class StagePlayerTest : public QObject {
 
 private slots:
     void boundsHoldTheWholeRun() {
-        const StagePlayer player(fake::comparison({{"a"}}), fake::swing());
+        const StagePlayer player(fake::comparisonOf({{"a"}}), fake::swing());
         QVERIFY(player.hasStage());
         QVERIFY(std::abs(player.bounds().high[0] - std::sin(1.0)) < 1e-3);
         QVERIFY(std::abs(player.bounds().low[1] + 1) < 1e-3);
@@ -29,7 +30,7 @@ private slots:
 
     void failedSchemesDoNotSetTheScale() {
         auto broken = std::make_shared<SchemeResult>(*fake::result({"b", 1, 0, 0.02, 10, 4.0}, 1));
-        auto comparison = std::make_shared<Comparison>(*fake::comparison({{"a"}}));
+        auto comparison = std::make_shared<Comparison>(*fake::comparisonOf({{"a"}}));
         System flat = fake::swing();
         flat.draw = [](const double* x, Drawing& drawing) {
             drawing.shapes.push_back(Disc{{x[0], 0, 0}, 5});
@@ -57,7 +58,7 @@ private slots:
     }
 
     void statesBetweenDenseRowsAreInterpolated() {
-        const StagePlayer player(fake::comparison({{"a", 1, 0, 0.1}}), fake::swing());
+        const StagePlayer player(fake::comparisonOf({{"a", 1, 0, 0.1}}), fake::swing());
         const double t = 3.14159, theta = std::cos(2 * t);
         const Point bob = bobOf(player.frame(t, {}).layers[0]);
         QVERIFY(std::abs(bob[0] - std::sin(theta)) <
@@ -66,7 +67,7 @@ private slots:
 
     void rowsTooFarApartAreShownAsTheyAre() {
         // Nearly two swings per row: a cubic through the rows would be an invention.
-        const StagePlayer player(fake::comparison({{"a", 1, 0.3, 5.5, 55}}), fake::swing());
+        const StagePlayer player(fake::comparisonOf({{"a", 1, 0.3, 5.5, 55}}), fake::swing());
         const Point bob = bobOf(player.frame(5.5 + 0.4, {}).layers[0]);
         QVERIFY(std::abs(bob[0] - std::sin(std::cos(2 * 5.5 + 0.3))) < 1e-12);
         const StageFrame late = player.frame(40, {});
@@ -75,7 +76,7 @@ private slots:
     }
 
     void trailsEndAtTheBodyAndFadeBackwards() {
-        const StagePlayer player(fake::comparison({{"a"}}), fake::swing());
+        const StagePlayer player(fake::comparisonOf({{"a"}}), fake::swing());
         const StageLayer layer = player.frame(6.213, {}).layers[0];
         QVERIFY(layer.trail.size() > 10);
         QCOMPARE(layer.trail.back().r, bobOf(layer));
@@ -85,7 +86,7 @@ private slots:
     }
 
     void failuresAreToldOnlyOnceTheyHaveHappened() {
-        const StagePlayer player(fake::comparison({{"a"}, {"Verlet", 1, 0, 0.02, 10, 5.3}}), fake::swing());
+        const StagePlayer player(fake::comparisonOf({{"a"}, {"Verlet", 1, 0, 0.02, 10, 5.3}}), fake::swing());
         QVERIFY(player.frame(5.2, {}).notes.empty());
         const StageFrame after = player.frame(6, {});
         QCOMPARE(after.notes.size(), std::size_t{1});
@@ -95,7 +96,7 @@ private slots:
     void aModelWithoutPictureHasNoStage() {
         System mute = fake::swing();
         mute.draw = nullptr;
-        const StagePlayer player(fake::comparison({{"a"}}), mute);
+        const StagePlayer player(fake::comparisonOf({{"a"}}), mute);
         QVERIFY(!player.hasStage());
         QVERIFY(player.frame(1, {}).layers.empty());
         QVERIFY(!StagePlayer().hasStage());
@@ -130,5 +131,7 @@ private slots:
     }
 };
 
-QTEST_GUILESS_MAIN(StagePlayerTest)
+EXTREMAL_TEST(StagePlayerTest)
+}  // namespace extremal::stage_player_test
+
 #include "stage_player_test.moc"

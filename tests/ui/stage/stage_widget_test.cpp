@@ -1,3 +1,4 @@
+#include "tests/tools/test.hpp"
 #include "ui/stage/stage_widget.hpp"
 
 #include <QSignalSpy>
@@ -7,7 +8,7 @@
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/shell/theme.hpp"
 
-using namespace extremal;
+namespace extremal::stage_widget_test {
 
 class StageWidgetTest : public QObject {
     Q_OBJECT
@@ -92,5 +93,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(StageWidgetTest)
+EXTREMAL_TEST(StageWidgetTest)
+}  // namespace extremal::stage_widget_test
+
 #include "stage_widget_test.moc"

@@ -1,3 +1,4 @@
+#include "tests/tools/test.hpp"
 #include "ui/stage/surface.hpp"
 
 #include <QtTest>
@@ -8,12 +9,12 @@
 #include "ui/stage/stage_overlay.hpp"
 #include "ui/stage/stage_player.hpp"
 
-using namespace extremal;
+namespace extremal::surface_test {
 
 class SurfaceTest : public QObject {
     Q_OBJECT
 
-    StagePlayer player_{fake::comparison({{"a"}, {"b", 0.9, 0.2}}), fake::swing()};
+    StagePlayer player_{fake::comparisonOf({{"a"}, {"b", 0.9, 0.2}}), fake::swing()};
 
     StageFrame frame() const { return player_.frame(6.2, stageStyle(Theme::light())); }
     Camera camera(double width = 300, double height = 200) const {
@@ -98,5 +99,7 @@ private slots:
     }
 };
 
-QTEST_MAIN(SurfaceTest)
+EXTREMAL_TEST(SurfaceTest)
+}  // namespace extremal::surface_test
+
 #include "surface_test.moc"

@@ -6,8 +6,9 @@
 #include <random>
 
 #include "tests/engine/model/typed/typed.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::agreement_test {
 namespace {
 
 struct Twins {
@@ -155,7 +156,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(AgreementTest)
+}  // namespace extremal::laws::agreement_test
 
-QTEST_APPLESS_MAIN(extremal::laws::AgreementTest)
 #include "agreement_test.moc"

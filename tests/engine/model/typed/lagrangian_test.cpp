@@ -8,8 +8,9 @@
 #include "engine/core/problem.hpp"
 #include "engine/model/typed/typeset.hpp"
 #include "tests/engine/model/typed/typed.hpp"
+#include "tests/tools/test.hpp"
 
-namespace extremal::laws {
+namespace extremal::laws::lagrangian_test {
 namespace {
 
 /// The problem of a Lagrangian in x with parameters k = 2 and n = 2, or an empty one.
@@ -288,7 +289,7 @@ private slots:
     }
 };
 
-}  // namespace extremal::laws
+EXTREMAL_TEST(LagrangianTest)
+}  // namespace extremal::laws::lagrangian_test
 
-QTEST_APPLESS_MAIN(extremal::laws::LagrangianTest)
 #include "lagrangian_test.moc"
