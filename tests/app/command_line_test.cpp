@@ -1,10 +1,14 @@
 /// The command line run as a user runs it: arguments in; exit code, words and files out.
-#include <QtTest>
-
+#include <QDir>
+#include <QElapsedTimer>
+#include <QFile>
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QProcess>
+#include <QRegularExpression>
+#include <QTemporaryDir>
+#include <QTest>
 
 #include <csignal>
 #include <unistd.h>

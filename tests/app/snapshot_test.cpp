@@ -1,5 +1,6 @@
 /// `extremal snapshot` run as a user runs it.
-#include <QtTest>
+#include <QFile>
+#include <QTest>
 
 #include <QImage>
 #include <QJsonDocument>

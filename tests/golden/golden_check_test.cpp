@@ -2,9 +2,11 @@
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"
 
+#include <QDir>
+#include <QFile>
 #include <QPainter>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 /// Kept pictures of plots, 600 x 400, and that small changes would be seen.
-#include <QtTest>
+#include <QTest>
 
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"

@@ -1,5 +1,5 @@
 /// Kept pictures of whole snapshots: stage, plots, cards and words together.
-#include <QtTest>
+#include <QTest>
 
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"

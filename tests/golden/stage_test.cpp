@@ -1,6 +1,6 @@
 /// Kept pictures of the stage, through OSMesa.
 #include <QPainter>
-#include <QtTest>
+#include <QTest>
 
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"

@@ -1,5 +1,5 @@
 /// Kept pictures of a wave function: stage, carpet, profile, spectrum, and errors against steps.
-#include <QtTest>
+#include <QTest>
 
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"

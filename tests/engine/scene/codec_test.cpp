@@ -1,4 +1,7 @@
-#include <QtTest>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QTest>
 
 #include <algorithm>
 #include <cmath>

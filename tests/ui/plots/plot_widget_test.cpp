@@ -1,9 +1,11 @@
 /// The interactive plots, driven by the mouse and the keyboard.
 #include <qcustomplot.h>
 
+#include <QFile>
 #include <QPushButton>
+#include <QSignalSpy>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 
 #include <cmath>
 

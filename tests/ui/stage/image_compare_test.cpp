@@ -2,7 +2,7 @@
 #include "ui/stage/image_compare.hpp"
 
 #include <QPainter>
-#include <QtTest>
+#include <QTest>
 
 #include <cmath>
 

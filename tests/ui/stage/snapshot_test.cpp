@@ -1,8 +1,9 @@
 #include "tests/tools/test.hpp"
 #include "ui/stage/snapshot.hpp"
 
+#include <QFile>
 #include <QTemporaryDir>
-#include <QtTest>
+#include <QTest>
 
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/stage/snapshot_page.hpp"

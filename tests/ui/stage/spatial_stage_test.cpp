@@ -1,6 +1,6 @@
 /// The stage of bodies in space: it is seen from a corner, fills its picture and can be turned.
 #include <QMouseEvent>
-#include <QtTest>
+#include <QTest>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 /// The small picture in the corner of the stage: momenta on their sphere, the polhodes as trails, in the same place at any
 /// zoom, faint behind, and off the sphere where momentum is lost.
-#include <QtTest>
+#include <QTest>
 
 #include <algorithm>
 #include <cmath>

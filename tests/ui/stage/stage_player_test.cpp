@@ -1,7 +1,7 @@
 #include "tests/tools/test.hpp"
 #include "ui/stage/stage_player.hpp"
 
-#include <QtTest>
+#include <QTest>
 
 #include <cmath>
 

@@ -3,7 +3,7 @@
 
 #include <QSignalSpy>
 #include <QWheelEvent>
-#include <QtTest>
+#include <QTest>
 
 #include "tests/ui/stage/model_comparison.hpp"
 #include "ui/shell/theme.hpp"

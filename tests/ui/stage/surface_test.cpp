@@ -1,7 +1,7 @@
 #include "tests/tools/test.hpp"
 #include "ui/stage/surface.hpp"
 
-#include <QtTest>
+#include <QTest>
 
 #include "tests/ui/stage/fake_comparison.hpp"
 #include "ui/shell/theme.hpp"
