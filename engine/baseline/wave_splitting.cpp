@@ -87,7 +87,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock, const Splitting& splitting) {
-    requirePeriodic(system, "/baseline", "split-step", "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
+    requireSplit(system, "/baseline", "split-step", "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
     return std::make_unique<WaveSplitting>(system.wave, clock, splitting);
 }
 

@@ -43,6 +43,11 @@ void checkSolver(WaveSolver solver, const Hamiltonian& h) {
     if (solver != WaveSolver::dense && !h.isPeriodic())
         throw InvalidScene("/solver/method", std::string(name(solver)) + " needs a periodic domain: it works on Fourier modes",
                            "auto or dense");
+    if (solver != WaveSolver::dense && !h.isSplit())
+        throw InvalidScene("/solver/method",
+                           std::string(name(solver)) + " needs a potential that acts at the nodes, not by convolution", "auto or dense");
+    if (solver == WaveSolver::banded && h.isPlane())
+        throw InvalidScene("/solver/method", "banded is for one dimension", "auto or krylov");
     if (solver != WaveSolver::krylov && h.isTimeDependent())
         throw InvalidScene("/solver/method", std::string(name(solver)) + " needs a potential that does not depend on t",
                            "krylov");
@@ -82,9 +87,18 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
 
 bool isBetweenWalls(const System& system) { return system.hasWave() && !system.wave->isPeriodic(); }
 
+bool hasFullMatrix(const System& system) { return system.hasWave() && !system.wave->isSplit(); }
+
 void requirePeriodic(const System& system, const std::string& pointer, const std::string& what, const std::string& hint) {
     if (isBetweenWalls(system))
         throw InvalidScene(pointer, what + " needs a periodic domain, and the boundary of this model is dirichlet", hint);
+}
+
+void requireSplit(const System& system, const std::string& pointer, const std::string& what, const std::string& hint) {
+    requirePeriodic(system, pointer, what, hint);
+    if (hasFullMatrix(system))
+        throw InvalidScene(pointer, what + " needs a potential that acts at the nodes, and the product of this model is convolution",
+                           hint);
 }
 
 WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step) {
@@ -165,7 +179,7 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
                            "another space: extremal list spaces");
     const int slabs = std::max(1, pair.space.integer("slabs"));
     if (pair.space.text("time_basis") == "chebyshev")
-        requirePeriodic(system, "/space/time_basis", "chebyshev", "legendre");
+        requireSplit(system, "/space/time_basis", "chebyshev", "legendre");
     const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
     const auto make = [system, pair, plan, slabs](const Clock& of) -> std::unique_ptr<Integrator> {
         const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";

@@ -7,8 +7,8 @@
 /// Three-level form, degree 1: integrator/wave_three_level.hpp.
 ///
 /// How the solves are done, whichever is the cheapest by an estimate from N, s and the potential:
-///     banded   elimination in Fourier space, where V has few harmonics (solve/banded_poles.hpp)
-///     dense    the eigenstates of H, once; N <= 512; between walls the only one
+///     banded   elimination in Fourier space, in one dimension where V has few harmonics (solve/banded_poles.hpp)
+///     dense    the eigenstates of H, once; N <= 512; where H is not split the only one
 ///     krylov   GMRES with two transforms an iteration, preconditioned by the kinetic part; any V
 /// A potential that depends on time couples the stages of the Gauss nodes: it has no factors, and krylov solves for all of them
 /// together (integrator/wave_collocation.hpp).
@@ -28,8 +28,13 @@ constexpr const char* name(WaveSolver s) {
 
 /// A wave function whose domain has walls at its ends.
 bool isBetweenWalls(const System& system);
+/// A wave function whose H is not split (Hamiltonian::isSplit).
+bool hasFullMatrix(const System& system);
 /// Throws InvalidScene at the pointer unless the domain is periodic: `what` needs it, `hint` does not.
 void requirePeriodic(const System& system, const std::string& pointer, const std::string& what, const std::string& hint);
+
+/// Likewise unless H is split.
+void requireSplit(const System& system, const std::string& pointer, const std::string& what, const std::string& hint);
 
 /// What was chosen, and why.
 struct WavePlan {

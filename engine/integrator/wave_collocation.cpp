@@ -14,9 +14,6 @@
 namespace extremal {
 namespace {
 
-/// A basis of at most 64 MB.
-int restartFor(std::size_t size) { return static_cast<int>(std::clamp<std::size_t>((std::size_t{1} << 22) / size, 8, 60)); }
-
 class CollocationWave final : public WaveStep {
 public:
     CollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift, const Rule<double>& rule,
@@ -27,7 +24,7 @@ public:
           maxIterations_(maxIterations),
           size_(static_cast<std::size_t>(n())),
           stages_(static_cast<std::size_t>(rule.size())),
-          gmres_(size_ * stages_, restartFor(size_ * stages_)) {
+          gmres_(size_ * stages_) {
         for (auto* v : {&rhs_, &z_, &u_, &image_}) v->resize(size_ * stages_);
         psi_.resize(size_);
         V_.resize(size_ * stages_);

@@ -53,21 +53,20 @@ public:
     }
     Outcome apply(Complex* v, StepReport& report, const std::stop_token&) override {
         const std::size_t n = psi_.size();
-        const double inverse = 1 / static_cast<double>(n);
-        h_->fourier().rawToNodes(v, psi_.data());
+        h_->toReal(v, psi_.data());
         for (std::size_t j = 0; j < n; ++j) {
             parts_[j] = psi_[j].real();
             parts_[n + j] = psi_[j].imag();
         }
         states_->toStates(parts_.data(), d_.data());
         for (std::size_t i = 0; i < n; ++i) {
-            const double re = d_[i], im = d_[n + i], fr = factor_[i].real() * inverse, fi = factor_[i].imag() * inverse;
+            const double re = d_[i], im = d_[n + i], fr = factor_[i].real(), fi = factor_[i].imag();
             d_[i] = fr * re - fi * im;
             d_[n + i] = fr * im + fi * re;
         }
         states_->fromStates(d_.data(), parts_.data());
         for (std::size_t j = 0; j < n; ++j) psi_[j] = {parts_[j], parts_[n + j]};
-        h_->fourier().rawToCoefficients(psi_.data(), v);
+        h_->fromReal(psi_.data(), v);
         ++report.linearSolves;
         return Outcome::converged;
     }

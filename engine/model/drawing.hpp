@@ -49,13 +49,21 @@ struct Curtain {  ///< a field over a line: the area between its curve and the g
     double ground = 0;         ///< y of the ground
     std::vector<double> hues;  ///< colours along the curve, in turns; empty: that of the scheme
 };
+struct Raster {  ///< a field over a rectangle, as colours at points that fill it to its edges, and mixed between them
+    Point corner;               ///< the lower left one
+    double width = 1, height = 1;
+    int columns = 0, rows = 0;  ///< of points, at least two each
+    std::vector<double> strengths;  ///< 0 (not seen) .. 1 at (column, row), column + row columns
+    std::vector<double> hues;       ///< in turns; empty: grey
+    ShapeRole role = ShapeRole::body;
+};
 struct Curve {  ///< a line through points
     std::vector<Point> points;
     double width = 1;     ///< pixels
     double strength = 1;  ///< 0 (not seen) .. 1
     ShapeRole role = ShapeRole::scenery;
 };
-using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word, Curtain, Curve>;
+using Shape = std::variant<Segment, Disc, Spring, Support, Solid, Word, Curtain, Raster, Curve>;
 
 /// One state of one scheme as shapes, and the point whose path makes the trail.
 struct Drawing {

@@ -65,8 +65,10 @@ using EnergyFunction = std::function<double(double t, const double* x)>;
 /// number of frames.
 struct FieldSampling {
     std::vector<double> x;                ///< the nodes
+    std::vector<double> y;                ///< of a rectangle, the nodes in its second direction; else empty
     std::vector<std::string> components;  ///< "re", "im"
-    /// Component after component, each at all nodes.
+    std::size_t places() const { return x.size() * (y.empty() ? 1 : y.size()); }
+    /// Component after component, each at all places, along x first.
     std::function<void(const double* state, double* values)> sample;
     explicit operator bool() const { return static_cast<bool>(sample); }
 };

@@ -17,9 +17,9 @@ namespace extremal {
 namespace {
 
 /// x, y, z, then R row by row.
-constexpr int n = 12;
-using Gradient = Eigen::Matrix<double, n, 1>;
-using Hessian = Eigen::Matrix<double, n, n>;
+constexpr int entries = 12;
+using Gradient = Eigen::Matrix<double, entries, 1>;
+using Hessian = Eigen::Matrix<double, entries, entries>;
 using Rotation = so3::Matrix<double>;
 using Vector = so3::Vector<double>;
 
@@ -30,8 +30,8 @@ struct TypedPotential {
 };
 
 struct Place {
-    std::array<double, n> q{};
-    std::array<double, n> v{};
+    std::array<double, entries> q{};
+    std::array<double, entries> v{};
 
     Place(const double* R, const double* x) {
         for (std::size_t i = 0; i < 3; ++i) {
@@ -75,13 +75,13 @@ void potential(const void* model, const double* R, const double* x, double* valu
         std::copy_n(f.begin(), dimension, force);
     }
     if (!slope) return;
-    std::array<double, 2 * n> gradient{};
-    std::array<double, 4 * n * n> hessian;
+    std::array<double, 2 * entries> gradient{};
+    std::array<double, 4 * entries * entries> hessian;
     double L = 0;
     m.jet(m.model.get(), 0.0, place.q.data(), place.v.data(), &L, gradient.data(), hessian.data());
     Hessian H;
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) H(i, j) = hessian[static_cast<std::size_t>(i * 2 * n + j)];
+    for (int i = 0; i < entries; ++i)
+        for (int j = 0; j < entries; ++j) H(i, j) = hessian[static_cast<std::size_t>(i * 2 * entries + j)];
     // f_a(g exp(eps e_b)) = f_a + eps (t_b . H t_a + dL . dt_a/db).
     for (int b = 0; b < dimension; ++b) {
         const Gradient Ht = H * tangent(rotation, angularPart(b), linearPart(b));
@@ -211,7 +211,7 @@ std::vector<MomentumMap> setTypedPotential(BodyMechanics<double>& body, const Se
     auto model = std::make_shared<TypedPotential>();
     model->mechanics = made.mechanics;
     model->dimension = body.dimension;
-    if (made.cyclic.size() < n) {
+    if (made.cyclic.size() < entries) {
         body.potential = potential;
         body.model = model;
     }

@@ -85,28 +85,33 @@ std::string cellText(const Value& value) {
 /// "slug.csv" -> "slug.field.csv".
 std::string fieldName(const std::string& csv) { return csv.substr(0, csv.size() - 4) + ".field.csv"; }
 
-/// t, x and the components of the field: a row for each node of each frame.
+/// t, the place (x, of a rectangle y too) and the components of the field: a row for each place of each frame. Of a rectangle
+/// as many frames, evenly spread, as make half a million rows: files of a gigabyte help nobody.
 template <class Sink>
 void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, Sink&& sink) {
-    constexpr std::size_t blockSize = 1 << 16;
-    std::string block = "t,x";
+    constexpr std::size_t blockSize = 1 << 16, mostRows = 1 << 19;
+    std::string block = field.y.empty() ? "t,x" : "t,x,y";
     for (const std::string& name : field.components) block += ',' + csvCell(name);
     block += '\n';
-    const std::size_t n = field.x.size();
-    for (const Frame& frame : frames) {
+    const std::size_t n = field.places(), columns = field.x.size(),
+                      stride = field.y.empty() ? 1 : (frames.size() * n + mostRows - 1) / mostRows;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        if (i % stride != 0 && i + 1 < frames.size()) continue;
+        const Frame& frame = frames[i];
         const std::string t = formatNumber(frame.t);
         for (std::size_t j = 0; j < n; ++j) {
-            block.append(t).append(",").append(formatNumber(field.x[j]));
+            block.append(t).append(",").append(formatNumber(field.x[j % columns]));
+            if (!field.y.empty()) block.append(",").append(formatNumber(field.y[j / columns]));
             for (std::size_t c = 0; c < field.components.size(); ++c) {
                 const double value = (*frame.values)[c * n + j];
                 block += ',';
                 if (std::isfinite(value)) block += formatNumber(value);
             }
             block += '\n';
-        }
-        if (block.size() > blockSize) {
-            sink(block);
-            block.clear();
+            if (block.size() > blockSize) {
+                sink(block);
+                block.clear();
+            }
         }
     }
     sink(block);

@@ -80,6 +80,7 @@ struct SchemeRun::Pass {
     bool isCurveWanted = false;
     Observer curveError;  ///< measured along the curve as well, where a view shows it
     std::unique_ptr<Integrator> integrator;
+    FrameKeeper frames;
     RowSampler sampler;
     std::vector<Bound> observers;
     SchemeResult result;
@@ -87,7 +88,6 @@ struct SchemeRun::Pass {
     bool isLastNodeRow = false;
     StepReport lastReport;
     std::vector<double> values;
-    FrameKeeper frames;
     std::size_t stateWidth = 0;  ///< entries of the state that every row holds
 
     Pass(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
@@ -99,6 +99,7 @@ struct SchemeRun::Pass {
           stop(std::move(stop_)),
           step(step_),
           isAdaptiveScheme(isAdaptive(spec_)),
+          frames(system_.field.y.empty() ? FrameKeeper::usual : FrameKeeper::large),
           sampler(initial.t, scene_.every ? std::optional<double>(scene_.every->value) : std::nullopt, stride),
           initialNode(initial),
           state(initial) {
@@ -168,7 +169,7 @@ struct SchemeRun::Pass {
     }
     void keepFrame(double t, const double* x, bool isLast) {
         frames.offer(t, isLast, [&] {
-            auto picture = std::make_shared<std::vector<double>>(system.field.x.size() * system.field.components.size());
+            auto picture = std::make_shared<std::vector<double>>(system.field.places() * system.field.components.size());
             system.field.sample(x, picture->data());
             return picture;
         }, result.frames);

@@ -19,7 +19,10 @@ class Gmres {
 public:
     using Complex = std::complex<double>;
 
-    Gmres(std::size_t n, int restart = 60)
+    /// Starts anew after so many steps that the basis takes 64 MB, at most 60 and at least 8.
+    explicit Gmres(std::size_t n)
+        : Gmres(n, static_cast<int>(std::clamp<std::size_t>((std::size_t{1} << 22) / std::max<std::size_t>(n, 1), 8, 60))) {}
+    Gmres(std::size_t n, int restart)
         : n_(n), restart_(restart), basis_(n * static_cast<std::size_t>(restart + 1)), residual_(n), image_(n) {
         const auto m = static_cast<std::size_t>(restart);
         h_.resize((m + 1) * m);

@@ -20,7 +20,9 @@ struct Frame {
 
 class FrameKeeper {
 public:
-    static constexpr std::size_t budget = std::size_t{1} << 20;  ///< numbers: 8 MB a scheme
+    /// In numbers: 8 MB a scheme, 64 MB of fields over a rectangle.
+    static constexpr std::size_t usual = std::size_t{1} << 20, large = std::size_t{1} << 23;
+    explicit FrameKeeper(std::size_t budget = usual) : budget_(budget) {}
 
     /// Whether the next row offered would be kept.
     bool wantsNext() const { return offered_ % stride_ == 0; }
@@ -39,13 +41,13 @@ public:
 private:
     void thin(std::vector<Frame>& frames) {
         const std::size_t size = frames.back().values->size();
-        if (frames.size() <= 2 || frames.size() * size <= budget) return;
+        if (frames.size() <= 2 || frames.size() * size <= budget_) return;
         std::size_t kept = 0;
         for (std::size_t i = 0; i < frames.size(); i += 2) frames[kept++] = frames[i];
         frames.resize(kept);
         stride_ *= 2;
     }
-    std::size_t offered_ = 0, stride_ = 1;
+    std::size_t budget_, offered_ = 0, stride_ = 1;
 };
 
 }  // namespace extremal

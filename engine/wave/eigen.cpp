@@ -17,31 +17,31 @@ using ConstMatrix = Eigen::Map<const Matrix>;
 using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 
-/// K_jl = (1/N) sum_a T_a cos(k_a (x_j - x_l)), which depends on j - l alone, and V on the diagonal.
-Matrix matrixAtNodes(const Hamiltonian& h) {
-    if (!h.isPeriodic()) return h.matrix();
-    const int n = h.size();
+bool isSame(const Hamiltonian& a, const Hamiltonian& b) {
+    return a.grid() == b.grid() && a.basis() == b.basis() && a.matrix() == b.matrix() && a.kinetic() == b.kinetic() &&
+           a.potential() == b.potential();
+}
+
+}  // namespace
+
+Matrix nodalMatrix(const Hamiltonian& h) {
+    if (!h.isSplit()) return h.matrix();
+    const int n = h.size(), nx = h.grid().nx;
     const auto size = static_cast<std::size_t>(n);
     std::vector<Complex> T(size), row(size);
     for (std::size_t i = 0; i < size; ++i) T[i] = h.kinetic()[i] / n;
     h.fourier().rawToNodes(T.data(), row.data());
     Matrix H(n, n);
     for (int j = 0; j < n; ++j)
-        for (int l = 0; l <= j; ++l) H(j, l) = H(l, j) = row[static_cast<std::size_t>(j - l)].real();
+        for (int l = 0; l <= j; ++l)
+            H(j, l) = H(l, j) = row[static_cast<std::size_t>(h.fourier().placeOf(j % nx - l % nx, j / nx - l / nx))].real();
     for (int j = 0; j < n; ++j) H(j, j) += h.potential()[static_cast<std::size_t>(j)];
     return H;
 }
 
-bool isSame(const Hamiltonian& a, const Hamiltonian& b) {
-    return a.size() == b.size() && a.isPeriodic() == b.isPeriodic() && a.matrix() == b.matrix() && a.kinetic() == b.kinetic() &&
-           a.potential() == b.potential() && a.domain().length == b.domain().length;
-}
-
-}  // namespace
-
 Eigenstates::Eigenstates(const Hamiltonian& h) : hamiltonian_(h) {
     const auto n = static_cast<std::size_t>(h.size());
-    const auto [values, vectors] = dense::hermitianEigen<double>(matrixAtNodes(h));
+    const auto [values, vectors] = dense::hermitianEigen<double>(nodalMatrix(h));
     energies_.assign(values.data(), values.data() + n);
     states_.assign(vectors.data(), vectors.data() + n * n);
     for (std::size_t k = 0; k < n; ++k) {

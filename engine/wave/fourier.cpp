@@ -6,45 +6,84 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace extremal {
 
-struct Fourier::Plans {
-    fftw_plan forward = nullptr, backward = nullptr;
+namespace {
 
-    explicit Plans(int n) {
-        std::vector<Complex> a(static_cast<std::size_t>(n)), b(a);
-        const auto raw = [](std::vector<Complex>& v) { return reinterpret_cast<fftw_complex*>(v.data()); };
-        const unsigned flags = FFTW_ESTIMATE | FFTW_PRESERVE_INPUT;
-        forward = fftw_plan_dft_1d(n, raw(a), raw(b), FFTW_FORWARD, flags);
-        backward = fftw_plan_dft_1d(n, raw(a), raw(b), FFTW_BACKWARD, flags);
+fftw_complex* raw(const Complex* v) {
+    // FFTW takes its input without const; PRESERVE_INPUT keeps the promise.
+    return reinterpret_cast<fftw_complex*>(const_cast<Complex*>(v));
+}
+
+/// One direction of the transform.
+///
+/// A large rectangle is transformed row by row, then a few columns at a time through a buffer: an estimated plan for the whole
+/// goes down columns whose entries all fall into the same lines of the cache, and takes 2.5 times as long at 256 x 256.
+class Direction {
+public:
+    Direction(int nx, int ny, int sign) : nx_(nx), ny_(ny), together_(nx % 8 == 0 ? 8 : 2), isByColumns_(nx * ny >= 1 << 15 && ny > 1) {
+        std::vector<Complex> a(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)), b(a);
+        constexpr unsigned flags = FFTW_ESTIMATE | FFTW_PRESERVE_INPUT;
+        if (!isByColumns_) {
+            first_ = ny > 1 ? fftw_plan_dft_2d(ny, nx, raw(a.data()), raw(b.data()), sign, flags)
+                            : fftw_plan_dft_1d(nx, raw(a.data()), raw(b.data()), sign, flags);
+            return;
+        }
+        first_ = fftw_plan_many_dft(1, &nx, ny, raw(a.data()), nullptr, 1, nx, raw(b.data()), nullptr, 1, nx, sign, flags);
+        columns_ = fftw_plan_many_dft(1, &ny, together_, raw(a.data()), nullptr, 1, ny, raw(a.data()), nullptr, 1, ny, sign,
+                                      FFTW_ESTIMATE);
     }
-    ~Plans() {
-        fftw_destroy_plan(forward);
-        fftw_destroy_plan(backward);
+    ~Direction() {
+        fftw_destroy_plan(first_);
+        if (columns_) fftw_destroy_plan(columns_);
     }
-    Plans(const Plans&) = delete;
-    Plans& operator=(const Plans&) = delete;
+    Direction(const Direction&) = delete;
+    Direction& operator=(const Direction&) = delete;
+
+    void execute(const Complex* from, Complex* to) const {
+        fftw_execute_dft(first_, raw(from), raw(to));
+        if (!isByColumns_) return;
+        static thread_local std::vector<Complex> buffer;
+        buffer.resize(static_cast<std::size_t>(together_) * static_cast<std::size_t>(ny_));
+        for (int x = 0; x < nx_; x += together_) {
+            for (int y = 0; y < ny_; ++y)
+                for (int i = 0; i < together_; ++i) buffer[at(i, y)] = to[x + i + y * nx_];
+            fftw_execute_dft(columns_, raw(buffer.data()), raw(buffer.data()));
+            for (int y = 0; y < ny_; ++y)
+                for (int i = 0; i < together_; ++i) to[x + i + y * nx_] = buffer[at(i, y)];
+        }
+    }
+
+private:
+    std::size_t at(int i, int y) const { return static_cast<std::size_t>(i * ny_ + y); }
+
+    int nx_, ny_, together_;
+    bool isByColumns_;
+    fftw_plan first_ = nullptr, columns_ = nullptr;
+};
+
+}  // namespace
+
+struct Fourier::Plans {
+    Direction forward, backward;
+
+    Plans(int nx, int ny) : forward(nx, ny, FFTW_FORWARD), backward(nx, ny, FFTW_BACKWARD) {}
 
     /// The planner is not thread-safe, executing is.
-    static std::shared_ptr<const Plans> of(int n) {
+    static std::shared_ptr<const Plans> of(int nx, int ny) {
         static std::mutex mutex;
-        static std::map<int, std::shared_ptr<const Plans>> known;
+        static std::map<std::pair<int, int>, std::shared_ptr<const Plans>> known;
         const std::lock_guard lock(mutex);
-        auto& plans = known[n];
-        if (!plans) plans = std::make_shared<const Plans>(n);
+        auto& plans = known[{nx, ny}];
+        if (!plans) plans = std::make_shared<const Plans>(nx, ny);
         return plans;
     }
 };
 
 namespace {
-
-void execute(fftw_plan plan, const Complex* from, Complex* to) {
-    // FFTW takes its input without const; PRESERVE_INPUT keeps the promise.
-    fftw_execute_dft(plan, reinterpret_cast<fftw_complex*>(const_cast<Complex*>(from)),
-                     reinterpret_cast<fftw_complex*>(to));
-}
 
 void scale(Complex* v, int n, double factor) {
     double* values = reinterpret_cast<double*>(v);
@@ -53,22 +92,23 @@ void scale(Complex* v, int n, double factor) {
 
 }  // namespace
 
-Fourier::Fourier(int n, double length) : n_(n), length_(length), plans_(Plans::of(n)) {}
+Fourier::Fourier(const wave::Grid& grid) : grid_(grid), plans_(Plans::of(grid.nx, grid.ny)) {}
 
-double Fourier::waveNumber(int i) const { return 2 * std::numbers::pi * number(i) / length_; }
+double Fourier::waveNumber(int i) const { return 2 * std::numbers::pi * number(i) / grid_.x.length; }
+double Fourier::waveNumberY(int i) const { return 2 * std::numbers::pi * numberY(i) / grid_.y.length; }
 
-void Fourier::rawToNodes(const Complex* c, Complex* psi) const { execute(plans_->backward, c, psi); }
+void Fourier::rawToNodes(const Complex* c, Complex* psi) const { plans_->backward.execute(c, psi); }
 
-void Fourier::rawToCoefficients(const Complex* psi, Complex* c) const { execute(plans_->forward, psi, c); }
+void Fourier::rawToCoefficients(const Complex* psi, Complex* c) const { plans_->forward.execute(psi, c); }
 
 void Fourier::toNodes(const Complex* c, Complex* psi) const {
     rawToNodes(c, psi);
-    scale(psi, n_, 1 / std::sqrt(length_));
+    scale(psi, size(), 1 / std::sqrt(grid_.measure()));
 }
 
 void Fourier::toCoefficients(const Complex* psi, Complex* c) const {
     rawToCoefficients(psi, c);
-    scale(c, n_, std::sqrt(length_) / n_);
+    scale(c, size(), std::sqrt(grid_.measure()) / size());
 }
 
 }  // namespace extremal

@@ -3,6 +3,7 @@
 /// On N equally spaced nodes x_j = left + j L/N of a periodic interval, N even,
 ///     psi(x_j) = (1/sqrt L) sum_a c_a exp(i k_a (x_j - left)),   k_a = 2 pi a/L,  a = -N/2 .. N/2 - 1,
 /// so that (L/N) sum_j |psi_j|^2 = sum_a |c_a|^2. Coefficients stand in FFT order: a = 0, 1, .., N/2 - 1, -N/2, .., -1.
+/// On a rectangle the same along x and y, with the products of the exponentials (wave/grid.hpp for the order of places).
 /// With the seed's v_k (psi = (1/2pi) sum v_k e^{ikx}, v_k = h sum_j e^{-ik x_j} psi_j: the printed 1/2pi in front of
 /// that sum is one too many) c_k = v_k/sqrt(2 pi); the two coefficients at k = +-N/2, which the seed keeps apart, are one.
 /// Plans are made once per N (FFTW, estimated: a measured plan would change the last bits from run to run) and shared by
@@ -12,20 +13,26 @@
 #include <complex>
 #include <memory>
 
+#include "engine/wave/grid.hpp"
+
 namespace extremal {
 
 using Complex = std::complex<double>;
 
 class Fourier {
 public:
-    Fourier(int n, double length);
+    explicit Fourier(const wave::Grid& grid);
 
-    int size() const { return n_; }
-    double length() const { return length_; }
-    /// The signed number a of the coefficient in place i.
-    int number(int i) const { return i < n_ / 2 ? i : i - n_; }
-    /// Its wave number.
+    int size() const { return grid_.size(); }
+    const wave::Grid& grid() const { return grid_; }
+    /// The signed numbers of the coefficient in place i, along x and along y.
+    int number(int i) const { return signedNumber(i % grid_.nx, grid_.nx); }
+    int numberY(int i) const { return signedNumber(i / grid_.nx, grid_.ny); }
+    /// Its wave numbers.
     double waveNumber(int i) const;
+    double waveNumberY(int i) const;
+    /// The place of the coefficient with these signed numbers.
+    int placeOf(int a, int b = 0) const { return (a + grid_.nx) % grid_.nx + (b + grid_.ny) % grid_.ny * grid_.nx; }
 
     /// Not in place. c and psi have size() entries.
     void toNodes(const Complex* c, Complex* psi) const;
@@ -36,8 +43,9 @@ public:
 
 private:
     struct Plans;
-    int n_;
-    double length_;
+    static int signedNumber(int i, int n) { return i < (n + 1) / 2 ? i : i - n; }
+
+    wave::Grid grid_;
     std::shared_ptr<const Plans> plans_;
 };
 

@@ -2,75 +2,100 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/wave/interval.hpp"
+#include "engine/wave/stationary.hpp"
 
 namespace extremal {
 
 namespace {
 
-void requireFinite(double V, double x) {
+void requireFinite(double V, double x, const double* y) {
     if (!std::isfinite(V))
-        throw InvalidScene("/potential", "is not finite at x = " + formatNumber(x, 6) + ": " + formatNumber(V),
+        throw InvalidScene("/potential",
+                           "is not finite at x = " + formatNumber(x, 6) + (y ? ", y = " + formatNumber(*y, 6) : std::string()) +
+                               ": " + formatNumber(V),
                            "a potential that is finite on the whole domain");
+}
+
+std::vector<double> nodesOf(const wave::Domain& domain, int n) {
+    std::vector<double> nodes;
+    for (int j = 0; j < n; ++j) nodes.push_back(domain.left + domain.length * j / n);
+    return nodes;
 }
 
 }  // namespace
 
-Hamiltonian::Hamiltonian(int n, const wave::Domain& domain, double hbar, double mass, wave::Potential potential,
-                         Boundary boundary)
-    : domain_(domain), hbar_(hbar), mass_(mass), potential_(std::move(potential)) {
-    x_.resize(static_cast<std::size_t>(n));
-    V_.resize(x_.size());
-    if (boundary == Boundary::periodic)
-        onCircle(n);
+Hamiltonian::Hamiltonian(const wave::Grid& grid, double hbar, double mass, wave::Potential potential, WaveBasis basis)
+    : grid_(grid), hbar_(hbar), mass_(mass), potential_(std::move(potential)), basis_(basis) {
+    V_.resize(static_cast<std::size_t>(size()));
+    if (basis == WaveBasis::walls)
+        onInterval();
     else
-        onInterval(n);
+        onGrid();
+    if (basis == WaveBasis::convolution) convolve();
 }
 
-void Hamiltonian::onCircle(int n) {
-    const auto size = static_cast<std::size_t>(n);
-    fourier_.emplace(n, domain_.length);
-    kinetic_.resize(size);
-    Vhat_.resize(size);
-    for (int j = 0; j < n; ++j) {
-        const auto i = static_cast<std::size_t>(j);
-        x_[i] = domain_.left + domain_.length * j / n;
-        const double p = hbar_ * fourier_->waveNumber(j);
-        kinetic_[i] = p * p / (2 * mass_);
+void Hamiltonian::onGrid() {
+    fourier_.emplace(grid_);
+    x_ = nodesOf(grid_.x, grid_.nx);
+    y_ = nodesOf(grid_.y, grid_.ny);
+    for (int i = 0; i < size(); ++i) {
+        const double px = hbar_ * fourier_->waveNumber(i), py = hbar_ * fourier_->waveNumberY(i);
+        kinetic_.push_back((px * px + py * py) / (2 * mass_));
     }
-    potential_.values(0, x_, V_.data());
-    std::vector<Complex> samples(size);
-    for (std::size_t i = 0; i < size; ++i) {
-        requireFinite(V_[i], x_[i]);
-        samples[i] = V_[i];
-    }
-    fourier_->rawToCoefficients(samples.data(), Vhat_.data());
-    double largest = 0;
-    for (Complex& v : Vhat_) {
-        v /= n;
-        largest = std::max(largest, std::abs(v));
-    }
-    for (int i = 0; i < n; ++i)
-        if (std::abs(Vhat_[static_cast<std::size_t>(i)]) > 2e-15 * largest)
-            harmonics_ = std::max(harmonics_, std::abs(fourier_->number(i)));
+    potential_.values(0, x_, y_, V_.data());
+    for (std::size_t i = 0; i < V_.size(); ++i)
+        requireFinite(V_[i], x_[i % x_.size()], isPlane() ? &y_[i / x_.size()] : nullptr);
     const auto [low, high] = std::minmax_element(V_.begin(), V_.end());
     lowest_ = *low;
     highest_ = *high + *std::max_element(kinetic_.begin(), kinetic_.end());
+    if (!isPlane()) findHarmonics();
 }
 
-void Hamiltonian::onInterval(int n) {
+void Hamiltonian::findHarmonics() {
+    const std::vector<Complex> samples(V_.begin(), V_.end());
+    Vhat_.resize(V_.size());
+    fourier_->rawToCoefficients(samples.data(), Vhat_.data());
+    double largest = 0;
+    for (Complex& v : Vhat_) {
+        v /= size();
+        largest = std::max(largest, std::abs(v));
+    }
+    for (int i = 0; i < size(); ++i)
+        if (std::abs(Vhat_[static_cast<std::size_t>(i)]) > 2e-15 * largest)
+            harmonics_ = std::max(harmonics_, std::abs(fourier_->number(i)));
+}
+
+void Hamiltonian::convolve() {
+    matrix_ = realMatrix(convolutionGalerkin(*this), *fourier_);
+    // The convolution is a mean of V's trigonometric interpolant, which its harmonics bound.
+    double spread = 0;
+    for (std::size_t i = 1; i < Vhat_.size(); ++i) spread += std::abs(Vhat_[i]);
+    lowest_ = Vhat_[0].real() - spread;
+    highest_ = Vhat_[0].real() + spread + *std::max_element(kinetic_.begin(), kinetic_.end());
+}
+
+std::shared_ptr<const Hamiltonian> Hamiltonian::withModes(int nx, int ny) const {
+    return std::make_shared<const Hamiltonian>(wave::Grid{grid_.x, nx, grid_.y, ny}, hbar_, mass_, potential_, basis_);
+}
+
+void Hamiltonian::onInterval() {
+    const int n = size();
+    x_.resize(V_.size());
+    y_ = {0};
     interval_ = Interval::of(n);
     const Interval& I = *interval_;
-    const double half = domain_.length / 2, middle = domain_.left + half;
+    const double half = domain().length / 2, middle = domain().left + half;
     Eigen::VectorXd V(I.points.size());
     for (Eigen::Index k = 0; k < V.size(); ++k) {
         const double x = middle + half * I.points(k);
-        V(k) = potential_.function.value(x, 0);
-        requireFinite(V(k), x);
+        V(k) = potential_.function.value(x, 0, 0);
+        requireFinite(V(k), x, nullptr);
     }
     for (int j = 0; j < n; ++j) {
         x_[static_cast<std::size_t>(j)] = middle + half * I.nodes(j);
@@ -83,21 +108,32 @@ void Hamiltonian::onInterval(int n) {
 }
 
 void Hamiltonian::toNodes(const Complex* c, Complex* psi) const {
-    if (fourier_) return fourier_->toNodes(c, psi);
-    multiply(interval_->inverse, c, psi);
-    const double factor = 1 / std::sqrt(domain_.length / 2);
-    for (int j = 0; j < size(); ++j) psi[j] *= factor;
+    if (basis_ == WaveBasis::walls) {
+        multiply(interval_->inverse, c, psi);
+        const double factor = 1 / std::sqrt(domain().length / 2);
+        for (int j = 0; j < size(); ++j) psi[j] *= factor;
+        return;
+    }
+    fourier_->toNodes(c, psi);
+    if (basis_ == WaveBasis::fourier) return;
+    // The cosine at k = -N/2 has the mean square 1/2.
+    const Complex more = (std::numbers::sqrt2 - 1) / std::sqrt(grid_.measure()) * c[size() / 2];
+    for (int j = 0; j < size(); ++j) psi[j] += j % 2 == 0 ? more : -more;
 }
 
 void Hamiltonian::toCoefficients(const Complex* psi, Complex* c) const {
-    if (fourier_) return fourier_->toCoefficients(psi, c);
-    multiply(interval_->factor, psi, c);
-    const double factor = std::sqrt(domain_.length / 2);
-    for (int i = 0; i < size(); ++i) c[i] *= factor;
+    if (basis_ == WaveBasis::walls) {
+        multiply(interval_->factor, psi, c);
+        const double factor = std::sqrt(domain().length / 2);
+        for (int i = 0; i < size(); ++i) c[i] *= factor;
+        return;
+    }
+    fourier_->toCoefficients(psi, c);
+    if (basis_ == WaveBasis::convolution) c[size() / 2] /= std::numbers::sqrt2;
 }
 
 void Hamiltonian::toReal(const Complex* c, Complex* v) const {
-    if (interval_) {
+    if (!fourier_) {
         std::copy_n(c, size(), v);
         return;
     }
@@ -107,7 +143,7 @@ void Hamiltonian::toReal(const Complex* c, Complex* v) const {
 }
 
 void Hamiltonian::fromReal(Complex* v, Complex* c) const {
-    if (interval_) {
+    if (!fourier_) {
         std::copy_n(v, size(), c);
         return;
     }
@@ -124,14 +160,19 @@ Eigen::MatrixXd Hamiltonian::resampling(int rows) const {
 
 void Hamiltonian::potentialAt(double t, double* V) const {
     if (isTimeDependent())
-        potential_.values(t, x_, V);
+        potential_.values(t, x_, y_, V);
     else
         std::copy(V_.begin(), V_.end(), V);
 }
 
 void Hamiltonian::apply(const double* V, const Complex* c, Complex* out, Complex* work) const {
-    if (interval_) return multiply(matrix_, c, out);
     const int n = size();
+    if (basis_ == WaveBasis::walls) return multiply(matrix_, c, out);
+    if (basis_ == WaveBasis::convolution) {
+        toReal(c, out);
+        multiply(matrix_, out, work);
+        return fromReal(work, out);
+    }
     const double inverse = 1.0 / n;
     fourier_->rawToNodes(c, work);
     double* w = reinterpret_cast<double*>(work);
@@ -153,19 +194,22 @@ void Hamiltonian::apply(const double* V, const Complex* c, Complex* out, Complex
 double Hamiltonian::energy(double t, const Complex* c) const {
     const auto n = static_cast<std::size_t>(size());
     std::vector<Complex> psi(n);
-    if (interval_) {
-        multiply(matrix_, c, psi.data());
+    if (!isSplit()) {
+        std::vector<Complex> work(n);
+        apply(nullptr, c, psi.data(), work.data());
         return innerProduct(c, psi.data(), size()).real() / squaredNorm(c, size());
     }
     fourier_->rawToNodes(c, psi.data());
+    std::vector<double> moved(isTimeDependent() ? n : 0);
+    if (isTimeDependent()) potentialAt(t, moved.data());
+    const std::vector<double>& V = isTimeDependent() ? moved : V_;
     double sum = 0, norm = 0, inPotential = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const double weight = std::norm(c[i]);
         sum += weight * kinetic_[i];
         norm += weight;
+        inPotential += std::norm(psi[i]) * V[i];
     }
-    for (std::size_t j = 0; j < n; ++j)
-        inPotential += std::norm(psi[j]) * (isTimeDependent() ? potential_.function.value(x_[j], t) : V_[j]);
     return (sum + inPotential / static_cast<double>(n)) / norm;
 }
 

@@ -18,21 +18,29 @@ struct Context {
     const std::string& pointer;
     const std::shared_ptr<const Hamiltonian>& hamiltonian;
     const Constants& constants;
-    const Domain& domain() const { return hamiltonian->domain(); }
+    const Grid& grid() const { return hamiltonian->grid(); }
 };
 
 std::vector<Complex> fromNodes(const Context& context, const std::vector<Complex>& psi) {
+    const Hamiltonian& h = *context.hamiltonian;
     for (std::size_t j = 0; j < psi.size(); ++j)
         if (!std::isfinite(psi[j].real()) || !std::isfinite(psi[j].imag()))
-            throw InvalidScene(context.pointer, "is not finite at x = " + formatNumber(context.hamiltonian->x()[j], 6));
+            throw InvalidScene(context.pointer, "is not finite at x = " + formatNumber(h.x()[j % h.x().size()], 6) +
+                                                    (h.isPlane() ? ", y = " + formatNumber(h.y()[j / h.x().size()], 6) : ""));
     std::vector<Complex> c(psi.size());
-    context.hamiltonian->toCoefficients(psi.data(), c.data());
+    h.toCoefficients(psi.data(), c.data());
     return c;
 }
 
-std::vector<Complex> sampled(const Context& context, const std::function<Complex(double x)>& psi) {
-    std::vector<Complex> values;
-    for (const double x : context.hamiltonian->x()) values.push_back(psi(x));
+/// psi(x, y) = f_x(x) f_y(y); on an interval without the second.
+using Factor = std::function<Complex(double)>;
+std::vector<Complex> product(const Context& context, const std::vector<Factor>& factors) {
+    std::vector<Complex> along, values;
+    for (const double x : context.hamiltonian->x()) along.push_back(factors[0](x));
+    for (const double y : context.hamiltonian->y()) {
+        const Complex across = factors.size() > 1 ? factors[1](y) : 1;
+        for (const Complex& f : along) values.push_back(factors.size() > 1 ? f * across : f);
+    }
     return fromNodes(context, values);
 }
 
@@ -42,17 +50,20 @@ std::vector<Complex> expressions(const Context& context, const Value& psi) {
         const Value* text = psi.find(key);
         const std::string place = context.pointer + "/" + key;
         if (!text) {
-            parts.push_back({[](double, double) { return 0.0; }, false});
+            parts.push_back({[](double, double, double) { return 0.0; }, false});
         } else if (text->isNumber()) {
-            parts.push_back({[v = text->asNumber()](double, double) { return v; }, false});
+            parts.push_back({[v = text->asNumber()](double, double, double) { return v; }, false});
         } else if (text->isString()) {
-            parts.push_back(functionOf(text->asString(), place, context.constants, false));
+            parts.push_back(functionOf(text->asString(), place, context.constants, {context.grid().isPlane(), false}));
         } else {
-            throw InvalidScene(place, "must be an expression in x");
+            throw InvalidScene(place, context.grid().isPlane() ? "must be an expression in x and y" : "must be an expression in x");
         }
     }
     parametersOf(psi, context.pointer, {}, {"re", "im"}, context.constants);
-    return sampled(context, [&](double x) { return Complex(parts[0].value(x, 0), parts[1].value(x, 0)); });
+    std::vector<Complex> values;
+    for (const double y : context.hamiltonian->y())
+        for (const double x : context.hamiltonian->x()) values.emplace_back(parts[0].value(x, y, 0), parts[1].value(x, y, 0));
+    return fromNodes(context, values);
 }
 
 std::vector<Complex> given(const Context& context, const Value& values) {
@@ -67,7 +78,8 @@ std::vector<Complex> given(const Context& context, const Value& values) {
                                           (numbers && numbers->isArray()
                                                ? ", got " + std::to_string(numbers->asArray().size())
                                                : std::string()),
-                               "the number of nodes is /model/modes");
+                               context.grid().isPlane() ? "the number of nodes is /model/modes times /model/modes_y, x first"
+                                                          : "the number of nodes is /model/modes");
         for (std::size_t j = 0; j < n; ++j) {
             const double v = numberOf(numbers->asArray()[j], place + "/" + std::to_string(j), context.constants);
             psi[j] += std::string_view(key) == "re" ? Complex(v, 0) : Complex(0, v);
@@ -87,60 +99,86 @@ std::vector<Complex> eigenstate(const Context& context, const Value& psi) {
                            "must be a whole number from 0 to " + std::to_string(limit / 2 - 1) + ", got " + formatNumber(n));
     if (h.size() <= limit) return Eigenstates::of(context.hamiltonian)->coefficients(static_cast<int>(n));
     // From the finest grid that is small enough, if the state is resolved there: then more modes do not change it.
-    const auto coarse = h.withModes(limit);
+    const bool isPlane = h.isPlane();
+    const int coarseX = isPlane ? std::min(h.grid().nx, 22) : limit, coarseY = isPlane ? std::min(h.grid().ny, (limit / coarseX) & ~1) : 1;
+    const auto coarse = h.withModes(coarseX, coarseY);
     const std::vector<Complex> found = Eigenstates::of(coarse)->coefficients(static_cast<int>(n));
     const auto size = static_cast<std::size_t>(h.size());
     std::vector<Complex> c(size), Hc(size), work(size);
-    for (int i = 0; i < limit; ++i) {
-        const int a = coarse->fourier().number(i);
-        c[static_cast<std::size_t>(a >= 0 ? a : h.size() + a)] = found[static_cast<std::size_t>(i)];
-    }
+    for (int i = 0; i < coarse->size(); ++i)
+        c[static_cast<std::size_t>(h.fourier().placeOf(coarse->fourier().number(i), coarse->fourier().numberY(i)))] =
+            found[static_cast<std::size_t>(i)];
     h.apply(h.potential().data(), c.data(), Hc.data(), work.data());
     const double E = innerProduct(c.data(), Hc.data(), h.size()).real();
     double residual = 0;
     for (std::size_t i = 0; i < size; ++i) residual += std::norm(Hc[i] - E * c[i]);
     if (std::sqrt(residual) > 1e-6 * (1 + std::abs(E)))
-        throw InvalidScene(context.pointer, "state " + formatNumber(n) + " is not resolved by " + std::to_string(limit) +
+        throw InvalidScene(context.pointer, "state " + formatNumber(n) + " is not resolved by " + std::to_string(coarse->size()) +
                                                 " modes, up to which eigenstates are computed", "another packet");
     return c;
 }
 
 std::vector<Complex> packet(const Context& context, const Value& psi, const std::string& name) {
-    const Domain& domain = context.domain();
-    const double middle = domain.left + domain.length / 2, L = domain.length;
-    const auto read = [&](const std::vector<Parameter>& parameters) {
-        return parametersOf(psi, context.pointer, parameters, {"packet"}, context.constants);
+    const Hamiltonian& h = *context.hamiltonian;
+    const std::vector<Domain> axes = h.isPlane() ? std::vector{h.grid().x, h.grid().y} : std::vector{h.grid().x};
+    // The keys of the axes one after the other, those of y with _y at their end; as many values for each.
+    const auto read = [&](const std::function<std::vector<Parameter>(const Domain&, bool isY)>& keysOf) {
+        std::vector<Parameter> all;
+        for (const Domain& axis : axes)
+            for (Parameter p : keysOf(axis, &axis != &axes.front())) {
+                if (&axis != &axes.front()) p.key += "_y";
+                all.push_back(std::move(p));
+            }
+        return parametersOf(psi, context.pointer, all, {"packet"}, context.constants);
     };
+    const auto middleOf = [](const Domain& axis) { return axis.left + axis.length / 2; };
+    std::vector<Factor> factors;
     if (name == "gaussian") {
-        const auto p = read({{"centre", middle}, {"width", L / 20, false, true}, {"wave_number", 0}});
-        const double period = context.hamiltonian->isPeriodic() ? L : 0;
-        return sampled(context, [p, L, period](double x) {
-            const double d = x - p[0] - period * std::round((x - p[0]) / L);
-            return std::exp(-d * d / (4 * p[1] * p[1])) * std::polar(1.0, p[2] * (p[0] + d));
+        const auto p = read([&](const Domain& axis, bool) -> std::vector<Parameter> {
+            return {{"centre", middleOf(axis)}, {"width", axis.length / 20, false, true}, {"wave_number", 0}};
         });
+        for (std::size_t i = 0; i < axes.size(); ++i)
+            factors.push_back([centre = p[3 * i], width = p[3 * i + 1], k = p[3 * i + 2], L = axes[i].length,
+                               period = h.isPeriodic() ? axes[i].length : 0](double x) {
+                const double d = x - centre - period * std::round((x - centre) / L);
+                return std::exp(-d * d / (4 * width * width)) * std::polar(1.0, k * (centre + d));
+            });
+        return product(context, factors);
     }
-    if (!context.hamiltonian->isPeriodic() && (name == "periodic-gaussian" || name == "plane-wave"))
+    if (!h.isPeriodic() && (name == "periodic-gaussian" || name == "plane-wave"))
         throw InvalidScene(context.pointer + "/packet", name + " needs a periodic domain: it does not vanish at the walls",
                            "gaussian or eigenstate, re and im in x, or the boundary periodic");
     if (name == "periodic-gaussian") {
-        const auto p = read({{"kappa", 20, false, true}, {"centre", middle}, {"wave_number", 0}});
-        return sampled(context, [p, L](double x) {
-            return std::exp(-p[0] * (1 - std::cos(twoPi / L * (x - p[1])))) * std::polar(1.0, p[2] * x);
+        const auto p = read([&](const Domain& axis, bool) -> std::vector<Parameter> {
+            return {{"kappa", 20, false, true}, {"centre", middleOf(axis)}, {"wave_number", 0}};
         });
+        for (std::size_t i = 0; i < axes.size(); ++i)
+            factors.push_back([kappa = p[3 * i], centre = p[3 * i + 1], k = p[3 * i + 2], L = axes[i].length](double x) {
+                return std::exp(-kappa * (1 - std::cos(twoPi / L * (x - centre)))) * std::polar(1.0, k * x);
+            });
+        return product(context, factors);
     }
     if (name == "plane-wave") {
-        const double k = read({{"wave_number", 0, true}})[0], turns = k * L / twoPi;
-        const int n = context.hamiltonian->size();
-        if (std::abs(turns - std::round(turns)) > 1e-9 * std::max(1.0, std::abs(turns)))
-            throw InvalidScene(context.pointer + "/wave_number",
-                               "does not fit into the domain: " + formatNumber(turns, 6) + " waves, got " + formatNumber(k),
-                               "a multiple of 2 pi/length = " + formatNumber(twoPi / L, 6));
-        if (std::abs(turns) >= n / 2)
-            throw InvalidScene(context.pointer + "/wave_number", "needs more than " + std::to_string(n) + " modes, got " +
-                                                                     formatNumber(k), "more modes");
-        std::vector<Complex> c(static_cast<std::size_t>(n));
-        const int a = static_cast<int>(std::lround(turns));
-        c[static_cast<std::size_t>(a >= 0 ? a : n + a)] = std::sqrt(L) * std::polar(1.0, k * domain.left);
+        const auto k = read([](const Domain&, bool isY) -> std::vector<Parameter> { return {{"wave_number", 0, !isY}}; });
+        std::vector<int> numbers;
+        double phase = 0;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            const std::string place = context.pointer + "/wave_number" + (i > 0 ? "_y" : "");
+            const double turns = k[i] * axes[i].length / twoPi;
+            const int n = i > 0 ? h.grid().ny : h.grid().nx;
+            if (std::abs(turns - std::round(turns)) > 1e-9 * std::max(1.0, std::abs(turns)))
+                throw InvalidScene(place,
+                                   "does not fit into the domain: " + formatNumber(turns, 6) + " waves, got " + formatNumber(k[i]),
+                                   "a multiple of 2 pi/length = " + formatNumber(twoPi / axes[i].length, 6));
+            if (std::abs(turns) >= n / 2)
+                throw InvalidScene(place, "needs more than " + std::to_string(n) + " modes, got " + formatNumber(k[i]),
+                                   "more modes");
+            numbers.push_back(static_cast<int>(std::lround(turns)));
+            phase += k[i] * axes[i].left;
+        }
+        std::vector<Complex> c(static_cast<std::size_t>(h.size()));
+        c[static_cast<std::size_t>(h.fourier().placeOf(numbers[0], numbers.size() > 1 ? numbers[1] : 0))] =
+            std::sqrt(h.grid().measure()) * std::polar(1.0, phase);
         return c;
     }
     if (name == "eigenstate") return eigenstate(context, psi);

@@ -7,6 +7,8 @@
 ///     {"values": {"re": [..], "im": [..]}}            at the nodes
 /// On a periodic domain x - centre is taken to the nearest copy of the centre, and the periodic packet has the domain's
 /// own period: cos(2 pi (x - centre)/L), kappa and wave_number being per radian of it where L = 2 pi.
+/// On a rectangle packets are products of one for x and one for y, whose keys end in _y (centre_y, width_y, ..);
+/// expressions are in x and y, values row after row, x first.
 #pragma once
 
 #include <memory>

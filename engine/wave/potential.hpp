@@ -1,6 +1,6 @@
-/// The potential V(x, t) of the Schroedinger equation, typed or by name.
+/// The potential V(x, t) of the Schroedinger equation, or V(x, y, t) on a rectangle, typed or by name.
 ///
-/// Typed: an expression in x, t, hbar, m, pi. By name, as text or as {"name": NAME, parameters}:
+/// Typed: an expression in x, on a rectangle y, t, hbar, m, pi. By name, as text or as {"name": NAME, parameters}:
 ///     free           0
 ///     harmonic       m omega^2 (x - centre)^2/2
 ///     lattice        depth (1 - cos(2 pi cells (x - centre)/L))
@@ -10,33 +10,39 @@
 ///     random         amplitude times a Gaussian random field of variance 1 and correlation length `correlation`, periodic,
 ///                    from a seed: the same on every machine
 /// L: length of the domain; the centre is its middle unless given (lattice: its left end).
+///
+/// On a rectangle, with keys for y that end in _y:
+///     free, random   as above; the field is the same in all directions
+///     harmonic       m omega^2 (x - centre)^2/2 + m omega_y^2 (y - centre_y)^2/2, omega_y = omega unless given
+///     lattice        depth (2 - cos(2 pi cells (x - centre)/L) - cos(2 pi cells_y (y - centre_y)/L_y))
+///     barrier        as above, along the whole of y
+///     double-slit    the barrier without two gaps of width `slit` in y, `separation` apart:
+///                    times 1 - g(y - centre_y - separation/2) - g(y - centre_y + separation/2), g(u) = exp(-(2u/slit)^4)
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "engine/wave/grid.hpp"
 #include "engine/wave/typed.hpp"
 
 namespace extremal::wave {
 
-struct Domain {
-    double left = 0, length = 0;
-};
-
 struct Potential {
     Function function;
     bool isTimeDependent() const { return function.usesTime; }
-    /// V at all x; a value that is not finite is left as it is.
-    void values(double t, std::span<const double> x, double* V) const {
-        for (std::size_t j = 0; j < x.size(); ++j) V[j] = function.value(x[j], t);
+    /// V at all places of a grid, x first; a value that is not finite is left as it is.
+    void values(double t, std::span<const double> x, std::span<const double> y, double* V) const {
+        for (const double b : y)
+            for (const double a : x) *V++ = function.value(a, b, t);
     }
 };
 
-/// Names of the potentials.
-const std::vector<std::string>& potentialNames();
+/// Names of the potentials, on an interval and on a rectangle.
+const std::vector<std::string>& potentialNames(const Grid& grid);
 
 /// Throws InvalidScene with pointers that start with `pointer`.
-Potential makePotential(const Value& given, const std::string& pointer, const Domain& domain, const Constants& constants);
+Potential makePotential(const Value& given, const std::string& pointer, const Grid& grid, const Constants& constants);
 
 }  // namespace extremal::wave

@@ -36,7 +36,10 @@ double spectrumTail(const Hamiltonian& h, const Complex* c) {
         if (isInTail) tail += weight;
     };
     if (h.isPeriodic()) {
-        for (int i = 0; i < h.size(); ++i) add(std::norm(c[i]), 16 * std::abs(h.fourier().number(i)) > 7 * h.size());
+        const Fourier& f = h.fourier();
+        for (int i = 0; i < h.size(); ++i)
+            add(std::norm(c[i]), 16 * std::abs(f.number(i)) > 7 * h.grid().nx ||
+                                     (h.isPlane() && 16 * std::abs(f.numberY(i)) > 7 * h.grid().ny));
     } else {
         const int N = h.size() + 1;
         for (int k = 0; k <= N; ++k) add(std::norm(chebyshevCoefficient(h, c, k)), 8 * k > 7 * N);
@@ -48,43 +51,49 @@ std::string resolutionCaution(const Hamiltonian& h, const Complex* c) {
     const double tail = spectrumTail(h, c);
     if (!(tail > 1e-4)) return {};
     return "under-resolved: " + formatNumber(tail, 2) + " of the wave function is in the upper eighth of its " +
-           std::to_string(h.size()) + " modes";
+           std::to_string(h.grid().nx) + (h.isPlane() ? " x " + std::to_string(h.grid().ny) : std::string()) + " modes";
 }
 
-double meanMomentum(const Hamiltonian& h, const Complex* c) {
-    double sum = 0, all = 0;
+MeanMomentum meanMomentum(const Hamiltonian& h, const Complex* c) {
     if (!h.isPeriodic()) {
+        double sum = 0;
         const Interval& I = h.interval();
         for (Eigen::Index k = 0; k < I.points.size(); ++k)
             sum += I.weights(k) * (std::conj(atPoint(I.values, k, c)) * atPoint(I.slopes, k, c)).imag();
-        return h.hbar() * sum / (h.domain().length / 2) / squaredNorm(c, h.size());
+        return {h.hbar() * sum / (h.domain().length / 2) / squaredNorm(c, h.size())};
     }
+    const Fourier& f = h.fourier();
+    double x = 0, y = 0, all = 0;
     for (int i = 0; i < h.size(); ++i) {
         const double weight = std::norm(c[i]);
         all += weight;
-        if (2 * i != h.size()) sum += weight * h.fourier().waveNumber(i);
+        if (2 * f.number(i) != -h.grid().nx) x += weight * f.waveNumber(i);
+        if (2 * f.numberY(i) != -h.grid().ny) y += weight * f.waveNumberY(i);
     }
-    return h.hbar() * sum / all;
+    return {h.hbar() * x / all, h.hbar() * y / all};
 }
 
 NodeMeans nodeMeans(const Hamiltonian& h, const Complex* c, Complex* work) {
     const double k = 2 * std::numbers::pi / h.domain().length, left = h.domain().left;
     NodeMeans means;
     double all = 0;
-    const auto add = [&](double x, double weight) {
+    const auto add = [&](double x, double y, double weight) {
         all += weight;
         means.x += weight * x;
+        means.y += weight * y;
         means.cosine += weight * std::cos(k * (x - left) + left);
     };
     if (h.isPeriodic()) {
-        h.fourier().rawToNodes(c, work);
-        for (std::size_t j = 0; j < h.x().size(); ++j) add(h.x()[j], std::norm(work[j]));
+        h.toNodes(c, work);
+        for (const double y : h.y())
+            for (const double x : h.x()) add(x, y, std::norm(*work++));
     } else {
         const Interval& I = h.interval();
         for (Eigen::Index i = 0; i < I.points.size(); ++i)
-            add(left + (1 + I.points(i)) * h.domain().length / 2, I.weights(i) * std::norm(atPoint(I.values, i, c)));
+            add(left + (1 + I.points(i)) * h.domain().length / 2, 0, I.weights(i) * std::norm(atPoint(I.values, i, c)));
     }
     means.x /= all;
+    means.y /= all;
     means.cosine /= all;
     return means;
 }
@@ -97,13 +106,16 @@ double currentInTheMiddle(const Hamiltonian& h, const Complex* c, Complex* work,
         return h.hbar() / (h.mass() * half * half) *
                (std::conj(atPoint(I.values, n + 1, c)) * atPoint(I.slopes, n + 1, c)).imag();
     }
-    const auto middle = static_cast<std::size_t>(n / 2);
+    const wave::Grid& grid = h.grid();
     for (int i = 0; i < n; ++i)
-        slope[i] = 2 * i == n ? Complex(0) : Complex(0, h.fourier().waveNumber(i)) * c[i];
+        slope[i] = 2 * h.fourier().number(i) == -grid.nx ? Complex(0) : Complex(0, h.fourier().waveNumber(i)) * c[i];
     h.fourier().toNodes(slope, work);
-    const Complex derivative = work[middle];
-    h.fourier().toNodes(c, work);
-    return h.hbar() / h.mass() * (std::conj(work[middle]) * derivative).imag();
+    // The slopes on the line make room for the values.
+    for (int j = 0; j < grid.ny; ++j) slope[j] = work[grid.nx / 2 + j * grid.nx];
+    h.toNodes(c, work);
+    double sum = 0;
+    for (int j = 0; j < grid.ny; ++j) sum += (std::conj(work[grid.nx / 2 + j * grid.nx]) * slope[j]).imag();
+    return h.hbar() / h.mass() * sum * grid.y.length / grid.ny;
 }
 
 }  // namespace extremal

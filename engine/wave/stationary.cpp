@@ -6,6 +6,7 @@
 
 #include "engine/core/dense.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/wave/eigen.hpp"
 #include "engine/wave/interval.hpp"
 
 namespace extremal {
@@ -48,15 +49,7 @@ StationaryState refineState(const StationaryProblem& problem, const Vector& gues
 
 StationaryProblem pseudoSpectral(const Hamiltonian& h) {
     const int n = h.size();
-    const auto size = static_cast<std::size_t>(n);
-    std::vector<Complex> T(size), row(size);
-    for (std::size_t i = 0; i < size; ++i) T[i] = h.kinetic()[i] / n;
-    h.fourier().rawToNodes(T.data(), row.data());
-    StationaryProblem p{Matrix::Zero(n, n), Matrix::Identity(n, n)};
-    for (int j = 0; j < n; ++j)
-        for (int l = 0; l <= j; ++l) p.H(j, l) = p.H(l, j) = row[static_cast<std::size_t>(j - l)].real();
-    for (int j = 0; j < n; ++j) p.H(j, j) += h.potential()[static_cast<std::size_t>(j)];
-    return p;
+    return {nodalMatrix(h).cast<Complex>(), Matrix::Identity(n, n)};
 }
 
 StationaryProblem convolutionGalerkin(const Hamiltonian& h) {
@@ -74,6 +67,22 @@ StationaryProblem convolutionGalerkin(const Hamiltonian& h) {
     return p;
 }
 
+Eigen::MatrixXd realMatrix(const StationaryProblem& problem, const Fourier& fourier) {
+    const Eigen::Index n = problem.H.rows();
+    const Eigen::VectorXd root = problem.W.diagonal().real().cwiseSqrt().cwiseInverse();
+    Matrix H = root.asDiagonal() * problem.H * root.asDiagonal();
+    // F^{-1} H F, a column at a time; F* is F^{-1}, so the rows of H F are those of the columns of (F^{-1} H*)*.
+    for (int pass = 0; pass < 2; ++pass) {
+        Vector column(n);
+        for (Eigen::Index k = 0; k < n; ++k) {
+            fourier.rawToNodes(H.col(k).data(), column.data());
+            H.col(k) = column / std::sqrt(static_cast<double>(n));
+        }
+        H.adjointInPlace();
+    }
+    return (H.real() + H.real().transpose()) / 2;
+}
+
 StationaryProblem chebyshevInterval(int N, const wave::Domain& domain, double hbar, double mass, const wave::Potential& potential) {
     const Rule<double> rule = clenshawCurtis<double>(2 * N + 1);
     const Eigen::VectorXd nodes = chebyshev::extrema(N);
@@ -83,7 +92,7 @@ StationaryProblem chebyshevInterval(int N, const wave::Domain& domain, double hb
         // The rule's nodes are those of degree 2N: every second is one of ours, to the bit.
         points(i) = std::sin(std::numbers::pi * (i - N) / (2.0 * N));
         weights(i) = rule.b[k] * domain.length;
-        inPotential(i) = potential.function.value(domain.left + domain.length * rule.c[k], 0) * weights(i);
+        inPotential(i) = potential.function.value(domain.left + domain.length * rule.c[k], 0, 0) * weights(i);
     }
     const Eigen::MatrixXd all = chebyshev::cardinals(points, nodes),
                           slope = all * chebyshev::differentiation(nodes) * (2 / domain.length);

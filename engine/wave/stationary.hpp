@@ -41,6 +41,10 @@ StationaryProblem pseudoSpectral(const Hamiltonian& hamiltonian);
 /// there; the printed equation keeps one of the rows and is not.
 StationaryProblem convolutionGalerkin(const Hamiltonian& hamiltonian);
 
+/// W^{-1/2} H W^{-1/2} of a problem in Fourier coefficients with diagonal W, in the coordinates of the inverse transform: real
+/// and symmetric, as complex conjugation commutes with it.
+Eigen::MatrixXd realMatrix(const StationaryProblem& problem, const Fourier& fourier);
+
 /// An interval [left, left + L] with psi = 0 at both ends: polynomials of degree N through Chebyshev points, mass, stiffness and
 /// potential from the action by 2N + 1 Clenshaw-Curtis nodes. Symmetric, so that its Gauss steps are unitary in the mass;
 /// collocation with squared differentiation matrices is not.

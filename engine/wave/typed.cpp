@@ -49,24 +49,29 @@ double numberOf(const Value& value, const std::string& pointer, const Constants&
     return number;
 }
 
-Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants, bool mayUseTime) {
+Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants, Variables variables) {
     Function f;
+    std::vector<std::string> known{"x"};
+    if (variables.hasY) known.push_back("y");
+    if (variables.hasTime) known.push_back("t");
+    known.push_back("pi");
     try {
         const auto expression = std::make_shared<const Expression>(parseExpression(text));
         const auto names = expression->names();
         f.usesTime = std::find(names.begin(), names.end(), "t") != names.end();
-        f.value = [expression, constants](double x, double t) {
+        f.value = [expression, constants, hasY = variables.hasY](double x, double y, double t) {
             return evaluate(*expression, [&](std::string_view name) -> std::optional<double> {
                 if (name == "x") return x;
+                if (name == "y" && hasY) return y;
                 if (name == "t") return t;
                 return lookUp(constants, name);
             });
         };
-        if (f.usesTime && !mayUseTime) throw InvalidScene(pointer, "depends on t: a start is a function of x alone");
-        f.value(0.5, 0.5);  // every name is looked up once
+        if (f.usesTime && !variables.hasTime)
+            throw InvalidScene(pointer, "depends on t: a start is a function of place alone");
+        f.value(0.5, 0.5, 0.5);  // every name is looked up once
     } catch (const ExpressionError& e) {
-        refuse(pointer, text, e, namesOf(constants, mayUseTime ? std::vector<std::string>{"x", "t", "pi"}
-                                                               : std::vector<std::string>{"x", "pi"}));
+        refuse(pointer, text, e, namesOf(constants, known));
     }
     return f;
 }

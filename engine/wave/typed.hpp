@@ -13,18 +13,21 @@
 
 namespace extremal::wave {
 
-/// Names that expressions may use besides x, t and pi, with their values: hbar, m.
+/// Names that expressions may use besides x, y, t and pi, with their values: hbar, m.
 using Constants = std::vector<std::pair<std::string, double>>;
 
 /// A finite number, literal or expression.
 double numberOf(const Value& value, const std::string& pointer, const Constants& constants);
 
-/// A function of x, and of t where that is allowed.
+/// A function of place and time: of x, of y too where there is one, and of t where that is allowed.
 struct Function {
-    std::function<double(double x, double t)> value;
+    std::function<double(double x, double y, double t)> value;
     bool usesTime = false;
 };
-Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants, bool mayUseTime);
+struct Variables {
+    bool hasY = false, hasTime = false;
+};
+Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants, Variables variables);
 
 /// One parameter of a named potential or packet.
 struct Parameter {

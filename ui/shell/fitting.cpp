@@ -10,9 +10,9 @@
 namespace extremal {
 namespace {
 
-/// Between walls there are few ways, and their makers know; a trial costs little with at most 512 modes.
+/// Where H is a full matrix there are few ways, and their makers know; a trial costs little with at most 512 modes.
 bool isForBoundary(const BaselineEntry& e, const System& system) {
-    if (!isBetweenWalls(system)) return true;
+    if (!hasFullMatrix(system)) return true;
     Settings settings{e.item.id, {}, {}};
     for (const FieldInfo& f : e.item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
     try {

@@ -36,6 +36,10 @@ void addExtent(const Shape& shape, std::vector<Point>& points) {
             points.push_back(solid->corners[c]);
     if (const auto* curtain = std::get_if<Curtain>(&shape))
         points.insert(points.end(), curtain->top.begin(), curtain->top.end());
+    if (const auto* raster = std::get_if<Raster>(&shape)) {
+        const Point& p = raster->corner;
+        points.insert(points.end(), {p, {p[0] + raster->width, p[1] + raster->height, p[2]}});
+    }
     if (const auto* curve = std::get_if<Curve>(&shape))
         points.insert(points.end(), curve->points.begin(), curve->points.end());
     if (const auto* support = std::get_if<Support>(&shape)) {
@@ -52,6 +56,7 @@ bool isScenery(const Shape& shape) {
     if (const auto* disc = std::get_if<Disc>(&shape)) return disc->role == ShapeRole::scenery;
     if (const auto* word = std::get_if<Word>(&shape)) return word->role == ShapeRole::scenery;
     if (const auto* curve = std::get_if<Curve>(&shape)) return curve->role == ShapeRole::scenery;
+    if (const auto* raster = std::get_if<Raster>(&shape)) return raster->role == ShapeRole::scenery;
     if (std::holds_alternative<Solid>(shape) || std::holds_alternative<Curtain>(shape)) return false;
     return true;
 }
@@ -354,6 +359,8 @@ std::string StagePlayer::failureNote(const Track& track, const std::string& labe
 /// What is seen from a corner fits the picture closer than the box of what is there. An inset takes a part of the right,
 /// or of the bottom of what is tall.
 Camera StagePlayer::fittedCamera(double width, double height, double margin) const {
+    // The picture of a field over a rectangle needs no room around it.
+    if (!system_.field.y.empty()) margin = std::min(margin, 10.0);
     if (!isSpatial()) return fitCamera(bounds_, width, height, margin);
     const double taken = inset_ ? InsetPlace::corner(width, height) : 0;
     const bool isWide = width >= height;

@@ -64,22 +64,19 @@ public:
 
     /// A convex polygon.
     void fill(const std::vector<Point>& corners, const Rgb& colour, double alpha) {
-        for (const Point& p : corners) {
-            const Point seen = camera_.project(p);
-            for (std::size_t i = 0; i < 2; ++i)
-                if (!(std::abs(seen[i]) < farAway)) return;
-        }
+        if (!isNear(corners)) return;
         for (std::size_t k = 2; k < corners.size(); ++k)
-            for (const std::size_t c : {std::size_t(0), k - 1, k}) {
-                FillCorner f{};
-                for (std::size_t i = 0; i < 3; ++i) f.r[i] = static_cast<float>(corners[c][i] - camera_.centre[i]);
-                f.colour[0] = colour.r;
-                f.colour[1] = colour.g;
-                f.colour[2] = colour.b;
-                f.alpha = static_cast<float>(alpha);
-                list_.fills.push_back(f);
-                grow(camera_.project(corners[c]), 0);
-            }
+            for (const std::size_t c : {std::size_t(0), k - 1, k}) corner(corners[c], colour, alpha);
+    }
+
+    /// A quadrangle with a colour at each corner, mixed between them.
+    struct Tinted {
+        Rgb colour;
+        double alpha;
+    };
+    void blend(const std::vector<Point>& corners, const std::array<Tinted, 4>& tints) {
+        if (!isNear(corners)) return;
+        for (const std::size_t c : {0, 1, 2, 0, 2, 3}) corner(corners[c], tints[c].colour, tints[c].alpha);
     }
 
     void disc(const Point& centre, double radius, const Rgb& colour) {
@@ -101,6 +98,22 @@ public:
     }
 
 private:
+    bool isNear(const std::vector<Point>& corners) const {
+        return std::all_of(corners.begin(), corners.end(), [&](const Point& p) {
+            const Point seen = camera_.project(p);
+            return std::abs(seen[0]) < farAway && std::abs(seen[1]) < farAway;  // false for NaN
+        });
+    }
+    void corner(const Point& p, const Rgb& colour, double alpha) {
+        FillCorner f{};
+        for (std::size_t i = 0; i < 3; ++i) f.r[i] = static_cast<float>(p[i] - camera_.centre[i]);
+        f.colour[0] = colour.r;
+        f.colour[1] = colour.g;
+        f.colour[2] = colour.b;
+        f.alpha = static_cast<float>(alpha);
+        list_.fills.push_back(f);
+        grow(camera_.project(p), 0);
+    }
     void grow(const Point& p, double width) {
         StrokeBatch& batch = list_.batches.back();
         const double reach = (width / 2 + 2) * ratio_;
@@ -166,7 +179,37 @@ void drawCurve(Pen& pen, const Curve& curve, const Rgb& colour) {
         pen.stroke(curve.points[k - 1], curve.points[k], curve.width, colour, curve.strength, curve.strength);
 }
 
+/// The colour of a point as its hue, or as the grey of the scenery, and how much of it there is as its opacity.
+void drawRaster(Pen& pen, const Raster& raster, const Rgb& grey, double strength) {
+    const auto columns = static_cast<std::size_t>(raster.columns), rows = static_cast<std::size_t>(raster.rows);
+    const auto tint = [&](std::size_t k) -> Pen::Tinted {
+        Rgb colour = grey;
+        if (!raster.hues.empty()) {
+            const auto c = phaseColour(raster.hues[k]);
+            colour = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+        }
+        return {colour, strength * std::clamp(raster.strengths[k], 0.0, 1.0)};
+    };
+    const auto place = [&](std::size_t i, std::size_t j) -> Point {
+        return {raster.corner[0] + raster.width * static_cast<double>(i) / static_cast<double>(columns - 1),
+                raster.corner[1] + raster.height * static_cast<double>(j) / static_cast<double>(rows - 1), raster.corner[2]};
+    };
+    for (std::size_t j = 0; j + 1 < rows; ++j)
+        for (std::size_t i = 0; i + 1 < columns; ++i) {
+            const std::size_t k = i + j * columns;
+            constexpr double unseen = 1.0 / 512;
+            if (std::max({raster.strengths[k], raster.strengths[k + 1], raster.strengths[k + columns],
+                          raster.strengths[k + columns + 1]}) < unseen)
+                continue;
+            pen.blend({place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)},
+                      {tint(k), tint(k + 1), tint(k + columns + 1), tint(k + columns)});
+        }
+}
+
 void drawScenery(Pen& pen, const StageFrame& frame) {
+    pen.open(false, 1);
+    for (const Shape& shape : frame.scenery)
+        if (const auto* raster = std::get_if<Raster>(&shape)) drawRaster(pen, *raster, frame.style.scenery, 1);
     pen.open(true, 1);
     for (const Shape& shape : frame.scenery) {
         if (const auto* curve = std::get_if<Curve>(&shape)) drawCurve(pen, *curve, frame.style.scenery);
@@ -328,6 +371,10 @@ void drawLayers(Pen& pen, const StageFrame& frame) {
         for (const Shape& shape : layer.shapes)
             if (const auto* solid = std::get_if<Solid>(&shape))
                 drawSolid(pen, *solid, layer.colour, layer.hasEnded ? 0.3 : 1, i == 0 ? 1.8 : 1.4, i == 0);
+        // A picture hides what is behind it: that of the first scheme alone is shown.
+        for (const Shape& shape : layer.shapes)
+            if (const auto* raster = std::get_if<Raster>(&shape); raster && i == 0)
+                drawRaster(pen, *raster, layer.colour, layer.hasEnded ? 0.3 : 1);
         for (const Shape& shape : layer.shapes)
             if (const auto* curtain = std::get_if<Curtain>(&shape))
                 drawCurtain(pen, *curtain, layer.colour, layer.hasEnded ? 0.3 : 1, i == 0 ? 2 : 1.4, i == 0);

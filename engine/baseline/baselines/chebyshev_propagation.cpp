@@ -62,6 +62,10 @@ private:
             sum_[i] = series_[0] * v[i];
         }
         for (std::size_t k = 1; k < series_.size(); ++k) {
+            if (stop().stop_requested()) {
+                report.outcome = Outcome::stopped;
+                return;
+            }
             shared()->apply(shared()->potential().data(), k == 1 ? before_.data() : now_.data(), next_.data(), work_.data());
             ++report.evaluations;
             power *= Complex(0, -1);

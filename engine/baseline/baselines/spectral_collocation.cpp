@@ -43,7 +43,7 @@ BaselineEntry spectral_collocation() {
     };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        requirePeriodic(system, "/baseline", "spectral-collocation",
+        requireSplit(system, "/baseline", "spectral-collocation",
                         "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
         return makeCollocationWave(system.wave, options.clock, std::nan(""),
                                    nodesOf(options.settings.integer("degree"), options.settings.text("nodes") != "roots"), 1e-13, 600);

@@ -1,4 +1,5 @@
-/// A field over time and space as a heat map; wave functions with their phase as the colour.
+/// A field over time and space as a heat map; wave functions with their phase as the colour, those over a rectangle as their
+/// density along x.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,6 +16,15 @@ constexpr int mostColumns = 800, mostRows = 400, interpolatedRows = 256;
 std::vector<double> resampled(const Eigen::MatrixXd& to, const std::vector<double>& values) {
     const Eigen::MatrixXd parts = to * Eigen::Map<const Eigen::MatrixXd>(values.data(), to.cols(), 2);
     return {parts.data(), parts.data() + parts.size()};
+}
+
+/// sqrt of the integral of |psi|^2 over y, at the nodes along x.
+std::vector<double> marginal(const wave::Grid& grid, const std::vector<double>& values) {
+    const auto columns = static_cast<std::size_t>(grid.nx), n = values.size() / 2;
+    std::vector<double> sums(columns);
+    for (std::size_t j = 0; j < n; ++j) sums[j % columns] += values[j] * values[j] + values[n + j] * values[n + j];
+    for (double& sum : sums) sum = std::sqrt(sum * grid.y.length / grid.ny);
+    return sums;
 }
 
 HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, double end) {
@@ -35,15 +45,18 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
         heat.bottom = system.wave->domain().left;
         heat.top = heat.bottom + system.wave->domain().length;
     }
-    const bool isComplex = field.components.size() == 2 && field.components[0] == "re";
+    const bool isPlane = system.hasWave() && system.wave->isPlane();
+    const bool isComplex = field.components.size() == 2 && field.components[0] == "re" && !isPlane;
     const double last = frames.back().t, seconds = end - start;
     for (int column = 0; column < heat.columns; ++column) {
         const double t = start + seconds * (column + 0.5) / heat.columns;
         auto after = std::lower_bound(frames.begin(), frames.end(), t, [](const Frame& f, double at) { return f.t < at; });
         if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
         const bool isThere = t <= last + seconds / heat.columns;
-        const std::vector<double> between = isUneven ? resampled(to, *after->values) : std::vector<double>();
-        const std::vector<double>& values = isUneven ? between : *after->values;
+        const std::vector<double> made = isUneven  ? resampled(to, *after->values)
+                                         : isPlane ? marginal(system.wave->grid(), *after->values)
+                                                   : std::vector<double>();
+        const std::vector<double>& values = made.empty() ? *after->values : made;
         for (int row = 0; row < heat.rows; ++row) {
             const auto j = static_cast<std::size_t>((row + 0.5) * static_cast<double>(n) / heat.rows);
             const double a = values[j], b = isComplex ? values[n + j] : 0;
@@ -52,7 +65,7 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
         }
     }
     heat.high = maxMagnitude(heat.values);
-    if (!isComplex) heat.low = -heat.high;
+    if (!isComplex) heat.low = isPlane ? 0 : -heat.high;
     return heat;
 }
 
@@ -66,7 +79,9 @@ Figure makeCarpet(const FigureContext& context) {
         figure.title = "Carpet of " + scheme->spec.label;
         figure.heat = heatOf(*context.system, *scheme, time.start.value, time.end.value);
         figure.y.range = {figure.heat->bottom, figure.heat->top};
-        if (!figure.heat->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase · at most " + shortNumber(figure.heat->high);
+        const std::string most = " · at most " + shortNumber(figure.heat->high);
+        if (!figure.heat->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase" + most;
+        if (!context.system->field.y.empty()) figure.subtitle = "√∫|ψ|² dy" + most;
     } else if (context.system && !context.system->field) {
         figure.message = "The model is no field";
     }

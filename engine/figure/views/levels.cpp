@@ -45,6 +45,8 @@ Figure makeLevels(const FigureContext& context) {
     const auto h = context.system ? context.system->wave : nullptr;
     if (!h) {
         if (context.system) figure.message = "The model is no wave function";
+    } else if (h->isPlane()) {
+        figure.message = "Levels are drawn over one dimension";
     } else if (h->isTimeDependent()) {
         figure.message = "A potential that depends on time has no levels";
     } else if (h->size() > Eigenstates::denseLimit) {

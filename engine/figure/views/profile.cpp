@@ -1,6 +1,8 @@
-/// A field over space at the last time of each scheme; of wave functions the modulus, or the real and imaginary parts.
+/// A field over space at the last time of each scheme; of wave functions the modulus, or the real and imaginary parts. Over a
+/// rectangle that of one scheme, as colours.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "engine/figure/build.hpp"
 #include "engine/wave/hamiltonian.hpp"
@@ -50,7 +52,50 @@ void addPotential(Figure& figure, const Hamiltonian& h, double height) {
     figure.series.push_back(std::move(s));
 }
 
+/// The modulus with the phase as its colour, or one part.
+HeatMap heatOver(const Hamiltonian& h, const std::vector<double>& values, Part part) {
+    const wave::Grid& grid = h.grid();
+    const std::size_t n = values.size() / 2;
+    HeatMap heat;
+    heat.columns = grid.nx;
+    heat.rows = grid.ny;
+    // A node is in the middle of its cell.
+    heat.left = grid.x.left - grid.x.length / grid.nx / 2;
+    heat.right = heat.left + grid.x.length;
+    heat.bottom = grid.y.left - grid.y.length / grid.ny / 2;
+    heat.top = heat.bottom + grid.y.length;
+    for (int column = 0; column < grid.nx; ++column)
+        for (int row = 0; row < grid.ny; ++row) {
+            const auto j = static_cast<std::size_t>(column + row * grid.nx);
+            heat.values.push_back(valueOf(part, values[j], values[n + j]));
+            if (part == Part::modulus) heat.hues.push_back(std::atan2(values[n + j], values[j]) / (2 * std::numbers::pi));
+        }
+    heat.high = maxMagnitude(heat.values);
+    heat.low = part == Part::modulus ? 0 : -heat.high;
+    return heat;
+}
+
+Figure makePlaneProfile(const FigureContext& context) {
+    Figure figure = startFigure(context, "Profile");
+    figure.x.title = "x";
+    figure.y.title = "y";
+    figure.hasEqualScales = true;
+    const Shown shown = shownParts(context.view).front();
+    if (const SchemeResult* scheme = schemeOf(context, [](const SchemeResult& s) { return !s.frames.empty(); })) {
+        const Frame& last = scheme->frames.back();
+        figure.title = "Profile of " + scheme->spec.label;
+        figure.heat = heatOver(*context.system->wave, *last.values, shown.part);
+        figure.x.range = {figure.heat->left, figure.heat->right};
+        figure.y.range = {figure.heat->bottom, figure.heat->top};
+        figure.subtitle = std::string(shown.symbol) + (shown.part == Part::modulus ? ", the colour is its phase" : "") +
+                          " · at most " + shortNumber(figure.heat->high) + " · at t = " + shortNumber(last.t, 4);
+    }
+    finishFigure(figure, context, "Profile over the plane");
+    return figure;
+}
+
 Figure makeProfile(const FigureContext& context) {
+    if (context.system && context.system->hasWave() && context.system->wave->isPlane()) return makePlaneProfile(context);
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";
     const bool isWave = context.system && context.system->hasWave();
@@ -90,7 +135,7 @@ Figure makeProfile(const FigureContext& context) {
 
 ViewEntry profile() {
     FieldInfo part = choiceField("part", "part", {"modulus", "real", "imaginary", "both"},
-                                 "Of wave functions: the modulus, the real part, the imaginary part, or both parts.");
+                                 "Of wave functions: the modulus, the real part, the imaginary part, or both parts (over a rectangle the real one).");
     return {{"profile", "Profile", "a field over space at the end; of wave functions modulus or parts, and the potential",
              {std::move(part)}, {}, {}},
             "", makeProfile, nullptr, againstPlace};

@@ -1,5 +1,5 @@
 /// The size of each Fourier coefficient of the wave function at the end, between walls of each Chebyshev coefficient, on a
-/// logarithmic axis: is N enough?
+/// logarithmic axis: is N enough? Over a rectangle the largest with each wave number along x, and with each along y.
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +8,29 @@
 
 namespace extremal::views {
 namespace {
+
+/// The largest coefficient with each wave number along x, or along y.
+Series largestAlong(const SchemeResult& scheme, const Hamiltonian& h, bool isAlongY) {
+    const auto n = static_cast<std::size_t>(h.size());
+    const auto& values = *scheme.frames.back().values;
+    std::vector<Complex> psi(n), c(n);
+    for (std::size_t j = 0; j < n; ++j) psi[j] = {values[j], values[n + j]};
+    h.toCoefficients(psi.data(), c.data());
+    const int modes = isAlongY ? h.grid().ny : h.grid().nx;
+    Series s;
+    s.label = scheme.spec.label;
+    s.style = scheme.style;
+    s.part = isAlongY ? "along y" : "along x";
+    s.isPale = isAlongY;
+    s.y.assign(static_cast<std::size_t>(modes), 0);
+    for (int a = -modes / 2; a < modes / 2; ++a) s.x.push_back(a);
+    for (int i = 0; i < h.size(); ++i) {
+        const int number = isAlongY ? h.fourier().numberY(i) : h.fourier().number(i);
+        double& most = s.y[static_cast<std::size_t>(number + modes / 2)];
+        most = std::max(most, std::abs(c[static_cast<std::size_t>(i)]));
+    }
+    return s;
+}
 
 Series spectrumOf(const SchemeResult& scheme, const Hamiltonian& h) {
     const auto n = static_cast<std::size_t>(h.size());
@@ -35,11 +58,19 @@ Figure makeSpectrum(const FigureContext& context) {
     figure.x.title = "wave number";
     figure.y = logAxis("|c|");
     for (const auto& scheme : context.comparison.schemes)
-        if (context.system && context.system->hasWave() && !scheme->frames.empty())
-            figure.series.push_back(spectrumOf(*scheme, *context.system->wave));
+        if (context.system && context.system->hasWave() && !scheme->frames.empty()) {
+            const Hamiltonian& h = *context.system->wave;
+            if (!h.isPlane()) {
+                figure.series.push_back(spectrumOf(*scheme, h));
+                continue;
+            }
+            for (const bool isAlongY : {false, true}) figure.series.push_back(largestAlong(*scheme, h, isAlongY));
+            figure.subtitle = "the largest along x; along y pale";
+        }
     figure.floor = 0x1p-52;
     if (context.system && context.system->hasWave()) {
-        const double half = context.system->wave->size() / 2.0;
+        const wave::Grid& grid = context.system->wave->grid();
+        const double half = (context.system->wave->isPlane() ? std::max(grid.nx, grid.ny) : grid.nx) / 2.0;
         figure.x.range = {-half, half};
         if (!context.system->wave->isPeriodic()) {
             figure.x.title = "degree";

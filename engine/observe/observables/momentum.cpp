@@ -2,6 +2,7 @@
 /// the state already is not written twice.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "engine/observe/catalog.hpp"
 #include "engine/wave/spectrum.hpp"
@@ -10,12 +11,16 @@ namespace extremal::observables {
 namespace {
 
 /// <p>, which a potential changes.
-Observer meanOfWave(const Hamiltonian& h) {
+Observer meanOfWave(const std::shared_ptr<const Hamiltonian>& h) {
     Observer o;
-    o.columns = {{"momentum", "⟨p⟩", "", {}, {}}};
+    o.columns = {{"momentum", h->isPlane() ? "⟨p x⟩" : "⟨p⟩", "", {}, {}}};
+    if (h->isPlane()) o.columns.push_back({"momentum_y", "⟨p y⟩", "", {}, {}});
     o.evaluate = [h](const NodeBlock& nodes, double* values, std::size_t stride) {
-        for (std::size_t i = 0; i < nodes.size(); ++i, values += stride)
-            values[0] = meanMomentum(h, coefficients(nodes.x(i)));
+        for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
+            const MeanMomentum mean = meanMomentum(*h, coefficients(nodes.x(i)));
+            values[0] = mean.x;
+            if (h->isPlane()) values[1] = mean.y;
+        }
     };
     return o;
 }
@@ -28,7 +33,7 @@ ObservableEntry momentum() {
               {}, "a symmetry"};
     e.applies = [](const System& system) { return !system.momenta.empty() || system.hasWave(); };
     e.bind = [](const ObserveContext& context) {
-        if (context.system.hasWave()) return meanOfWave(*context.system.wave);
+        if (context.system.hasWave()) return meanOfWave(context.system.wave);
         Observer o;
         const auto& momenta = context.system.momenta;
         const auto d = static_cast<std::size_t>(context.system.dimension());

@@ -57,6 +57,38 @@ private slots:
         }
         QVERIFY(std::abs(norm * 2 * 3.14159265358979323846 / 64 - 1) < 1e-12);
     }
+    void filesOfARectangleHaveBothPlaces() {
+        const ReadScene read = readScene(std::string_view(R"~({"extremal":1,"model":{"type":"schrodinger-2d","modes":64,"modes_y":32,
+            "domain_y":[0,3]},"initial":{"psi":{"packet":"gaussian","centre":2,"width":0.3,"width_y":0.2}},"time":{"end":1},
+            "schemes":[{"baseline":"strang","step":0.001}],"observe":["norm","position","momentum"]})~"));
+        QVERIFY(read.errors.empty());
+        const Comparison result = run(read.scene);
+        const SchemeResult& s = *result.schemes.at(0);
+        QVERIFY(s.trajectory.find("position_y") && s.trajectory.find("momentum_y"));
+        QVERIFY(std::abs(s.trajectory["position_y"].front() - 1.5) < 1e-12);
+        QVERIFY(std::abs(s.trajectory["position"].front() - 2) < 1e-8);
+        const QString folder = QStringLiteral(EXTREMAL_TEST_OUTPUT "/rectangle");
+        QDir(folder).removeRecursively();
+        (void)exportComparison(result, folder.toStdString());
+        QFile file(folder + "/strang.field.csv");
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        const QList<QByteArray> lines = file.readAll().split('\n');
+        QCOMPARE(lines[0], QByteArray("t,x,y,re,im"));
+        // Half a million rows at most, whole pictures, the last one among them.
+        constexpr int places = 64 * 32;
+        const auto rows = static_cast<int>(lines.size()) - 2;
+        QCOMPARE(rows % places, 0);
+        QVERIFY(s.frames.size() * places > 1 << 19);
+        QVERIFY(rows > 1 << 18 && rows <= (1 << 19) + places);
+        QCOMPARE(lines[rows].split(',')[0].toDouble(), 1.0);
+        double norm = 0;
+        for (int j = 1; j <= places; ++j) {
+            const auto cells = lines[j].split(',');
+            norm += cells[3].toDouble() * cells[3].toDouble() + cells[4].toDouble() * cells[4].toDouble();
+        }
+        QVERIFY(std::abs(norm * 2 * 3.14159265358979323846 * 3 / places - 1) < 1e-12);
+        QCOMPARE(lines[65].split(',')[2].toDouble(), 3.0 / 32);
+    }
     void aGridTooCoarseIsSaid() {
         const Comparison result = run(scene(32, 10));
         const std::string& caution = result.schemes.at(0)->summary.caution;

@@ -16,8 +16,8 @@ namespace {
 const wave::Constants units{{"hbar", 1}, {"m", 1}};
 
 Hamiltonian onCircle(int n, const std::string& V, double mass = 1) {
-    const wave::Domain circle{0, 2 * std::numbers::pi};
-    return {n, circle, 1, mass, wave::makePotential(Value(V), "/potential", circle, units)};
+    const wave::Grid circle{{0, 2 * std::numbers::pi}, n};
+    return {circle, 1, mass, wave::makePotential(Value(V), "/potential", circle, units)};
 }
 
 /// The largest error among the first eight characteristic values of -psi'' + 2q cos(2x) psi = a psi.
@@ -30,7 +30,7 @@ double mathieuError(const StationaryProblem& problem, const std::array<double, 8
 
 double worstLevel(int N) {
     const wave::Domain interval{-10, 20};
-    const auto problem = chebyshevInterval(N, interval, 1, 1, wave::makePotential(Value("x^2/2"), "/potential", interval, units));
+    const auto problem = chebyshevInterval(N, interval, 1, 1, wave::makePotential(Value("x^2/2"), "/potential", {interval}, units));
     const auto states = lowestStates(problem, 10);
     double worst = 0;
     for (std::size_t k = 0; k < 10; ++k) worst = std::max(worst, std::abs(states[k].energy - static_cast<double>(k) - 0.5));

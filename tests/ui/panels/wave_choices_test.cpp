@@ -45,6 +45,38 @@ private slots:
         for (const auto& scheme : window.runControl().results()->schemes)
             QVERIFY(scheme->summary.status == RunStatus::done);
     }
+    /// What the window offers runs.
+    void everythingOfferedRuns_data() {
+        QTest::addColumn<QString>("preset");
+        QTest::addColumn<QStringList>("edits");
+        QTest::addColumn<QStringList>("missing");
+        QTest::newRow("rectangle") << "preset:double-slit" << QStringList{"/model/potential", "\"cos(x + y)\"", "/model/modes", "16", "/model/modes_y", "20", "/time/end", "0.05"}
+                                   << QStringList{};
+        QTest::newRow("convolution") << "preset:tunnelling" << QStringList{"/model/product", "\"convolution\"", "/model/modes", "32", "/time/end", "0.02"}
+                                     << QStringList{"strang", "srkn-14a", "spectral-collocation"};
+    }
+    void everythingOfferedRuns() {
+        QFETCH(QString, preset);
+        QFETCH(QStringList, edits);
+        QFETCH(QStringList, missing);
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open(preset);
+        for (int i = 0; i < edits.size(); i += 2)
+            QVERIFY(window.workspace().edit({{edits[i].toStdString(), edits[i + 1].startsWith('"') ? Value(edits[i + 1].mid(1).chopped(1).toStdString())
+                                                                                                  : Value(edits[i + 1].toDouble())}}, "smaller"));
+        const QStringList offered = baselines(window.workspace().scene());
+        QVERIFY(offered.contains("leapfrog") && offered.contains("crank-nicolson"));
+        for (const QString& id : missing) QVERIFY2(!offered.contains(id), qPrintable(id));
+        QCOMPARE(offered.contains("strang"), missing.isEmpty());
+        for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
+            if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
+        QVERIFY(!window.workspace().hasDrafts());
+        QVERIFY(QTest::qWaitFor(
+            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 60000));
+        for (const auto& scheme : window.runControl().results()->schemes)
+            QVERIFY2(scheme->summary.status == RunStatus::done, scheme->spec.label.c_str());
+    }
     void theBoundaryChangesWhatIsOffered() {
         MainWindow window(Theme::light(), false);
         window.show();
