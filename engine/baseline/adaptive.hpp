@@ -3,7 +3,10 @@
 /// A step below round-off of t, or 500 refusals in a row, is Outcome::stepBudget.
 #pragma once
 
-#include <boost/numeric/odeint.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_controlled_runge_kutta.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_dopri5.hpp>
+#include <boost/numeric/odeint/stepper/generation/generation_runge_kutta_fehlberg78.hpp>
+#include <boost/numeric/odeint/stepper/generation/make_controlled.hpp>
 
 #include <algorithm>
 #include <cmath>
