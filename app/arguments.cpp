@@ -55,6 +55,18 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
     verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
 }
 
+void addWisdom(CLI::App& app, Arguments& arguments) {
+    CLI::App& verb = addVerb(app, arguments, "wisdom", "measure the fastest Fourier transforms of this machine, for EXTREMAL_WISDOM",
+                             false);
+    verb.add_option("--out", arguments.wisdom.out, "the file; what it knows already is kept")->required()->type_name("FILE");
+    verb.add_option("--modes", arguments.wisdom.modes, "a number of modes, or NxM in the plane; repeatable")
+        ->required()
+        ->type_name("N")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    addCommon(verb, arguments.common);
+}
+
 /// What CLI11 says, as a sentence of ours.
 void printParseError(const CLI::App& app, const CLI::ParseError& error, const Arguments& arguments) {
     std::vector<std::string> verbs;
@@ -97,6 +109,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
                     "or presets")
         ->type_name("");
     addCommon(list, arguments.common);
+    addWisdom(app, arguments);
     app.require_subcommand(0, 1);
     for (const auto& [label, word] :
          {std::pair{"SUBCOMMAND", "VERB"}, {"Subcommands", "Verbs"}, {"REQUIRED", "(required)"}})

@@ -13,6 +13,7 @@ struct Arguments {
     std::string scene, folder, kind;
     CommonOptions common;
     SnapshotOptions snapshot;
+    WisdomOptions wisdom;
 };
 
 /// Reads the arguments. Empty if there is nothing left to do (--help, --version, or an error that was

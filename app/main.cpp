@@ -2,12 +2,15 @@
 #include <QHashFunctions>
 
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <new>
+#include <stdexcept>
 
 #include "app/arguments.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
+#include "engine/wave/wisdom.hpp"
 
 namespace {
 
@@ -16,6 +19,15 @@ int dispatch(int argc, char** argv) {
     int exitCode = done;
     const auto arguments = parseArguments(argc, argv, exitCode);
     if (!arguments) return exitCode;
+    if (arguments->verb == "wisdom") return wisdomVerb(arguments->wisdom, arguments->common);
+    if (const char* file = std::getenv("EXTREMAL_WISDOM"); file && *file) {
+        try {
+            extremal::useWisdom(file);
+        } catch (const std::runtime_error& e) {
+            printProblem("EXTREMAL_WISDOM", e.what(), "extremal wisdom --out FILE --modes N makes one");
+            return unusable;
+        }
+    }
     if (arguments->verb == "run") return runVerb(arguments->scene, arguments->folder, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);

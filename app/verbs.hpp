@@ -23,9 +23,15 @@ struct SnapshotOptions {
     bool hasTime = false;
 };
 
+struct WisdomOptions {
+    std::string out;
+    std::vector<std::string> modes;  ///< "256" or "256x256"
+};
+
 int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options);
 int checkVerb(const std::string& scene, const CommonOptions& options);
 int listVerb(const std::string& kind, const CommonOptions& options);
+int wisdomVerb(const WisdomOptions& wisdom, const CommonOptions& options);
 int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions& options);
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options);
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace extremal {
@@ -20,19 +20,27 @@ fftw_complex* raw(const Complex* v) {
 
 /// One direction of the transform.
 ///
-/// A large rectangle is transformed row by row, then a few columns at a time through a buffer: an estimated plan for the whole
-/// goes down columns whose entries all fall into the same lines of the cache, and takes 2.5 times as long at 256 x 256.
+/// A large rectangle whose plan is estimated is transformed row by row, then a few columns at a time through a buffer: such a
+/// plan for the whole goes down columns whose entries all fall into the same lines of the cache, and takes 2.5 times as long at
+/// 256 x 256.
 class Direction {
 public:
-    Direction(int nx, int ny, int sign) : nx_(nx), ny_(ny), together_(nx % 8 == 0 ? 8 : 2), isByColumns_(nx * ny >= 1 << 15 && ny > 1) {
+    Direction(int nx, int ny, int sign, Fourier::Planning planning) : nx_(nx), ny_(ny), together_(nx % 8 == 0 ? 8 : 2) {
         std::vector<Complex> a(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)), b(a);
-        constexpr unsigned flags = FFTW_ESTIMATE | FFTW_PRESERVE_INPUT;
-        if (!isByColumns_) {
-            first_ = ny > 1 ? fftw_plan_dft_2d(ny, nx, raw(a.data()), raw(b.data()), sign, flags)
-                            : fftw_plan_dft_1d(nx, raw(a.data()), raw(b.data()), sign, flags);
+        const auto whole = [&](unsigned how) {
+            const unsigned flags = how | FFTW_PRESERVE_INPUT;
+            return ny > 1 ? fftw_plan_dft_2d(ny, nx, raw(a.data()), raw(b.data()), sign, flags)
+                          : fftw_plan_dft_1d(nx, raw(a.data()), raw(b.data()), sign, flags);
+        };
+        if (planning == Fourier::Planning::measured) first_ = whole(FFTW_MEASURE);
+        if (planning == Fourier::Planning::wise) first_ = whole(FFTW_MEASURE | FFTW_WISDOM_ONLY);
+        if (first_) return;
+        if (ny == 1 || nx * ny < 1 << 15) {
+            first_ = whole(FFTW_ESTIMATE);
             return;
         }
-        first_ = fftw_plan_many_dft(1, &nx, ny, raw(a.data()), nullptr, 1, nx, raw(b.data()), nullptr, 1, nx, sign, flags);
+        first_ = fftw_plan_many_dft(1, &nx, ny, raw(a.data()), nullptr, 1, nx, raw(b.data()), nullptr, 1, nx, sign,
+                                    FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
         columns_ = fftw_plan_many_dft(1, &ny, together_, raw(a.data()), nullptr, 1, ny, raw(a.data()), nullptr, 1, ny, sign,
                                       FFTW_ESTIMATE);
     }
@@ -45,7 +53,7 @@ public:
 
     void execute(const Complex* from, Complex* to) const {
         fftw_execute_dft(first_, raw(from), raw(to));
-        if (!isByColumns_) return;
+        if (!columns_) return;
         static thread_local std::vector<Complex> buffer;
         buffer.resize(static_cast<std::size_t>(together_) * static_cast<std::size_t>(ny_));
         for (int x = 0; x < nx_; x += together_) {
@@ -61,7 +69,6 @@ private:
     std::size_t at(int i, int y) const { return static_cast<std::size_t>(i * ny_ + y); }
 
     int nx_, ny_, together_;
-    bool isByColumns_;
     fftw_plan first_ = nullptr, columns_ = nullptr;
 };
 
@@ -70,15 +77,15 @@ private:
 struct Fourier::Plans {
     Direction forward, backward;
 
-    Plans(int nx, int ny) : forward(nx, ny, FFTW_FORWARD), backward(nx, ny, FFTW_BACKWARD) {}
+    Plans(int nx, int ny, Planning planning) : forward(nx, ny, FFTW_FORWARD, planning), backward(nx, ny, FFTW_BACKWARD, planning) {}
 
     /// The planner is not thread-safe, executing is.
-    static std::shared_ptr<const Plans> of(int nx, int ny) {
+    static std::shared_ptr<const Plans> of(int nx, int ny, Planning planning) {
         static std::mutex mutex;
-        static std::map<std::pair<int, int>, std::shared_ptr<const Plans>> known;
+        static std::map<std::tuple<int, int, Planning>, std::shared_ptr<const Plans>> known;
         const std::lock_guard lock(mutex);
-        auto& plans = known[{nx, ny}];
-        if (!plans) plans = std::make_shared<const Plans>(nx, ny);
+        auto& plans = known[{nx, ny, planning}];
+        if (!plans) plans = std::make_shared<const Plans>(nx, ny, planning);
         return plans;
     }
 };
@@ -92,7 +99,7 @@ void scale(Complex* v, int n, double factor) {
 
 }  // namespace
 
-Fourier::Fourier(const wave::Grid& grid) : grid_(grid), plans_(Plans::of(grid.nx, grid.ny)) {}
+Fourier::Fourier(const wave::Grid& grid, Planning planning) : grid_(grid), plans_(Plans::of(grid.nx, grid.ny, planning)) {}
 
 double Fourier::waveNumber(int i) const { return 2 * std::numbers::pi * number(i) / grid_.x.length; }
 double Fourier::waveNumberY(int i) const { return 2 * std::numbers::pi * numberY(i) / grid_.y.length; }

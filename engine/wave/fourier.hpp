@@ -6,8 +6,7 @@
 /// On a rectangle the same along x and y, with the products of the exponentials (wave/grid.hpp for the order of places).
 /// With the seed's v_k (psi = (1/2pi) sum v_k e^{ikx}, v_k = h sum_j e^{-ik x_j} psi_j: the printed 1/2pi in front of
 /// that sum is one too many) c_k = v_k/sqrt(2 pi); the two coefficients at k = +-N/2, which the seed keeps apart, are one.
-/// Plans are made once per N (FFTW, estimated: a measured plan would change the last bits from run to run) and shared by
-/// all threads. Arrays must be 16-byte aligned, as vectors are.
+/// Plans are made once per N (FFTW; estimated where there is no wisdom, wave/wisdom.hpp) and shared by all threads. Arrays must be 16-byte aligned, as vectors are.
 #pragma once
 
 #include <complex>
@@ -21,7 +20,9 @@ using Complex = std::complex<double>;
 
 class Fourier {
 public:
-    explicit Fourier(const wave::Grid& grid);
+    /// A wise plan is one that wisdom knows, else an estimated one.
+    enum class Planning { wise, estimated, measured };
+    explicit Fourier(const wave::Grid& grid, Planning planning = Planning::wise);
 
     int size() const { return grid_.size(); }
     const wave::Grid& grid() const { return grid_; }

@@ -1,0 +1,80 @@
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "app/report.hpp"
+#include "app/verbs.hpp"
+#include "engine/core/text.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/wave/wisdom.hpp"
+
+namespace extremal::app {
+namespace {
+
+std::optional<TransformSize> sizeOf(const std::string& text) {
+    TransformSize size;
+    const auto isMode = [](std::string_view part, int& n) {
+        const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), n);
+        return error == std::errc() && end == part.data() + part.size() && n >= 8 && n <= 65536 && n % 2 == 0;
+    };
+    const std::size_t cross = text.find('x');
+    const std::string_view all = text;
+    if (!isMode(all.substr(0, cross), size.nx) || (cross != std::string::npos && !isMode(all.substr(cross + 1), size.ny)) ||
+        static_cast<long long>(size.nx) * size.ny > 1 << 18)
+        return {};
+    return size;
+}
+
+bool write(const std::string& file, const std::string& text) {
+    const std::string temporary = file + ".part";
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.close();
+    std::error_code problem;
+    if (out) std::filesystem::rename(temporary, file, problem);
+    if (out && !problem) return true;
+    std::filesystem::remove(temporary, problem);
+    return false;
+}
+
+}  // namespace
+
+int wisdomVerb(const WisdomOptions& options, const CommonOptions& common) {
+    std::vector<TransformSize> sizes;
+    for (const std::string& text : options.modes) {
+        const auto size = sizeOf(text);
+        if (!size) {
+            printProblem("--modes", "must be an even number from 8 to 65536, or two of them with at most 262144 nodes, got \"" + text + "\"",
+                         "for example 256 or 256x256");
+            return unusable;
+        }
+        sizes.push_back(*size);
+    }
+    if (std::filesystem::exists(options.out)) {
+        try {
+            useWisdom(options.out);
+        } catch (const std::runtime_error& e) {
+            printProblem("--out", e.what(), "another file, or remove it");
+            return unusable;
+        }
+    }
+    Table table{{{"modes", "estimated", "measured"}}, {false, true, true}};
+    Value::Array rows;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        const TransformGain gain = measureTransform(sizes[i]);
+        table.rows.push_back({options.modes[i], formatNumber(gain.estimated, 3) + " µs", formatNumber(gain.measured, 3) + " µs"});
+        rows.emplace_back(Value::Object{{"modes", options.modes[i]}, {"estimated", gain.estimated}, {"measured", gain.measured}});
+    }
+    if (!write(options.out, wisdom())) {
+        printProblem(options.out, "could not be written", "a folder that is there and may be written to");
+        return unwritable;
+    }
+    if (common.isJson) return print(writeJson(Value::Object{{"file", options.out}, {"transforms", rows}}), done);
+    if (common.isQuiet) return done;
+    return print(table.text() + "\nMicroseconds there and back. Used where EXTREMAL_WISDOM=" + options.out + " is in the environment.\n", done);
+}
+
+}  // namespace extremal::app
