@@ -9,30 +9,13 @@
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/view_axes.hpp"
+#include "engine/scene/view_choices.hpp"
 
 namespace extremal {
 namespace {
 
 bool isOneOf(const std::vector<std::string>& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// The columns of a CSV of this scene: what a phase portrait can show.
-std::vector<std::string> stateNames(const System& system) {
-    std::vector<std::string> names{"t"};
-    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
-    return names;
-}
-
-std::vector<std::string> columnNames(const System& system, const Scene& scene) {
-    std::vector<std::string> names{"t"};
-    for (const Quantity& c : stateColumns(system)) names.push_back(c.name);
-    const State initial = initialState(scene, system);
-    for (const std::string& id : scene.observe)
-        if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
-            for (const Column& column : entry->bind({system, initial, {}}).columns)
-                names.push_back(column.name);
-    return names;
 }
 
 /// What a view is read with, and its place in the document.
@@ -55,27 +38,26 @@ private:
 };
 
 void ViewReader::readColumns(View& view) const {
-    const bool isSection = view.id == "section";
+    const ViewChoices choices = choicesOf(view.id, scene, system);
+    const char* const kind = choices.hasZeros ? "state column" : "column";
     for (const auto& [key, target] : {std::pair{"x", &view.x}, std::pair{"y", &view.y}}) {
         const Value* column = object.find(key);
         if (!column) continue;
         const std::string at = childPointer(pointer, key);
         *target = reader.text(*column, at).value_or("");
-        if (view.id != "phase" && view.id != "trajectory" && !isSection)
+        if (!choices.hasColumns)
             reader.error(at, "is only for phase portraits, trajectories and sections");
-        else if (system && isSection && column->isString() && !isOneOf(stateNames(*system), *target))
-            reader.unknownName(at, "state column", *target, stateNames(*system));
-        else if (system && column->isString() && !isOneOf(columnNames(*system, scene), *target))
-            reader.unknownName(at, "column", *target, columnNames(*system, scene));
+        else if (system && column->isString() && !isOneOf(choices.columns, *target))
+            reader.unknownName(at, kind, *target, choices.columns);
     }
     const Value* column = object.find("at");
     if (!column) return;
     const std::string at = childPointer(pointer, "at");
     view.at = reader.text(*column, at).value_or("");
-    if (!isSection)
+    if (!choices.hasZeros)
         reader.error(at, "is only for sections");
-    else if (system && column->isString() && (view.at == "t" || !isOneOf(stateNames(*system), view.at)))
-        reader.unknownName(at, "state column", view.at, stateNames(*system));
+    else if (system && column->isString() && !isOneOf(choices.zeros, view.at))
+        reader.unknownName(at, kind, view.at, choices.zeros);
 }
 
 void ViewReader::readScheme(View& view) const {
@@ -83,24 +65,21 @@ void ViewReader::readScheme(View& view) const {
     if (!label) return;
     const std::string at = childPointer(pointer, "scheme");
     view.scheme = reader.text(*label, at).value_or("");
-    std::vector<std::string> labels;
-    for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
-    if (view.id != "sparsity" && view.id != "carpet" && view.id != mapView)
-        reader.error(at, "is only for pictures of one scheme", "the views sparsity, carpet and parameter-map");
-    else if (label->isString() && reader.errors.empty() && !isOneOf(labels, view.scheme))
-        reader.unknownName(at, "scheme", view.scheme, labels);
+    const ViewChoices choices = choicesOf(view.id, scene, system);
+    if (!choices.hasScheme)
+        reader.error(at, "is only for pictures of one scheme",
+                     "the views sparsity, carpet and parameter-map, and profile in the plane");
+    else if (label->isString() && reader.errors.empty() && !isOneOf(choices.schemes, view.scheme))
+        reader.unknownName(at, "scheme", view.scheme, choices.schemes);
 }
 
 void ViewReader::readNode(View& view) const {
     const Value* node = object.find("node");
     if (!node) return;
     const std::string at = childPointer(pointer, "node");
-    if (view.id != "shape-function") return reader.error(at, "is only for the view shape-function");
-    double last = 1e5;  // of the scheme with the fewest elements
-    for (const SchemeSpec& s : scene.schemes)
-        if (const auto pair = pairOf(s); pair && pair->space.type == "elliptic-elements" && s.step.value > 0)
-            last = std::min(last, std::max(1.0, std::round(1 / s.step.value) - 1));
-    view.node = reader.number(*node, at, {1, last, false, true, "the nodes inside, from left to right"});
+    const ViewChoices choices = choicesOf(view.id, scene, system);
+    if (!choices.hasNode) return reader.error(at, "is only for the view shape-function");
+    view.node = reader.number(*node, at, {1, static_cast<double>(choices.lastNode), false, true, "the nodes inside, from left to right"});
 }
 
 std::optional<ViewRange> ViewReader::rangeOf(const Value& value, const std::string& at, bool isLog) const {

@@ -111,6 +111,7 @@ void CompareView::rebuild() {
         addSceneActions(*menu, slot);
         menu->addSeparator();
         addChoices(*menu, workspace_, view.id, [this, slot] { return slots_[slot].view; });
+        addNames(*menu, workspace_, view.id, [this, slot] { return slots_[slot].view; });
         menu->addSeparator();
         menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
         menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);

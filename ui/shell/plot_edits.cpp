@@ -4,6 +4,7 @@
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QFontDatabase>
+#include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -17,6 +18,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/view_axes.hpp"
+#include "engine/scene/view_choices.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/workspace.hpp"
@@ -91,6 +93,74 @@ void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const 
             QObject::connect(action, &QAction::triggered, &workspace, [&workspace, choose] { QTimer::singleShot(0, &workspace, choose); });
         }
     }
+}
+
+namespace {
+
+/// One key of a view that names something.
+struct NamedKey {
+    QString title;
+    std::vector<std::string> names;
+    std::string View::*member;
+    QString none;  ///< what an empty name means
+};
+
+void fillNames(QMenu& menu, Workspace& workspace, const NamedKey& key, const std::function<View()>& view) {
+    menu.clear();
+    auto* group = new QActionGroup(&menu);
+    const std::string now = view().*key.member;
+    std::vector<std::string> names{""};
+    names.insert(names.end(), key.names.begin(), key.names.end());
+    for (const std::string& name : names) {
+        QAction* action = menu.addAction(name.empty() ? key.none : QString::fromStdString(name).replace('&', "&&"));
+        action->setCheckable(true);
+        action->setChecked(name == now);
+        group->addAction(action);
+        const auto choose = [&workspace, view, member = key.member, name] {
+            const View before = view();
+            View after = before;
+            after.*member = name;
+            if (member != &View::scheme) {
+                after.xRange = after.yRange = {};
+                after.curve = {};
+            }
+            workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
+        };
+        QObject::connect(action, &QAction::triggered, &workspace, [&workspace, choose] { QTimer::singleShot(0, &workspace, choose); });
+    }
+}
+
+}  // namespace
+
+void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view) {
+    const System system = makeSystem(workspace.scene());
+    const ViewChoices choices = choicesOf(id, workspace.scene(), &system);
+    const QString usual = QObject::tr("as usual");
+    const auto add = [&](const QString& title, std::string View::*member, const QString& none, std::vector<std::string> ViewChoices::*names) {
+        QMenu* sub = menu.addMenu(title);
+        QObject::connect(sub, &QMenu::aboutToShow, &workspace, [sub, &workspace, id, view, title, member, none, names] {
+            const System now = makeSystem(workspace.scene());
+            fillNames(*sub, workspace, {title, choicesOf(id, workspace.scene(), &now).*names, member, none}, view);
+        });
+    };
+    if (choices.hasColumns) {
+        add(QObject::tr("Along x"), &View::x, usual, &ViewChoices::columns);
+        add(QObject::tr("Along y"), &View::y, usual, &ViewChoices::columns);
+    }
+    if (choices.hasZeros) add(QObject::tr("Where zero"), &View::at, usual, &ViewChoices::zeros);
+    if (choices.hasScheme) add(QObject::tr("Of the scheme"), &View::scheme, QObject::tr("the first"), &ViewChoices::schemes);
+    if (choices.hasNode)
+        menu.addAction(QObject::tr("Node..."), &menu, [&workspace, view, &menu] {
+            const View before = view();
+            const int last = choicesOf(before.id, workspace.scene(), nullptr).lastNode;
+            bool isChosen = false;
+            const int node = QInputDialog::getInt(menu.parentWidget(), QObject::tr("Node"), QObject::tr("Node, 1 to %1 from left to right").arg(last),
+                                                  before.node ? static_cast<int>(before.node->value) : (last + 1) / 2, 1, last, 1, &isChosen);
+            if (!isChosen) return;
+            View after = before;
+            after.node = Number{static_cast<double>(node), {}};
+            workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
+        });
 }
 
 void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {

@@ -27,6 +27,9 @@ void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot);
 /// Submenus for what a view lets one choose ("against": time or steps). `view` gives it as it is when chosen. A part that
 /// was kept goes, and a curve whose variable the choice changes.
 void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view);
+/// Submenus for what a view names: its columns, its scheme, its node. `view` as above; they are made when the menu is about to
+/// open, since other schemes and observables give other names.
+void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view);
 /// Asks for an expression and draws it in the plot; an empty one removes it.
 void askForCurve(Workspace& workspace, const View& view, QWidget* parent);
 

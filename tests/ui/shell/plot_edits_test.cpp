@@ -3,6 +3,7 @@
 #include <QDialogButtonBox>
 #include <QLabel>
 #include <QLineEdit>
+#include <QInputDialog>
 #include <QMenu>
 #include <QPushButton>
 #include <QTest>
@@ -43,9 +44,11 @@ class PlotEditsTest : public QObject {
         QWidget* parent = plot(window, i)->parentWidget();
         while (parent && !qobject_cast<Card*>(parent)) parent = parent->parentWidget();
         for (QAction* action : qobject_cast<Card*>(parent)->menu()->actions())
-            if (action->menu() && action->text() == submenu)
+            if (action->menu() && action->text() == submenu) {
+                emit action->menu()->aboutToShow();
                 for (QAction* entry : action->menu()->actions())
                     if (entry->text() == text) return entry;
+            }
         return nullptr;
     }
     static bool chooseIn(MainWindow& window, std::size_t i, const QString& submenu, const QString& text) {
@@ -154,6 +157,73 @@ private slots:
         QTRY_VERIFY(plot(window, 1)->figure().x.isTime);
         window.workspace().undo();
         QCOMPARE(energyView().keys.text("against"), std::string("steps"));
+    }
+    void columnsAreChosenInTheMenu() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:henon-heiles");
+        QVERIFY(window.workspace().edit({{"/views", Value::Array{"phase", "energy", Value::Object{{"view", "section"}}}}}, "views"));
+        QVERIFY(waitForResults(window));
+        const auto phase = [&] { return window.workspace().scene().views.at(0); };
+        // The cost has no columns, and the energy none either.
+        for (const std::size_t i : {0, 2}) QVERIFY(!entryOf(window, i, "Along x", "as usual"));
+        QVERIFY(isChosen(window, 1, "Along y", "as usual"));
+        QVERIFY(entryOf(window, 1, "Along y", "energy_error"));  // of what is observed
+        QVERIFY(chooseIn(window, 1, "Along y", "p.y"));
+        QTRY_COMPARE(phase().y, std::string("p.y"));
+        QVERIFY(phase().x.empty());
+        QVERIFY(waitForResults(window));
+        QTRY_VERIFY(plot(window, 1)->figure().y.title.find("y") != std::string::npos);
+        QVERIFY(isChosen(window, 1, "Along y", "p.y") && !isChosen(window, 1, "Along y", "as usual"));
+        QVERIFY(chooseIn(window, 1, "Along x", "t"));
+        QTRY_COMPARE(phase().x, std::string("t"));
+        QVERIFY(chooseIn(window, 1, "Along x", "as usual"));
+        QTRY_VERIFY(phase().x.empty());
+        QCOMPARE(phase().y, std::string("p.y"));
+        // A section is of state columns, and where one of them is zero.
+        QVERIFY(!entryOf(window, 3, "Along x", "energy_error") && !entryOf(window, 3, "Where zero", "t"));
+        QVERIFY(chooseIn(window, 3, "Where zero", "p.x"));
+        QTRY_COMPARE(window.workspace().scene().views.at(2).at, std::string("p.x"));
+        QVERIFY(!window.workspace().hasDrafts());
+        window.workspace().undo();
+        QVERIFY(window.workspace().scene().views.at(2).at.empty());
+    }
+    void theSchemeOfAPictureIsChosenInTheMenu() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:double-slit");
+        QVERIFY(window.workspace().edit({{"/model/modes", 16.0}, {"/model/modes_y", 16.0}, {"/time/end", 0.1},
+                                         {"/reference", Value::Object{{"type", "none"}}}}, "small"));
+        QVERIFY(waitForResults(window));
+        QCOMPARE(plot(window, 1)->figure().title, std::string("Profile of SRKN 14a"));
+        QVERIFY(isChosen(window, 1, "Of the scheme", "the first"));
+        QVERIFY(chooseIn(window, 1, "Of the scheme", "Strang"));
+        QVERIFY(waitForResults(window));
+        QTRY_COMPARE(plot(window, 1)->figure().title, std::string("Profile of Strang"));
+        QVERIFY(chooseIn(window, 2, "Of the scheme", "Gauss 4"));
+        QVERIFY(waitForResults(window));
+        QTRY_COMPARE(plot(window, 2)->figure().title, std::string("Carpet of Gauss 4"));
+        QVERIFY(!window.workspace().hasDrafts());
+    }
+    void theNodeOfAShapeFunctionIsAskedFor() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:seed-elliptic");
+        QVERIFY(waitForResults(window));
+        const auto& views = window.workspace().scene().views;
+        const auto at = [&] { return std::find_if(views.begin(), views.end(), [](const View& v) { return v.id == "shape-function"; }); };
+        QVERIFY(at() != views.end());
+        std::size_t slot = 0;
+        while (plot(window, slot)->figure().view != "shape-function") ++slot;
+        QTimer::singleShot(0, [&] {
+            auto* dialog = qobject_cast<QInputDialog*>(QApplication::activeModalWidget());
+            QCOMPARE(dialog->intMinimum(), 1);
+            dialog->setIntValue(2);
+            dialog->accept();
+        });
+        QVERIFY(choose(window, slot, "Node..."));
+        QVERIFY(at()->node && at()->node->value == 2);
+        QVERIFY(!window.workspace().hasDrafts());
     }
     void aCurveIsAskedForAndItsMistakesAreShown() {
         MainWindow window(Theme::light(), false);
