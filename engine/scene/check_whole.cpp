@@ -11,6 +11,7 @@
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/two_positions.hpp"
+#include "engine/wave/hamiltonian.hpp"
 
 namespace extremal {
 namespace {
@@ -153,10 +154,12 @@ std::string durationText(double seconds) {
     return formatNumber(seconds / 86400, 2) + " days";
 }
 
-/// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds.
+/// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds, but those of
+/// large wave functions.
 void checkCost(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                const std::string& pointer) {
-    constexpr double longest = 60, slowestStep = 5e-3;
+    constexpr double longest = 60;
+    const double slowestStep = 5e-3 * (system.hasWave() ? std::max(1.0, system.wave->size() / 1024.0) : 1);
     const double duration = scene.end.value - scene.start.value;
     if (!scheme.isEnabled || (!scheme.tolerance && duration / scheme.step.value * slowestStep < longest))
         return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/scene/map_grid.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -21,6 +22,23 @@ Scene computed(Scene scene) {
 double stepsOf(const Scene& scene, const SchemeSpec& spec) {
     const double span = scene.end.value - scene.start.value;
     return spec.step.value > 0 ? std::abs(span) / spec.step.value : 1000;
+}
+
+/// Steps of each scheme in the cells of the scene's maps.
+double mapStepsOf(const Scene& scene) {
+    double steps = 0;
+    for (const View& view : scene.views) {
+        if (view.id != mapView || view.keys.keys.empty()) continue;
+        const MapGrid grid = mapGridOf(scene, view);
+        for (const double step : grid.steps) steps += static_cast<double>(grid.values.size()) * grid.duration / step;
+    }
+    return steps;
+}
+
+/// What the cost of a step grows with: the nodes of a wave function, as one of 64 modes.
+double sizeOf(const Settings& model) {
+    const double modes = model.number("modes"), across = model.number("modes_y");
+    return modes > 0 ? modes * std::max(1.0, across) / 64 : 1;
 }
 
 bool isSameMethod(const SchemeSpec& a, const SchemeSpec& b) {
@@ -56,12 +74,14 @@ void CostModel::learn(const Comparison& comparison) {
 
 double CostModel::predict(const Scene& scene) const {
     double seconds = 0;
+    const double inMaps = mapStepsOf(scene), size = sizeOf(scene.model);
     for (const SchemeSpec& spec : scene.schemes) {
         if (!spec.isEnabled) continue;
+        const double steps = stepsOf(scene, spec) + (spec.step.value > 0 ? inMaps : 0);
         const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
             return k.model.type == scene.model.type && isSameMethod(k.spec, spec);
         });
-        seconds += stepsOf(scene, spec) * (found == known_.end() ? guessPerStep(spec) : found->secondsPerStep);
+        seconds += steps * size * (found == known_.end() ? guessPerStep(spec) : found->secondsPerStep / sizeOf(found->model));
     }
     return seconds;
 }
