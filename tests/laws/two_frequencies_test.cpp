@@ -88,7 +88,8 @@ private slots:
         }
         const double rms = std::sqrt(squares / starts), mean = std::abs(sum / starts), before = std::sqrt(early / starts);
         qInfo("mean %.1e, rms %.1e, at a tenth of the steps %.1e", mean, rms, before);
-        // A random walk: its mean is rms / sqrt(12) by chance, and it grows by sqrt(10).
+        // A random walk: its mean is rms / sqrt(12) by chance, and it grows by sqrt(10). Seen failing with slopes of the test
+        // functions that are one rounding off those of the trial functions: mean 2.6e-8, rms 3.0e-8, 4.2e-9 at a tenth.
         QVERIFY(mean < 3 * rms / std::sqrt(starts));
         QVERIFY(rms < 6 * before);
         QVERIFY(rms < 1e-7);
