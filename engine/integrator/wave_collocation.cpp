@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "engine/core/dense.hpp"
+#include "engine/core/gmres.hpp"
 #include "engine/integrator/wave_collocation.hpp"
-#include "engine/solve/gmres.hpp"
 
 namespace extremal {
 namespace {

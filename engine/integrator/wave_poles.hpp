@@ -8,8 +8,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "engine/core/gmres.hpp"
 #include "engine/core/outcome.hpp"
-#include "engine/solve/gmres.hpp"
 #include "engine/wave/hamiltonian.hpp"
 
 namespace extremal {

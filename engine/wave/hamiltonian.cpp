@@ -8,7 +8,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/wave/interval.hpp"
-#include "engine/wave/stationary.hpp"
+#include "engine/wave/convolution.hpp"
 
 namespace extremal {
 

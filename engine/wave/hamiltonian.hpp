@@ -4,7 +4,7 @@
 /// Hermitian at any N, the coefficient at k = -N/2 included (the printed Nyquist rows of the seed are not). hbar^2 k^2/2m is
 /// the right kinetic term; the printed one lacks the mass.
 ///
-/// WaveBasis::convolution is the seed's own: V psi by the exact convolution of their coefficients (stationary.hpp), on an
+/// WaveBasis::convolution is the seed's own: V psi by the exact convolution of their coefficients (wave/convolution.hpp), on an
 /// interval; made Hermitian by c = W^{1/2} v/sqrt(2 pi), which halves the square at k = -N/2. It differs from the
 /// former by aliasing alone, which vanishes spectrally with N, and its H is a full matrix.
 ///

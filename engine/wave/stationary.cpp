@@ -2,109 +2,98 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
+#include <utility>
 
-#include "engine/core/dense.hpp"
-#include "engine/quadrature/rule.hpp"
-#include "engine/wave/eigen.hpp"
-#include "engine/wave/interval.hpp"
+#include "engine/core/gmres.hpp"
 
 namespace extremal {
 namespace {
 
-using Matrix = Eigen::MatrixXcd;
-using Vector = Eigen::VectorXcd;
+/// The KKT matrix at (c, E) and its preconditioner; vectors have dc, then dE.
+class KktSystem {
+public:
+    KktSystem(const Hamiltonian& h, const std::vector<Complex>& c) : h_(h), c_(c), n_(c.size()), image_(n_), work_(n_), scaled_(n_ + 1) {
+        double mean = 0;
+        for (const double V : h.potential()) mean += V / static_cast<double>(n_);
+        mean_ = mean;
+    }
+
+    void setEnergy(double E) {
+        E_ = E;
+        // T + mean - E passes through zero near the state's own wave numbers; what counts is that it is large where T is.
+        const double floor = std::max({1e-3 * std::abs(E), std::abs(mean_ - E), 1e-12 * h_.highest()});
+        inverse_.clear();
+        for (const double T : h_.kinetic()) inverse_.push_back(1 / std::max(T + mean_ - E, floor));
+        dividend_ = 0;
+        for (std::size_t i = 0; i < n_; ++i) dividend_ += inverse_[i] * std::norm(c_[i]);
+    }
+    /// out = K P^{-1} u.
+    void apply(const Complex* u, Complex* out) {
+        precondition(u, scaled_.data());
+        h_.apply(h_.potential().data(), scaled_.data(), image_.data(), work_.data());
+        const Complex dE = scaled_[n_];
+        Complex last = 0;
+        for (std::size_t i = 0; i < n_; ++i) {
+            out[i] = image_[i] - E_ * scaled_[i] - dE * c_[i];
+            last -= std::conj(c_[i]) * scaled_[i];
+        }
+        out[n_] = last;
+    }
+    /// out = P^{-1} u, P = [D, -c; -c*, 0] with the diagonal D.
+    void precondition(const Complex* u, Complex* out) const {
+        Complex sum = u[n_];
+        for (std::size_t i = 0; i < n_; ++i) sum += std::conj(c_[i]) * inverse_[i] * u[i];
+        const Complex dE = -sum / dividend_;
+        for (std::size_t i = 0; i < n_; ++i) out[i] = inverse_[i] * (u[i] + dE * c_[i]);
+        out[n_] = dE;
+    }
+
+private:
+    const Hamiltonian& h_;
+    const std::vector<Complex>& c_;
+    std::size_t n_;
+    double E_ = 0, mean_ = 0, dividend_ = 0;
+    std::vector<double> inverse_;
+    std::vector<Complex> image_, work_, scaled_;
+};
 
 }  // namespace
 
-std::vector<StationaryState> lowestStates(const StationaryProblem& problem, int n) {
-    const auto [values, vectors] = dense::hermitianEigen<Complex>(problem.H, problem.W);
-    std::vector<StationaryState> states;
-    for (int k = 0; k < std::min<int>(n, static_cast<int>(problem.H.rows())); ++k)
-        states.push_back({values(k), vectors.col(k), {}, true});
-    return states;
-}
-
-StationaryState refineState(const StationaryProblem& problem, const Vector& guess, double energy) {
-    const Eigen::Index n = problem.H.rows();
-    StationaryState s{energy, guess, {energy}, false};
-    for (int iteration = 0; iteration < 12 && !s.isConverged; ++iteration) {
-        const Vector Wv = problem.W * s.v;
-        Matrix K = Matrix::Zero(n + 1, n + 1);
-        K.topLeftCorner(n, n) = problem.H - s.energy * problem.W;
-        K.topRightCorner(n, 1) = -Wv;
-        K.bottomLeftCorner(1, n) = -Wv.adjoint();
-        Vector rhs(n + 1);
-        rhs.head(n) = -(problem.H * s.v - s.energy * Wv);
-        rhs(n) = -(1.0 - s.v.dot(Wv).real()) / 2;
-        const Vector d = dense::solve<Complex>(K, rhs);
-        if (!d.allFinite()) break;
-        s.v += d.head(n);
-        s.energy += d(n).real();
+StationaryState refineState(const Hamiltonian& h, std::vector<Complex> guess) {
+    constexpr int mostSteps = 12, mostIterations = 600;
+    const int n = h.size();
+    const auto size = static_cast<std::size_t>(n);
+    StationaryState s;
+    s.c = std::move(guess);
+    KktSystem system(h, s.c);
+    Gmres gmres(size + 1);
+    std::vector<Complex> image(size), work(size), rhs(size + 1), u(size + 1), step(size + 1);
+    const double norm = std::sqrt(squaredNorm(s.c.data(), n));
+    for (Complex& v : s.c) v /= norm;
+    const double roundOff = std::numeric_limits<double>::epsilon() * std::max(std::abs(h.highest()), std::abs(h.lowest()));
+    for (int k = 0; k <= mostSteps; ++k) {
+        h.apply(h.potential().data(), s.c.data(), image.data(), work.data());
+        if (k == 0) s.energy = innerProduct(s.c.data(), image.data(), n).real();
         s.history.push_back(s.energy);
-        s.isConverged = std::abs(d(n).real()) <= 1e-15 * std::max(1.0, std::abs(s.energy));
+        for (std::size_t i = 0; i < size; ++i) rhs[i] = -(image[i] - s.energy * s.c[i]);
+        rhs[size] = -(1 - squaredNorm(s.c.data(), n)) / 2;
+        s.residual = std::sqrt(squaredNorm(rhs.data(), n));
+        const double moved = k > 0 ? std::abs(s.energy - s.history[s.history.size() - 2]) : 1e300;
+        s.isConverged = moved <= std::max(1e-13 * std::abs(s.energy), 4 * roundOff);
+        if (s.isConverged || k == mostSteps || !std::isfinite(s.residual)) break;
+        system.setEnergy(s.energy);
+        int iterations = 0;
+        // Quadratic convergence asks for a relative error of the size of the residual and no less.
+        const double tolerance = std::clamp(0.1 * s.residual / (1 + std::abs(s.energy)), 1e-9, 1e-2);
+        const Outcome outcome = gmres.solve([&](const Complex* from, Complex* to) { system.apply(from, to); }, rhs.data(), u.data(),
+                                            tolerance, mostIterations, iterations, {});
+        if (outcome == Outcome::notFinite) break;
+        system.precondition(u.data(), step.data());
+        for (std::size_t i = 0; i < size; ++i) s.c[i] += step[i];
+        s.energy += step[size].real();
     }
     return s;
-}
-
-StationaryProblem pseudoSpectral(const Hamiltonian& h) {
-    const int n = h.size();
-    return {nodalMatrix(h).cast<Complex>(), Matrix::Identity(n, n)};
-}
-
-StationaryProblem convolutionGalerkin(const Hamiltonian& h) {
-    const int n = h.size(), half = n / 2;
-    const auto weight = [half](int a) { return std::abs(a) == half ? 0.5 : 1.0; };
-    const auto place = [n](int a) { return (a + n) % n; };  // identifies N/2 with -N/2
-    StationaryProblem p{Matrix::Zero(n, n), Matrix::Zero(n, n)};
-    for (int a = -half; a <= half; ++a) {
-        for (int b = std::max(-half, a - half); b <= std::min(half, a + half); ++b)
-            p.H(place(a), place(b)) +=
-                weight(a) * weight(b) * weight(a - b) * h.potentialHarmonics()[static_cast<std::size_t>(place(a - b))];
-        p.H(place(a), place(a)) += weight(a) * weight(a) * h.kinetic()[static_cast<std::size_t>(place(a))];
-        p.W(place(a), place(a)) += weight(a) * weight(a);
-    }
-    return p;
-}
-
-Eigen::MatrixXd realMatrix(const StationaryProblem& problem, const Fourier& fourier) {
-    const Eigen::Index n = problem.H.rows();
-    const Eigen::VectorXd root = problem.W.diagonal().real().cwiseSqrt().cwiseInverse();
-    Matrix H = root.asDiagonal() * problem.H * root.asDiagonal();
-    // F^{-1} H F, a column at a time; F* is F^{-1}, so the rows of H F are those of the columns of (F^{-1} H*)*.
-    for (int pass = 0; pass < 2; ++pass) {
-        Vector column(n);
-        for (Eigen::Index k = 0; k < n; ++k) {
-            fourier.rawToNodes(H.col(k).data(), column.data());
-            H.col(k) = column / std::sqrt(static_cast<double>(n));
-        }
-        H.adjointInPlace();
-    }
-    return (H.real() + H.real().transpose()) / 2;
-}
-
-StationaryProblem chebyshevInterval(int N, const wave::Domain& domain, double hbar, double mass, const wave::Potential& potential) {
-    const Rule<double> rule = clenshawCurtis<double>(2 * N + 1);
-    const Eigen::VectorXd nodes = chebyshev::extrema(N);
-    Eigen::VectorXd points(rule.size()), weights(rule.size()), inPotential(rule.size());
-    for (int i = 0; i < rule.size(); ++i) {
-        const auto k = static_cast<std::size_t>(i);
-        // The rule's nodes are those of degree 2N: every second is one of ours, to the bit.
-        points(i) = std::sin(std::numbers::pi * (i - N) / (2.0 * N));
-        weights(i) = rule.b[k] * domain.length;
-        inPotential(i) = potential.function.value(domain.left + domain.length * rule.c[k], 0, 0) * weights(i);
-    }
-    const Eigen::MatrixXd all = chebyshev::cardinals(points, nodes),
-                          slope = all * chebyshev::differentiation(nodes) * (2 / domain.length);
-    // psi vanishes at both ends: the inner nodes alone.
-    const Eigen::MatrixXd phi = all.middleCols(1, N - 1), dphi = slope.middleCols(1, N - 1);
-    const Eigen::MatrixXd M = phi.transpose() * weights.asDiagonal() * phi;
-    const Eigen::MatrixXd H = hbar * hbar / (2 * mass) * dphi.transpose() * weights.asDiagonal() * dphi +
-                              phi.transpose() * inPotential.asDiagonal() * phi;
-    StationaryProblem p;
-    p.H = ((H + H.transpose()) / 2).cast<std::complex<double>>();
-    p.W = ((M + M.transpose()) / 2).cast<std::complex<double>>();
-    return p;
 }
 
 }  // namespace extremal
