@@ -59,18 +59,32 @@ public:
     }
 
 private:
+    /// Sums in four parts: a single one waits for its last addition at every entry.
+    static double total(const double (&parts)[4]) { return (parts[0] + parts[1]) + (parts[2] + parts[3]); }
     double norm(const Complex* v) const {
-        double sum = 0;
-        for (std::size_t i = 0; i < n_; ++i) sum += std::norm(v[i]);
-        return std::sqrt(sum);
+        const double* x = reinterpret_cast<const double*>(v);
+        double parts[4] = {};
+        std::size_t i = 0;
+        for (; i + 4 <= 2 * n_; i += 4)
+            for (std::size_t l = 0; l < 4; ++l) parts[l] += x[i + l] * x[i + l];
+        for (; i < 2 * n_; ++i) parts[0] += x[i] * x[i];
+        return std::sqrt(total(parts));
     }
     Complex dot(const Complex* a, const Complex* b) const {
-        double re = 0, im = 0;
-        for (std::size_t i = 0; i < n_; ++i) {
-            re += a[i].real() * b[i].real() + a[i].imag() * b[i].imag();
-            im += a[i].real() * b[i].imag() - a[i].imag() * b[i].real();
-        }
-        return {re, im};
+        const double *x = reinterpret_cast<const double*>(a), *y = reinterpret_cast<const double*>(b);
+        double re[4] = {}, im[4] = {};
+        std::size_t i = 0;
+        for (; i + 4 <= 2 * n_; i += 4)
+            for (std::size_t l = 0; l < 4; ++l) {
+                re[l] += x[i + l] * y[i + l];
+                im[l] += x[i + l] * y[i + (l ^ 1)];
+            }
+        for (; i < 2 * n_; i += 2)
+            for (std::size_t l = 0; l < 2; ++l) {
+                re[l] += x[i + l] * y[i + l];
+                im[l] += x[i + l] * y[i + (l ^ 1)];
+            }
+        return {total(re), (im[0] + im[2]) - (im[1] + im[3])};
     }
     void subtract(Complex* from, Complex factor, const Complex* v) const {
         const double fr = factor.real(), fi = factor.imag();

@@ -40,7 +40,7 @@ std::vector<FieldInfo> planeParameters() {
 
 ModelEntry schrodinger_2d() {
     ModelEntry e;
-    e.item = {"schrodinger-2d", "Schrödinger equation in the plane",
+    e.item = {"schrodinger-2d", "Schrödinger equation in 2-D",
               "A wave function on a periodic rectangle; potential in x, y and t typed or by name.", planeParameters(), {}, ""};
     e.initial = waveStartFields("x and y");
     e.exampleInitial = {{"psi", Value::Object{{"packet", "gaussian"}, {"wave_number", 5.0}}}, {"normalise", true}};
