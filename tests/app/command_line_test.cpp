@@ -13,27 +13,17 @@
 #include <csignal>
 #include <unistd.h>
 
+#include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::command_line_test {
 
 namespace {
 
-struct Answer {
-    int code = -1;
-    QString out, err;
-};
+using tests::Answer;
 
 Answer extremal(const QStringList& arguments, const QByteArray& input = {}, const QString& outFile = {}) {
-    QProcess process;
-    if (!outFile.isEmpty()) process.setStandardOutputFile(outFile);
-    process.start(QStringLiteral(EXTREMAL_BINARY), arguments);
-    process.write(input);
-    process.closeWriteChannel();
-    if (!process.waitForFinished(60000)) return {};
-    return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
-            QString::fromUtf8(process.readAllStandardOutput()),
-            QString::fromUtf8(process.readAllStandardError())};
+    return tests::runProgram(arguments, {input, outFile});
 }
 
 /// A short scene; `schemes` as JSON.
@@ -45,14 +35,9 @@ QByteArray scene(const QByteArray& schemes, const QByteArray& rest = "\"time\": 
 
 const QByteArray midpoint = "[{ \"label\": \"Midpoint A\", \"scheme\": \"midpoint\", \"step\": 0.1 }]";
 
-QByteArray contents(const QString& path) {
-    QFile file(path);
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray("cannot be opened");
-}
-
 /// The file without the values of cpu_seconds, in CSV and JSON alike.
 QByteArray withoutClock(const QString& path) {
-    QByteArray text = contents(path);
+    QByteArray text = tests::contentOf(path);
     if (path.endsWith("summary.csv")) {
         QByteArrayList lines = text.split('\n');
         for (QByteArray& line : lines) {
@@ -82,7 +67,7 @@ private slots:
         QVERIFY(a.out.contains("Midpoint A  done"));
         QCOMPARE(filesIn(dir.filePath("out")),
                  (QStringList{"midpoint-a.csv", "scene.json", "summary.csv", "summary.json"}));
-        const QByteArrayList rows = contents(dir.filePath("out/midpoint-a.csv")).trimmed().split('\n');
+        const QByteArrayList rows = tests::contentOf(dir.filePath("out/midpoint-a.csv")).trimmed().split('\n');
         QCOMPARE(rows.size(), 12);
         QCOMPARE(rows[0], QByteArray("t,q.x,q.y,p.x,p.y,energy,energy_error,error,error.p,error.x,error.y"));
         QVERIFY(rows[1].startsWith("0,0.4,0,0,2,"));
@@ -115,7 +100,7 @@ private slots:
         QTemporaryDir dir;
         const Answer a = extremal({"run", "-", "--json", "--out", dir.path()}, scene(midpoint));
         QCOMPARE(a.code, 0);
-        QCOMPARE(a.out.toUtf8(), contents(dir.filePath("summary.json")));
+        QCOMPARE(a.out.toUtf8(), tests::contentOf(dir.filePath("summary.json")));
         const QJsonObject check =
             QJsonDocument::fromJson(extremal({"check", "-", "--json"}, scene("[]")).out.toUtf8()).object();
         QCOMPARE(check["valid"].toBool(true), false);
@@ -249,10 +234,10 @@ private slots:
         QCOMPARE(process.exitStatus(), QProcess::NormalExit);
         QCOMPARE(process.exitCode(), 130);
         QVERIFY(process.readAllStandardError().contains("interrupted: the results are partial"));
-        const QByteArray summary = contents(dir.filePath("summary.csv"));
+        const QByteArray summary = tests::contentOf(dir.filePath("summary.csv"));
         QVERIFY2(summary.contains("short,done,,") && summary.contains("long,partial,stopped,"),
                  summary.constData());
-        QVERIFY(contents(dir.filePath("long.csv")).count('\n') > 2);
+        QVERIFY(tests::contentOf(dir.filePath("long.csv")).count('\n') > 2);
     }
 
     void aWindowWithoutADisplayNamesTheVerbsThatNeedNone() {

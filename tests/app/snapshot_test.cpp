@@ -8,32 +8,21 @@
 #include <QProcess>
 #include <QTemporaryDir>
 
+#include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::snapshot_test {
 
 namespace {
 
-struct Answer {
-    int code = -1;
-    QString out, err;
-};
+using tests::Answer;
 
 Answer snapshot(const QStringList& arguments, const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
-    QProcess process;
-    QProcessEnvironment plain = environment;
-    plain.remove("QT_QPA_PLATFORM");  // no display, and no help from outside
-    plain.remove("DISPLAY");
-    process.setProcessEnvironment(plain);
-    process.start(QStringLiteral(EXTREMAL_BINARY), QStringList{"snapshot"} + arguments);
-    if (!process.waitForFinished(60000)) return {};
-    return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
-            QString::fromUtf8(process.readAllStandardOutput()), QString::fromUtf8(process.readAllStandardError())};
-}
-
-QByteArray bytes(const QString& file) {
-    QFile f(file);
-    return f.open(QIODevice::ReadOnly) ? f.readAll() : QByteArray();
+    tests::Surroundings around;
+    around.environment = environment;
+    around.environment.remove("QT_QPA_PLATFORM");  // no display, and no help from outside
+    around.environment.remove("DISPLAY");
+    return tests::runProgram(QStringList{"snapshot"} + arguments, around);
 }
 
 }  // namespace
@@ -58,7 +47,7 @@ private slots:
             const QString a = path("a.") + kind, b = path("b.") + kind;
             QCOMPARE(snapshot({"preset:pendulum", "--size", "700x500", "--out", a}).code,
                      snapshot({"preset:pendulum", "--size", "700x500", "--threads", "1", "--out", b}).code);
-            QVERIFY2(!bytes(a).isEmpty() && bytes(a) == bytes(b), kind);
+            QVERIFY2(!tests::contentOf(a).isEmpty() && tests::contentOf(a) == tests::contentOf(b), kind);
         }
     }
 

@@ -4,35 +4,21 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QProcess>
-#include <QRegularExpression>
 #include <QTemporaryDir>
 #include <QTest>
 
+#include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::wisdom_test {
 namespace {
 
-struct Answer {
-    int code = -1;
-    QString out, err;
-};
+using tests::Answer, tests::contentOf;
 
 Answer extremalWith(const QString& wisdom, const QStringList& arguments) {
-    QProcess process;
-    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-    if (!wisdom.isEmpty()) environment.insert("EXTREMAL_WISDOM", wisdom);
-    process.setProcessEnvironment(environment);
-    process.start(QStringLiteral(EXTREMAL_BINARY), arguments);
-    if (!process.waitForFinished(60000)) return {};
-    return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2, QString::fromUtf8(process.readAllStandardOutput()),
-            QString::fromUtf8(process.readAllStandardError())};
-}
-
-QByteArray contentOf(const QString& path) {
-    QFile file(path);
-    return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+    tests::Surroundings around;
+    if (!wisdom.isEmpty()) around.environment.insert("EXTREMAL_WISDOM", wisdom);
+    return tests::runProgram(arguments, around);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/figure/view.hpp"
 #include "engine/scene/bind.hpp"
@@ -63,84 +64,91 @@ void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot) {
     workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Keep the part a plot shows"));
 }
 
-void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view) {
+namespace {
+
+using ViewSource = std::function<View()>;
+
+/// Entries of a menu of which one is chosen; choosing another changes the view, and takes away the part that was kept and a curve
+/// whose variable goes.
+class Choices {
+public:
+    Choices(QMenu& menu, Workspace& workspace, ViewSource view)
+        : menu_(menu), group_(new QActionGroup(&menu)), workspace_(workspace), view_(std::move(view)) {}
+
+    template <class Change>
+    void add(const QString& text, bool isChosen, Change change) {
+        QAction* action = menu_.addAction(text);
+        action->setCheckable(true);
+        action->setChecked(isChosen);
+        group_->addAction(action);
+        const auto choose = [&workspace = workspace_, view = view_, change] {
+            const View before = view();
+            View after = before;
+            change(after);
+            const System system = makeSystem(workspace.scene());
+            if (axesOf(before, system).variable != axesOf(after, system).variable) after.curve = {};
+            workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
+        };
+        // After the menu has closed: the card is made anew, and its menu with it.
+        QObject::connect(action, &QAction::triggered, &workspace_,
+                         [&workspace = workspace_, choose] { QTimer::singleShot(0, &workspace, choose); });
+    }
+
+private:
+    QMenu& menu_;
+    QActionGroup* group_;
+    Workspace& workspace_;
+    ViewSource view_;
+};
+
+void fillNames(QMenu& menu, Workspace& workspace, const std::vector<std::string>& names, std::string View::*member, const QString& none,
+               const ViewSource& view) {
+    menu.clear();
+    Choices choices(menu, workspace, view);
+    const std::string now = view().*member;
+    const auto add = [&](const QString& text, const std::string& name) {
+        choices.add(text, name == now, [member, name](View& after) {
+            after.*member = name;
+            if (member == &View::scheme) return;
+            after.xRange = after.yRange = {};
+            after.curve = {};
+        });
+    };
+    add(none, "");
+    for (const std::string& name : names) add(QString::fromStdString(name).replace('&', "&&"), name);
+}
+
+}  // namespace
+
+void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const ViewSource& view) {
     const ViewEntry* entry = findView(id);
     if (!entry) return;
     for (const FieldInfo& field : entry->item.parameters) {
         if (field.type != FieldType::choice) continue;
         QString title = QString::fromStdString(field.title);
         title[0] = title[0].toUpper();
-        QMenu* choices = menu.addMenu(title);
-        choices->setToolTip(QString::fromStdString(field.description));
-        auto* group = new QActionGroup(choices);
+        QMenu* sub = menu.addMenu(title);
+        sub->setToolTip(QString::fromStdString(field.description));
+        Choices choices(*sub, workspace, view);
         const std::string given = view().keys.text(field.key), now = given.empty() ? field.choices.front() : given;
-        for (const std::string& choice : field.choices) {
-            QAction* action = choices->addAction(QString::fromStdString(choice));
-            action->setCheckable(true);
-            action->setChecked(choice == now);
-            group->addAction(action);
-            const auto choose = [&workspace, view, key = field.key, choice] {
-                const View before = view();
-                View after = before;
+        for (const std::string& choice : field.choices)
+            choices.add(QString::fromStdString(choice), choice == now, [key = field.key, choice](View& after) {
                 std::erase_if(after.keys.keys, [&](const Value::Member& m) { return m.first == key; });
                 after.keys.keys.emplace_back(key, choice);
                 after.xRange = after.yRange = {};
-                const System system = makeSystem(workspace.scene());
-                if (axesOf(before, system).variable != axesOf(after, system).variable) after.curve = {};
-                workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
-            };
-            // After the menu has closed: the card is made anew, and its menu with it.
-            QObject::connect(action, &QAction::triggered, &workspace, [&workspace, choose] { QTimer::singleShot(0, &workspace, choose); });
-        }
+            });
     }
 }
 
-namespace {
-
-/// One key of a view that names something.
-struct NamedKey {
-    QString title;
-    std::vector<std::string> names;
-    std::string View::*member;
-    QString none;  ///< what an empty name means
-};
-
-void fillNames(QMenu& menu, Workspace& workspace, const NamedKey& key, const std::function<View()>& view) {
-    menu.clear();
-    auto* group = new QActionGroup(&menu);
-    const std::string now = view().*key.member;
-    std::vector<std::string> names{""};
-    names.insert(names.end(), key.names.begin(), key.names.end());
-    for (const std::string& name : names) {
-        QAction* action = menu.addAction(name.empty() ? key.none : QString::fromStdString(name).replace('&', "&&"));
-        action->setCheckable(true);
-        action->setChecked(name == now);
-        group->addAction(action);
-        const auto choose = [&workspace, view, member = key.member, name] {
-            const View before = view();
-            View after = before;
-            after.*member = name;
-            if (member != &View::scheme) {
-                after.xRange = after.yRange = {};
-                after.curve = {};
-            }
-            workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
-        };
-        QObject::connect(action, &QAction::triggered, &workspace, [&workspace, choose] { QTimer::singleShot(0, &workspace, choose); });
-    }
-}
-
-}  // namespace
-
-void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const std::function<View()>& view) {
+void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const ViewSource& view) {
     const System system = makeSystem(workspace.scene());
     const ViewChoices choices = choicesOf(id, workspace.scene(), &system);
     const QString usual = QObject::tr("as usual");
     const auto add = [&](const QString& title, std::string View::*member, const QString& none, std::vector<std::string> ViewChoices::*names) {
         QMenu* sub = menu.addMenu(title);
-        QObject::connect(sub, &QMenu::aboutToShow, &workspace, [sub, &workspace, id, view, title, member, none, names] {
+        QObject::connect(sub, &QMenu::aboutToShow, &workspace, [sub, &workspace, id, view, member, none, names] {
             const System now = makeSystem(workspace.scene());
-            fillNames(*sub, workspace, {title, choicesOf(id, workspace.scene(), &now).*names, member, none}, view);
+            fillNames(*sub, workspace, choicesOf(id, workspace.scene(), &now).*names, member, none, view);
         });
     };
     if (choices.hasColumns) {
