@@ -1,0 +1,146 @@
+/// What the benchmarks of wave functions share: CPU seconds of a whole run with set-up, median of five, read off at fixed errors
+/// by log-log interpolation over the number of steps.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/integrator/scheme.hpp"
+#include "tests/bench/cpu_time.hpp"
+
+namespace extremal::bench {
+
+struct Problem {
+    const char* name;
+    System system;
+    State start;
+    double T;
+    std::vector<double> exact;
+    double referenceError;
+    double longest = 0.5;  ///< seconds, of a run
+};
+
+inline System makeSystem(const char* model, const Value::Object& keys) {
+    const ModelEntry* entry = findModel(model);
+    Settings settings;
+    settings.type = model;
+    for (const FieldInfo& f : entry->item.parameters) settings.keys.emplace_back(f.key, f.fallback);
+    for (auto& [key, value] : settings.keys)
+        for (const auto& [given, own] : keys)
+            if (key == given) value = own;
+    return entry->make(settings);
+}
+
+inline State makeStart(const System& system, Value::Object psi) {
+    Settings given;
+    given.keys.emplace_back("psi", std::move(psi));
+    given.keys.emplace_back("normalise", true);
+    return {0, 0, system.start(given)};
+}
+
+inline Discretization gauss(int degree, const char* solver, double tolerance) {
+    Discretization pair;
+    pair.space = {"fourier",
+                  {{"degree", static_cast<double>(degree)}, {"energy_shift", "mean"}, {"form", "one-step"}, {"start", "gauss"}}, {}};
+    pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
+    pair.solver = {solver, {{"tolerance", tolerance}}, {}};
+    return pair;
+}
+
+/// n steps; the state at the end.
+using Method = std::function<std::vector<double>(const Problem&, int n)>;
+
+inline Method pairMethod(int degree, const char* solver, double tolerance) {
+    return [=](const Problem& p, int n) {
+        const auto integrator = makeIntegrator(p.system, gauss(degree, solver, tolerance), {0, p.T / n});
+        State state = p.start;
+        for (int k = 0; k < n; ++k)
+            if (integrator->advance(state).outcome != Outcome::converged) return std::vector<double>();
+        return state.x;
+    };
+}
+
+inline Method baselineMethod(const char* id) {
+    return [=](const Problem& p, int n) {
+        const auto integrator = findBaseline(id)->make(p.system, {{0, p.T / n}, 0, 0, {id, {}, {}}});
+        State state = p.start;
+        for (int k = 0; k < n; ++k) (void)integrator->advance(state);
+        return state.x;
+    };
+}
+
+struct Point {
+    double error, time;
+};
+
+inline double errorOf(const Problem& p, const std::vector<double>& x) {
+    if (x.empty()) return 1;
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += (x[i] - p.exact[i]) * (x[i] - p.exact[i]);
+    return std::sqrt(sum);
+}
+
+inline std::vector<Point> curveOf(const Problem& p, const Method& method) {
+    std::vector<Point> points;
+    method(p, 1);  // plans, tables and caches
+    double best = 1;
+    for (double n = 2; n < 3e5; n = std::ceil(1.15 * n)) {
+        const int steps = static_cast<int>(n);
+        const double error = errorOf(p, method(p, steps));
+        if (error > 0.3) continue;
+        std::vector<double> times;
+        for (int i = 0; i < 5; ++i) {
+            const double start = cpuSeconds();
+            method(p, steps);
+            times.push_back(cpuSeconds() - start);
+            if (times.back() > 0.05) break;
+        }
+        std::sort(times.begin(), times.end());
+        points.push_back({error, times[times.size() / 2]});
+        if (error > 0.9 * best && error < 1e-10) break;  // round-off
+        best = std::min(best, error);
+        if (best < 2e-13 || times.back() > p.longest) break;
+    }
+    return points;
+}
+
+/// CPU seconds for an error; NaN if it is not reached.
+inline double costAt(const std::vector<Point>& points, double error) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].error > error) continue;
+        if (i == 0) return points[0].time;
+        const double w = std::log(points[i - 1].error / error) / std::log(points[i - 1].error / points[i].error);
+        return std::exp(std::log(points[i - 1].time) + w * std::log(points[i].time / points[i - 1].time));
+    }
+    return std::nan("");
+}
+
+/// CPU seconds of one method to some errors, as a row; the least of all rows so far is kept in `least`, which may be null.
+inline void printCosts(const Problem& p, const std::string& name, const Method& method, std::span<const double> targets, double* least) {
+    const auto points = curveOf(p, method);
+    std::printf("%-34s", name.c_str());
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        const double cost = costAt(points, targets[i]);
+        if (least && cost < least[i]) least[i] = cost;
+        if (cost == cost)
+            std::printf("%12.2e", cost);
+        else
+            std::printf("%12s", "-");
+    }
+    std::printf("\n");
+}
+
+inline void printHeading(const Problem& p, std::span<const double> targets) {
+    std::printf("\n%s (reference good to %.0e)\n%-34s", p.name, p.referenceError, "CPU seconds to an L2 error of");
+    for (const double t : targets) std::printf("%12.0e", t);
+    std::printf("\n");
+}
+
+}  // namespace extremal::bench
