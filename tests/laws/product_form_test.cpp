@@ -1,6 +1,8 @@
 /// The printed product of a slow part and one oscillation: right where its curves contain the motion, and where it fails.
 #include <QTest>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 
