@@ -20,9 +20,10 @@ double roundedTo(double x, int digits) {
     return rounded;
 }
 
+/// Ends that do not increase are refused elsewhere, and give what they give here.
 std::vector<double> equalRatios(double from, double to, int count) {
     const double each = std::log(to / from) / (count - 1);
-    const int digits = std::clamp(3 + static_cast<int>(std::ceil(-std::log10(each))), 3, 15);
+    const int digits = each > 0 ? std::clamp(3 + static_cast<int>(std::ceil(-std::log10(each))), 3, 15) : 15;
     std::vector<double> all;
     for (int i = 0; i < count; ++i) all.push_back(i == 0 ? from : i + 1 == count ? to : roundedTo(from * std::exp(i * each), digits));
     return all;
