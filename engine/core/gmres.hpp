@@ -11,6 +11,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "engine/core/complex_vectors.hpp"
 #include "engine/core/outcome.hpp"
 
 namespace extremal {
@@ -59,41 +60,10 @@ public:
     }
 
 private:
-    /// Sums in four parts: a single one waits for its last addition at every entry.
-    static double total(const double (&parts)[4]) { return (parts[0] + parts[1]) + (parts[2] + parts[3]); }
     double norm(const Complex* v) const {
-        const double* x = reinterpret_cast<const double*>(v);
-        double parts[4] = {};
-        std::size_t i = 0;
-        for (; i + 4 <= 2 * n_; i += 4)
-            for (std::size_t l = 0; l < 4; ++l) parts[l] += x[i + l] * x[i + l];
-        for (; i < 2 * n_; ++i) parts[0] += x[i] * x[i];
-        return std::sqrt(total(parts));
-    }
-    Complex dot(const Complex* a, const Complex* b) const {
-        const double *x = reinterpret_cast<const double*>(a), *y = reinterpret_cast<const double*>(b);
-        double re[4] = {}, im[4] = {};
-        std::size_t i = 0;
-        for (; i + 4 <= 2 * n_; i += 4)
-            for (std::size_t l = 0; l < 4; ++l) {
-                re[l] += x[i + l] * y[i + l];
-                im[l] += x[i + l] * y[i + (l ^ 1)];
-            }
-        for (; i < 2 * n_; i += 2)
-            for (std::size_t l = 0; l < 2; ++l) {
-                re[l] += x[i + l] * y[i + l];
-                im[l] += x[i + l] * y[i + (l ^ 1)];
-            }
-        return {total(re), (im[0] + im[2]) - (im[1] + im[3])};
-    }
-    void subtract(Complex* from, Complex factor, const Complex* v) const {
-        const double fr = factor.real(), fi = factor.imag();
-        double* f = reinterpret_cast<double*>(from);
-        const double* x = reinterpret_cast<const double*>(v);
-        for (std::size_t i = 0; i < 2 * n_; i += 2) {
-            f[i] -= fr * x[i] - fi * x[i + 1];
-            f[i + 1] -= fr * x[i + 1] + fi * x[i];
-        }
+        double square = 0;
+        vectors_.square(v, n_, &square);
+        return std::sqrt(square);
     }
     Complex& h(int row, int column) {
         return h_[static_cast<std::size_t>(column) * static_cast<std::size_t>(restart_ + 1) + static_cast<std::size_t>(row)];
@@ -121,9 +91,10 @@ private:
             for (int pass = 0; pass < 2; ++pass) {
                 const double start = after;
                 for (int i = 0; i <= k; ++i) {
-                    const Complex d = dot(q(i), next);
-                    h(i, k) += d;
-                    subtract(next, d, q(i));
+                    Complex along;
+                    vectors_.dot(q(i), next, n_, &along);
+                    h(i, k) += along;
+                    vectors_.add(next, -along, q(i), n_);
                 }
                 after = norm(next);
                 if (after > 0.5 * start) break;
@@ -140,7 +111,7 @@ private:
             for (int j = i + 1; j < k; ++j) sum -= h(i, j) * y_[static_cast<std::size_t>(j)];
             y_[static_cast<std::size_t>(i)] = sum / h(i, i);
         }
-        for (int i = 0; i < k; ++i) subtract(u, -y_[static_cast<std::size_t>(i)], q(i));
+        for (int i = 0; i < k; ++i) vectors_.add(u, y_[static_cast<std::size_t>(i)], q(i), n_);
         return k;
     }
     /// Givens rotations that make column k of h upper triangular, applied to g as well.
@@ -164,6 +135,7 @@ private:
         g_[s + 1] = -sine_[s] * old;
     }
 
+    const ComplexVectors& vectors_ = ComplexVectors::ofThisMachine();
     std::size_t n_;
     int restart_;
     std::vector<Complex> basis_, residual_, image_, h_, sine_, g_, y_;
