@@ -39,7 +39,8 @@ double costOf(WaveSolver solver, const Hamiltonian& h, int degree, double step) 
     // Iterations grow with the part of the potential that the preconditioner does not see.
     const auto [low, high] = std::minmax_element(h.potential().begin(), h.potential().end());
     const double strength = step * (*high - *low) / (2 * h.hbar() * s);
-    return s * (5 + 8 * std::sqrt(strength)) * (transforms(n) + 0.018 * n);
+    // Vectors that leave the cache cost more.
+    return s * (5 + 8 * std::sqrt(strength)) * (transforms(n) + (n > 20000 ? 0.025 : 0.01) * n);
 }
 
 std::string duration(double microseconds) {
