@@ -122,7 +122,7 @@ struct Functions {
         ends.add(1, z, 1);
         const Matrix<T> traces = scale.asDiagonal() * Samples<T>(basis, z, ends).value.transpose();
         const Matrix<T> vanishing = scale.asDiagonal() * dense::qr<T>(traces).Q.rightCols(n - 2);
-        const auto eigen = dense::hermitianEigen<T>(vanishing.transpose() * gram * vanishing);
+        const auto eigen = dense::symmetricEigen<T>(vanishing.transpose() * gram * vanishing);
         const auto& squares = eigen.values;
         Eigen::Index dropped = 0;
         while (dropped < n - 3 && !(squares(dropped) > T(1e-11) * squares(n - 3))) ++dropped;

@@ -1,80 +1,22 @@
-#include "engine/core/dense.hpp"
-
-#include <boost/multiprecision/float128.hpp>
-
-#include <Eigen/QR>
+#include "engine/core/dense_build.hpp"
 
 #include <complex>
 
 namespace extremal::dense {
 
-template <class T>
-Lu<T>::Lu(Given<T> A) : lu_(A) {}
-
-template <class T>
-Matrix<T> Lu<T>::solve(Given<T> B) const {
-    return lu_.solve(B);
-}
-
-template <class T>
-auto Lu<T>::pivotRatio() const -> decltype(Eigen::numext::abs(T())) {
-    const auto pivots = lu_.matrixLU().diagonal().cwiseAbs().eval();
-    return pivots.minCoeff() / pivots.maxCoeff();
-}
-
-template <class T>
-Matrix<T> solve(Given<T> A, Given<T> B) {
-    return Lu<T>(A).solve(B);
-}
-
-template <class T>
-Matrix<T> inverse(Given<T> A) {
-    return Lu<T>(A).solve(Matrix<T>::Identity(A.rows(), A.rows()));
-}
-
-template <class T>
-Matrix<T> product(Given<T> A, Given<T> B) {
-    if constexpr (std::is_arithmetic_v<T>)
-        return A * B;
-    else
-        return A.lazyProduct(B);  // nothing to gain from blocks, and much to compile
-}
-
-template <class T>
-Qr<T> qr(Given<T> A) {
-    const Eigen::HouseholderQR<Matrix<T>> factors(A);
-    return {factors.householderQ() * Matrix<T>::Identity(A.rows(), A.rows()),
-            factors.matrixQR().topRows(A.cols()).template triangularView<Eigen::Upper>()};
-}
-
-template <class T>
-Matrix<T> leastSquares(Given<T> A, Given<T> B) {
-    const Qr<T> factors = qr<T>(A);
-    const Eigen::Index n = A.cols();
-    return factors.R.template triangularView<Eigen::Upper>().solve(product<T>(factors.Q.leftCols(n).adjoint(), B));
-}
-
 Eigen::VectorXd rankPivots(Given<double> A) {
     return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(A).matrixQR().diagonal().cwiseAbs();
 }
 
-using Quad = boost::multiprecision::float128;
-
 template class Lu<double>;
-template class Lu<Quad>;
 template class Lu<std::complex<double>>;
 template Matrix<double> solve<double>(Given<double>, Given<double>);
-template Matrix<Quad> solve<Quad>(Given<Quad>, Given<Quad>);
 template Matrix<std::complex<double>> solve<std::complex<double>>(Given<std::complex<double>>, Given<std::complex<double>>);
 template Matrix<double> inverse<double>(Given<double>);
-template Matrix<Quad> inverse<Quad>(Given<Quad>);
 template Matrix<std::complex<double>> inverse<std::complex<double>>(Given<std::complex<double>>);
 template Matrix<double> leastSquares<double>(Given<double>, Given<double>);
-template Matrix<Quad> leastSquares<Quad>(Given<Quad>, Given<Quad>);
 template Matrix<double> product<double>(Given<double>, Given<double>);
-template Matrix<Quad> product<Quad>(Given<Quad>, Given<Quad>);
 template Qr<double> qr<double>(Given<double>);
 template Qr<long double> qr<long double>(Given<long double>);
-template Qr<Quad> qr<Quad>(Given<Quad>);
 
 }  // namespace extremal::dense

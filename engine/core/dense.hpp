@@ -1,6 +1,6 @@
 /// Dense linear algebra for what is made once a scheme or once a view, never for a step: factorizations of matrices of
-/// any size, in double, complex, extended and quadruple precision. They are compiled in one place, because each file that has
-/// Eigen make them anew takes seconds longer.
+/// any size, in double, complex, extended and quadruple precision. They are compiled in a few files of their own, because each
+/// file that has Eigen make them anew takes seconds longer.
 #pragma once
 
 #include <Eigen/Core>
@@ -50,17 +50,14 @@ struct Qr {
 template <class T>
 Qr<T> qr(Given<T> A);
 
-/// A v = value W v for a Hermitian A and a positive definite W (without it the identity): values in ascending order,
-/// vectors as columns with v* W v = 1.
+/// A v = value v for a symmetric A: values in ascending order, vectors of norm 1 as columns.
 template <class T>
-struct HermitianEigen {
-    Eigen::Matrix<typename Eigen::NumTraits<T>::Real, Eigen::Dynamic, 1> values;
+struct SymmetricEigen {
+    Eigen::Matrix<T, Eigen::Dynamic, 1> values;
     Matrix<T> vectors;
 };
 template <class T>
-HermitianEigen<T> hermitianEigen(Given<T> A);
-template <class T>
-HermitianEigen<T> hermitianEigen(Given<T> A, Given<T> W);
+SymmetricEigen<T> symmetricEigen(Given<T> A);
 
 /// Magnitudes of the diagonal of R in a QR with column pivoting, descending: the last is near zero where the columns depend.
 Eigen::VectorXd rankPivots(Given<double> A);

@@ -41,7 +41,7 @@ Matrix nodalMatrix(const Hamiltonian& h) {
 
 Eigenstates::Eigenstates(const Hamiltonian& h) : hamiltonian_(h) {
     const auto n = static_cast<std::size_t>(h.size());
-    const auto [values, vectors] = dense::hermitianEigen<double>(nodalMatrix(h));
+    const auto [values, vectors] = dense::symmetricEigen<double>(nodalMatrix(h));
     energies_.assign(values.data(), values.data() + n);
     states_.assign(vectors.data(), vectors.data() + n * n);
     for (std::size_t k = 0; k < n; ++k) {

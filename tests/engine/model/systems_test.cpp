@@ -120,7 +120,7 @@ private slots:
         double L = 0;
         m.jet(m.model.get(), 0, zero.data(), zero.data(), &L, g.data(), H.data());
         const Eigen::Map<const Eigen::MatrixXd> full(H.data(), 2 * d, 2 * d);
-        const auto modes = dense::hermitianEigen<double>(-full.topLeftCorner(d, d));
+        const auto modes = dense::symmetricEigen<double>(-full.topLeftCorner(d, d));
         State state{0, 0, std::vector<double>(static_cast<std::size_t>(2 * d))};
         for (int i = 0; i < d; ++i) state.x[static_cast<std::size_t>(i)] = std::sin(1.0 + 2 * i);
         const Eigen::VectorXd start = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
