@@ -1,6 +1,7 @@
+#include <QSaveFile>
+
 #include <charconv>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -9,6 +10,7 @@
 #include "app/verbs.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/wave/grid.hpp"
 #include "engine/wave/wisdom.hpp"
 
 namespace extremal::app {
@@ -23,21 +25,15 @@ std::optional<TransformSize> sizeOf(const std::string& text) {
     const std::size_t cross = text.find('x');
     const std::string_view all = text;
     if (!isMode(all.substr(0, cross), size.nx) || (cross != std::string::npos && !isMode(all.substr(cross + 1), size.ny)) ||
-        static_cast<long long>(size.nx) * size.ny > 1 << 18)
+        static_cast<long long>(size.nx) * size.ny > wave::mostPlaces)
         return {};
     return size;
 }
 
 bool write(const std::string& file, const std::string& text) {
-    const std::string temporary = file + ".part";
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.close();
-    std::error_code problem;
-    if (out) std::filesystem::rename(temporary, file, problem);
-    if (out && !problem) return true;
-    std::filesystem::remove(temporary, problem);
-    return false;
+    QSaveFile out(QString::fromStdString(file));
+    return out.open(QIODevice::WriteOnly) && out.write(text.data(), static_cast<qint64>(text.size())) == static_cast<qint64>(text.size()) &&
+           out.commit();
 }
 
 }  // namespace

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <mutex>
 #include <numbers>
 #include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/recent.hpp"
 #include "engine/core/text.hpp"
 #include "engine/wave/eigen.hpp"
 #include "engine/wave/packet.hpp"
@@ -17,21 +16,6 @@ namespace extremal {
 namespace {
 
 using Shared = std::shared_ptr<const Hamiltonian>;
-
-Shared remembered(const Settings& settings, const std::function<Shared(const Settings&)>& make) {
-    static std::mutex mutex;
-    static std::deque<std::pair<Settings, Shared>> known;
-    {
-        const std::lock_guard lock(mutex);
-        for (const auto& [of, hamiltonian] : known)
-            if (of == settings) return hamiltonian;
-    }
-    const Shared made = make(settings);
-    const std::lock_guard lock(mutex);
-    if (known.size() >= 6) known.pop_front();
-    known.emplace_back(settings, made);
-    return made;
-}
 
 ErrorMeasure errorOf(int n) {
     ErrorMeasure m;
@@ -79,7 +63,8 @@ double frequencyOf(const Hamiltonian& h, double t, const double* x) {
 System makeWaveSystem(const Settings& settings, const std::function<Shared(const Settings&)>& make) {
     System s;
     s.id = settings.type;
-    const Shared h = remembered(settings, make);
+    static Recent<Settings, Shared> recent(6);
+    const Shared h = recent.get(settings, [&] { return make(settings); });
     s.wave = h;
     s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };
     s.error = errorOf(h->size());

@@ -38,26 +38,29 @@ private:
 };
 
 void ViewReader::readColumns(View& view) const {
-    const ViewChoices choices = choicesOf(view.id, scene, system);
-    const char* const kind = choices.hasZeros ? "state column" : "column";
+    const ViewKeys keys = keysOf(view.id, system);
+    const char* const kind = keys.hasZeros ? "state column" : "column";
+    const auto check = [&](const Value& given, const std::string& at, const std::string& name, const std::vector<std::string>& names) {
+        if (given.isString() && !isOneOf(names, name)) reader.unknownName(at, kind, name, names);
+    };
     for (const auto& [key, target] : {std::pair{"x", &view.x}, std::pair{"y", &view.y}}) {
         const Value* column = object.find(key);
         if (!column) continue;
         const std::string at = childPointer(pointer, key);
         *target = reader.text(*column, at).value_or("");
-        if (!choices.hasColumns)
+        if (!keys.hasColumns)
             reader.error(at, "is only for phase portraits, trajectories and sections");
-        else if (system && column->isString() && !isOneOf(choices.columns, *target))
-            reader.unknownName(at, kind, *target, choices.columns);
+        else if (system)
+            check(*column, at, *target, columnsFor(view.id, scene, *system));
     }
     const Value* column = object.find("at");
     if (!column) return;
     const std::string at = childPointer(pointer, "at");
     view.at = reader.text(*column, at).value_or("");
-    if (!choices.hasZeros)
+    if (!keys.hasZeros)
         reader.error(at, "is only for sections");
-    else if (system && column->isString() && !isOneOf(choices.zeros, view.at))
-        reader.unknownName(at, kind, view.at, choices.zeros);
+    else if (system)
+        check(*column, at, view.at, zerosFor(*system));
 }
 
 void ViewReader::readScheme(View& view) const {
@@ -65,21 +68,20 @@ void ViewReader::readScheme(View& view) const {
     if (!label) return;
     const std::string at = childPointer(pointer, "scheme");
     view.scheme = reader.text(*label, at).value_or("");
-    const ViewChoices choices = choicesOf(view.id, scene, system);
-    if (!choices.hasScheme)
+    const std::vector<std::string> labels = labelsOf(scene);
+    if (!keysOf(view.id, system).hasScheme)
         reader.error(at, "is only for pictures of one scheme",
                      "the views sparsity, carpet and parameter-map, and profile in the plane");
-    else if (label->isString() && reader.errors.empty() && !isOneOf(choices.schemes, view.scheme))
-        reader.unknownName(at, "scheme", view.scheme, choices.schemes);
+    else if (label->isString() && reader.errors.empty() && !isOneOf(labels, view.scheme))
+        reader.unknownName(at, "scheme", view.scheme, labels);
 }
 
 void ViewReader::readNode(View& view) const {
     const Value* node = object.find("node");
     if (!node) return;
     const std::string at = childPointer(pointer, "node");
-    const ViewChoices choices = choicesOf(view.id, scene, system);
-    if (!choices.hasNode) return reader.error(at, "is only for the view shape-function");
-    view.node = reader.number(*node, at, {1, static_cast<double>(choices.lastNode), false, true, "the nodes inside, from left to right"});
+    if (!keysOf(view.id, system).hasNode) return reader.error(at, "is only for the view shape-function");
+    view.node = reader.number(*node, at, {1, static_cast<double>(lastNodeOf(scene)), false, true, "the nodes inside, from left to right"});
 }
 
 std::optional<ViewRange> ViewReader::rangeOf(const Value& value, const std::string& at, bool isLog) const {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
-#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/recent.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/table_of.hpp"
 #include "engine/scene/bind.hpp"
@@ -42,18 +42,8 @@ ActionBetween<double> solveExact(const Scene& scene, const System& system) {
 }
 
 ActionBetween<double> exactBetween(const Scene& scene, const System& system) {
-    struct Memory {
-        Settings model;
-        Initial initial;
-        double start;
-        ActionBetween<double> motion;
-    };
-    static std::mutex mutex;
-    static std::optional<Memory> last;
-    const std::lock_guard lock(mutex);
-    if (!last || !(last->model == scene.model) || !(last->initial == scene.initial) || last->start != scene.start.value)
-        last = Memory{scene.model, scene.initial, scene.start.value, solveExact(scene, system)};
-    return last->motion;
+    static Recent<std::tuple<Settings, Initial, double>, ActionBetween<double>> last(1);
+    return last.get({scene.model, scene.initial, scene.start.value}, [&] { return solveExact(scene, system); });
 }
 
 /// Nodes at equal times on the broken line through the nodes of the exact motion.

@@ -16,14 +16,38 @@ std::vector<std::string> stateNames(const System& system) {
     return names;
 }
 
-/// The columns of a CSV of this scene.
-std::vector<std::string> columnNames(const System& system, const Scene& scene) {
+}  // namespace
+
+ViewKeys keysOf(const std::string& view, const System* system) {
+    ViewKeys k;
+    k.hasZeros = view == "section";
+    k.hasColumns = view == "phase" || view == "trajectory" || k.hasZeros;
+    k.hasScheme = view == "sparsity" || view == "carpet" || view == mapView ||
+                  (view == "profile" && system && !system->field.y.empty());
+    k.hasNode = view == "shape-function";
+    return k;
+}
+
+std::vector<std::string> columnsFor(const std::string& view, const Scene& scene, const System& system) {
     std::vector<std::string> names = stateNames(system);
+    if (keysOf(view, &system).hasZeros) return names;
     const State initial = initialState(scene, system);
     for (const std::string& id : scene.observe)
         if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
             for (const Column& column : entry->bind({system, initial, {}}).columns) names.push_back(column.name);
     return names;
+}
+
+std::vector<std::string> zerosFor(const System& system) {
+    std::vector<std::string> names = stateNames(system);
+    names.erase(names.begin());
+    return names;
+}
+
+std::vector<std::string> labelsOf(const Scene& scene) {
+    std::vector<std::string> labels;
+    for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
+    return labels;
 }
 
 /// Of the scheme with the fewest elements.
@@ -33,23 +57,6 @@ int lastNodeOf(const Scene& scene) {
         if (const auto pair = pairOf(s); pair && pair->space.type == "elliptic-elements" && s.step.value > 0)
             last = std::min(last, std::max(1.0, std::round(1 / s.step.value) - 1));
     return static_cast<int>(last);
-}
-
-}  // namespace
-
-ViewChoices choicesOf(const std::string& view, const Scene& scene, const System* system) {
-    ViewChoices c;
-    c.hasZeros = view == "section";
-    c.hasColumns = view == "phase" || view == "trajectory" || c.hasZeros;
-    c.hasScheme = view == "sparsity" || view == "carpet" || view == mapView ||
-                  (view == "profile" && system && !system->field.y.empty());
-    c.hasNode = view == "shape-function";
-    if (c.hasColumns && system) c.columns = c.hasZeros ? stateNames(*system) : columnNames(*system, scene);
-    if (c.hasZeros && system) c.zeros.assign(c.columns.begin() + 1, c.columns.end());
-    if (c.hasScheme)
-        for (const SchemeSpec& s : scene.schemes) c.schemes.push_back(s.label);
-    if (c.hasNode) c.lastNode = lastNodeOf(scene);
-    return c;
 }
 
 }  // namespace extremal

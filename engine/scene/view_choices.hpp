@@ -9,17 +9,23 @@
 
 namespace extremal {
 
-/// Whether a view has the key at all; and what it may be, where the system is known.
-struct ViewChoices {
-    bool hasColumns = false, hasZeros = false, hasScheme = false, hasNode = false;
-    std::vector<std::string> columns;  ///< of `x` and `y`: phase portraits, trajectories and sections
-    std::vector<std::string> zeros;    ///< of `at`: the state columns whose zeros make a section
-    std::vector<std::string> schemes;  ///< of `scheme`: the labels, for pictures of one scheme
-    int lastNode = 0;                  ///< of `node`, from 1: that of a shape function
+/// Which of these keys a view has.
+struct ViewKeys {
+    bool hasColumns = false;  ///< `x` and `y`: phase portraits, trajectories and sections
+    bool hasZeros = false;    ///< `at`: sections
+    bool hasScheme = false;   ///< `scheme`: pictures of one scheme
+    bool hasNode = false;     ///< `node`: shape functions
 };
+/// `system` is null where the model is wrong. A profile is a picture of one scheme in the plane, and has a curve of each on a line.
+ViewKeys keysOf(const std::string& view, const System* system);
 
-/// `system` is null where the model is wrong. Views that show a picture of one scheme in the plane and a curve of each on a
-/// line are asked with their system.
-ViewChoices choicesOf(const std::string& view, const Scene& scene, const System* system);
+/// What `x` and `y` of a view may be. Makes the start of the scene, to know what its observables write.
+std::vector<std::string> columnsFor(const std::string& view, const Scene& scene, const System& system);
+/// What `at` may be: the state columns.
+std::vector<std::string> zerosFor(const System& system);
+/// What `scheme` may be.
+std::vector<std::string> labelsOf(const Scene& scene);
+/// What `node` may be at most; from 1.
+int lastNodeOf(const Scene& scene);
 
 }  // namespace extremal

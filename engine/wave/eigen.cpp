@@ -3,11 +3,10 @@
 #include <Eigen/Core>
 
 #include <cmath>
-#include <deque>
-#include <mutex>
 #include <utility>
 
 #include "engine/core/dense.hpp"
+#include "engine/core/recent.hpp"
 
 namespace extremal {
 namespace {
@@ -54,14 +53,10 @@ Eigenstates::Eigenstates(const Hamiltonian& h) : hamiltonian_(h) {
 }
 
 std::shared_ptr<const Eigenstates> Eigenstates::of(const std::shared_ptr<const Hamiltonian>& hamiltonian) {
-    using Known = std::pair<std::shared_ptr<const Hamiltonian>, std::shared_ptr<const Eigenstates>>;
-    static std::mutex mutex;
-    static std::deque<Known> known;
-    const std::lock_guard lock(mutex);
-    for (const Known& k : known)
-        if (isSame(*k.first, *hamiltonian)) return k.second;
-    if (known.size() >= 8) known.pop_front();
-    return known.emplace_back(hamiltonian, std::make_shared<const Eigenstates>(*hamiltonian)).second;
+    static Recent<std::shared_ptr<const Hamiltonian>, std::shared_ptr<const Eigenstates>> recent(8);
+    return recent.get(
+        hamiltonian, [&] { return std::make_shared<const Eigenstates>(*hamiltonian); },
+        [](const auto& a, const auto& b) { return isSame(*a, *b); });
 }
 
 std::vector<Complex> Eigenstates::coefficients(int n) const {

@@ -6,6 +6,9 @@
 
 namespace extremal::wave {
 
+/// Nodes of a rectangle, at most: 512 x 512.
+inline constexpr int mostPlaces = 1 << 18;
+
 struct Domain {
     double left = 0, length = 0;
     bool operator==(const Domain&) const = default;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <functional>
 #include <limits>
-#include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/recent.hpp"
 #include "engine/core/text.hpp"
 #include "engine/wave/eigen.hpp"
 #include "engine/wave/stationary.hpp"
@@ -118,25 +118,13 @@ StationaryState refinedState(const Hamiltonian& h, int n) {
 
 /// Remembered: a scene is read more than once.
 std::vector<Complex> fineState(const std::shared_ptr<const Hamiltonian>& h, int n, const std::string& pointer) {
-    struct Known {
-        std::shared_ptr<const Hamiltonian> hamiltonian;
-        int n;
-        StationaryState state;
-    };
-    static std::mutex mutex;
-    static std::deque<Known> known;
-    const std::lock_guard lock(mutex);
-    auto at = std::find_if(known.begin(), known.end(), [&](const Known& k) { return k.hamiltonian == h && k.n == n; });
-    if (at == known.end()) {
-        if (known.size() >= 4) known.pop_front();
-        known.push_back({h, n, refinedState(*h, n)});
-        at = known.end() - 1;
-    }
-    if (!at->state.isConverged)
+    static Recent<std::pair<std::shared_ptr<const Hamiltonian>, int>, StationaryState> recent(4);
+    StationaryState state = recent.get({h, n}, [&] { return refinedState(*h, n); });
+    if (!state.isConverged)
         throw InvalidScene(pointer, "state " + std::to_string(n) + " is not to be had: it is looked for from " +
                                         std::to_string(Eigenstates::denseLimit) + " modes or fewer, which do not resolve it",
                            "a lower state, fewer modes, or another packet");
-    return at->state.c;
+    return std::move(state.c);
 }
 
 std::vector<Complex> eigenstate(const Context& context, const Value& psi) {

@@ -142,25 +142,26 @@ void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const 
 
 void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const ViewSource& view) {
     const System system = makeSystem(workspace.scene());
-    const ViewChoices choices = choicesOf(id, workspace.scene(), &system);
+    const ViewKeys keys = keysOf(id, &system);
     const QString usual = QObject::tr("as usual");
-    const auto add = [&](const QString& title, std::string View::*member, const QString& none, std::vector<std::string> ViewChoices::*names) {
+    using Names = std::function<std::vector<std::string>(const Scene&)>;
+    const auto add = [&](const QString& title, std::string View::*member, const QString& none, const Names& names) {
         QMenu* sub = menu.addMenu(title);
-        QObject::connect(sub, &QMenu::aboutToShow, &workspace, [sub, &workspace, id, view, member, none, names] {
-            const System now = makeSystem(workspace.scene());
-            fillNames(*sub, workspace, choicesOf(id, workspace.scene(), &now).*names, member, none, view);
+        QObject::connect(sub, &QMenu::aboutToShow, &workspace, [sub, &workspace, view, member, none, names] {
+            fillNames(*sub, workspace, names(workspace.scene()), member, none, view);
         });
     };
-    if (choices.hasColumns) {
-        add(QObject::tr("Along x"), &View::x, usual, &ViewChoices::columns);
-        add(QObject::tr("Along y"), &View::y, usual, &ViewChoices::columns);
+    const Names columns = [id](const Scene& scene) { return columnsFor(id, scene, makeSystem(scene)); };
+    if (keys.hasColumns) {
+        add(QObject::tr("Along x"), &View::x, usual, columns);
+        add(QObject::tr("Along y"), &View::y, usual, columns);
     }
-    if (choices.hasZeros) add(QObject::tr("Where zero"), &View::at, usual, &ViewChoices::zeros);
-    if (choices.hasScheme) add(QObject::tr("Of the scheme"), &View::scheme, QObject::tr("the first"), &ViewChoices::schemes);
-    if (choices.hasNode)
+    if (keys.hasZeros) add(QObject::tr("Where zero"), &View::at, usual, [](const Scene& scene) { return zerosFor(makeSystem(scene)); });
+    if (keys.hasScheme) add(QObject::tr("Of the scheme"), &View::scheme, QObject::tr("the first"), labelsOf);
+    if (keys.hasNode)
         menu.addAction(QObject::tr("Node..."), &menu, [&workspace, view, &menu] {
             const View before = view();
-            const int last = choicesOf(before.id, workspace.scene(), nullptr).lastNode;
+            const int last = lastNodeOf(workspace.scene());
             bool isChosen = false;
             const int node = QInputDialog::getInt(menu.parentWidget(), QObject::tr("Node"), QObject::tr("Node, 1 to %1 from left to right").arg(last),
                                                   before.node ? static_cast<int>(before.node->value) : (last + 1) / 2, 1, last, 1, &isChosen);

@@ -213,7 +213,8 @@ Point StagePlayer::tracer(const std::vector<double>& x, bool isInset) const {
 }
 
 StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
-    const std::size_t stride = (track.t.size() + maxBoundsRows - 1) / maxBoundsRows;
+    // A field over a rectangle takes the same room at all times.
+    const std::size_t stride = system_.field.y.empty() ? (track.t.size() + maxBoundsRows - 1) / maxBoundsRows : track.t.size();
     std::vector<Point> points;
     std::vector<double> x;
     Drawing drawing;

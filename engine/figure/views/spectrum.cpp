@@ -9,13 +9,18 @@
 namespace extremal::views {
 namespace {
 
-/// The largest coefficient with each wave number along x, or along y.
-Series largestAlong(const SchemeResult& scheme, const Hamiltonian& h, bool isAlongY) {
+/// Those of the last picture.
+std::vector<Complex> coefficientsOf(const SchemeResult& scheme, const Hamiltonian& h) {
     const auto n = static_cast<std::size_t>(h.size());
     const auto& values = *scheme.frames.back().values;
     std::vector<Complex> psi(n), c(n);
     for (std::size_t j = 0; j < n; ++j) psi[j] = {values[j], values[n + j]};
     h.toCoefficients(psi.data(), c.data());
+    return c;
+}
+
+/// The largest coefficient with each wave number along x, or along y.
+Series largestAlong(const SchemeResult& scheme, const Hamiltonian& h, const std::vector<Complex>& c, bool isAlongY) {
     const int modes = isAlongY ? h.grid().ny : h.grid().nx;
     Series s;
     s.label = scheme.spec.label;
@@ -33,11 +38,8 @@ Series largestAlong(const SchemeResult& scheme, const Hamiltonian& h, bool isAlo
 }
 
 Series spectrumOf(const SchemeResult& scheme, const Hamiltonian& h) {
-    const auto n = static_cast<std::size_t>(h.size());
-    const auto& values = *scheme.frames.back().values;
-    std::vector<Complex> psi(n), c(n);
-    for (std::size_t j = 0; j < n; ++j) psi[j] = {values[j], values[n + j]};
-    h.toCoefficients(psi.data(), c.data());
+    const std::vector<Complex> c = coefficientsOf(scheme, h);
+    const std::size_t n = c.size();
     Series s;
     s.label = scheme.spec.label;
     s.style = scheme.style;
@@ -64,7 +66,8 @@ Figure makeSpectrum(const FigureContext& context) {
                 figure.series.push_back(spectrumOf(*scheme, h));
                 continue;
             }
-            for (const bool isAlongY : {false, true}) figure.series.push_back(largestAlong(*scheme, h, isAlongY));
+            const std::vector<Complex> c = coefficientsOf(*scheme, h);
+            for (const bool isAlongY : {false, true}) figure.series.push_back(largestAlong(*scheme, h, c, isAlongY));
             figure.subtitle = "the largest along x; along y pale";
         }
     figure.floor = 0x1p-52;

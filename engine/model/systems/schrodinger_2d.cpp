@@ -11,13 +11,11 @@
 namespace extremal::systems {
 namespace {
 
-constexpr int mostPlaces = 1 << 18;
-
 std::shared_ptr<const Hamiltonian> planeHamiltonian(const Settings& settings) {
     const wave::Grid grid{domainOf(settings, "domain"), modesOf(settings, "modes", true), domainOf(settings, "domain_y"),
                           modesOf(settings, "modes_y", true)};
-    if (grid.size() > mostPlaces)
-        throw InvalidScene("/modes_y", "must make at most " + std::to_string(mostPlaces) + " nodes with /modes, got " +
+    if (grid.size() > wave::mostPlaces)
+        throw InvalidScene("/modes_y", "must make at most " + std::to_string(wave::mostPlaces) + " nodes with /modes, got " +
                                            std::to_string(grid.nx) + " x " + std::to_string(grid.ny),
                            "512 x 512 and less");
     wave::Potential V = wave::makePotential(*settings.find("potential"), "/potential", grid, constantsOf(settings));
