@@ -56,9 +56,12 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
 }
 
 void addWisdom(CLI::App& app, Arguments& arguments) {
-    CLI::App& verb = addVerb(app, arguments, "wisdom", "measure the fastest Fourier transforms of this machine, for EXTREMAL_WISDOM",
-                             false);
-    verb.add_option("--out", arguments.wisdom.out, "the file; what it knows already is kept")->required()->type_name("FILE");
+    CLI::App& verb =
+        addVerb(app, arguments, "wisdom",
+                "measure the fastest Fourier transforms of this machine, for EXTREMAL_WISDOM", false);
+    verb.add_option("--out", arguments.wisdom.out, "the file; what it knows already is kept")
+        ->required()
+        ->type_name("FILE");
     verb.add_option("--modes", arguments.wisdom.modes, "a number of modes, or NxM in the plane; repeatable")
         ->required()
         ->type_name("N")

@@ -37,8 +37,8 @@ std::string summaryTable(const Comparison& comparison) {
         const Summary& s = scheme->summary;
         table.rows.push_back({s.label, name(s.status), std::to_string(s.steps), duration(s.cpuSeconds),
                               std::to_string(s.evaluations), number(s.maxEnergyError),
-                              number(s.maxMomentumError), number(s.maxError), number(s.finalError),
-                              order(s), s.about});
+                              number(s.maxMomentumError), number(s.maxError), number(s.finalError), order(s),
+                              s.about});
     }
     // A column that no scheme fills says nothing.
     for (std::size_t c = table.rows[0].size(); c-- > 0;) {

@@ -50,8 +50,8 @@ SnapshotRequest requestOf(const SnapshotOptions& options) {
 }
 
 /// Prints what was made; returns the exit code, which writing to a full disk can change.
-int printSnapshot(const SnapshotOptions& snapshot, const SnapshotRequest& request, const SnapshotResult& result,
-                int code, const CommonOptions& options) {
+int printSnapshot(const SnapshotOptions& snapshot, const SnapshotRequest& request,
+                  const SnapshotResult& result, int code, const CommonOptions& options) {
     if (options.isJson) {
         Value document;
         document.set("file", snapshot.out);
@@ -98,9 +98,10 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         if (request.view != "all" && !isInScene) {
             ReadScene wider = readScene(toValue(shown), {{"/views/-", request.view}});
             if (!wider.errors.empty())
-                throw SnapshotError(SnapshotError::Kind::unusable, "--view",
-                                    "the view " + request.view + " is not for this scene: " + wider.errors.front().message,
-                                    wider.errors.front().hint);
+                throw SnapshotError(
+                    SnapshotError::Kind::unusable, "--view",
+                    "the view " + request.view + " is not for this scene: " + wider.errors.front().message,
+                    wider.errors.front().hint);
             shown = std::move(wider.scene);
         }
         Run run(shown, {options.threads});

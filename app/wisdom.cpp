@@ -24,7 +24,8 @@ std::optional<TransformSize> sizeOf(const std::string& text) {
     };
     const std::size_t cross = text.find('x');
     const std::string_view all = text;
-    if (!isMode(all.substr(0, cross), size.nx) || (cross != std::string::npos && !isMode(all.substr(cross + 1), size.ny)) ||
+    if (!isMode(all.substr(0, cross), size.nx) ||
+        (cross != std::string::npos && !isMode(all.substr(cross + 1), size.ny)) ||
         static_cast<long long>(size.nx) * size.ny > wave::mostPlaces)
         return {};
     return size;
@@ -32,7 +33,8 @@ std::optional<TransformSize> sizeOf(const std::string& text) {
 
 bool write(const std::string& file, const std::string& text) {
     QSaveFile out(QString::fromStdString(file));
-    return out.open(QIODevice::WriteOnly) && out.write(text.data(), static_cast<qint64>(text.size())) == static_cast<qint64>(text.size()) &&
+    return out.open(QIODevice::WriteOnly) &&
+           out.write(text.data(), static_cast<qint64>(text.size())) == static_cast<qint64>(text.size()) &&
            out.commit();
 }
 
@@ -43,8 +45,11 @@ int wisdomVerb(const WisdomOptions& options, const CommonOptions& common) {
     for (const std::string& text : options.modes) {
         const auto size = sizeOf(text);
         if (!size) {
-            printProblem("--modes", "must be an even number from 8 to 65536, or two of them with at most 262144 nodes, got \"" + text + "\"",
-                         "for example 256 or 256x256");
+            printProblem(
+                "--modes",
+                "must be an even number from 8 to 65536, or two of them with at most 262144 nodes, got \"" +
+                    text + "\"",
+                "for example 256 or 256x256");
             return unusable;
         }
         sizes.push_back(*size);
@@ -61,16 +66,21 @@ int wisdomVerb(const WisdomOptions& options, const CommonOptions& common) {
     Value::Array rows;
     for (std::size_t i = 0; i < sizes.size(); ++i) {
         const TransformGain gain = measureTransform(sizes[i]);
-        table.rows.push_back({options.modes[i], formatNumber(gain.estimated, 3) + " µs", formatNumber(gain.measured, 3) + " µs"});
-        rows.emplace_back(Value::Object{{"modes", options.modes[i]}, {"estimated", gain.estimated}, {"measured", gain.measured}});
+        table.rows.push_back({options.modes[i], formatNumber(gain.estimated, 3) + " µs",
+                              formatNumber(gain.measured, 3) + " µs"});
+        rows.emplace_back(Value::Object{
+            {"modes", options.modes[i]}, {"estimated", gain.estimated}, {"measured", gain.measured}});
     }
     if (!write(options.out, wisdom())) {
         printProblem(options.out, "could not be written", "a folder that is there and may be written to");
         return unwritable;
     }
-    if (common.isJson) return print(writeJson(Value::Object{{"file", options.out}, {"transforms", rows}}), done);
+    if (common.isJson)
+        return print(writeJson(Value::Object{{"file", options.out}, {"transforms", rows}}), done);
     if (common.isQuiet) return done;
-    return print(table.text() + "\nMicroseconds there and back. Used where EXTREMAL_WISDOM=" + options.out + " is in the environment.\n", done);
+    return print(table.text() + "\nMicroseconds there and back. Used where EXTREMAL_WISDOM=" + options.out +
+                     " is in the environment.\n",
+                 done);
 }
 
 }  // namespace extremal::app

@@ -27,7 +27,8 @@ bool ElementAction<T>::evaluate(const T& t0, const T& h, const Matrix& Z, T& S, 
         q = Z * value;
         v = Z * slope / h;
         T L;
-        mechanics_.jet(mechanics_.model.get(), t0 + table_.node(i) * h, q.data(), v.data(), &L, g.data(), H.data());
+        mechanics_.jet(mechanics_.model.get(), t0 + table_.node(i) * h, q.data(), v.data(), &L, g.data(),
+                       H.data());
         const T b = table_.weight(i);
         S += b * h * L;
         if (gradient)
@@ -37,8 +38,10 @@ bool ElementAction<T>::evaluate(const T& t0, const T& h, const Matrix& Z, T& S, 
         for (int a = 0; a < m; ++a)
             for (int c = 0; c < m; ++c)
                 hessian->block(a * d, c * d, d, d) +=
-                    b * (h * value(a) * value(c) * H.topLeftCorner(d, d) + value(a) * slope(c) * H.topRightCorner(d, d) +
-                         slope(a) * value(c) * H.bottomLeftCorner(d, d) + slope(a) * slope(c) / h * H.bottomRightCorner(d, d));
+                    b * (h * value(a) * value(c) * H.topLeftCorner(d, d) +
+                         value(a) * slope(c) * H.topRightCorner(d, d) +
+                         slope(a) * value(c) * H.bottomLeftCorner(d, d) +
+                         slope(a) * slope(c) / h * H.bottomRightCorner(d, d));
     }
     using std::isfinite;
     const T size = gradient ? T(gradient->sum() + S) : S;

@@ -1,10 +1,13 @@
-/// The discrete action of one element and its derivatives, as a function of its two end positions and its interior:
+/// The discrete action of one element and its derivatives, as a function of its two end positions and its
+/// interior:
 ///     S(Z) = h sum_i b_i L(t_0 + c_i h, q(c_i), q'(c_i) / h),    q = psi q_0 + sum_a phi_a Y_a + phi q_1,
-/// Z = (q_0, Y_0, ..., Y_{m-2}, q_1) from the functions of a table (action/table.hpp): psi has the traces (1, 0), phi the
-/// traces (0, 1), the others vanish at both ends. Entry (k, b) of Z, d x (m + 1), is coordinate k of function b, and the
-/// gradient and Hessian are ordered as Z column by column. Nothing is solved here; see solve/discrete_lagrangian.hpp.
+/// Z = (q_0, Y_0, ..., Y_{m-2}, q_1) from the functions of a table (action/table.hpp): psi has the traces (1,
+/// 0), phi the traces (0, 1), the others vanish at both ends. Entry (k, b) of Z, d x (m + 1), is coordinate k
+/// of function b, and the gradient and Hessian are ordered as Z column by column. Nothing is solved here; see
+/// solve/discrete_lagrangian.hpp.
 ///
-/// T: double or quadruple precision. Source: Leok 2004, sec. 2.1, with s + 1 control points (the text numbers s).
+/// T: double or quadruple precision. Source: Leok 2004, sec. 2.1, with s + 1 control points (the text numbers
+/// s).
 #pragma once
 
 #include <Eigen/Core>

@@ -14,8 +14,8 @@
 namespace extremal {
 namespace {
 
-// T: double on a grid of independent phases, where the functions are far from dependent. Along a curve with few periods
-// they are nearly polynomials, and their differences lose up to six digits: extended precision.
+// T: double on a grid of independent phases, where the functions are far from dependent. Along a curve with
+// few periods they are nearly polynomials, and their differences lose up to six digits: extended precision.
 
 using dense::Matrix;
 using dense::Vector;
@@ -69,7 +69,8 @@ struct Samples {
         const auto n = static_cast<std::size_t>(basis.size());
         for (Eigen::Index i = 0; i < points.size(); ++i) {
             const auto k = static_cast<std::size_t>(i);
-            basis.evaluate<T>(points.tau[k], points.phase[k], z, {value.col(i).data(), n}, {slope.col(i).data(), n});
+            basis.evaluate<T>(points.tau[k], points.phase[k], z, {value.col(i).data(), n},
+                              {slope.col(i).data(), n});
         }
         value.transposeInPlace();
         slope.transposeInPlace();
@@ -98,7 +99,8 @@ Points<double> gridPoints(const OscillatoryBasis& basis) {
     Points<double> points;
     for (std::size_t i = 0; i < rule.c.size(); ++i)
         for (int m = 0; m < M[0]; ++m)
-            for (int n = 0; n < M[1]; ++n) points.add(rule.c[i], {turn * m / M[0], turn * n / M[1]}, rule.b[i] / (M[0] * M[1]));
+            for (int n = 0; n < M[1]; ++n)
+                points.add(rule.c[i], {turn * m / M[0], turn * n / M[1]}, rule.b[i] / (M[0] * M[1]));
     return points;
 }
 
@@ -128,10 +130,12 @@ struct Functions {
         while (dropped < n - 3 && !(squares(dropped) > T(1e-11) * squares(n - 3))) ++dropped;
         const Eigen::Index kept = n - 2 - dropped;
         change = Matrix<T>::Zero(n, kept + 1);
-        change.leftCols(kept) = vanishing * eigen.vectors.rightCols(kept) * squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+        change.leftCols(kept) = vanishing * eigen.vectors.rightCols(kept) *
+                                squares.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
         // tau itself, and what is left of it orthogonal to these.
         change(0, kept) = change(1, kept) = T(0.5);
-        change.col(kept) -= change.leftCols(kept) * (change.leftCols(kept).transpose() * (gram * change.col(kept)));
+        change.col(kept) -=
+            change.leftCols(kept) * (change.leftCols(kept).transpose() * (gram * change.col(kept)));
     }
 };
 
@@ -149,13 +153,15 @@ Matrix<T> smoothestPart(const OscillatoryBasis& basis, const Functions<T>& f) {
     const Matrix<T> onto = Matrix<T>(f.gram * f.change)(kept, Eigen::all);
     const Matrix<double> product = Matrix<T>(f.gram(kept, kept)).template cast<double>();
     Matrix<T> part = Matrix<T>::Zero(f.gram.rows(), f.change.cols());
-    const Matrix<T> coefficients = dense::solve<double>(product, onto.template cast<double>()).template cast<T>();  // a guess
-    for (std::size_t i = 0; i < kept.size(); ++i) part.row(kept[i]) = coefficients.row(static_cast<Eigen::Index>(i));
+    const Matrix<T> coefficients =
+        dense::solve<double>(product, onto.template cast<double>()).template cast<T>();  // a guess
+    for (std::size_t i = 0; i < kept.size(); ++i)
+        part.row(kept[i]) = coefficients.row(static_cast<Eigen::Index>(i));
     return part;
 }
 
-/// A step later the space is the same: column b holds function b, continued beyond the step, in the basis. Amplitudes go
-/// on as polynomials, P_j(x + 2), phases turn by z.
+/// A step later the space is the same: column b holds function b, continued beyond the step, in the basis.
+/// Amplitudes go on as polynomials, P_j(x + 2), phases turn by z.
 template <class T>
 Matrix<T> shift(const OscillatoryBasis& basis, const Phases<T>& z) {
     const int highest = basis.highestDegree();
@@ -174,7 +180,8 @@ Matrix<T> shift(const OscillatoryBasis& basis, const Phases<T>& z) {
         S.col(j + 1) = next / (n + 1);
     }
     Matrix<T> all = Matrix<T>::Zero(basis.size(), basis.size());
-    all.topLeftCorner(basis.degree + 1, basis.degree + 1) = S.topLeftCorner(basis.degree + 1, basis.degree + 1);
+    all.topLeftCorner(basis.degree + 1, basis.degree + 1) =
+        S.topLeftCorner(basis.degree + 1, basis.degree + 1);
     Eigen::Index first = basis.degree + 1;
     for (const Harmonic& k : basis.harmonics) {
         const T turn = k.times(z), c = std::cos(turn), s = std::sin(turn);
@@ -193,15 +200,17 @@ Matrix<T> shift(const OscillatoryBasis& basis, const Phases<T>& z) {
 /// The rule must tell all functions from each other.
 void checkRule(const Table<double>& t, const std::string& remedy) {
     if (tellsFunctionsApart(t)) return;
-    throw InvalidScene("/quadrature", "does not tell the " + std::to_string(t.unknowns() + 1) +
-                                          " functions of the space from each other: some motions inside a step would cost no "
-                                          "action, and the step would be singular",
-                       remedy);
+    throw InvalidScene(
+        "/quadrature",
+        "does not tell the " + std::to_string(t.unknowns() + 1) +
+            " functions of the space from each other: some motions inside a step would cost no "
+            "action, and the step would be singular",
+        remedy);
 }
 
 template <class T>
-Table<double> build(const OscillatoryBasis& basis, const Phases<double>& turns, const Points<T>& points, const Points<T>& product,
-                    const std::string& remedy) {
+Table<double> build(const OscillatoryBasis& basis, const Phases<double>& turns, const Points<T>& points,
+                    const Points<T>& product, const std::string& remedy) {
     const Phases<T> z = wide<T>(turns);
     const Functions<T> f(basis, z, product);
     const Samples<T> at(basis, z, points);
@@ -242,13 +251,14 @@ Table<double> build(const OscillatoryBasis& basis, const Phases<double>& turns, 
 void checkResolution(double z, const Rule<double>& rule) {
     const double periods = std::abs(z) / (2 * std::numbers::pi);
     if (rule.size() > 4 * periods) return;
-    throw InvalidScene("/quadrature", formatNumber(rule.size()) + " nodes do not resolve the " + formatNumber(periods, 4) +
-                                          " periods of the fastest harmonic in a step",
+    throw InvalidScene("/quadrature",
+                       formatNumber(rule.size()) + " nodes do not resolve the " + formatNumber(periods, 4) +
+                           " periods of the fastest harmonic in a step",
                        "some 24 for each fast period, or a Filon rule");
 }
 
-Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<double>& z, FilonNodes nodes, int count,
-                                   const Multiples& phases) {
+Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<double>& z, FilonNodes nodes,
+                                   int count, const Multiples& phases) {
     const FilonGrid grid = filonGrid(nodes, count, phases, z);
     const Multiples top = basis.highestHarmonics();
     Table<double> t = build<double>(basis, z, pointsOf(grid), gridPoints(basis),
@@ -261,7 +271,8 @@ Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<d
     return t;
 }
 
-Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<double>& z, const Rule<double>& rule) {
+Table<double> makeOscillatoryTable(const OscillatoryBasis& basis, const Phases<double>& z,
+                                   const Rule<double>& rule) {
     checkResolution(fastestPhase(basis, z), rule);
     Table<double> t = build<long double>(basis, z, pointsOf<long double>(rule, z), curvePoints(basis, z),
                                          "more nodes or panels, or a Filon rule");

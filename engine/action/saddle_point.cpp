@@ -39,8 +39,9 @@ std::vector<UnknownBlock> SaddlePoint::blocks() const {
     return all;
 }
 
-bool SaddlePoint::assemble(double t0, const Eigen::VectorXd& q0, const Eigen::VectorXd& qN, const Eigen::VectorXd& x,
-                           Eigen::VectorXd& gradient, Eigen::MatrixXd* hessian) const {
+bool SaddlePoint::assemble(double t0, const Eigen::VectorXd& q0, const Eigen::VectorXd& qN,
+                           const Eigen::VectorXd& x, Eigen::VectorXd& gradient,
+                           Eigen::MatrixXd* hessian) const {
     const int d = dimension(), n = functions();
     gradient = Eigen::VectorXd::Zero(size());
     if (hessian) *hessian = Eigen::MatrixXd::Zero(size(), size());
@@ -53,10 +54,12 @@ bool SaddlePoint::assemble(double t0, const Eigen::VectorXd& q0, const Eigen::Ve
         for (int i = 0; i < node_.size(); ++i) {
             q = Z * value_.row(i).transpose();
             v = Z * slope_.row(i).transpose() / h_;
-            mechanics_.jet(mechanics_.model.get(), t0 + (k + node_(i)) * h_, q.data(), v.data(), &L, g.data(), H.data());
+            mechanics_.jet(mechanics_.model.get(), t0 + (k + node_(i)) * h_, q.data(), v.data(), &L, g.data(),
+                           H.data());
             const double b = weight_(i);
             for (int a = 0; a < n; ++a)
-                gradient.segment(z + a * d, d) += b * (h_ * value_(i, a) * g.head(d) + slope_(i, a) * g.tail(d));
+                gradient.segment(z + a * d, d) +=
+                    b * (h_ * value_(i, a) * g.head(d) + slope_(i, a) * g.tail(d));
             if (!hessian) continue;
             for (int a = 0; a < n; ++a)
                 for (int c = 0; c < n; ++c)

@@ -1,13 +1,15 @@
-/// The augmented action of N elements, nothing condensed: every element has its own degrees of freedom z_k in the basis of
-/// the space, and multipliers glue them,
-///     A = sum_k S(z_k) + p_0 . (s-(z_0) - q_0) + sum_{k=1}^{N-1} p_k . (s-(z_k) - s+(z_{k-1})) - p_N . (s+(z_{N-1}) - q_N).
+/// The augmented action of N elements, nothing condensed: every element has its own degrees of freedom z_k in
+/// the basis of the space, and multipliers glue them,
+///     A = sum_k S(z_k) + p_0 . (s-(z_0) - q_0) + sum_{k=1}^{N-1} p_k . (s-(z_k) - s+(z_{k-1})) - p_N .
+///     (s+(z_{N-1}) - q_N).
 /// Its stationarity conditions are the KKT conditions of the discrete action under continuity,
 ///     dS/dz_k + (Ds-)^T p_k - (Ds+)^T p_{k+1} = 0,    s-(z_k) = s+(z_{k-1}),
 /// for fixed ends q_0 and q_N; the multipliers are the momenta. The matrix is symmetric and indefinite.
 ///
-/// Unknowns in the order of time: p_0, z_0, p_1, z_1, ..., z_{N-1}, p_N; entry (a, i) of z_k, function a and coordinate i, is
-/// at place a d + i of its block. This is the definition; steps solve a condensed form of it (action/table.hpp), and figures
-/// of sparsity show it. Source: Leok 2004, sec. 2.1; the second condition printed there has a wrong element index.
+/// Unknowns in the order of time: p_0, z_0, p_1, z_1, ..., z_{N-1}, p_N; entry (a, i) of z_k, function a and
+/// coordinate i, is at place a d + i of its block. This is the definition; steps solve a condensed form of it
+/// (action/table.hpp), and figures of sparsity show it. Source: Leok 2004, sec. 2.1; the second condition
+/// printed there has a wrong element index.
 #pragma once
 
 #include <Eigen/Core>
@@ -47,7 +49,7 @@ private:
     int elements_;
     Eigen::VectorXd node_, weight_, start_, end_;  ///< of the rule; traces of the basis
     Eigen::MatrixXd value_, slope_;                ///< (i, a): the basis at the nodes
-    Eigen::VectorXd one_, rise_;                   ///< coefficients of the functions 1 and (0 at the start, 1 at the end)
+    Eigen::VectorXd one_, rise_;  ///< coefficients of the functions 1 and (0 at the start, 1 at the end)
 };
 
 }  // namespace extremal

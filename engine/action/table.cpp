@@ -17,7 +17,8 @@ Space<Quad> wideTwin(const Space<double>& space) {
     twin.size = space.size;
     twin.degree = space.degree;
     twin.hasKinks = space.hasKinks;
-    twin.evaluate = [evaluate = space.evaluateWide](const Quad& tau, std::span<Quad> value, std::span<Quad> derivative) {
+    twin.evaluate = [evaluate = space.evaluateWide](const Quad& tau, std::span<Quad> value,
+                                                    std::span<Quad> derivative) {
         std::vector<__float128> v(value.size()), d(value.size());
         evaluate(tau.backend().value(), v, d);
         for (std::size_t a = 0; a < value.size(); ++a) {

@@ -25,7 +25,8 @@ struct Samples {
     }
 };
 
-/// Points denser than the space has functions, cosine-spaced, with weights: int f ~ sum_i weight_i f(point_i).
+/// Points denser than the space has functions, cosine-spaced, with weights: int f ~ sum_i weight_i
+/// f(point_i).
 template <class T>
 struct Probe {
     std::vector<T> point;
@@ -58,42 +59,50 @@ typename Table<T>::Vector coefficientsOfOne(const Samples<T>& samples) {
 }
 
 /// The change to functions Y_a whose traces are trivial (see table.hpp). The interior ones are orthonormal in
-/// int phi_a' phi_b', and orthogonal to the last: the step is as well conditioned as its space, whatever the basis.
+/// int phi_a' phi_b', and orthogonal to the last: the step is as well conditioned as its space, whatever the
+/// basis.
 template <class T>
-typename Table<T>::Matrix changeOfBasis(const Space<T>& space, const Samples<T>& samples, const Probe<T>& probe) {
+typename Table<T>::Matrix changeOfBasis(const Space<T>& space, const Samples<T>& samples,
+                                        const Probe<T>& probe) {
     using Matrix = typename Table<T>::Matrix;
     const int n = space.size, m = n - 1;
-    // The first two vectors of an orthonormal basis of the coefficients span the traces; the others vanish at both ends.
+    // The first two vectors of an orthonormal basis of the coefficients span the traces; the others vanish at
+    // both ends.
     const Samples<T> ends(space, {T(0), T(1)});
     const Matrix traces = ends.value.transpose();  // n x 2
     const Eigen::Matrix<T, 2, 2> gram = traces.transpose() * traces;
     const T determinant = gram(0, 0) * gram(1, 1) - gram(0, 1) * gram(1, 0);
     if (!(static_cast<double>(determinant) >= 1e-12))
-        throw InvalidScene("/space", "the end points do not determine two independent functions", "raise the degree");
+        throw InvalidScene("/space", "the end points do not determine two independent functions",
+                           "raise the degree");
     // Minimal-norm coefficients of a function with traces (0, 1).
     Matrix change(n, m);
     change.col(m - 1) = (traces.col(1) * gram(0, 0) - traces.col(0) * gram(0, 1)) / determinant;
     if (m == 1) return change;
     change.leftCols(m - 1) = dense::qr<T>(traces).Q.rightCols(m - 1);
-    const Matrix slopes = probe.weight.cwiseSqrt().asDiagonal() * dense::product<T>(samples.derivative, change);
+    const Matrix slopes =
+        probe.weight.cwiseSqrt().asDiagonal() * dense::product<T>(samples.derivative, change);
     const auto [Q, R] = dense::qr<T>(slopes.leftCols(m - 1));
     const auto pivots = R.diagonal().cwiseAbs();
     if (!(pivots.minCoeff() > pivots.maxCoeff() * T(1e-12)))
-        throw InvalidScene("/space", "has functions that are not independent", "leave out those that follow from others");
+        throw InvalidScene("/space", "has functions that are not independent",
+                           "leave out those that follow from others");
     const dense::Lu<T> upper(R);
     const Matrix along = upper.solve(dense::product<T>(Q.leftCols(m - 1).transpose(), slopes.col(m - 1)));
     change.col(m - 1) -= dense::product<T>(change.leftCols(m - 1), along);
-    change.leftCols(m - 1) = dense::product<T>(change.leftCols(m - 1), upper.solve(Matrix::Identity(m - 1, m - 1)));
+    change.leftCols(m - 1) =
+        dense::product<T>(change.leftCols(m - 1), upper.solve(Matrix::Identity(m - 1, m - 1)));
     return change;
 }
 
-/// Smallest k for which the rule is not exact for all (P_k phi_a)', P_k Legendre's polynomials and phi_a the interior
-/// functions, whose integrals vanish; at most degree + 1, as more does not matter.
+/// Smallest k for which the rule is not exact for all (P_k phi_a)', P_k Legendre's polynomials and phi_a the
+/// interior functions, whose integrals vanish; at most degree + 1, as more does not matter.
 template <class T>
 int consistencyOf(const Table<T>& t) {
     using std::abs;
     const int most = t.space.degree + 1;
-    typename Table<T>::Vector P = Table<T>::Vector::Ones(t.nodes()), lower = Table<T>::Vector::Zero(t.nodes());
+    typename Table<T>::Vector P = Table<T>::Vector::Ones(t.nodes()),
+                              lower = Table<T>::Vector::Zero(t.nodes());
     auto dP = lower, dLower = lower;
     for (int k = 0; k < most; ++k) {
         for (int a = 0; a < t.unknowns() - 1; ++a) {
@@ -121,12 +130,13 @@ template <class T>
 void checkRank(const Table<T>& t) {
     const int m = t.unknowns();
     if (tellsFunctionsApart(t)) return;
-    throw InvalidScene("/quadrature",
-                       (t.nodes() < m ? "has too few nodes (" : "has nodes in the wrong places (") +
-                           std::to_string(t.nodes()) + ") for the " + std::to_string(m + 1) +
-                           " functions of the space: some motions inside a step would cost no action, and the step would "
-                           "be singular for every step size",
-                       "use at least " + std::to_string(m) + " nodes, spread over the step");
+    throw InvalidScene(
+        "/quadrature",
+        (t.nodes() < m ? "has too few nodes (" : "has nodes in the wrong places (") +
+            std::to_string(t.nodes()) + ") for the " + std::to_string(m + 1) +
+            " functions of the space: some motions inside a step would cost no action, and the step would "
+            "be singular for every step size",
+        "use at least " + std::to_string(m) + " nodes, spread over the step");
 }
 
 template <class T>

@@ -51,7 +51,8 @@ double AdaptiveMethod::firstStep(double t, const Vector& x) const {
 }
 
 void refuseWithout(const std::string& baseline, const std::string& library, const std::string& package) {
-    throw InvalidScene("/baseline", baseline + " needs " + library + ", which was missing when this program was built",
+    throw InvalidScene("/baseline",
+                       baseline + " needs " + library + ", which was missing when this program was built",
                        "install the package " + package + " and build again");
 }
 

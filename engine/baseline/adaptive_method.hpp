@@ -1,8 +1,10 @@
-/// What the codes that choose their own steps share: one accepted step per advance(), the end hit exactly, a curve.
+/// What the codes that choose their own steps share: one accepted step per advance(), the end hit exactly, a
+/// curve.
 ///
-/// They integrate x' = f(t, x): x = (q, p) and Hamilton's vector field, or any other. Both relative and absolute tolerance are the
-/// scene's tolerance. The curve inside a step is the code's own interpolant where it has one, else a shorter step of the
-/// same formula: steps are so long here that a polynomial through both ends would lose most digits.
+/// They integrate x' = f(t, x): x = (q, p) and Hamilton's vector field, or any other. Both relative and
+/// absolute tolerance are the scene's tolerance. The curve inside a step is the code's own interpolant where
+/// it has one, else a shorter step of the same formula: steps are so long here that a polynomial through both
+/// ends would lose most digits.
 #pragma once
 
 #include <functional>
@@ -26,8 +28,8 @@ public:
 protected:
     using Vector = std::vector<double>;
 
-    /// Takes one accepted step: moves t and x, by no more than to end(). Counts refused steps in `report`. `isContinued`:
-    /// t and x are where the last step left them.
+    /// Takes one accepted step: moves t and x, by no more than to end(). Counts refused steps in `report`.
+    /// `isContinued`: t and x are where the last step left them.
     virtual Outcome take(double& t, Vector& x, StepReport& report, bool isContinued) = 0;
 
     bool flow(double t, const double* x, double* dx) const { return rate_(t, x, dx); }
@@ -48,6 +50,7 @@ private:
 };
 
 /// Says that the program was built without a library, and how to get it. Throws InvalidScene.
-[[noreturn]] void refuseWithout(const std::string& baseline, const std::string& library, const std::string& package);
+[[noreturn]] void refuseWithout(const std::string& baseline, const std::string& library,
+                                const std::string& package);
 
 }  // namespace extremal

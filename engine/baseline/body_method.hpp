@@ -1,8 +1,9 @@
 /// What the baselines of rigid bodies share: clock, state, and a curve between the nodes.
 ///
-/// They see a body through its inertia and the force of its potential (model/body.hpp). A step moves the attitude q, the
-/// momentum in the body and, on SE(3), position and linear momentum; what follows from them is filled in afterwards. The
-/// curve is the cubic Hermite interpolant of the state, its attitude brought back to length 1.
+/// They see a body through its inertia and the force of its potential (model/body.hpp). A step moves the
+/// attitude q, the momentum in the body and, on SE(3), position and linear momentum; what follows from them
+/// is filled in afterwards. The curve is the cubic Hermite interpolant of the state, its attitude brought
+/// back to length 1.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +35,10 @@ public:
     };
 
     BodyMethod(const System& system, const Clock& clock)
-        : body_(system.body), clock_(clock), rate_(system.rate), size_(static_cast<std::size_t>(body_.stateSize())) {
+        : body_(system.body),
+          clock_(clock),
+          rate_(system.rate),
+          size_(static_cast<std::size_t>(body_.stateSize())) {
         for (auto* v : {&before_, &after_, &slopeBefore_, &slopeAfter_}) v->assign(size_, 0);
     }
 
@@ -72,8 +76,8 @@ public:
 protected:
     /// Moves m by h and adds to report_.
     virtual void step(Motion& m, double h) = 0;
-    /// True where a step does nothing to the momentum but turn it with the body: that in space is then carried on as
-    /// it is, and the body's is it, turned back.
+    /// True where a step does nothing to the momentum but turn it with the body: that in space is then
+    /// carried on as it is, and the body's is it, turned back.
     virtual bool turnsMomentum() const { return false; }
 
     Motion read(const double* x) const {
@@ -103,12 +107,14 @@ protected:
         ++report_.evaluations;
         const so3::Matrix<double> R = so3::matrix(so3::normalised(m.q));
         std::array<double, 6> f{};
-        body_.potential(body_.model.get(), R.data(), size_ > 10 ? m.position.data() : nullptr, nullptr, f.data(), nullptr);
+        body_.potential(body_.model.get(), R.data(), size_ > 10 ? m.position.data() : nullptr, nullptr,
+                        f.data(), nullptr);
         torque << f[0], f[1], f[2];
         force << f[3], f[4], f[5];
     }
     Vector omega(const Vector& momentum) const {
-        return {momentum(0) / body_.inertia[0], momentum(1) / body_.inertia[1], momentum(2) / body_.inertia[2]};
+        return {momentum(0) / body_.inertia[0], momentum(1) / body_.inertia[1],
+                momentum(2) / body_.inertia[2]};
     }
 
     BodyMechanics<double> body_;

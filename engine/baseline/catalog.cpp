@@ -6,7 +6,8 @@ namespace extremal {
 
 const BaselineEntry* findBaseline(std::string_view id) {
     const auto& all = baselineCatalog();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const BaselineEntry& e) { return e.item.id == id; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const BaselineEntry& e) { return e.item.id == id; });
     return found == all.end() ? nullptr : &*found;
 }
 

@@ -13,18 +13,19 @@
 namespace extremal {
 
 struct BaselineOptions {
-    Clock clock;            ///< fixed-step schemes
-    double end = 0;         ///< adaptive schemes land on it
-    double tolerance = 0;   ///< adaptive schemes
-    Settings settings;      ///< the baseline's own keys
+    Clock clock;           ///< fixed-step schemes
+    double end = 0;        ///< adaptive schemes land on it
+    double tolerance = 0;  ///< adaptive schemes
+    Settings settings;     ///< the baseline's own keys
 };
 
 struct BaselineEntry {
     CatalogItem item;
-    bool isAdaptive = false;  ///< takes "tolerance" instead of "step"
-    std::function<bool(const System&)> applies;  ///< empty: every system with coordinates
+    bool isAdaptive = false;                        ///< takes "tolerance" instead of "step"
+    std::function<bool(const System&)> applies;     ///< empty: every system with coordinates
     std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
-    double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
+    double stabilityLimit =
+        0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
     /// Throws InvalidScene (pointer relative to the scheme) where it cannot.
     std::function<std::unique_ptr<Integrator>(const System&, const BaselineOptions&)> make;
 };

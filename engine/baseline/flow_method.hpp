@@ -1,8 +1,8 @@
 /// What the baselines of mechanical systems share: Hamilton's vector field, counted, the clock, and a curve.
 ///
-/// Baselines see a system through (qdot, pdot) = (dH/dp, -dH/dq) at (t, q, p), or, where it is separable, through its
-/// force and masses. D: dimension at compile time or Eigen::Dynamic. The curve inside a step is the cubic Hermite
-/// interpolant of x and xdot at both ends: order 4 at best, as usual for these methods.
+/// Baselines see a system through (qdot, pdot) = (dH/dp, -dH/dq) at (t, q, p), or, where it is separable,
+/// through its force and masses. D: dimension at compile time or Eigen::Dynamic. The curve inside a step is
+/// the cubic Hermite interpolant of x and xdot at both ends: order 4 at best, as usual for these methods.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,8 @@ public:
     using Vector = Eigen::Matrix<double, D, 1>;
     using View = Eigen::Map<Vector>;
 
-    FlowMethod(Mechanics<double> mechanics, const Clock& clock) : mechanics_(std::move(mechanics)), clock_(clock) {
+    FlowMethod(Mechanics<double> mechanics, const Clock& clock)
+        : mechanics_(std::move(mechanics)), clock_(clock) {
         for (Vector* v : {&q0_, &p0_, &q1_, &p1_}) *v = Vector::Zero(d());
     }
 
@@ -81,7 +82,8 @@ private:
 
 /// Makes Method<D> for the system's dimension.
 template <template <int> class Method, class... Arguments>
-std::unique_ptr<Integrator> makeFlowMethod(const Mechanics<double>& mechanics, const Arguments&... arguments) {
+std::unique_ptr<Integrator> makeFlowMethod(const Mechanics<double>& mechanics,
+                                           const Arguments&... arguments) {
     return withDimension(mechanics.dimension, [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Method<decltype(d)::value>>(mechanics, arguments...);
     });

@@ -14,7 +14,8 @@ class Partitioned final : public FlowMethod<D> {
     using Vector = typename Base::Vector;
 
 public:
-    Partitioned(const Mechanics<double>& mechanics, const Clock& clock, const std::vector<PartitionedStage>& stages)
+    Partitioned(const Mechanics<double>& mechanics, const Clock& clock,
+                const std::vector<PartitionedStage>& stages)
         : Base(mechanics, clock), stages_(stages) {
         for (Vector* v : {&dq_, &dp_, &start_, &change_, &force_, &forceAt_, &inverseMass_})
             *v = Vector::Zero(this->d());
@@ -31,7 +32,8 @@ public:
         const auto d = static_cast<std::size_t>(this->d());
         StepReport report;
         report.step = this->h();
-        Vector q = typename Base::View(state.x.data(), this->d()), p = typename Base::View(state.x.data() + d, this->d());
+        Vector q = typename Base::View(state.x.data(), this->d()),
+               p = typename Base::View(state.x.data() + d, this->d());
         bool isForceFresh = false;
         for (std::size_t i = 0; i + 1 < count; ++i) {
             report.evaluations = 0;
@@ -39,7 +41,8 @@ public:
                 const double s = stage.fraction * this->h();
                 if (stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit) {
                     if (!isForceFresh) {
-                        this->mechanics_.force(this->mechanics_.model.get(), state.t, q.data(), force_.data());
+                        this->mechanics_.force(this->mechanics_.model.get(), state.t, q.data(),
+                                               force_.data());
                         ++report.evaluations;
                         isForceFresh = true;
                     }
@@ -60,7 +63,8 @@ public:
 
 private:
     void step(double t) override {
-        double tq = t, tp = t;  // kicks and drifts each move their own clock: q and p are known at different times
+        double tq = t,
+               tp = t;  // kicks and drifts each move their own clock: q and p are known at different times
         for (const PartitionedStage& stage : stages_) {
             const double s = stage.fraction * this->h();
             const bool isKick = stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit;

@@ -2,8 +2,8 @@
 ///
 ///     kickImplicit(s):  p <- p + s pdot(q, p_new)      kickExplicit(s):  p <- p + s pdot(q, p)
 ///     driftImplicit(s): q <- q + s qdot(q_new, p)      driftExplicit(s): q <- q + s qdot(q, p)
-/// For separable systems all are explicit and the implicit ones are the explicit ones. Else the implicit ones are solved
-/// by fixed-point iteration to round-off (Hairer, Lubich, Wanner 2006, VI.3, (3.3) and (3.4)).
+/// For separable systems all are explicit and the implicit ones are the explicit ones. Else the implicit ones
+/// are solved by fixed-point iteration to round-off (Hairer, Lubich, Wanner 2006, VI.3, (3.3) and (3.4)).
 #pragma once
 
 #include <memory>
@@ -26,16 +26,18 @@ struct PartitionedStage {
 std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, const Clock& clock,
                                             const std::vector<PartitionedStage>& stages);
 
-/// The catalogue's entry of such a method. Symplectic whatever the stages; stable on the oscillator up to step * frequency
-/// = 2, which all four compositions of one kick and one drift have in common.
+/// The catalogue's entry of such a method. Symplectic whatever the stages; stable on the oscillator up to
+/// step * frequency = 2, which all four compositions of one kick and one drift have in common.
 BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages);
 
-/// The stages of a splitting. Where kicks and drifts are not explicit, symplectic Euler (kick first) with fraction c_1, its
-/// adjoint with c_2, Euler with c_3, ...: b_1 = c_1, a_1 = c_1 + c_2, b_2 = c_2 + c_3, ... has the same order for any
-/// Hamiltonian (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168). That is for splittings which start with a kick.
+/// The stages of a splitting. Where kicks and drifts are not explicit, symplectic Euler (kick first) with
+/// fraction c_1, its adjoint with c_2, Euler with c_3, ...: b_1 = c_1, a_1 = c_1 + c_2, b_2 = c_2 + c_3, ...
+/// has the same order for any Hamiltonian (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151-168). That is for
+/// splittings which start with a kick.
 std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool isSeparable);
 
 /// The catalogue's entry of a splitting of order splitting.order; Nystrom ones are for separable systems.
-BaselineEntry splittingBaseline(std::string id, std::string title, std::string description, const Splitting& splitting);
+BaselineEntry splittingBaseline(std::string id, std::string title, std::string description,
+                                const Splitting& splitting);
 
 }  // namespace extremal

@@ -39,7 +39,8 @@ public:
 
 private:
     /// One Runge-Kutta step from before_; all of one size.
-    void advanceTo(std::vector<double>& end, double h, std::vector<double>& y, std::vector<double>& rate) const {
+    void advanceTo(std::vector<double>& end, double h, std::vector<double>& y,
+                   std::vector<double>& rate) const {
         const std::size_t n = before_.size();
         end = y = before_;
         constexpr std::array<double, 4> weight = {1. / 6, 1. / 3, 1. / 3, 1. / 6}, place = {0.5, 0.5, 1, 0};
@@ -66,7 +67,8 @@ const ReducedModel* find(const System& system, const std::string& id) {
 
 }  // namespace
 
-BaselineEntry reducedBaseline(const std::string& id, const std::string& title, const std::string& description) {
+BaselineEntry reducedBaseline(const std::string& id, const std::string& title,
+                              const std::string& description) {
     BaselineEntry e;
     e.item = {id, title, description, {}, Claims{}, "the spring pendulum"};
     e.applies = [id](const System& system) { return find(system, id) != nullptr; };

@@ -24,10 +24,15 @@ std::vector<PartitionedStage> partitionedStages(const Splitting& splitting, bool
     return stages;
 }
 
-BaselineEntry splittingBaseline(std::string id, std::string title, std::string description, const Splitting& splitting) {
+BaselineEntry splittingBaseline(std::string id, std::string title, std::string description,
+                                const Splitting& splitting) {
     BaselineEntry e;
-    e.item = {std::move(id), std::move(title), std::move(description), {},
-              Claims{splitting.order, true, true, {"momentum"}}, splitting.isNystrom ? "a separable Lagrangian" : ""};
+    e.item = {std::move(id),
+              std::move(title),
+              std::move(description),
+              {},
+              Claims{splitting.order, true, true, {"momentum"}},
+              splitting.isNystrom ? "a separable Lagrangian" : ""};
     e.applies = [isNystrom = splitting.isNystrom](const System& system) {
         return system.hasWave() || (isNystrom ? system.mechanics.isSeparable : system.hasMechanics());
     };

@@ -3,13 +3,15 @@
 ///     exp(a_1 h A) exp(b_1 h B) exp(a_2 h A) ... exp(a_{n+1} h A)     drift first ("ABA"),
 /// to be read from left to right as they are applied. All are palindromes, hence symmetric.
 ///
-/// For mechanical systems A moves q (drift, the kinetic energy T(p)) and B moves p (kick, -grad V(q)); for the
-/// Schroedinger equation A is the kinetic and B the potential part. Those marked Nystrom have their order only where
-/// [B, [B, [B, A]]] = 0: T quadratic in p with constant masses, V a function of q (and t) alone; Schroedinger included.
+/// For mechanical systems A moves q (drift, the kinetic energy T(p)) and B moves p (kick, -grad V(q)); for
+/// the Schroedinger equation A is the kinetic and B the potential part. Those marked Nystrom have their order
+/// only where [B, [B, [B, A]]] = 0: T quadratic in p with constant masses, V a function of q (and t) alone;
+/// Schroedinger included.
 ///
-/// Source: S. Blanes and P. C. Moan, Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom methods,
-/// J. Comput. Appl. Math. 142 (2002) 313-330, tables 2 and 3. The coefficients are printed to 15 digits; those that
-/// follow from consistency (sums equal to 1) are computed. tests/engine/baseline checks the order conditions.
+/// Source: S. Blanes and P. C. Moan, Practical symplectic partitioned Runge-Kutta and Runge-Kutta-Nystrom
+/// methods, J. Comput. Appl. Math. 142 (2002) 313-330, tables 2 and 3. The coefficients are printed to 15
+/// digits; those that follow from consistency (sums equal to 1) are computed. tests/engine/baseline checks
+/// the order conditions.
 #pragma once
 
 #include <string_view>

@@ -12,8 +12,11 @@ namespace {
 
 class WaveSplitting final : public WaveStep {
 public:
-    WaveSplitting(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, const Splitting& splitting)
-        : WaveStep(std::move(hamiltonian), clock, 0), splitting_(splitting), psi_(static_cast<std::size_t>(n())) {
+    WaveSplitting(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+                  const Splitting& splitting)
+        : WaveStep(std::move(hamiltonian), clock, 0),
+          splitting_(splitting),
+          psi_(static_cast<std::size_t>(n())) {
         const Hamiltonian& h = *shared();
         const double unit = clock.step / h.hbar();
         for (const SplittingStage& s : splitting.stages) {
@@ -23,8 +26,9 @@ public:
             }
             // Equal fractions share their phases: a table has each twice.
             std::size_t same = 0;
-            while (same < phases_.size() && !(splitting.stages[same].isKick == s.isKick &&
-                                              splitting.stages[same].fraction == s.fraction && !phases_[same]->empty()))
+            while (same < phases_.size() &&
+                   !(splitting.stages[same].isKick == s.isKick &&
+                     splitting.stages[same].fraction == s.fraction && !phases_[same]->empty()))
                 ++same;
             if (same < phases_.size()) {
                 phases_.push_back(phases_[same]);
@@ -86,15 +90,22 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock, const Splitting& splitting) {
-    requireSplit(system, "/baseline", "split-step", "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
+std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock,
+                                              const Splitting& splitting) {
+    requireSplit(system, "/baseline", "split-step",
+                 "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
     return std::make_unique<WaveSplitting>(system.wave, clock, splitting);
 }
 
-BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description, const Splitting& splitting) {
+BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
+                                    const Splitting& splitting) {
     BaselineEntry e;
-    e.item = {std::move(id), std::move(title), std::move(description), {},
-              Claims{splitting.order, true, true, {"norm"}}, "a wave function"};
+    e.item = {std::move(id),
+              std::move(title),
+              std::move(description),
+              {},
+              Claims{splitting.order, true, true, {"norm"}},
+              "a wave function"};
     e.applies = [](const System& system) { return system.hasWave(); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [splitting](const System& system, const BaselineOptions& options) {

@@ -1,8 +1,9 @@
-/// Split-step methods for wave functions: a splitting table with A the kinetic part, a phase for each wave number, and B the
-/// potential, a phase at each node. Unitary for every step; explicit; V may depend on time, which moves with A.
+/// Split-step methods for wave functions: a splitting table with A the kinetic part, a phase for each wave
+/// number, and B the potential, a phase at each node. Unitary for every step; explicit; V may depend on time,
+/// which moves with A.
 ///
-/// A kick costs two transforms. Where a step ends with a kick and the next begins with one, the values at the nodes are kept
-/// in between, and the second kick costs one.
+/// A kick costs two transforms. Where a step ends with a kick and the next begins with one, the values at the
+/// nodes are kept in between, and the second kick costs one.
 #pragma once
 
 #include <memory>
@@ -12,9 +13,11 @@
 
 namespace extremal {
 
-std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock, const Splitting& splitting);
+std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock,
+                                              const Splitting& splitting);
 
 /// The catalogue's entry of a splitting for wave functions alone.
-BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description, const Splitting& splitting);
+BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
+                                    const Splitting& splitting);
 
 }  // namespace extremal

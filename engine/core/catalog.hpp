@@ -1,4 +1,5 @@
-/// What every catalogue (models, spaces, quadratures, schemes, baselines, observables, views) says of an entry.
+/// What every catalogue (models, spaces, quadratures, schemes, baselines, observables, views) says of an
+/// entry.
 #pragma once
 
 #include <optional>
@@ -11,8 +12,8 @@ namespace extremal {
 
 /// What a scheme promises; each claim is measured by tests/laws.
 struct Claims {
-    int order = 0;               ///< order of the end-point map, for q and p
-    bool isSymmetric = false;    ///< equals its adjoint: a step forward and one back return
+    int order = 0;             ///< order of the end-point map, for q and p
+    bool isSymmetric = false;  ///< equals its adjoint: a step forward and one back return
     bool isSymplectic = false;
     std::vector<std::string> conserves;  ///< "momentum", "quadratic invariants", "energy", ...
     bool operator==(const Claims&) const = default;
@@ -25,7 +26,7 @@ struct CatalogItem {
     std::string description;
     std::vector<FieldInfo> parameters;
     std::optional<Claims> claims;  ///< schemes and baselines
-    std::string needs;             ///< what a model must have ("a mechanical system", "smooth forces"), or empty
+    std::string needs;  ///< what a model must have ("a mechanical system", "smooth forces"), or empty
 };
 
 inline std::vector<std::string> idsOf(const std::vector<CatalogItem>& items) {

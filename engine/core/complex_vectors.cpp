@@ -9,9 +9,13 @@ using Complex = std::complex<double>;
 using Eight [[gnu::vector_size(64)]] = double;
 constexpr std::size_t lanes = 8;
 
-[[gnu::always_inline]] inline void load(Eight& to, const double* from) { __builtin_memcpy(&to, from, sizeof(Eight)); }
+[[gnu::always_inline]] inline void load(Eight& to, const double* from) {
+    __builtin_memcpy(&to, from, sizeof(Eight));
+}
 /// Real and imaginary parts in each other's place.
-[[gnu::always_inline]] inline void exchange(Eight& v) { v = __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6); }
+[[gnu::always_inline]] inline void exchange(Eight& v) {
+    v = __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6);
+}
 [[gnu::always_inline]] inline double total(const Eight& v, double sign) {
     return ((v[0] + sign * v[1]) + (v[2] + sign * v[3])) + ((v[4] + sign * v[5]) + (v[6] + sign * v[7]));
 }
@@ -73,7 +77,8 @@ void addLanes(Complex* to, Complex factor, const Complex* from, std::size_t n) {
 }  // namespace
 
 const ComplexVectors& ComplexVectors::ofThisMachine() {
-    static const ComplexVectors all{ForThisMachine<&dotLanes>::call(), ForThisMachine<&squareLanes>::call(), ForThisMachine<&addLanes>::call()};
+    static const ComplexVectors all{ForThisMachine<&dotLanes>::call(), ForThisMachine<&squareLanes>::call(),
+                                    ForThisMachine<&addLanes>::call()};
     return all;
 }
 

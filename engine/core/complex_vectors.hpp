@@ -1,5 +1,6 @@
-/// Inner products and sums of long complex vectors, compiled for several instruction sets (core/instruction_set.hpp) and with
-/// the same bits on all of them: sums run in eight parts, whatever the width of the machine's vectors.
+/// Inner products and sums of long complex vectors, compiled for several instruction sets
+/// (core/instruction_set.hpp) and with the same bits on all of them: sums run in eight parts, whatever the
+/// width of the machine's vectors.
 #pragma once
 
 #include <complex>

@@ -11,7 +11,8 @@ Eigen::VectorXd rankPivots(Given<double> A) {
 template class Lu<double>;
 template class Lu<std::complex<double>>;
 template Matrix<double> solve<double>(Given<double>, Given<double>);
-template Matrix<std::complex<double>> solve<std::complex<double>>(Given<std::complex<double>>, Given<std::complex<double>>);
+template Matrix<std::complex<double>> solve<std::complex<double>>(Given<std::complex<double>>,
+                                                                  Given<std::complex<double>>);
 template Matrix<double> inverse<double>(Given<double>);
 template Matrix<std::complex<double>> inverse<std::complex<double>>(Given<std::complex<double>>);
 template Matrix<double> leastSquares<double>(Given<double>, Given<double>);

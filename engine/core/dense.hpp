@@ -1,6 +1,6 @@
-/// Dense linear algebra for what is made once a scheme or once a view, never for a step: factorizations of matrices of
-/// any size, in double, complex, extended and quadruple precision. They are compiled in a few files of their own, because each
-/// file that has Eigen make them anew takes seconds longer.
+/// Dense linear algebra for what is made once a scheme or once a view, never for a step: factorizations of
+/// matrices of any size, in double, complex, extended and quadruple precision. They are compiled in a few
+/// files of their own, because each file that has Eigen make them anew takes seconds longer.
 #pragma once
 
 #include <Eigen/Core>
@@ -59,7 +59,8 @@ struct SymmetricEigen {
 template <class T>
 SymmetricEigen<T> symmetricEigen(Given<T> A);
 
-/// Magnitudes of the diagonal of R in a QR with column pivoting, descending: the last is near zero where the columns depend.
+/// Magnitudes of the diagonal of R in a QR with column pivoting, descending: the last is near zero where the
+/// columns depend.
 Eigen::VectorXd rankPivots(Given<double> A);
 /// Of a square matrix, descending.
 Eigen::VectorXd singularValues(Given<double> A);

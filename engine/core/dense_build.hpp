@@ -50,7 +50,8 @@ template <class T>
 Matrix<T> leastSquares(Given<T> A, Given<T> B) {
     const Qr<T> factors = qr<T>(A);
     const Eigen::Index n = A.cols();
-    return factors.R.template triangularView<Eigen::Upper>().solve(product<T>(factors.Q.leftCols(n).adjoint(), B));
+    return factors.R.template triangularView<Eigen::Upper>().solve(
+        product<T>(factors.Q.leftCols(n).adjoint(), B));
 }
 
 }  // namespace extremal::dense

@@ -1,5 +1,5 @@
-/// Turns a dimension known at run time into one known at compile time, where it pays: a fixed dimension makes a step
-/// two to seven times faster. Larger systems use Eigen::Dynamic.
+/// Turns a dimension known at run time into one known at compile time, where it pays: a fixed dimension makes
+/// a step two to seven times faster. Larger systems use Eigen::Dynamic.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,11 +13,16 @@ namespace extremal {
 template <class F>
 auto withDimension(int d, F&& f) {
     switch (d) {
-        case 1: return f(std::integral_constant<int, 1>{});
-        case 2: return f(std::integral_constant<int, 2>{});
-        case 3: return f(std::integral_constant<int, 3>{});
-        case 4: return f(std::integral_constant<int, 4>{});
-        default: return f(std::integral_constant<int, Eigen::Dynamic>{});
+        case 1:
+            return f(std::integral_constant<int, 1>{});
+        case 2:
+            return f(std::integral_constant<int, 2>{});
+        case 3:
+            return f(std::integral_constant<int, 3>{});
+        case 4:
+            return f(std::integral_constant<int, 4>{});
+        default:
+            return f(std::integral_constant<int, Eigen::Dynamic>{});
     }
 }
 

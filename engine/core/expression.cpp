@@ -300,7 +300,8 @@ std::string withNameReplaced(std::string_view text, std::string_view from, std::
     return result;
 }
 
-std::string caretLines(std::string_view text, std::size_t position, std::size_t reach, std::string_view indent) {
+std::string caretLines(std::string_view text, std::size_t position, std::size_t reach,
+                       std::string_view indent) {
     std::size_t from = position > reach ? position - reach : 0;
     std::size_t to = std::min(text.size(), position + reach);
     const auto isInside = [&](std::size_t i) {

@@ -7,8 +7,8 @@
 ///     atom    = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
 ///
 /// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign. `pi` is a constant;
-/// names are [A-Za-z][A-Za-z0-9_]*. dot(x), the velocity of x, is read as a call of "dot", and has a meaning in
-/// Lagrangians only. Parsing and meaning are apart: the tree knows nothing of which names exist.
+/// names are [A-Za-z][A-Za-z0-9_]*. dot(x), the velocity of x, is read as a call of "dot", and has a meaning
+/// in Lagrangians only. Parsing and meaning are apart: the tree knows nothing of which names exist.
 #pragma once
 
 #include <functional>
@@ -72,8 +72,8 @@ const std::vector<std::string>& expressionFunctions();
 /// The value of a function at a (and b: atan2 only).
 double applyFunction(std::string_view function, double a, double b);
 
-/// Why a text cannot name a coordinate or a parameter: letters, digits and inner "_", a letter first, not ending
-/// in "_t" (which makes velocities), no function, not t, not pi. Empty if it can.
+/// Why a text cannot name a coordinate or a parameter: letters, digits and inner "_", a letter first, not
+/// ending in "_t" (which makes velocities), no function, not t, not pi. Empty if it can.
 std::string nameProblem(std::string_view name);
 
 }  // namespace extremal

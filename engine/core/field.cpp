@@ -19,49 +19,61 @@ FieldInfo made(FieldType type, std::string key, std::string title, std::string s
 
 }  // namespace
 
-FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback, std::string description) {
-    FieldInfo f = made(FieldType::number, std::move(key), std::move(title), {}, fallback, std::move(description));
+FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback,
+                      std::string description) {
+    FieldInfo f =
+        made(FieldType::number, std::move(key), std::move(title), {}, fallback, std::move(description));
     f.unit = std::move(unit);
     return f;
 }
 
-FieldInfo positive(std::string key, std::string title, std::string unit, double fallback, std::string description) {
-    FieldInfo f = numberField(std::move(key), std::move(title), std::move(unit), fallback, std::move(description));
+FieldInfo positive(std::string key, std::string title, std::string unit, double fallback,
+                   std::string description) {
+    FieldInfo f =
+        numberField(std::move(key), std::move(title), std::move(unit), fallback, std::move(description));
     f.symbol = f.key;
     f.min = 0;
     f.isMinExcluded = true;
     return f;
 }
 
-FieldInfo notNegative(std::string key, std::string title, std::string unit, double fallback, std::string description) {
-    FieldInfo f = positive(std::move(key), std::move(title), std::move(unit), fallback, std::move(description));
+FieldInfo notNegative(std::string key, std::string title, std::string unit, double fallback,
+                      std::string description) {
+    FieldInfo f =
+        positive(std::move(key), std::move(title), std::move(unit), fallback, std::move(description));
     f.isMinExcluded = false;
     return f;
 }
 
-FieldInfo numbers(std::string key, std::string title, std::string unit, std::vector<std::string> components, Value fallback,
-                  std::string description) {
-    FieldInfo f = made(FieldType::numbers, key, std::move(title), key, std::move(fallback), std::move(description));
+FieldInfo numbers(std::string key, std::string title, std::string unit, std::vector<std::string> components,
+                  Value fallback, std::string description) {
+    FieldInfo f =
+        made(FieldType::numbers, key, std::move(title), key, std::move(fallback), std::move(description));
     f.unit = std::move(unit);
     f.components = std::move(components);
     return f;
 }
 
-FieldInfo integerField(std::string key, std::string symbol, double min, double max, Value fallback, std::string description) {
-    FieldInfo f = made(FieldType::integer, key, key, std::move(symbol), std::move(fallback), std::move(description));
+FieldInfo integerField(std::string key, std::string symbol, double min, double max, Value fallback,
+                       std::string description) {
+    FieldInfo f =
+        made(FieldType::integer, key, key, std::move(symbol), std::move(fallback), std::move(description));
     f.min = min;
     f.max = max;
     return f;
 }
 
-FieldInfo integerChoice(std::string key, std::vector<std::string> choices, double fallback, std::string description) {
+FieldInfo integerChoice(std::string key, std::vector<std::string> choices, double fallback,
+                        std::string description) {
     FieldInfo f = made(FieldType::integer, key, key, {}, fallback, std::move(description));
     f.choices = std::move(choices);
     return f;
 }
 
-FieldInfo choiceField(std::string key, std::string title, std::vector<std::string> choices, std::string description) {
-    FieldInfo f = made(FieldType::choice, std::move(key), std::move(title), {}, choices.front(), std::move(description));
+FieldInfo choiceField(std::string key, std::string title, std::vector<std::string> choices,
+                      std::string description) {
+    FieldInfo f = made(FieldType::choice, std::move(key), std::move(title), {}, choices.front(),
+                       std::move(description));
     f.choices = std::move(choices);
     return f;
 }
@@ -78,7 +90,8 @@ FieldInfo constantsField(std::string key, std::string description) {
     return made(FieldType::constants, key, key, {}, Value(Value::Object{}), std::move(description));
 }
 
-FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback, std::string description) {
+FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback,
+                    std::string description) {
     return made(FieldType::json, std::move(key), std::move(title), std::move(symbol), std::move(fallback),
                 std::move(description));
 }

@@ -1,5 +1,6 @@
 /// Descriptors: one table entry describes one parameter of a model, space, rule, scheme or baseline.
-/// They are the single source for JSON keys, range checks, forms, `extremal list`, the schema and the handbook.
+/// They are the single source for JSON keys, range checks, forms, `extremal list`, the schema and the
+/// handbook.
 #pragma once
 
 #include <limits>
@@ -10,26 +11,29 @@
 
 namespace extremal {
 
-/// numbers: an array of a fixed length; names: an array of texts; constants: an object of numbers by names of the user's.
+/// numbers: an array of a fixed length; names: an array of texts; constants: an object of numbers by names of
+/// the user's.
 enum class FieldType { number, numbers, integer, boolean, text, choice, names, constants, json };
 
 /// What is known about one parameter, independent of the type that owns it.
 struct FieldInfo {
-    std::string key;       ///< JSON key: "k"
-    std::string title;     ///< "stiffness"
-    std::string symbol;    ///< as in formulas: "k"
-    std::string unit;      ///< "N/m"; empty if dimensionless
+    std::string key;     ///< JSON key: "k"
+    std::string title;   ///< "stiffness"
+    std::string symbol;  ///< as in formulas: "k"
+    std::string unit;    ///< "N/m"; empty if dimensionless
     FieldType type = FieldType::number;
-    Value fallback;        ///< default; null if the key is required
+    Value fallback;  ///< default; null if the key is required
     double min = -std::numeric_limits<double>::infinity();
     double max = std::numeric_limits<double>::infinity();
-    bool isMinExcluded = false;        ///< true: the value must be greater than min
-    std::vector<std::string> choices;  ///< for FieldType::choice; the values allowed of a FieldType::integer, if any
-    std::vector<std::string> components;  ///< for FieldType::numbers: what each number is called; gives their count
-    bool isOptional = false;           ///< a key without a default that may be left out
-    std::string description;           ///< one line
-    std::string whyLimits;             ///< hint where a value is out of range; may be empty
-    Value example;                     ///< what a new scene starts from where there is no default
+    bool isMinExcluded = false;  ///< true: the value must be greater than min
+    std::vector<std::string>
+        choices;  ///< for FieldType::choice; the values allowed of a FieldType::integer, if any
+    std::vector<std::string>
+        components;           ///< for FieldType::numbers: what each number is called; gives their count
+    bool isOptional = false;  ///< a key without a default that may be left out
+    std::string description;  ///< one line
+    std::string whyLimits;    ///< hint where a value is out of range; may be empty
+    Value example;            ///< what a new scene starts from where there is no default
 
     const Value& firstValue() const { return example.isNull() ? fallback : example; }
 };
@@ -44,27 +48,35 @@ struct Field {
 // Descriptors of the usual kinds. What they do not say (symbol, limits, unit, ...) is set on the result.
 
 /// A number without limits or a symbol.
-FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback, std::string description);
+FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback,
+                      std::string description);
 /// A positive number; the key is the symbol, too.
-FieldInfo positive(std::string key, std::string title, std::string unit, double fallback, std::string description);
+FieldInfo positive(std::string key, std::string title, std::string unit, double fallback,
+                   std::string description);
 /// A number that may be zero but not negative.
-FieldInfo notNegative(std::string key, std::string title, std::string unit, double fallback, std::string description);
+FieldInfo notNegative(std::string key, std::string title, std::string unit, double fallback,
+                      std::string description);
 /// A few numbers in an array, one per component.
-FieldInfo numbers(std::string key, std::string title, std::string unit, std::vector<std::string> components, Value fallback,
-                  std::string description);
+FieldInfo numbers(std::string key, std::string title, std::string unit, std::vector<std::string> components,
+                  Value fallback, std::string description);
 /// An integer from min to max, under the title of its key. Fallback null: required.
-FieldInfo integerField(std::string key, std::string symbol, double min, double max, Value fallback, std::string description);
+FieldInfo integerField(std::string key, std::string symbol, double min, double max, Value fallback,
+                       std::string description);
 /// One of a few integers, under the title of its key.
-FieldInfo integerChoice(std::string key, std::vector<std::string> choices, double fallback, std::string description);
+FieldInfo integerChoice(std::string key, std::vector<std::string> choices, double fallback,
+                        std::string description);
 /// One of a few texts; the first one is the default.
-FieldInfo choiceField(std::string key, std::string title, std::vector<std::string> choices, std::string description);
+FieldInfo choiceField(std::string key, std::string title, std::vector<std::string> choices,
+                      std::string description);
 /// Yes or no, under the title of its key.
 FieldInfo flagField(std::string key, bool fallback, std::string description);
 /// A text of the user's. Fallback null: required.
 FieldInfo textField(std::string key, std::string symbol, Value fallback, std::string description);
 /// Constants by names of the user's: none, if left out.
 FieldInfo constantsField(std::string key, std::string description);
-/// Any value that the field's owner reads itself. Fallback null: it may be required, or optional (isOptional).
-FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback, std::string description);
+/// Any value that the field's owner reads itself. Fallback null: it may be required, or optional
+/// (isOptional).
+FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback,
+                    std::string description);
 
 }  // namespace extremal

@@ -1,8 +1,8 @@
 /// GMRES for complex systems A u = v from u = 0, restarted; A is a callable (const Complex* u, Complex* Au).
 ///
-/// Vectors of length n as contiguous complex numbers; the basis is orthogonalised twice where once loses digits. All memory
-/// is taken once. Stops at |v - A u| <= tolerance |v|, with Outcome::diverged after `maxIterations` applications.
-/// Source: Saad, Iterative Methods for Sparse Linear Systems (2003), 6.5.
+/// Vectors of length n as contiguous complex numbers; the basis is orthogonalised twice where once loses
+/// digits. All memory is taken once. Stops at |v - A u| <= tolerance |v|, with Outcome::diverged after
+/// `maxIterations` applications. Source: Saad, Iterative Methods for Sparse Linear Systems (2003), 6.5.
 #pragma once
 
 #include <algorithm>
@@ -22,9 +22,14 @@ public:
 
     /// Starts anew after so many steps that the basis takes 64 MB, at most 60 and at least 8.
     explicit Gmres(std::size_t n)
-        : Gmres(n, static_cast<int>(std::clamp<std::size_t>((std::size_t{1} << 22) / std::max<std::size_t>(n, 1), 8, 60))) {}
+        : Gmres(n, static_cast<int>(std::clamp<std::size_t>(
+                       (std::size_t{1} << 22) / std::max<std::size_t>(n, 1), 8, 60))) {}
     Gmres(std::size_t n, int restart)
-        : n_(n), restart_(restart), basis_(n * static_cast<std::size_t>(restart + 1)), residual_(n), image_(n) {
+        : n_(n),
+          restart_(restart),
+          basis_(n * static_cast<std::size_t>(restart + 1)),
+          residual_(n),
+          image_(n) {
         const auto m = static_cast<std::size_t>(restart);
         h_.resize((m + 1) * m);
         sine_.resize(m);
@@ -34,8 +39,8 @@ public:
     }
 
     template <class Apply>
-    Outcome solve(Apply&& apply, const Complex* v, Complex* u, double tolerance, int maxIterations, int& iterations,
-                  const std::stop_token& stop) {
+    Outcome solve(Apply&& apply, const Complex* v, Complex* u, double tolerance, int maxIterations,
+                  int& iterations, const std::stop_token& stop) {
         std::fill(u, u + n_, Complex(0));
         const double target = tolerance * norm(v);
         if (!(target > 0)) return std::isfinite(target) ? Outcome::converged : Outcome::notFinite;
@@ -66,11 +71,13 @@ private:
         return std::sqrt(square);
     }
     Complex& h(int row, int column) {
-        return h_[static_cast<std::size_t>(column) * static_cast<std::size_t>(restart_ + 1) + static_cast<std::size_t>(row)];
+        return h_[static_cast<std::size_t>(column) * static_cast<std::size_t>(restart_ + 1) +
+                  static_cast<std::size_t>(row)];
     }
     Complex* q(int k) { return basis_.data() + static_cast<std::size_t>(k) * n_; }
 
-    /// Up to `steps` directions from residual_; adds the correction to u. g_[k] of the result k is the residual left.
+    /// Up to `steps` directions from residual_; adds the correction to u. g_[k] of the result k is the
+    /// residual left.
     template <class Apply>
     int cycle(Apply&& apply, Complex* u, double target, int steps, const std::stop_token& stop) {
         const double size = norm(residual_.data());

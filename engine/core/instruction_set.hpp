@@ -1,7 +1,7 @@
 /// Kernels compiled for several instruction sets and chosen at start.
 ///
-/// A release runs on any x86-64; loops over Lanes are compiled for AVX2 and AVX-512 besides. Contraction is off
-/// everywhere, so all of them give the same bits.
+/// A release runs on any x86-64; loops over Lanes are compiled for AVX2 and AVX-512 besides. Contraction is
+/// off everywhere, so all of them give the same bits.
 #pragma once
 
 #include <string_view>
@@ -29,14 +29,18 @@ inline InstructionSet instructionSet() {
 
 constexpr std::string_view name(InstructionSet set) {
     switch (set) {
-        case InstructionSet::avx512: return "AVX-512";
-        case InstructionSet::avx2: return "AVX2";
-        case InstructionSet::baseline: break;
+        case InstructionSet::avx512:
+            return "AVX-512";
+        case InstructionSet::avx2:
+            return "AVX2";
+        case InstructionSet::baseline:
+            break;
     }
     return "baseline";
 }
 
-/// A kernel compiled for every set, and the one for this machine. Kernels of one signature, which differ at most in a width.
+/// A kernel compiled for every set, and the one for this machine. Kernels of one signature, which differ at
+/// most in a width.
 template <auto forAvx512, auto forAvx2 = forAvx512, auto forBaseline = forAvx512>
 struct ForThisMachine;
 
@@ -46,9 +50,12 @@ struct ForThisMachine<forAvx512, forAvx2, forBaseline> {
 
     static Call call() {
         switch (instructionSet()) {
-            case InstructionSet::avx512: return &avx512;
-            case InstructionSet::avx2: return &avx2;
-            case InstructionSet::baseline: break;
+            case InstructionSet::avx512:
+                return &avx512;
+            case InstructionSet::avx2:
+                return &avx2;
+            case InstructionSet::baseline:
+                break;
         }
         return &baseline;
     }

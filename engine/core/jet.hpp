@@ -1,7 +1,7 @@
 /// Forward-mode automatic differentiation: first order (Dual) and second order (Jet) numbers.
 ///
-/// A Dual<T, N> carries a value and its gradient in N variables; a Jet<T, N> also the Hessian, as the lower triangle
-/// h[i (i + 1) / 2 + j], j <= i. Every elementary function f needs f, f', f'' at the value only:
+/// A Dual<T, N> carries a value and its gradient in N variables; a Jet<T, N> also the Hessian, as the lower
+/// triangle h[i (i + 1) / 2 + j], j <= i. Every elementary function f needs f, f', f'' at the value only:
 ///     grad f(u) = f' grad u,     hess f(u) = f' hess u + f'' grad u (x) grad u.
 /// T is the scalar: double, or quadruple precision in tests. Models are written once, generic in the number.
 #pragma once
@@ -21,8 +21,7 @@ struct Dual {
     Dual() = default;
     Dual(const T& v) : value(v) {}
     template <class U>
-        requires(std::is_arithmetic_v<U> && !std::same_as<U, T>)
-    Dual(U v) : value(static_cast<T>(v)) {}
+    requires(std::is_arithmetic_v<U> && !std::same_as<U, T>) Dual(U v) : value(static_cast<T>(v)) {}
 
     static Dual variable(const T& v, int index) {
         Dual d(v);
@@ -67,8 +66,7 @@ struct Jet {
     Jet() = default;
     Jet(const T& v) : value(v) {}
     template <class U>
-        requires(std::is_arithmetic_v<U> && !std::same_as<U, T>)
-    Jet(U v) : value(static_cast<T>(v)) {}
+    requires(std::is_arithmetic_v<U> && !std::same_as<U, T>) Jet(U v) : value(static_cast<T>(v)) {}
 
     static Jet variable(const T& v, int index) {
         Jet j(v);
@@ -203,10 +201,7 @@ J square(const J& a) {
     return a.chain(a.value * a.value, ScalarOf<J>(2) * a.value, ScalarOf<J>(2));
 }
 template <class T>
-    requires(!Differentiable<T>)
-T square(const T& a) {
-    return a * a;
-}
+requires(!Differentiable<T>) T square(const T& a) { return a * a; }
 template <Differentiable J>
 J sin(const J& a) {
     using std::cos;

@@ -1,8 +1,8 @@
 /// Eight numbers that go through the same arithmetic together.
 ///
-/// Plain loops of fixed length, which the compiler turns into the vector instructions of whatever it compiles for: the same
-/// operations in the same order on every machine, so results do not depend on it. Elementary functions other than sqrt
-/// are computed one lane after the other.
+/// Plain loops of fixed length, which the compiler turns into the vector instructions of whatever it compiles
+/// for: the same operations in the same order on every machine, so results do not depend on it. Elementary
+/// functions other than sqrt are computed one lane after the other.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 /// A stretch of consecutive nodes of one run, as an integrator leaves them and observers look at them.
 ///
-/// x(i) are the state columns at node i of the block (see State), contiguous and `width` apart. Everything is allocated
-/// once: push() never allocates.
+/// x(i) are the state columns at node i of the block (see State), contiguous and `width` apart. Everything is
+/// allocated once: push() never allocates.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,9 @@ public:
         : width_(width), t_(capacity), node_(capacity), reports_(capacity), x_(width * capacity) {}
 
     /// A block of one node.
-    NodeBlock(const State& state, const StepReport& report) : NodeBlock(state.x.size(), 1) { push(state, report); }
+    NodeBlock(const State& state, const StepReport& report) : NodeBlock(state.x.size(), 1) {
+        push(state, report);
+    }
 
     void clear() { size_ = 0; }
     void truncate(std::size_t size) { size_ = std::min(size_, size); }
@@ -34,10 +36,13 @@ public:
         node_[size_] = node;
         reports_[size_] = report;
         double* to = x_.data() + size_ * width_;
-        for (std::size_t k = 0; k < width_; ++k) to[k] = x[k];  // a few numbers: cheaper than a call of memmove
+        for (std::size_t k = 0; k < width_; ++k)
+            to[k] = x[k];  // a few numbers: cheaper than a call of memmove
         ++size_;
     }
-    void push(const State& state, const StepReport& report) { push(state.t, state.node, state.x.data(), report); }
+    void push(const State& state, const StepReport& report) {
+        push(state.t, state.node, state.x.data(), report);
+    }
 
     double t(std::size_t i) const { return t_[i]; }
     std::span<const double> times() const { return {t_.data(), size_}; }
@@ -49,7 +54,8 @@ public:
 
     /// Number of nodes before the first that has an infinity or NaN.
     std::size_t finiteNodes() const {
-        // The sum is NaN if any value is not finite (inf - inf and 0 * inf are NaN): one pass in the usual case.
+        // The sum is NaN if any value is not finite (inf - inf and 0 * inf are NaN): one pass in the usual
+        // case.
         double sum = 0;
         for (std::size_t k = 0; k < size_ * width_; ++k) sum += 0 * x_[k];
         if (sum == 0) return size_;

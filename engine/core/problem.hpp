@@ -15,8 +15,9 @@ struct Problem {
     std::string pointer;
     std::string message;  ///< names the value and the limit: "must be a positive finite number, got -0.1"
     std::string hint;     ///< the remedy, without brackets; may be empty
-    std::string origin = {};  ///< the pointer of the override (--set) it comes from; empty: the document itself
-    Value remedy = {};        ///< a value for the pointer that would do, to be offered; null: none
+    std::string origin =
+        {};             ///< the pointer of the override (--set) it comes from; empty: the document itself
+    Value remedy = {};  ///< a value for the pointer that would do, to be offered; null: none
     bool operator==(const Problem&) const = default;
 };
 

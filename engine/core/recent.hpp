@@ -1,5 +1,5 @@
-/// The last few things made, for what takes long and is asked for again and again. Any thread may ask; each thing is made once,
-/// and others wait for it.
+/// The last few things made, for what takes long and is asked for again and again. Any thread may ask; each
+/// thing is made once, and others wait for it.
 #pragma once
 
 #include <cstddef>

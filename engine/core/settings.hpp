@@ -12,8 +12,8 @@ namespace extremal {
 /// After reading, every key of the descriptor is present with its default, and numbers written as expressions
 /// have been evaluated in `keys` (their text is kept in `expressions` for writing the scene back).
 struct Settings {
-    std::string type;    ///< empty: not given
-    Value::Object keys;  ///< without "type"
+    std::string type;           ///< empty: not given
+    Value::Object keys;         ///< without "type"
     Value::Object expressions;  ///< key -> the text the user wrote, for the keys given as expressions
 
     const Value* find(std::string_view key) const {

@@ -1,5 +1,6 @@
-/// A JSON-like tree with the order of its keys kept: the common currency between scene files, descriptors and forms.
-/// It is a value: comparable, copyable, cheap to include. Reading and writing text is in scene/json.hpp.
+/// A JSON-like tree with the order of its keys kept: the common currency between scene files, descriptors and
+/// forms. It is a value: comparable, copyable, cheap to include. Reading and writing text is in
+/// scene/json.hpp.
 #pragma once
 
 #include <cstddef>

@@ -22,19 +22,23 @@ std::optional<std::pair<double, double>> stepsCovered(const Figure& figure) {
 }  // namespace
 
 FieldInfo againstField() {
-    return choiceField("against", "against", {"time", "steps"}, "What is along x: time, or the number of steps done, logarithmic.");
+    return choiceField("against", "against", {"time", "steps"},
+                       "What is along x: time, or the number of steps done, logarithmic.");
 }
 
 bool isAgainstSteps(const View& view) { return view.keys.text("against") == "steps"; }
 
-std::string againstText(const View& view) { return isAgainstSteps(view) ? "against the number of steps" : "against time"; }
+std::string againstText(const View& view) {
+    return isAgainstSteps(view) ? "against the number of steps" : "against time";
+}
 
 void addErrors(Figure& figure, const FigureContext& context, std::string_view column) {
     const bool isSteps = isAgainstSteps(context.view);
     figure.x = isSteps ? logAxis("steps") : timeAxis(context);
     for (const auto& scheme : context.comparison.schemes) {
         const Trajectory& rows = scheme->trajectory;
-        const std::span<const double> x = isSteps ? std::span<const double>(rows.nodes) : rows["t"], y = rows[column];
+        const std::span<const double> x = isSteps ? std::span<const double>(rows.nodes) : rows["t"],
+                                      y = rows[column];
         if (y.empty() || x.size() != y.size()) continue;
         Series s;
         s.label = scheme->spec.label;
@@ -45,14 +49,17 @@ void addErrors(Figure& figure, const FigureContext& context, std::string_view co
         figure.series.push_back(std::move(s));
     }
     if (!isSteps) return;
-    if (const auto covered = stepsCovered(figure)) figure.x.range = {covered->first / 1.25, covered->second * 1.25};
+    if (const auto covered = stepsCovered(figure))
+        figure.x.range = {covered->first / 1.25, covered->second * 1.25};
 }
 
 std::string leastToMost(const std::vector<std::pair<double, std::string>>& values) {
     if (values.empty()) return "";
-    const auto [least, most] =
-        std::minmax_element(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    const auto text = [](const auto& value) { return shortNumber(value->first) + " (" + value->second + ")"; };
+    const auto [least, most] = std::minmax_element(
+        values.begin(), values.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto text = [](const auto& value) {
+        return shortNumber(value->first) + " (" + value->second + ")";
+    };
     return least == most ? text(least) : text(least) + " to " + text(most);
 }
 

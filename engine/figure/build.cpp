@@ -13,7 +13,8 @@ namespace extremal {
 
 std::string axisTitle(std::string_view symbol, std::string_view unit) {
     std::string title(symbol);
-    for (std::size_t at = 0; (at = title.find(" - ", at)) != std::string::npos; at += 3) title.replace(at, 3, " − ");
+    for (std::size_t at = 0; (at = title.find(" - ", at)) != std::string::npos; at += 3)
+        title.replace(at, 3, " − ");
     if (!unit.empty()) title.append("  [").append(unit).append("]");
     return title;
 }
@@ -21,8 +22,8 @@ std::string axisTitle(std::string_view symbol, std::string_view unit) {
 std::string shortNumber(double value, int digits) {
     if (!std::isfinite(value)) return std::isnan(value) ? "unknown" : value > 0 ? "∞" : "−∞";
     std::array<char, 40> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general,
-                                   std::max(digits, 1));
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                   std::chars_format::general, std::max(digits, 1));
     std::string text(buffer.data(), end.ptr);
     const std::size_t e = text.find('e');
     if (e == std::string::npos) return text;
@@ -35,7 +36,8 @@ std::string shortNumber(double value, int digits) {
 
 ColumnInfo columnInfo(const FigureContext& context, std::string_view column) {
     for (const auto& scheme : context.comparison.schemes)
-        if (const Column* c = scheme->trajectory.find(column)) return {c->symbol.empty() ? c->name : c->symbol, c->unit};
+        if (const Column* c = scheme->trajectory.find(column))
+            return {c->symbol.empty() ? c->name : c->symbol, c->unit};
     if (column == "t") return {"t", context.system ? context.system->timeUnit : ""};
     if (context.system) {
         for (const Quantity& c : stateColumns(*context.system))
@@ -92,10 +94,12 @@ void addAgainstTime(Figure& figure, const FigureContext& context, std::string_vi
     }
 }
 
-void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn) {
+void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn,
+               std::string_view yColumn) {
     for (const auto& scheme : context.comparison.schemes) {
-        const bool hasCurve = scheme->curve.find(xColumn) && scheme->curve.find(yColumn) &&
-                              scheme->curve.rows() >= scheme->trajectory.rows();  // rows may be the denser ones
+        const bool hasCurve =
+            scheme->curve.find(xColumn) && scheme->curve.find(yColumn) &&
+            scheme->curve.rows() >= scheme->trajectory.rows();  // rows may be the denser ones
         const Trajectory& from = hasCurve ? scheme->curve : scheme->trajectory;
         const std::span<const double> x = from[xColumn], y = from[yColumn];
         if (x.empty() || y.empty()) continue;
@@ -110,14 +114,14 @@ void addCurves(Figure& figure, const FigureContext& context, std::string_view xC
 
 namespace {
 
-/// A point with a coordinate its axis cannot show becomes a gap and is counted. The first value of an error is zero
-/// by definition; it is a gap like the others.
+/// A point with a coordinate its axis cannot show becomes a gap and is counted. The first value of an error
+/// is zero by definition; it is a gap like the others.
 void hideWhatAxesCannotShow(Figure& figure) {
     const double gap = Summary::unknown;
     for (Series& s : figure.series) {
         for (std::size_t r = 0; r < s.x.size(); ++r) {
-            const bool isShown = std::isfinite(s.x[r]) && std::isfinite(s.y[r]) && (!figure.x.isLog || s.x[r] > 0) &&
-                                 (!figure.y.isLog || s.y[r] > 0);
+            const bool isShown = std::isfinite(s.x[r]) && std::isfinite(s.y[r]) &&
+                                 (!figure.x.isLog || s.x[r] > 0) && (!figure.y.isLog || s.y[r] > 0);
             if (isShown) continue;
             s.y[r] = gap;
             if (!std::isfinite(s.x[r]) || (figure.x.isLog && s.x[r] <= 0)) s.x[r] = gap;
@@ -134,8 +138,9 @@ void markFailures(Figure& figure, const FigureContext& context) {
         std::string cause(name(summary.cause));
         std::replace(cause.begin(), cause.end(), '-', ' ');
         if (cause.empty()) cause = "failed";
-        figure.failures.push_back({scheme->spec.label, scheme->style, summary.failedAt,
-                                   cause + " at t = " + shortNumber(summary.failedAt, 3) + (unit.empty() ? "" : " " + unit)});
+        figure.failures.push_back(
+            {scheme->spec.label, scheme->style, summary.failedAt,
+             cause + " at t = " + shortNumber(summary.failedAt, 3) + (unit.empty() ? "" : " " + unit)});
     }
 }
 
@@ -151,8 +156,8 @@ std::string extremesText(const Figure& figure) {
     }
     if (!most) return "";
     if (most == least) return "; at most " + shortNumber(high) + " (" + most->label + ")";
-    return "; at most between " + shortNumber(low) + " (" + least->label + ") and " + shortNumber(high) + " (" +
-           most->label + ")";
+    return "; at most between " + shortNumber(low) + " (" + least->label + ") and " + shortNumber(high) +
+           " (" + most->label + ")";
 }
 
 }  // namespace
@@ -162,9 +167,10 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
     hideWhatAxesCannotShow(figure);
     fitAxes(figure, context.view, context.system ? axesOf(context.view, *context.system).variable : "t");
 
-    const bool hasPoints = figure.heat || std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
-        return std::any_of(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });
-    });
+    const bool hasPoints =
+        figure.heat || std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
+            return std::any_of(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });
+        });
     if (!hasPoints && figure.message.empty()) {
         const ViewEntry* entry = findView(figure.view);
         const auto& observe = context.comparison.scene.observe;
@@ -180,7 +186,8 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
     figure.summary += ".";
 }
 
-Figure columnAgainstTime(const FigureContext& context, std::string title, std::string_view column, bool isRelative) {
+Figure columnAgainstTime(const FigureContext& context, std::string title, std::string_view column,
+                         bool isRelative) {
     const ColumnInfo info = columnInfo(context, column);
     Figure figure = startFigure(context, title);
     figure.x = timeAxis(context);
@@ -198,16 +205,19 @@ Figure columnAgainstTime(const FigureContext& context, std::string title, std::s
         if (std::isfinite(change) && s.y.size() > 1) changes.emplace_back(change, &s);
     }
     if (!changes.empty()) {
-        const auto [least, most] = std::minmax_element(changes.begin(), changes.end(),
-                                                       [](const auto& a, const auto& b) { return a.first < b.first; });
+        const auto [least, most] = std::minmax_element(
+            changes.begin(), changes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         const auto text = [&](const auto& change) {
             const std::string value = shortNumber(change->first);
-            return value + (isRelative || info.unit.empty() ? "" : " " + info.unit) + " (" + change->second->label + ")";
+            return value + (isRelative || info.unit.empty() ? "" : " " + info.unit) + " (" +
+                   change->second->label + ")";
         };
-        figure.subtitle = std::string(isRelative ? "largest relative change: " : "largest change: ") + text(least);
+        figure.subtitle =
+            std::string(isRelative ? "largest relative change: " : "largest change: ") + text(least);
         if (most != least) figure.subtitle += " to " + text(most);
     }
-    finishFigure(figure, context, title + " against time" + (figure.subtitle.empty() ? "" : ", " + figure.subtitle));
+    finishFigure(figure, context,
+                 title + " against time" + (figure.subtitle.empty() ? "" : ", " + figure.subtitle));
     return figure;
 }
 
@@ -223,7 +233,8 @@ double initialNorm(const Comparison& comparison, std::string_view prefix) {
         if (scheme->trajectory.rows() == 0) continue;
         double norm = 0;
         for (const Column& c : scheme->trajectory.columns)
-            if (c.name.starts_with(prefix) && std::isfinite(c.values.front())) norm = std::hypot(norm, c.values.front());
+            if (c.name.starts_with(prefix) && std::isfinite(c.values.front()))
+                norm = std::hypot(norm, c.values.front());
         return norm;
     }
     return 0;

@@ -1,4 +1,5 @@
-/// What the views share: axes with titles and units, series from columns, marks, ranges and the sentence for readers.
+/// What the views share: axes with titles and units, series from columns, marks, ranges and the sentence for
+/// readers.
 #pragma once
 
 #include <span>
@@ -15,7 +16,8 @@ std::string axisTitle(std::string_view symbol, std::string_view unit);
 /// For people: `digits` significant ones, "3.2e-7", "0.31", "1200".
 std::string shortNumber(double value, int digits = 2);
 
-/// Symbol and unit of a state or observable column: from the trajectories, else from the system, else its name alone.
+/// Symbol and unit of a state or observable column: from the trajectories, else from the system, else its
+/// name alone.
 struct ColumnInfo {
     std::string symbol, unit;
 };
@@ -41,29 +43,33 @@ const SchemeResult* schemeOf(const FigureContext& context, const Shown& hasShown
 enum class Take { value, magnitude };
 void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take);
 
-/// A whole view of one column of an observable against time, as it is. The subtitle says by how much it changes from its
-/// first value, at most, in the scheme where it changes least and in that where it changes most; with `isRelative`,
-/// as a share of the first value. Finished.
-Figure columnAgainstTime(const FigureContext& context, std::string title, std::string_view column, bool isRelative);
+/// A whole view of one column of an observable against time, as it is. The subtitle says by how much it
+/// changes from its first value, at most, in the scheme where it changes least and in that where it changes
+/// most; with `isRelative`, as a share of the first value. Finished.
+Figure columnAgainstTime(const FigureContext& context, std::string title, std::string_view column,
+                         bool isRelative);
 
-/// One curve per scheme: a column against another; where steps are few, along the scheme's own curve inside them.
-void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn, std::string_view yColumn);
+/// One curve per scheme: a column against another; where steps are few, along the scheme's own curve inside
+/// them.
+void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn,
+               std::string_view yColumn);
 
-/// Marks of the schemes that failed, gaps where an axis cannot show a value, ranges, a message if there is nothing,
-/// and the summary. Last call of every view. `what` starts the summary: "Energy error of 3 schemes against time".
+/// Marks of the schemes that failed, gaps where an axis cannot show a value, ranges, a message if there is
+/// nothing, and the summary. Last call of every view. `what` starts the summary: "Energy error of 3 schemes
+/// against time".
 void finishFigure(Figure& figure, const FigureContext& context, std::string_view what);
 
 /// Largest magnitude among the finite values; 0 if there is none.
 double maxMagnitude(std::span<const double> values);
 
-/// Euclidean norm at the first row of all columns whose name starts with the prefix ("q.", "momentum."), of the
-/// first scheme that has rows: the scale to which round-off is relative.
+/// Euclidean norm at the first row of all columns whose name starts with the prefix ("q.", "momentum."), of
+/// the first scheme that has rows: the scale to which round-off is relative.
 double initialNorm(const Comparison& comparison, std::string_view prefix);
 
-/// A quantity that returns to where it was: its largest magnitude in the second half of the rows is at most 1.5 times
-/// that in the first half (a line gives 2, a random walk 1.41), and its mean has moved by at most twice what it still
-/// varies by (energy that was lost stays lost); or all of the second half is below `noise`. Values that are not numbers
-/// do not count; infinite ones are not bounded.
+/// A quantity that returns to where it was: its largest magnitude in the second half of the rows is at
+/// most 1.5 times that in the first half (a line gives 2, a random walk 1.41), and its mean has moved by at
+/// most twice what it still varies by (energy that was lost stays lost); or all of the second half is below
+/// `noise`. Values that are not numbers do not count; infinite ones are not bounded.
 bool isBounded(std::span<const double> values, double noise);
 
 }  // namespace extremal

@@ -8,7 +8,8 @@ std::string titleOfColumn(const FigureContext& context, const std::string& colum
             if (column == c.name && !c.title.empty()) {
                 std::string title = c.title;
                 if (title == c.symbol) return title;  // a letter is that letter
-                title[0] = static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
+                title[0] =
+                    static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
                 return title;
             }
     return "Trajectory";

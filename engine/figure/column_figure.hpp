@@ -1,5 +1,5 @@
-/// One column of the results against time, or against another column: what the views of trajectories and of momentum
-/// components share.
+/// One column of the results against time, or against another column: what the views of trajectories and of
+/// momentum components share.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace extremal {
 /// The title of a state column, its first letter a capital; "Trajectory" where none is known.
 std::string titleOfColumn(const FigureContext& context, const std::string& column);
 
-/// One curve per scheme, y against x ("t": on the common axis of times), finished. Momenta against time are drawn at the nodes:
-/// inside a step that of the curve is of lower order, and would hide how well it is kept.
+/// One curve per scheme, y against x ("t": on the common axis of times), finished. Momenta against time are
+/// drawn at the nodes: inside a step that of the curve is of lower order, and would hide how well it is kept.
 Figure columnFigure(const FigureContext& context, const std::string& x, const std::string& y);
 
 }  // namespace extremal

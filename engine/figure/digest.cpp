@@ -38,7 +38,8 @@ std::string hash(std::span<const double> values) {
 }
 
 std::string axisLine(const char* name, const Axis& axis) {
-    std::string line = std::string(name) + ": " + axis.title + (axis.isLog ? " | log" : "") + (axis.isTime ? " | time" : "");
+    std::string line =
+        std::string(name) + ": " + axis.title + (axis.isLog ? " | log" : "") + (axis.isTime ? " | time" : "");
     if (axis.range) line += " | " + nineDigits(axis.range->first) + " .. " + nineDigits(axis.range->second);
     return line + "\n";
 }
@@ -49,22 +50,27 @@ std::string digest(const Figure& figure) {
     std::string text = figure.view + ": " + figure.title + " (" + figure.subtitle + ")\n";
     text += axisLine("x", figure.x) + axisLine("y", figure.y);
     for (const Series& s : figure.series) {
-        text += "series " + std::to_string(s.style) + " " + seriesName(s) + ": " + std::to_string(s.x.size()) + " points, " +
-                std::to_string(s.hidden) + " hidden" + (s.isCurve ? ", curve" : "") + (s.hasMarkers ? ", markers" : "") +
-                (s.hasLine ? ", line" : "") + (s.isCells ? ", cells" : "") + (s.isPale ? ", pale" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " +
-                nineDigits(maxMagnitude(s.y)) + "\n";
+        text += "series " + std::to_string(s.style) + " " + seriesName(s) + ": " +
+                std::to_string(s.x.size()) + " points, " + std::to_string(s.hidden) + " hidden" +
+                (s.isCurve ? ", curve" : "") + (s.hasMarkers ? ", markers" : "") +
+                (s.hasLine ? ", line" : "") + (s.isCells ? ", cells" : "") + (s.isPale ? ", pale" : "") +
+                ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";
     }
     if (figure.heat)
-        text += "heat " + std::to_string(figure.heat->columns) + " x " + std::to_string(figure.heat->rows) + ", " +
-                nineDigits(figure.heat->low) + " .. " + nineDigits(figure.heat->high) + ", " + hash(figure.heat->values) +
-                (figure.heat->scale.empty() ? "" : ", " + figure.heat->scale) + "\n";
+        text += "heat " + std::to_string(figure.heat->columns) + " x " + std::to_string(figure.heat->rows) +
+                ", " + nineDigits(figure.heat->low) + " .. " + nineDigits(figure.heat->high) + ", " +
+                hash(figure.heat->values) + (figure.heat->scale.empty() ? "" : ", " + figure.heat->scale) +
+                "\n";
     for (const FailureMark& f : figure.failures)
-        text += "failure " + std::to_string(f.style) + " " + f.label + ": " + f.text + ", " + nineDigits(f.x) + "\n";
+        text += "failure " + std::to_string(f.style) + " " + f.label + ": " + f.text + ", " +
+                nineDigits(f.x) + "\n";
     if (figure.floor) text += "floor " + nineDigits(*figure.floor) + "\n";
     if (figure.doubtfulBelow) text += "doubtful below " + nineDigits(*figure.doubtfulBelow) + "\n";
     for (const Guide& g : figure.guides)
-        text += std::string("guide") + (g.isStrong ? ", strong" : "") + ", x " + hash(g.x) + ", y " + hash(g.y) + "\n";
-    for (const Label& l : figure.labels) text += "label " + l.text + " at " + nineDigits(l.x) + ", " + nineDigits(l.y) + "\n";
+        text += std::string("guide") + (g.isStrong ? ", strong" : "") + ", x " + hash(g.x) + ", y " +
+                hash(g.y) + "\n";
+    for (const Label& l : figure.labels)
+        text += "label " + l.text + " at " + nineDigits(l.x) + ", " + nineDigits(l.y) + "\n";
     if (!figure.hasTicks) text += "no ticks\n";
     if (figure.hasEqualScales) text += "equal scales\n";
     if (!figure.message.empty()) text += "message " + figure.message + "\n";

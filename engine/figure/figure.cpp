@@ -14,7 +14,8 @@ namespace extremal {
 
 const ViewEntry* findView(std::string_view id) {
     const auto& all = viewEntries();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const ViewEntry& e) { return e.item.id == id; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const ViewEntry& e) { return e.item.id == id; });
     return found == all.end() ? nullptr : &*found;
 }
 
@@ -32,8 +33,8 @@ ViewAxes axesOf(const View& view, const System& system) {
     if (!entry) return {};
     const Scales& scales = entry->scales;
     ViewAxes axes{scales.exist, scales.isXLog, scales.isYLog, ""};
-    const bool isTime = scales.across == Across::time ||
-                        (scales.across == Across::column && entry->xColumn && entry->xColumn(view, system) == "t");
+    const bool isTime = scales.across == Across::time || (scales.across == Across::column && entry->xColumn &&
+                                                          entry->xColumn(view, system) == "t");
     if (isTime) axes.variable = system.independent;
     if (scales.across == Across::place) axes.variable = "x";
     if (isAgainstSteps(view)) {
@@ -59,7 +60,8 @@ Figure makeFigure(const Comparison& comparison, const View& view, const System* 
 namespace {
 
 bool isObserved(const Scene& scene, const std::string& observable) {
-    return observable.empty() || std::find(scene.observe.begin(), scene.observe.end(), observable) != scene.observe.end();
+    return observable.empty() ||
+           std::find(scene.observe.begin(), scene.observe.end(), observable) != scene.observe.end();
 }
 
 std::vector<View> defaultViews(const Scene& scene) {
@@ -76,7 +78,8 @@ std::vector<std::string> pairLabels(const Scene& scene, const System& system) {
     constexpr std::size_t most = 4;
     std::vector<std::string> labels;
     for (const SchemeSpec& s : scene.schemes)
-        if (const auto pair = pairOf(s); s.isEnabled && pair && isPairFor(*pair, system) && labels.size() < most)
+        if (const auto pair = pairOf(s);
+            s.isEnabled && pair && isPairFor(*pair, system) && labels.size() < most)
             labels.push_back(s.label);
     return labels;
 }
@@ -108,7 +111,8 @@ std::vector<View> plotViews(const Scene& scene) {
             if (mapped.empty()) result.push_back(view);
             continue;
         }
-        const std::vector<std::string> columns = entry->columns ? entry->columns(system) : std::vector<std::string>{};
+        const std::vector<std::string> columns =
+            entry->columns ? entry->columns(system) : std::vector<std::string>{};
         if (!view.x.empty() || !view.y.empty() || columns.empty()) {
             result.push_back(view);
             continue;

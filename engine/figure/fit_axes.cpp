@@ -11,7 +11,8 @@
 namespace extremal {
 namespace {
 
-/// The values of a series between two places along x. Lines are cut there, so that one whose points are all outside counts.
+/// The values of a series between two places along x. Lines are cut there, so that one whose points are all
+/// outside counts.
 std::vector<double> valuesWithin(const Series& s, std::pair<double, double> part) {
     std::vector<double> inside;
     for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -19,13 +20,15 @@ std::vector<double> valuesWithin(const Series& s, std::pair<double, double> part
         if (!s.hasLine || i == 0) continue;
         for (const double edge : {part.first, part.second}) {
             const double before = s.x[i - 1] - edge, after = s.x[i] - edge;
-            if (before * after < 0) inside.push_back(s.y[i - 1] + (s.y[i] - s.y[i - 1]) * before / (before - after));
+            if (before * after < 0)
+                inside.push_back(s.y[i - 1] + (s.y[i] - s.y[i - 1]) * before / (before - after));
         }
     }
     return inside;
 }
 
-/// The largest values over equal parts of a logarithmic axis: those of the first decades count as much as the many of the last.
+/// The largest values over equal parts of a logarithmic axis: those of the first decades count as much as the
+/// many of the last.
 std::vector<double> valuesByRatio(const Series& s) {
     constexpr std::size_t parts = 300;
     double first = std::numeric_limits<double>::infinity(), last = 0;
@@ -72,7 +75,8 @@ std::optional<std::pair<double, double>> askedFor(const std::optional<ViewRange>
 
 }  // namespace
 
-Series formulaSeries(const ViewCurve& curve, const std::string& variable, double low, double high, bool isLog) {
+Series formulaSeries(const ViewCurve& curve, const std::string& variable, double low, double high,
+                     bool isLog) {
     constexpr std::size_t fewest = 4000, most = 16 * fewest;
     const Expression expression = parseExpression(curve.expression);
     const auto valueAt = [&](double x) {
@@ -141,7 +145,8 @@ void fitAxes(Figure& figure, const View& view, const std::string& variable) {
     const auto isPart = [](const Axis& axis) {
         return axis.range->first > axis.whole->first || axis.range->second < axis.whole->second;
     };
-    if ((xAsked && isPart(x)) || (yAsked && isPart(y))) figure.subtitle += figure.subtitle.empty() ? "zoomed" : " · zoomed";
+    if ((xAsked && isPart(x)) || (yAsked && isPart(y)))
+        figure.subtitle += figure.subtitle.empty() ? "zoomed" : " · zoomed";
 }
 
 }  // namespace extremal

@@ -14,7 +14,8 @@ std::vector<std::string> momentumColumns(const System& system, const std::string
 Figure momentumComponent(const FigureContext& context, const std::string& frame) {
     const std::vector<std::string> columns =
         context.system ? momentumColumns(*context.system, frame) : std::vector<std::string>{};
-    if (!columns.empty()) return columnFigure(context, "t", context.view.y.empty() ? columns.front() : context.view.y);
+    if (!columns.empty())
+        return columnFigure(context, "t", context.view.y.empty() ? columns.front() : context.view.y);
     const std::string title = frame == "body" ? "Body momentum" : "Space momentum";
     Figure figure = startFigure(context, title);
     figure.x = timeAxis(context);

@@ -73,7 +73,8 @@ std::pair<double, double> fitRange(const std::vector<RangeInput>& inputs, bool i
     Extent good, bad;
     for (const RangeInput& in : inputs)
         if (!in.hasFailed)
-            if (const Extent e = extentOf(usable(in.values, isLog), isLog, false); !e.isEmpty) good.include(e.low, e.high);
+            if (const Extent e = extentOf(usable(in.values, isLog), isLog, false); !e.isEmpty)
+                good.include(e.low, e.high);
     for (const RangeInput& in : inputs)
         if (in.hasFailed)
             if (const Extent e = extentOf(usable(in.values, isLog), isLog, good.isEmpty); !e.isEmpty)

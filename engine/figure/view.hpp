@@ -1,5 +1,5 @@
-/// A view: one way to look at a comparison. One file of figure/views makes one entry; the catalogue is gathered from
-/// the folder. What the files share is in figure/build.hpp.
+/// A view: one way to look at a comparison. One file of figure/views makes one entry; the catalogue is
+/// gathered from the folder. What the files share is in figure/build.hpp.
 #pragma once
 
 #include <string>
@@ -26,8 +26,9 @@ struct Scales {
     bool isXLog = false, isYLog = false;
     Across across = Across::other;
 };
-inline constexpr Scales noScales{false}, logScales{true, true, true}, againstTime{true, false, false, Across::time},
-    logAgainstTime{true, false, true, Across::time}, againstPlace{true, false, false, Across::place};
+inline constexpr Scales noScales{false}, logScales{true, true, true},
+    againstTime{true, false, false, Across::time}, logAgainstTime{true, false, true, Across::time},
+    againstPlace{true, false, false, Across::place};
 
 struct ViewEntry {
     CatalogItem item;

@@ -1,7 +1,7 @@
 /// Dual<T, 1> as a scalar of Eigen's matrices: a + e b with e^2 = 0.
 ///
-/// Rigid motions are rotations over these numbers (the principle of transference): what so3.hpp computes for xi + e rho
-/// holds for the screw (xi, rho) of SE(3). See se3.hpp.
+/// Rigid motions are rotations over these numbers (the principle of transference): what so3.hpp computes for
+/// xi + e rho holds for the screw (xi, rho) of SE(3). See se3.hpp.
 #pragma once
 
 #include <Eigen/Core>

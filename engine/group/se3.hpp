@@ -1,13 +1,14 @@
 /// Rigid motions SE(3): y -> R y + x, the exponential chart and its derivatives, generic in the scalar.
 ///
-/// A twist is (omega, rho), six numbers: rotation first, then translation, both in the body. By the principle of
-/// transference it is the rotation vector omega + e rho over dual numbers, e^2 = 0: every formula of so3.hpp holds as it
-/// stands there, and its real and dual parts are the rotational and the translational half.
+/// A twist is (omega, rho), six numbers: rotation first, then translation, both in the body. By the principle
+/// of transference it is the rotation vector omega + e rho over dual numbers, e^2 = 0: every formula of
+/// so3.hpp holds as it stands there, and its real and dual parts are the rotational and the translational
+/// half.
 ///     exp(omega, rho) = (exp omega, dexp(omega)^T rho)
 ///     dexp(omega, rho) (v, w) = (dexp(omega) v, dexp(omega) w + D_omega [dexp(omega) v] . rho)
-/// A momentum (angular, linear) pairs with a twist as m . omega + p . rho: it is the dual vector p + e m, with the parts
-/// swapped, and the pairing is the dual part of the product.
-/// Trivialisation and signs as in so3.hpp (Leok 2004, sec. 4, with the same corrections).
+/// A momentum (angular, linear) pairs with a twist as m . omega + p . rho: it is the dual vector p + e m,
+/// with the parts swapped, and the pairing is the dual part of the product. Trivialisation and signs as in
+/// so3.hpp (Leok 2004, sec. 4, with the same corrections).
 #pragma once
 
 #include <Eigen/Core>
@@ -121,40 +122,36 @@ public:
     Vector<T> dexpRightTransposed(const Vector<T>& m) const {
         return detail::fromMomentum<T>(dual_.dexp(detail::momentum(m)));
     }
-    Matrix<T> dexpMatrix() const { return detail::flatten<T>(dual_.dexpMatrix(), Kind::twists, Kind::twists); }
-    Matrix<T> dexpInverseMatrix() const
-        requires(K >= 1)
-    {
+    Matrix<T> dexpMatrix() const {
+        return detail::flatten<T>(dual_.dexpMatrix(), Kind::twists, Kind::twists);
+    }
+    Matrix<T> dexpInverseMatrix() const requires(K >= 1) {
         return detail::flatten<T>(dual_.dexpInverseMatrix(), Kind::twists, Kind::twists);
     }
-    Matrix<T> derivative(const Vector<T>& v) const
-        requires(K >= 1)
-    {
+    Matrix<T> derivative(const Vector<T>& v) const requires(K >= 1) {
         return detail::flatten<T>(dual_.derivative(detail::twist(v)), Kind::twists, Kind::twists);
     }
-    Matrix<T> derivativeOfTransposed(const Vector<T>& m) const
-        requires(K >= 1)
-    {
-        return detail::flatten<T>(dual_.derivativeOfTransposed(detail::momentum(m)), Kind::twists, Kind::momenta);
+    Matrix<T> derivativeOfTransposed(const Vector<T>& m) const requires(K >= 1) {
+        return detail::flatten<T>(dual_.derivativeOfTransposed(detail::momentum(m)), Kind::twists,
+                                  Kind::momenta);
     }
-    Matrix<T> derivativeOfRightTransposed(const Vector<T>& m) const
-        requires(K >= 1)
-    {
+    Matrix<T> derivativeOfRightTransposed(const Vector<T>& m) const requires(K >= 1) {
         return detail::flatten<T>(dual_.derivative(detail::momentum(m)), Kind::twists, Kind::momenta);
     }
-    Vector<T> gradient(const Vector<T>& v, const Vector<T>& m) const
-        requires(K >= 1)
-    {
+    Vector<T> gradient(const Vector<T>& v, const Vector<T>& m) const requires(K >= 1) {
         return detail::fromMomentum<T>(dual_.gradient(detail::twist(v), detail::momentum(m)));
     }
-    Matrix<T> hessian(const Vector<T>& v, const Vector<T>& m) const
-        requires(K >= 2)
-    {
-        return detail::flatten<T>(dual_.hessian(detail::twist(v), detail::momentum(m)), Kind::twists, Kind::momenta);
+    Matrix<T> hessian(const Vector<T>& v, const Vector<T>& m) const requires(K >= 2) {
+        return detail::flatten<T>(dual_.hessian(detail::twist(v), detail::momentum(m)), Kind::twists,
+                                  Kind::momenta);
     }
     /// Ad_{exp(xi)} v and its inverse, on twists.
-    Vector<T> rotate(const Vector<T>& v) const { return detail::fromTwist<T>(dual_.rotate(detail::twist(v))); }
-    Vector<T> rotateBack(const Vector<T>& v) const { return detail::fromTwist<T>(dual_.rotateBack(detail::twist(v))); }
+    Vector<T> rotate(const Vector<T>& v) const {
+        return detail::fromTwist<T>(dual_.rotate(detail::twist(v)));
+    }
+    Vector<T> rotateBack(const Vector<T>& v) const {
+        return detail::fromTwist<T>(dual_.rotateBack(detail::twist(v)));
+    }
     /// The same on momenta: Ad*_{exp(-xi)} m = Ad_{exp(-xi)}^T m, and its inverse.
     Vector<T> rotateMomentum(const Vector<T>& m) const {
         return detail::fromMomentum<T>(dual_.rotate(detail::momentum(m)));

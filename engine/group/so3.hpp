@@ -4,15 +4,17 @@
 ///     exp(xi) v = v + s xi x v + a xi x (xi x v)
 ///     dexp(xi) v = v - a xi x v + b xi x (xi x v)
 ///     a = (1 - cos theta) / x,  b = (theta - sin theta) / theta^3,  s = sin theta / theta = 1 - x b
-/// dexp is left trivialised: along g(t) = g_0 exp(xi(t)) the body rate is g^{-1} g' = dexp(xi) xi' = dexp_{-ad xi} xi'
-/// (Leok 2004, sec. 4; the printed T_xi exp = T L dexp_{ad xi} has the wrong sign of ad, and the printed xi' = g^{-1} g'
-/// lacks dexp altogether). dexp(xi)^T = dexp(-xi) is the right-trivialised one.
-/// dexp^{-1} = 1 + [xi]/2 + c [xi]^2 with c = (1 - (theta/2) cot(theta/2)) / x = -a'/a, singular at theta = 2 pi.
+/// dexp is left trivialised: along g(t) = g_0 exp(xi(t)) the body rate is g^{-1} g' = dexp(xi) xi' =
+/// dexp_{-ad xi} xi' (Leok 2004, sec. 4; the printed T_xi exp = T L dexp_{ad xi} has the wrong sign of ad,
+/// and the printed xi' = g^{-1} g' lacks dexp altogether). dexp(xi)^T = dexp(-xi) is the right-trivialised
+/// one. dexp^{-1} = 1 + [xi]/2 + c [xi]^2 with c = (1 - (theta/2) cot(theta/2)) / x = -a'/a, singular at
+/// theta = 2 pi.
 ///
-/// The closed forms cancel: those of a', b' lose all digits below theta = 1e-3, and the customary switch to Taylor series
-/// at 1e-4 leaves b' wrong by a factor of 200. The series here are used up to theta = 2.5, where 14 terms (28 in
-/// quadruple precision) are exact to round-off and the closed forms still lose less than a digit.
-/// Scalars: double, quadruple precision, complex (for derivatives by complex step), Dual<T, 1> (SE(3), see se3.hpp).
+/// The closed forms cancel: those of a', b' lose all digits below theta = 1e-3, and the customary switch to
+/// Taylor series at 1e-4 leaves b' wrong by a factor of 200. The series here are used up to theta = 2.5,
+/// where 14 terms (28 in quadruple precision) are exact to round-off and the closed forms still lose less
+/// than a digit. Scalars: double, quadruple precision, complex (for derivatives by complex step), Dual<T, 1>
+/// (SE(3), see se3.hpp).
 #pragma once
 
 #include <Eigen/Core>
@@ -56,8 +58,8 @@ template <class T>
 Vector<T> bracket(const Vector<T>& u, const Vector<T>& v) {
     return cross(u, v);
 }
-/// What the momentum m of a freely turning body changes by in the body, m x u at the rate u; (precession(m, u), v) =
-/// (m, [u, v]).
+/// What the momentum m of a freely turning body changes by in the body, m x u at the rate u; (precession(m,
+/// u), v) = (m, [u, v]).
 template <class T>
 Vector<T> precession(const Vector<T>& m, const Vector<T>& u) {
     return cross(m, u);
@@ -175,8 +177,8 @@ Coefficients<Dual<T, 1>, K> coefficients(const Dual<T, 1>& x) {
     return c;
 }
 
-/// The chart at xi: exp, dexp and their derivatives, from one evaluation of the coefficients. K = 0 for exp, dexp and the
-/// inverse's rotation alone, 1 for first derivatives of dexp and its inverse, 2 for second ones.
+/// The chart at xi: exp, dexp and their derivatives, from one evaluation of the coefficients. K = 0 for exp,
+/// dexp and the inverse's rotation alone, 1 for first derivatives of dexp and its inverse, 2 for second ones.
 template <class T, int K = 1>
 class Exponential {
 public:
@@ -206,44 +208,29 @@ public:
     /// dexp(-xi)^T m: a momentum at the foot of the chart, in the chart.
     Vector<T> dexpRightTransposed(const Vector<T>& m) const { return dexp(m); }
     /// Singular at |xi| = 2 pi.
-    Matrix<T> dexpInverseMatrix() const
-        requires(K >= 1)
-    {
+    Matrix<T> dexpInverseMatrix() const requires(K >= 1) {
         const T half = T(1) / T(2), c = -c_.a[1] / c_.a[0];
         return combination(half, c);
     }
 
     /// The matrix d -> D_xi [dexp(xi) v] . d (v fixed).
-    Matrix<T> derivative(const Vector<T>& v) const
-        requires(K >= 1)
-    {
-        return slope(v, -c_.a[0], -c_.a[1]);
-    }
+    Matrix<T> derivative(const Vector<T>& v) const requires(K >= 1) { return slope(v, -c_.a[0], -c_.a[1]); }
     /// The matrix d -> D_xi [dexp(xi)^T m] . d (m fixed).
-    Matrix<T> derivativeOfTransposed(const Vector<T>& m) const
-        requires(K >= 1)
-    {
+    Matrix<T> derivativeOfTransposed(const Vector<T>& m) const requires(K >= 1) {
         return slope(m, c_.a[0], c_.a[1]);
     }
     /// The matrix d -> D_xi [dexp(-xi)^T m] . d (m fixed).
-    Matrix<T> derivativeOfRightTransposed(const Vector<T>& m) const
-        requires(K >= 1)
-    {
-        return derivative(m);
-    }
+    Matrix<T> derivativeOfRightTransposed(const Vector<T>& m) const requires(K >= 1) { return derivative(m); }
     /// The gradient of m . dexp(xi) v by xi: derivative(v)^T m.
-    Vector<T> gradient(const Vector<T>& v, const Vector<T>& m) const
-        requires(K >= 1)
-    {
+    Vector<T> gradient(const Vector<T>& v, const Vector<T>& m) const requires(K >= 1) {
         // m . dexp(xi) v = m.v - a p + b q with p = m . xi x v, q = m . xi x (xi x v).
         const Vector<T> u = cross(xi_, v), dp = cross(v, m);
         const T p = dot(u, m), q = dot(cross(xi_, u), m);
-        return xi_ * ((c_.b[1] * q - c_.a[1] * p) * T(2)) - dp * c_.a[0] + (cross(u, m) + cross(v, cross(m, xi_))) * c_.b[0];
+        return xi_ * ((c_.b[1] * q - c_.a[1] * p) * T(2)) - dp * c_.a[0] +
+               (cross(u, m) + cross(v, cross(m, xi_))) * c_.b[0];
     }
     /// The second derivatives of m . dexp(xi) v by xi.
-    Matrix<T> hessian(const Vector<T>& v, const Vector<T>& m) const
-        requires(K >= 2)
-    {
+    Matrix<T> hessian(const Vector<T>& v, const Vector<T>& m) const requires(K >= 2) {
         const Vector<T> u = cross(xi_, v), dp = cross(v, m);
         const T p = dot(u, m), q = dot(cross(xi_, u), m), vm = dot(v, m);
         const Vector<T> dq = cross(u, m) + cross(v, cross(m, xi_));
@@ -310,8 +297,10 @@ Quaternion<T> quaternionExp(const Vector<T>& xi) {
 /// p q: first q, then p.
 template <class T>
 Quaternion<T> product(const Quaternion<T>& p, const Quaternion<T>& q) {
-    return {p(0) * q(0) - p(1) * q(1) - p(2) * q(2) - p(3) * q(3), p(0) * q(1) + p(1) * q(0) + p(2) * q(3) - p(3) * q(2),
-            p(0) * q(2) - p(1) * q(3) + p(2) * q(0) + p(3) * q(1), p(0) * q(3) + p(1) * q(2) - p(2) * q(1) + p(3) * q(0)};
+    return {p(0) * q(0) - p(1) * q(1) - p(2) * q(2) - p(3) * q(3),
+            p(0) * q(1) + p(1) * q(0) + p(2) * q(3) - p(3) * q(2),
+            p(0) * q(2) - p(1) * q(3) + p(2) * q(0) + p(3) * q(1),
+            p(0) * q(3) + p(1) * q(2) - p(2) * q(1) + p(3) * q(0)};
 }
 template <class T>
 Quaternion<T> conjugate(const Quaternion<T>& q) {
@@ -322,7 +311,8 @@ Quaternion<T> normalised(const Quaternion<T>& q) {
     using std::sqrt;
     return q / sqrt(q(0) * q(0) + q(1) * q(1) + q(2) * q(2) + q(3) * q(3));
 }
-/// The rotation matrix of a quaternion; of one that is not quite of length 1, that of its direction to first order.
+/// The rotation matrix of a quaternion; of one that is not quite of length 1, that of its direction to first
+/// order.
 template <class T>
 Matrix<T> matrix(const Quaternion<T>& q) {
     const T w = q(0), x = q(1), y = q(2), z = q(3);

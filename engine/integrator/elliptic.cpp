@@ -59,13 +59,17 @@ PairProperties describeElliptic(const Settings& space) {
     return p;
 }
 
-std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
+                                                   const Clock& clock) {
     if (!system.elliptic)
-        throw InvalidScene("/space/type", "elliptic-elements are for the model multiscale-elliptic, and " + system.id + " is another",
-                           "take polynomial");
+        throw InvalidScene(
+            "/space/type",
+            "elliptic-elements are for the model multiscale-elliptic, and " + system.id + " is another",
+            "take polynomial");
     const double n = std::round(1 / clock.step);
     if (!(n >= 2 && n <= 1e5) || clock.start != 0 || std::abs(n * clock.step - 1) > 1e-9)
-        throw InvalidScene("/step", "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(clock.step),
+        throw InvalidScene("/step",
+                           "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(clock.step),
                            "leave it out: it is 1/elements");
     const bool isLinear = pair.space.text("functions") == "linear";
     return std::make_unique<Elliptic>(*system.elliptic, static_cast<int>(n),

@@ -40,7 +40,9 @@ double residual(const std::vector<double>& t, const Eigen::VectorXd& q, double w
     for (Eigen::Index i = 0; i < q.size(); ++i) {
         const double s = t[static_cast<std::size_t>(i)] / t.back();
         A.row(i).head(4) << 1, s, s * s, s * s * s;
-        if (w > 0) A.row(i).tail(2) << std::cos(w * t[static_cast<std::size_t>(i)]), std::sin(w * t[static_cast<std::size_t>(i)]);
+        if (w > 0)
+            A.row(i).tail(2) << std::cos(w * t[static_cast<std::size_t>(i)]),
+                std::sin(w * t[static_cast<std::size_t>(i)]);
     }
     return (A * dense::leastSquares<double>(A, q) - q).norm();
 }
@@ -50,7 +52,8 @@ double residual(const std::vector<double>& t, const Eigen::VectorXd& q, double w
 double estimateFrequency(const System& system, const State& start) {
     const double linear = highestFrequency(system, start);
     const auto none = [] {
-        return InvalidScene("/space/omega", "nothing oscillates at the start: no frequency can be estimated", "give a number");
+        return InvalidScene("/space/omega", "nothing oscillates at the start: no frequency can be estimated",
+                            "give a number");
     };
     if (!(linear > 0)) throw none();
     const double step = 2 * std::acos(-1.0) / (linear * stepsPerPeriod);
@@ -69,7 +72,8 @@ double estimateFrequency(const System& system, const State& start) {
             values.push_back(x[static_cast<std::size_t>(k)]);
         }
     }
-    const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    const Eigen::VectorXd q =
+        Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
     const auto miss = [&](double w) { return residual(t, q, w); };
     // A coarse scan, then the golden section around its best.
     double best = linear, least = miss(linear);

@@ -12,16 +12,24 @@ namespace {
 
 void checkFastSolver(const SolverPolicy& policy) {
     if (policy.method == SolverMethod::fixedPoint)
-        throw InvalidScene("/solver/method", "fixed-point iteration diverges on fast oscillations", "use newton or auto");
+        throw InvalidScene("/solver/method", "fixed-point iteration diverges on fast oscillations",
+                           "use newton or auto");
 }
 
 const PairFamily families[] = {
     {isWaveSpace, true, describeWave, nullptr,
-     [](const System& s, const Discretization& p, const Clock& c, const SolverPolicy&) { return makeWaveIntegrator(s, p, c); }},
-    {[](const Settings& space) { return space.type == "lie-polynomial"; }, true, nullptr, nullptr, makeLieIntegrator},
+     [](const System& s, const Discretization& p, const Clock& c, const SolverPolicy&) {
+         return makeWaveIntegrator(s, p, c);
+     }},
+    {[](const Settings& space) { return space.type == "lie-polynomial"; }, true, nullptr, nullptr,
+     makeLieIntegrator},
     {isElliptic, false, [](const Settings& space, const Settings&) { return describeElliptic(space); },
-     [](const Settings&, const Settings&) { return Settings{"auto", {}, {}}; },  // integrals over elements are exact to round-off
-     [](const System& s, const Discretization& p, const Clock& c, const SolverPolicy&) { return makeEllipticIntegrator(s, p, c); }},
+     [](const Settings&, const Settings&) {
+         return Settings{"auto", {}, {}};
+     },  // integrals over elements are exact to round-off
+     [](const System& s, const Discretization& p, const Clock& c, const SolverPolicy&) {
+         return makeEllipticIntegrator(s, p, c);
+     }},
     {isOscillatory, false, describeOscillatory, completeOscillatoryRule,
      [](const System& s, const Discretization& p, const Clock& c, const SolverPolicy& policy) {
          checkFastSolver(policy);

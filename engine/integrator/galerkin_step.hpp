@@ -1,26 +1,34 @@
-/// One step of a generalized Galerkin variational integrator: the stationarity conditions of the discrete action.
+/// One step of a generalized Galerkin variational integrator: the stationarity conditions of the discrete
+/// action.
 ///
-/// Given (q_0, p_0) at t_0 and a table of a space and a rule (action/table.hpp), find Y_0..Y_{m-1} in R^d with
-///     R_a = sum_i b_i [ h L_q(i) phi_a(c_i) + L_v(i) phi_a'(c_i) ] = 0,                     a < m - 1 (interior)
-///     R_{m-1} = p_0 + sum_i b_i [ h L_q(i) psi(c_i) + L_v(i) psi'(c_i) ] = 0,               psi: trace 1 at the start
-/// where L(i) is taken at t_0 + c_i h, q(c_i), v(c_i). Then q_1 = q_0 + Y_{m-1} and, testing with the function 1,
+/// Given (q_0, p_0) at t_0 and a table of a space and a rule (action/table.hpp), find Y_0..Y_{m-1} in R^d
+/// with
+///     R_a = sum_i b_i [ h L_q(i) phi_a(c_i) + L_v(i) phi_a'(c_i) ] = 0,                     a < m - 1
+///     (interior) R_{m-1} = p_0 + sum_i b_i [ h L_q(i) psi(c_i) + L_v(i) psi'(c_i) ] = 0,               psi:
+///     trace 1 at the start
+/// where L(i) is taken at t_0 + c_i h, q(c_i), v(c_i). Then q_1 = q_0 + Y_{m-1} and, testing with the
+/// function 1,
 ///     p_1 = p_0 + h sum_i b_i L_q(i):
-/// the multiplier of the continuity constraint is the momentum (Leok 2004, sec. 2.1; stationarity at the start of the
-/// next element reads dS^{i+1}/dq_{i+1}^0 = -lambda_i, the printed one has the element index wrong).
+/// the multiplier of the continuity constraint is the momentum (Leok 2004, sec. 2.1; stationarity at the
+/// start of the next element reads dS^{i+1}/dq_{i+1}^0 = -lambda_i, the printed one has the element index
+/// wrong).
 ///
-/// The nonlinear system is solved by Newton with the Jacobian factored at the starting guess and kept while it contracts
-/// well, or, for separable Lagrangians, by fixed-point iteration over all nodes together (node_iteration.hpp). Both go on
-/// to round-off, so that symplecticity and momentum maps hold to round-off. Newton's starting guess: the previous curve
-/// continued, and where that fails or is missing a Taylor step.
+/// The nonlinear system is solved by Newton with the Jacobian factored at the starting guess and kept while
+/// it contracts well, or, for separable Lagrangians, by fixed-point iteration over all nodes together
+/// (node_iteration.hpp). Both go on to round-off, so that symplecticity and momentum maps hold to round-off.
+/// Newton's starting guess: the previous curve continued, and where that fails or is missing a Taylor step.
 ///
-/// What q and p lose to rounding when a step is added is carried on to the next (compensated summation), so that over
-/// millions of steps the energy error grows like a random walk of the round-off of the increments only.
+/// What q and p lose to rounding when a step is added is carried on to the next (compensated summation), so
+/// that over millions of steps the energy error grows like a random walk of the round-off of the increments
+/// only.
 ///
-/// Every coordinate k may have a table of its own, with its own functions and m_k of them, on the same nodes: then Y_a and
-/// R_a above are those of one coordinate. A separable Lagrangian on one slow table is solved for all nodes together.
+/// Every coordinate k may have a table of its own, with its own functions and m_k of them, on the same nodes:
+/// then Y_a and R_a above are those of one coordinate. A separable Lagrangian on one slow table is solved for
+/// all nodes together.
 ///
 /// T: scalar; D: dimension d at compile time or Eigen::Dynamic. All buffers are allocated in the constructor.
-/// Array shapes: Y is coordinate by coordinate, entry a of coordinate k at offset(k) + a; node quantities are n x d.
+/// Array shapes: Y is coordinate by coordinate, entry a of coordinate k at offset(k) + a; node quantities are
+/// n x d.
 #pragma once
 
 #include <Eigen/LU>
@@ -80,10 +88,11 @@ private:
     enum class Attempt { solved, failed, notFinite, singular, stopped };
     enum class Start { continued, cautious, fresh };
 
-    /// The functions of a table, node by node and function by function. The equations are the gradient of one sum of
-    /// numbers, S = sum_i w_i L(q_0 + sum_a phi_a(c_i) Y_a, sum_a phi_a'(c_i) Y_a): test and trial functions, and the weights
-    /// of L_q and L_v, are the same to the last bit. Rounded differently (b_i h here, division by h there) they would be the
-    /// gradient of nothing, and the energy of stiff systems drifts.
+    /// The functions of a table, node by node and function by function. The equations are the gradient of one
+    /// sum of numbers, S = sum_i w_i L(q_0 + sum_a phi_a(c_i) Y_a, sum_a phi_a'(c_i) Y_a): test and trial
+    /// functions, and the weights of L_q and L_v, are the same to the last bit. Rounded differently (b_i h
+    /// here, division by h there) they would be the gradient of nothing, and the energy of stiff systems
+    /// drifts.
     struct Functions {
         Square value, slope;      ///< (i, a): phi_a(c_i), and phi_a'(c_i) by time, over h
         Square valueAt, slopeAt;  ///< (a, i), with rows of 0 up to a multiple of 8
@@ -92,11 +101,13 @@ private:
 
     int d() const { return mechanics_.dimension; }
     int n() const { return tables_.front().nodes(); }
-    /// Rows of node quantities: n, or, where nodes are taken eight at a time, the next multiple of 8; the last node is repeated
-    /// with weight 0.
+    /// Rows of node quantities: n, or, where nodes are taken eight at a time, the next multiple of 8; the
+    /// last node is repeated with weight 0.
     int rows() const { return rows_; }
     int m(int k) const { return table(k).unknowns(); }
-    const Table<T>& table(int k) const { return tables_.size() == 1 ? tables_.front() : tables_[static_cast<std::size_t>(k)]; }
+    const Table<T>& table(int k) const {
+        return tables_.size() == 1 ? tables_.front() : tables_[static_cast<std::size_t>(k)];
+    }
     const Functions& functions(int k) const {
         return functions_.size() == 1 ? functions_.front() : functions_[static_cast<std::size_t>(k)];
     }
@@ -134,23 +145,23 @@ private:
     bool isRich_ = false;  ///< many nodes: sums go through kernels of this machine
     NodeSums sums_;
     Columns nodeQ_, nodeV_;
-    Square gradient_;        ///< (i, k): L_q, then L_v
+    Square gradient_;             ///< (i, k): L_q, then L_v
     Flat node_, weight_, times_;  ///< c_i, h b_i, t_i
     Vector q0_, p0_, v0_, a0_, dq_, dp_;
     Vector carryQ_, carryP_, lastQ_, lastP_;  ///< lost to rounding; and the state it belongs to
     Vector placeQ_, placeV_;
     Flat impulse_, thrust_;  ///< at a node: h b times L_q and L_v of one coordinate
     Flat jetGradient_, jetHessian_;
-    Square curvature_;              ///< (i, j): entry j of the Hessian at node i
-    std::vector<bool> isCurved_;    ///< entry j is not 0 at all nodes
-    Square bent_;                   ///< (i, c): a row of the Hessian applied to function c
+    Square curvature_;            ///< (i, j): entry j of the Hessian at node i
+    std::vector<bool> isCurved_;  ///< entry j is not 0 at all nodes
+    Square bent_;                 ///< (i, c): a row of the Hessian applied to function c
     Square jacobian_;
     Eigen::PartialPivLU<Square> lu_;
-    bool hasCurve_ = false;                      ///< Y_ of Newton's last step can be continued
+    bool hasCurve_ = false;                     ///< Y_ of Newton's last step can be continued
     std::optional<NodeIteration<T>> together_;  ///< separable Lagrangians
     bool isTogether_ = false;                   ///< it solved the last step
-    Start boldest_ = Start::continued;  ///< guess to begin with,
-    int waryFor_ = 0;                   ///< for that many steps, after a bolder one was poor
+    Start boldest_ = Start::continued;          ///< guess to begin with,
+    int waryFor_ = 0;                           ///< for that many steps, after a bolder one was poor
     int newtonSteps_ = 0;  ///< steps for which Newton is preferred after the fixed point was slow
     StepReport report_;
 };

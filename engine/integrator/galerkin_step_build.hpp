@@ -1,5 +1,5 @@
-/// The definition of GalerkinStep for any scalar and dimension. Included where it is instantiated: galerkin.cpp for
-/// double, the tests for quadruple precision.
+/// The definition of GalerkinStep for any scalar and dimension. Included where it is instantiated:
+/// galerkin.cpp for double, the tests for quadruple precision.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,8 @@
 namespace extremal {
 
 template <class T, int D>
-GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step, SolverPolicy policy)
+GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step,
+                                 SolverPolicy policy)
     : mechanics_(std::move(mechanics)), tables_(std::move(tables)), h_(step), policy_(policy) {
     const T epsilon = std::numeric_limits<T>::epsilon();
     tolerance_ = policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
@@ -43,8 +44,9 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         f.valueAt = f.slopeAt = Square::Zero(height, rows());
         f.valueAt.topRows(own) = f.value.transpose();
         f.slopeAt.topRows(own) = f.slope.transpose();
-        f.kineticInverse =
-            Square(t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative / h_).partialPivLu().inverse();
+        f.kineticInverse = Square(t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative / h_)
+                               .partialPivLu()
+                               .inverse();
         functions_.push_back(std::move(f));
     }
     node_ = times_ = padded(tables_.front().node);
@@ -54,7 +56,8 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     for (Flat* f : {&Y_, &previousY_, &R_, &delta_}) *f = Flat::Zero(size);
     for (Columns* c : {&nodeQ_, &nodeV_}) *c = Columns::Zero(rows(), d());
     gradient_ = Square::Zero(rows(), 2 * d());
-    for (Vector* v : {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_, &placeQ_, &placeV_})
+    for (Vector* v :
+         {&q0_, &p0_, &v0_, &a0_, &dq_, &dp_, &carryQ_, &carryP_, &lastQ_, &lastP_, &placeQ_, &placeV_})
         *v = Vector::Zero(d());
     jetGradient_ = Flat::Zero(2 * d());
     jetHessian_ = Flat::Zero(4 * d() * d());
@@ -67,25 +70,26 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         together_.emplace(mechanics_, tables_.front(), h_, tolerance_);
 }
 
-/// v(q_0, p_0) and the acceleration there: L_vv a = L_q - L_vq v (explicit time dependence of L_v is left out: it only
-/// matters for the quality of a guess).
+/// v(q_0, p_0) and the acceleration there: L_vv a = L_q - L_vq v (explicit time dependence of L_v is left
+/// out: it only matters for the quality of a guess).
 template <class T, int D>
 bool GalerkinStep<T, D>::startVelocity(const T& t) {
     if (!mechanics_.velocity(mechanics_.model.get(), t, q0_.data(), p0_.data(), v0_.data())) return false;
     T value;
     const int dim = d();
-    mechanics_.jet(mechanics_.model.get(), t, q0_.data(), v0_.data(), &value, jetGradient_.data(), jetHessian_.data());
+    mechanics_.jet(mechanics_.model.get(), t, q0_.data(), v0_.data(), &value, jetGradient_.data(),
+                   jetHessian_.data());
     ++report_.evaluations;
-    const Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> H(jetHessian_.data(),
-                                                                                               2 * dim, 2 * dim);
+    const Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> H(
+        jetHessian_.data(), 2 * dim, 2 * dim);
     Square mass = H.bottomRightCorner(dim, dim);
     const Flat rhs = jetGradient_.head(dim) - H.bottomLeftCorner(dim, dim) * v0_;
     a0_ = mass.partialPivLu().solve(rhs);
     return a0_.allFinite();
 }
 
-/// Starting guess for Y: the previous curve continued, or its smoothest part; else q_0 + v_0 t + a_0 t^2 / 2 fitted in the
-/// space; where a step has many periods that says nothing, and it starts from rest.
+/// Starting guess for Y: the previous curve continued, or its smoothest part; else q_0 + v_0 t + a_0 t^2 / 2
+/// fitted in the space; where a step has many periods that says nothing, and it starts from rest.
 template <class T, int D>
 bool GalerkinStep<T, D>::guess(const T& t, Start start) {
     if (start != Start::fresh) {
@@ -100,7 +104,8 @@ bool GalerkinStep<T, D>::guess(const T& t, Start start) {
         return true;
     }
     if (!startVelocity(t)) return false;
-    // Galerkin projection of the second derivative: K Y = sum_i b_i psi(c_i) (-a_0) h ... for unit mass, with p_0 -> v_0.
+    // Galerkin projection of the second derivative: K Y = sum_i b_i psi(c_i) (-a_0) h ... for unit mass, with
+    // p_0 -> v_0.
     for (int k = 0; k < d(); ++k) {
         const Table<T>& own = table(k);
         auto R = R_.segment(offset(k), m(k));
@@ -131,7 +136,8 @@ T GalerkinStep<T, D>::correction() {
 }
 
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Start start, const std::stop_token& stop) {
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Start start,
+                                                                 const std::stop_token& stop) {
     const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
     const int limit = policy_.maxIterations;
     T last = std::numeric_limits<T>::infinity();
@@ -146,8 +152,10 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Sta
         ++report_.iterations;
         report_.residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
-        if (iteration == 0 && start != Start::fresh && size > T(1)) return Attempt::failed;  // rich curves swing far beyond their step
-        // At round-off, or no longer shrinking within a few digits of it: the forces at hand are those of the solution.
+        if (iteration == 0 && start != Start::fresh && size > T(1))
+            return Attempt::failed;  // rich curves swing far beyond their step
+        // At round-off, or no longer shrinking within a few digits of it: the forces at hand are those of the
+        // solution.
         if (size <= tolerance_ || (size < stagnation && size >= last * T(0.25))) return Attempt::solved;
         // An ill-conditioned step stays further from round-off, whatever the Jacobian.
         if (size < 100 * stagnation && size >= last * T(0.25) && ++stalls >= 3) return Attempt::solved;
@@ -170,7 +178,8 @@ typename GalerkinStep<T, D>::Start GalerkinStep<T, D>::next(Start start) const {
     return start == Start::continued && tables_.front().cautious.size() > 0 ? Start::cautious : Start::fresh;
 }
 
-/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from a more cautious one.
+/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from a more
+/// cautious one.
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, const std::stop_token& stop) {
     if (waryFor_ > 0 && --waryFor_ == 0) boldest_ = Start::continued;
@@ -187,15 +196,18 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, cons
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, const std::stop_token& stop) {
     using Result = typename NodeIteration<T>::Result;
-    switch (together_->solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(), policy_.maxIterations, stop,
-                             report_)) {
+    switch (together_->solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(), policy_.maxIterations,
+                             stop, report_)) {
         case Result::solved: {
             together_->increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
             return dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
         }
-        case Result::stopped: return Attempt::stopped;
-        case Result::notFinite: return Attempt::notFinite;
-        case Result::slow: break;
+        case Result::stopped:
+            return Attempt::stopped;
+        case Result::notFinite:
+            return Attempt::notFinite;
+        case Result::slow:
+            break;
     }
     return Attempt::failed;
 }
@@ -206,11 +218,13 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const
     if (together_ && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
         Attempt result = fixedPoint(t, stop);
         // Forces continued from the step before may be a poor start where steps are large.
-        if (policy_.method == SolverMethod::fixedPoint && result != Attempt::solved && result != Attempt::stopped)
+        if (policy_.method == SolverMethod::fixedPoint && result != Attempt::solved &&
+            result != Attempt::stopped)
             result = fixedPoint(t, stop);
         isTogether_ = result == Attempt::solved;
         hasCurve_ = false;
-        if (isTogether_ || result == Attempt::stopped || policy_.method == SolverMethod::fixedPoint) return result;
+        if (isTogether_ || result == Attempt::stopped || policy_.method == SolverMethod::fixedPoint)
+            return result;
         newtonSteps_ = 32;  // the fixed point is slow here: stay with Newton for a while
     } else if (newtonSteps_ > 0) {
         --newtonSteps_;
@@ -263,11 +277,20 @@ StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_t
     takeUp(q, p);
     const Attempt result = solve(t, stop);
     switch (result) {
-        case Attempt::solved: break;
-        case Attempt::failed: report_.outcome = Outcome::diverged; break;
-        case Attempt::notFinite: report_.outcome = Outcome::notFinite; break;
-        case Attempt::singular: report_.outcome = Outcome::singular; break;
-        case Attempt::stopped: report_.outcome = Outcome::stopped; break;
+        case Attempt::solved:
+            break;
+        case Attempt::failed:
+            report_.outcome = Outcome::diverged;
+            break;
+        case Attempt::notFinite:
+            report_.outcome = Outcome::notFinite;
+            break;
+        case Attempt::singular:
+            report_.outcome = Outcome::singular;
+            break;
+        case Attempt::stopped:
+            report_.outcome = Outcome::stopped;
+            break;
     }
     hasCurve_ = result == Attempt::solved && !isTogether_;
     if (result == Attempt::solved) add(q, p);
@@ -292,7 +315,8 @@ void GalerkinStep<T, D>::curve(const T& tau, T* q, T* p) const {
         q[k] = q0_(k) + (isTogether_ ? Flat(Y.col(k)) : Flat(Y_.segment(offset(k), m(k)))).dot(y);
         p[k] = p0_(k);
     }
-    // p(tau) = p_0 + h int_0^tau of what the rule takes L_q for, from its values at the nodes: at tau = 1 the rule itself.
+    // p(tau) = p_0 + h int_0^tau of what the rule takes L_q for, from its values at the nodes: at tau = 1 the
+    // rule itself.
     const std::vector<T> share = weightsUpTo(tables_.front(), tau);
     for (int k = 0; k < d(); ++k)
         for (int i = 0; i < n(); ++i) p[k] += h_ * share[static_cast<std::size_t>(i)] * forces(i, k);

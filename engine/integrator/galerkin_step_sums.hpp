@@ -1,7 +1,8 @@
-/// The sums over the nodes in GalerkinStep: positions, forces, equations and their Jacobian. Included by galerkin_step_build.hpp.
+/// The sums over the nodes in GalerkinStep: positions, forces, equations and their Jacobian. Included by
+/// galerkin_step_build.hpp.
 ///
-/// Few nodes are summed as they come, in plain loops; many (oscillatory tables) through the kernels of small_product.hpp, with
-/// the Jacobian block by block.
+/// Few nodes are summed as they come, in plain loops; many (oscillatory tables) through the kernels of
+/// small_product.hpp, with the Jacobian block by block.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +15,13 @@ namespace extremal {
 
 /// C += A B for the first `height` rows of A; C has strideC rows in memory.
 template <class T, int D>
-void GalerkinStep<T, D>::addProduct(const Square& A, int height, const T* B, int columns, T* C, int strideC) const {
+void GalerkinStep<T, D>::addProduct(const Square& A, int height, const T* B, int columns, T* C,
+                                    int strideC) const {
     const auto depth = static_cast<int>(A.cols());
     if constexpr (std::is_same_v<T, double>) {
         if (isRich_)
-            return sums_.product({A.data(), static_cast<int>(A.rows()), B, depth, C, strideC, height, columns, depth});
+            return sums_.product(
+                {A.data(), static_cast<int>(A.rows()), B, depth, C, strideC, height, columns, depth});
     }
     for (int c = 0; c < columns; ++c)
         for (int i = 0; i < depth; ++i) {
@@ -33,7 +36,8 @@ template <class T, int D>
 void GalerkinStep<T, D>::placeNodes() {
     for (int k = 0; k < d(); ++k) {
         if (!isRich_) {
-            const T *value = functions(k).value.data(), *slope = functions(k).slope.data(), *y = Y_.data() + offset(k);
+            const T *value = functions(k).value.data(), *slope = functions(k).slope.data(),
+                    *y = Y_.data() + offset(k);
             T *q = nodeQ_.data() + k * rows(), *v = nodeV_.data() + k * rows();
             for (int i = 0; i < rows(); ++i) {
                 T far(0), fast(0);
@@ -60,20 +64,22 @@ void GalerkinStep<T, D>::evaluateForces(const T& t) {
     if (isRich_ && mechanics_.gradients) {
         times_ = node_ * h_;
         times_.array() += t;
-        return mechanics_.gradients(mechanics_.model.get(), times_.data(), rows(), nodeQ_.data(), nodeV_.data(),
-                                    gradient_.data());
+        return mechanics_.gradients(mechanics_.model.get(), times_.data(), rows(), nodeQ_.data(),
+                                    nodeV_.data(), gradient_.data());
     }
     for (int i = 0; i < n(); ++i) {
         for (int k = 0; k < d(); ++k) {
             placeQ_(k) = nodeQ_(i, k);
             placeV_(k) = nodeV_(i, k);
         }
-        mechanics_.gradient(mechanics_.model.get(), t + node_(i) * h_, placeQ_.data(), placeV_.data(), jetGradient_.data());
+        mechanics_.gradient(mechanics_.model.get(), t + node_(i) * h_, placeQ_.data(), placeV_.data(),
+                            jetGradient_.data());
         for (int k = 0; k < 2 * d(); ++k) gradient_(i, k) = jetGradient_(k);
     }
 }
 
-/// R from L_q, L_v; entry a of a coordinate is the equation of test function a, the last one that of 1 - phi_{m-1}.
+/// R from L_q, L_v; entry a of a coordinate is the equation of test function a, the last one that of 1 -
+/// phi_{m-1}.
 template <class T, int D>
 void GalerkinStep<T, D>::residual() {
     R_.setZero();
@@ -99,14 +105,15 @@ void GalerkinStep<T, D>::residual() {
                 thrust_(i) = weight_(i) * gradient_(i, d() + k);
                 impulse += Wide(impulse_(i));
             }
-            sums_.sumOfTwo({functions(k).valueAt.data(), impulse_.data(), functions(k).slopeAt.data(), thrust_.data(),
-                            static_cast<int>(functions(k).valueAt.rows()), m(k), rows(), R});
+            sums_.sumOfTwo({functions(k).valueAt.data(), impulse_.data(), functions(k).slopeAt.data(),
+                            thrust_.data(), static_cast<int>(functions(k).valueAt.rows()), m(k), rows(), R});
             R[last] = static_cast<T>(Wide(p0_(k)) + (impulse - Wide(R[last])));
         }
     }
 }
 
-/// The Hessians of L at all nodes, and which of their entries matter. Of few nodes the pivots say whether they are finite.
+/// The Hessians of L at all nodes, and which of their entries matter. Of few nodes the pivots say whether
+/// they are finite.
 template <class T, int D>
 bool GalerkinStep<T, D>::evaluateCurvature(const T& t) {
     const int size = 4 * d() * d();
@@ -114,7 +121,8 @@ bool GalerkinStep<T, D>::evaluateCurvature(const T& t) {
     if (isRich_ && mechanics_.hessians) {
         times_ = node_ * h_;
         times_.array() += t;
-        mechanics_.hessians(mechanics_.model.get(), times_.data(), rows(), nodeQ_.data(), nodeV_.data(), curvature_.data());
+        mechanics_.hessians(mechanics_.model.get(), times_.data(), rows(), nodeQ_.data(), nodeV_.data(),
+                            curvature_.data());
     } else {
         T value;
         for (int i = 0; i < n(); ++i) {
@@ -128,7 +136,8 @@ bool GalerkinStep<T, D>::evaluateCurvature(const T& t) {
         }
     }
     if (isRich_)
-        for (int j = 0; j < size; ++j) isCurved_[static_cast<std::size_t>(j)] = (curvature_.col(j).array() != T(0)).any();
+        for (int j = 0; j < size; ++j)
+            isCurved_[static_cast<std::size_t>(j)] = (curvature_.col(j).array() != T(0)).any();
     return !isRich_ || curvature_.allFinite();
 }
 
@@ -157,8 +166,8 @@ void GalerkinStep<T, D>::bend(int k, int l, bool isSlope) {
     }
 }
 
-/// d R of coordinate k / d Y of coordinate l for k >= l, and its transpose, in the test functions phi_a; the last rows
-/// become those of 1 - phi_{m-1}.
+/// d R of coordinate k / d Y of coordinate l for k >= l, and its transpose, in the test functions phi_a; the
+/// last rows become those of 1 - phi_{m-1}.
 template <class T, int D>
 void GalerkinStep<T, D>::assembleBlock(int k, int l) {
     const int height = m(k), columns = m(l), dim = d(), stride = static_cast<int>(jacobian_.rows());
@@ -203,7 +212,8 @@ void GalerkinStep<T, D>::assembleNode(int i) {
             const T* const to = functions(l).valueAt.data() + i * m(l);
             const T* const toSlope = functions(l).slopeAt.data() + i * m(l);
             for (int c = 0; c < m(l); ++c) {
-                const T onValue = byQQ * to[c] + byQV * toSlope[c], onSlope = byVQ * to[c] + byVV * toSlope[c];
+                const T onValue = byQQ * to[c] + byQV * toSlope[c],
+                        onSlope = byVQ * to[c] + byVV * toSlope[c];
                 T* const column = jacobian_.data() + (offset(l) + c) * all + offset(k);
                 for (int a = 0; a < last; ++a) column[a] += value[a] * onValue + slope[a] * onSlope;
                 column[last] += onValue - (value[last] * onValue + slope[last] * onSlope);

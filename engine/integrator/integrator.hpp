@@ -1,7 +1,8 @@
 /// The one virtual boundary of the engine, crossed once per step.
 ///
-/// An Integrator is made for one system, one discretization and one step; it owns all the buffers its step needs,
-/// so that advance() allocates nothing. Trouble is an Outcome in the report; the state is then left as it was.
+/// An Integrator is made for one system, one discretization and one step; it owns all the buffers its step
+/// needs, so that advance() allocates nothing. Trouble is an Outcome in the report; the state is then left as
+/// it was.
 #pragma once
 
 #include <cstddef>
@@ -20,8 +21,8 @@ public:
     /// Takes one step: state.x, state.t and state.node move to the next node.
     virtual StepReport advance(State& state) = 0;
 
-    /// Takes steps until `nodes` is full, or `count` of them, or to the first trouble; each node reached is appended.
-    /// Overridden where a step is so cheap that this boundary would be felt.
+    /// Takes steps until `nodes` is full, or `count` of them, or to the first trouble; each node reached is
+    /// appended. Overridden where a step is so cheap that this boundary would be felt.
     virtual StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count) {
         StepReport report;
         for (std::size_t i = 0; i < count && nodes.size() < nodes.capacity(); ++i) {
@@ -32,11 +33,12 @@ public:
         return report;
     }
 
-    /// The scheme's own curve inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in State.
-    /// Only valid after a converged advance().
+    /// The scheme's own curve inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in
+    /// State. Only valid after a converged advance().
     virtual void curve(double tau, std::span<double> x) const = 0;
 
-    /// How often the curve of a step oscillates by itself: what a picture of it must resolve. 0 where steps are to resolve the motion.
+    /// How often the curve of a step oscillates by itself: what a picture of it must resolve. 0 where steps
+    /// are to resolve the motion.
     virtual double periodsPerStep() const { return 0; }
 
     /// Forgets the last step: the state given next does not continue it. Only guesses depend on what is

@@ -43,18 +43,20 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair, const Clock& clock,
-                                              const SolverPolicy& policy) {
+std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair,
+                                              const Clock& clock, const SolverPolicy& policy) {
     if (!system.hasBody())
         throw InvalidScene("/space/type", "lie-polynomial needs a rigid body, and " + system.id + " is none",
                            "take polynomial");
     if (policy.method == SolverMethod::fixedPoint)
-        throw InvalidScene("/solver/method", "lie-polynomial is solved by Newton's method alone", "use newton or auto");
+        throw InvalidScene("/solver/method", "lie-polynomial is solved by Newton's method alone",
+                           "use newton or auto");
     const Table<double> table = tableOf(pair.space, pair.quadrature);
     const bool isReduced = pair.space.flag("reduced"), isSymmetrised = pair.space.flag("symmetric");
     const BodyMechanics<double>& body = system.body;
     if (body.dimension == 3)
-        return std::make_unique<Lie<RotationGroup<double>>>(body, table, clock, isReduced, isSymmetrised, policy);
+        return std::make_unique<Lie<RotationGroup<double>>>(body, table, clock, isReduced, isSymmetrised,
+                                                            policy);
     return std::make_unique<Lie<MotionGroup<double>>>(body, table, clock, isReduced, isSymmetrised, policy);
 }
 

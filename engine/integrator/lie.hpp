@@ -1,5 +1,5 @@
-/// The integrator of the space lie-polynomial: LieStep on the system's group, or, symmetrised, half a step of its adjoint
-/// and then half a step of it, whose charts have their foot at the middle.
+/// The integrator of the space lie-polynomial: LieStep on the system's group, or, symmetrised, half a step of
+/// its adjoint and then half a step of it, whose charts have their foot at the middle.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 namespace extremal {
 
 /// Throws InvalidScene (pointer relative to the scheme) where the system is no body.
-std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair, const Clock& clock,
-                                              const SolverPolicy& policy);
+std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair,
+                                              const Clock& clock, const SolverPolicy& policy);
 
 }  // namespace extremal

@@ -1,11 +1,13 @@
 /// What LieStep needs of its group beyond the chart: poses with momenta, and how they move along a chart.
 ///
-/// A pose holds the attitude as a quaternion of length 1 and the angular momentum about the centre of mass in space axes;
-/// on SE(3) the position and the linear momentum, in space axes too. Momenta in space, and not in the body, are what
-/// is carried from step to step: those of a free body are then never touched by round-off.
-/// A chart goes from a foot g to a tip g exp(xi). Where a potential has taken the impulse W on the way (a momentum at
-/// the foot, in its axes), the momenta at the ends satisfy mu_tip = Ad_exp(xi)^T (mu_foot - W); in space
-///     p_tip = p_foot - R W_p,   pi_tip = pi_foot - R W_pi - (x_tip - x_foot) x p_tip,   R: attitude of the foot.
+/// A pose holds the attitude as a quaternion of length 1 and the angular momentum about the centre of mass in
+/// space axes; on SE(3) the position and the linear momentum, in space axes too. Momenta in space, and not in
+/// the body, are what is carried from step to step: those of a free body are then never touched by round-off.
+/// A chart goes from a foot g to a tip g exp(xi). Where a potential has taken the impulse W on the way (a
+/// momentum at the foot, in its axes), the momenta at the ends satisfy mu_tip = Ad_exp(xi)^T (mu_foot - W);
+/// in space
+///     p_tip = p_foot - R W_p,   pi_tip = pi_foot - R W_pi - (x_tip - x_foot) x p_tip,   R: attitude of the
+///     foot.
 #pragma once
 
 #include "engine/group/se3.hpp"
@@ -116,8 +118,9 @@ struct MotionGroup {
         xi << omega, fromDisplacement(omega, way);
         return xi;
     }
-    /// The displacement of the position changes linearly, and rho with it: for a small body on a long way Newton's
-    /// corrections of rho itself would be good only as long as the turn changes by less than inertia / (mass way^2).
+    /// The displacement of the position changes linearly, and rho with it: for a small body on a long way
+    /// Newton's corrections of rho itself would be good only as long as the turn changes by less than inertia
+    /// / (mass way^2).
     static Vector corrected(const Vector& xi, const Vector& change) {
         const Three omega = xi.template head<3>(), rho = xi.template tail<3>();
         const so3::Exponential<T, 1> at(omega);

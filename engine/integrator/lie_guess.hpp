@@ -1,11 +1,11 @@
-/// A first guess for the step of a Lie group integrator: the motion of the body by the classical Runge-Kutta method, from
-/// one point of the curve to the next.
+/// A first guess for the step of a Lie group integrator: the motion of the body by the classical Runge-Kutta
+/// method, from one point of the curve to the next.
 ///
 ///     q' = q (0, w) / 2,   Pi' = Pi x w + torque,   x' = p / m,   p' = R force,      w = I^{-1} Pi
-/// in variables that mix neither turning and moving nor light axes and heavy ones: a small body on a long way has a
-/// momentum in the chart, way x p, that dwarfs its spin, and of a thin rod the momentum along itself is a small difference
-/// of those in space. The momentum of these poses is that in the body. Nothing of the result depends on the guess but the
-/// number of iterations.
+/// in variables that mix neither turning and moving nor light axes and heavy ones: a small body on a long way
+/// has a momentum in the chart, way x p, that dwarfs its spin, and of a thin rod the momentum along itself is
+/// a small difference of those in space. The momentum of these poses is that in the body. Nothing of the
+/// result depends on the guess but the number of iterations.
 #pragma once
 
 #include <array>
@@ -37,7 +37,8 @@ Pose<T> rateOf(const BodyMechanics<T>& body, const Pose<T>& p) {
     if (body.isFree()) return rate;
     const so3::Matrix<T> R = so3::matrix(so3::normalised(p.attitude));
     std::array<T, 6> f{};
-    body.potential(body.model.get(), R.data(), body.dimension == 6 ? p.position.data() : nullptr, nullptr, f.data(), nullptr);
+    body.potential(body.model.get(), R.data(), body.dimension == 6 ? p.position.data() : nullptr, nullptr,
+                   f.data(), nullptr);
     rate.momentum += so3::Vector<T>(f.data());
     if (body.dimension == 6) rate.linear = R * so3::Vector<T>(f.data() + 3);
     return rate;
@@ -62,9 +63,11 @@ Pose<T> guessedAfter(const BodyMechanics<T>& body, const Pose<T>& p, const T& t)
     return r;
 }
 
-/// The rotation vector from one attitude to another: of those that differ by full turns, the one next to `near`.
+/// The rotation vector from one attitude to another: of those that differ by full turns, the one next to
+/// `near`.
 template <class T>
-so3::Vector<T> turnBetween(const so3::Quaternion<T>& from, const so3::Quaternion<T>& to, const so3::Vector<T>& near) {
+so3::Vector<T> turnBetween(const so3::Quaternion<T>& from, const so3::Quaternion<T>& to,
+                           const so3::Vector<T>& near) {
     const so3::Vector<T> omega = so3::log(so3::product(so3::conjugate(from), to));
     using std::acos;
     const T size = omega.norm(), full = T(4) * acos(T(0));

@@ -1,23 +1,26 @@
 /// One step of a Galerkin variational integrator on a Lie group, in the natural chart at its foot.
 ///
-/// The curve is g(t) = g_0 exp(xi(t)) with xi in the polynomial space of the table, xi = sum_a Y_a phi_a(tau), 0 at the
-/// foot. With eta_i = dexp(xi_i) xi'_i, m_i = M eta_i and the force f_i of the potential at node i,
+/// The curve is g(t) = g_0 exp(xi(t)) with xi in the polynomial space of the table, xi = sum_a Y_a
+/// phi_a(tau), 0 at the foot. With eta_i = dexp(xi_i) xi'_i, m_i = M eta_i and the force f_i of the potential
+/// at node i,
 ///     L_d = h sum_i b_i [ 1/2 eta_i . M eta_i - U(g_0 exp xi_i) ],      p_a = dL_d / dY_a
-///         = sum_i b_i { h phi_a(c_i) [ (D_xi eta_i)^T m_i + dexp(xi_i)^T f_i ] + phi_a'(c_i) dexp(xi_i)^T m_i },
-///     W = -h sum_i b_i Ad_exp(-xi_i)^T f_i                                    (L_d depends on g_0 through U alone)
-///     p_a = 0 for the interior Y_a,      p_s = dexp(-xi_s)^T (mu_0 - W) for the last,      xi_s = Y_s,
-///     mu_1 = Ad_exp(xi_s)^T (mu_0 - W).
-/// The last two are the discrete Euler-Poincare equations, and the multiplied form has no singularity at |xi_s| = 2 pi.
-/// No logarithm is ever taken. Momenta are updated by the last line and not by p_s, so that they are kept to round-off
-/// even where the iteration is not. For a free body g and W drop out: the reduced step.
-/// The adjoint step has its chart at the tip of the step: the same equations with -h from g_1 = g_0 exp(-xi_s), where
-/// p_s = dexp(xi_s)^T mu_0 replaces the last one.
-/// Source: Leok 2004, sec. 4. Corrected: the body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is
-/// dexp_{-ad} l'/h + l D_xi[dexp_{-ad xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed
-/// inverted); the curve ends at g_1 (printed g_0^{-1} g_1).
+///         = sum_i b_i { h phi_a(c_i) [ (D_xi eta_i)^T m_i + dexp(xi_i)^T f_i ] + phi_a'(c_i) dexp(xi_i)^T
+///         m_i },
+///     W = -h sum_i b_i Ad_exp(-xi_i)^T f_i                                    (L_d depends on g_0 through U
+///     alone) p_a = 0 for the interior Y_a,      p_s = dexp(-xi_s)^T (mu_0 - W) for the last,      xi_s =
+///     Y_s, mu_1 = Ad_exp(xi_s)^T (mu_0 - W).
+/// The last two are the discrete Euler-Poincare equations, and the multiplied form has no singularity at
+/// |xi_s| = 2 pi. No logarithm is ever taken. Momenta are updated by the last line and not by p_s, so that
+/// they are kept to round-off even where the iteration is not. For a free body g and W drop out: the reduced
+/// step. The adjoint step has its chart at the tip of the step: the same equations with -h from g_1 = g_0
+/// exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 4. Corrected: the
+/// body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is dexp_{-ad} l'/h + l D_xi[dexp_{-ad
+/// xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed inverted); the curve ends
+/// at g_1 (printed g_0^{-1} g_1).
 ///
 /// Newton with the Jacobian of the predicted curve, kept while it contracts well, to round-off.
-/// T: scalar; G: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp). All buffers are allocated in the constructor.
+/// T: scalar; G: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp). All buffers are allocated in the
+/// constructor.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,7 +44,8 @@ public:
     using Vector = typename G::Vector;
     using Matrix = typename G::Matrix;
 
-    /// `isReduced`: leave out the dependence on g where the body is free; `isAdjoint`: chart at the end of the step.
+    /// `isReduced`: leave out the dependence on g where the body is free; `isAdjoint`: chart at the end of
+    /// the step.
     LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced, bool isAdjoint,
             SolverPolicy policy);
 
@@ -91,7 +95,7 @@ private:
     Columns points_;
     SmallLu<T> lu_;  ///< the Jacobian, then its factors
     Flat flat_;
-    std::vector<T> times_;       ///< of the m points
+    std::vector<T> times_;        ///< of the m points
     std::vector<Pose<T>> poses_;  ///< guesses at the start and the m points
     StepReport* report_ = nullptr;
 };

@@ -1,5 +1,5 @@
-/// The definition of LieStep for any scalar. Included where it is instantiated: lie.cpp for double, the tests for quadruple
-/// precision.
+/// The definition of LieStep for any scalar. Included where it is instantiated: lie.cpp for double, the tests
+/// for quadruple precision.
 #pragma once
 
 #include <Eigen/LU>
@@ -14,8 +14,8 @@
 namespace extremal {
 
 template <class T, class G>
-LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced, bool isAdjoint,
-                       SolverPolicy policy)
+LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced,
+                       bool isAdjoint, SolverPolicy policy)
     : body_(body),
       table_(std::move(table)),
       h_(isAdjoint ? T(-step) : step),
@@ -38,7 +38,8 @@ LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& st
     for (int k = 0; k < m(); ++k) {
         times_.push_back(points[static_cast<std::size_t>(k + 1)]);
         table_.space.evaluate(times_.back(), value, slope);
-        atPoints_.row(k) = Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
+        atPoints_.row(k) =
+            Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
     }
     fit_ = atPoints_.partialPivLu().inverse();
     poses_.resize(static_cast<std::size_t>(m() + 1));
@@ -68,7 +69,8 @@ bool LieStep<T, G>::predict() {
     const T step = isAdjoint_ ? T(-h_) : h_;
     for (int k = 0; k < m(); ++k) {
         const auto at = static_cast<std::size_t>(k);
-        poses_[at + 1] = guessedAfter(body_, poses_[at], T((times_[at] - (k > 0 ? times_[at - 1] : T(0))) * step));
+        poses_[at + 1] =
+            guessedAfter(body_, poses_[at], T((times_[at] - (k > 0 ? times_[at - 1] : T(0))) * step));
     }
     // The points are symmetric in time: the adjoint step sees the same ones from the end.
     const auto last = static_cast<std::size_t>(m());
@@ -100,7 +102,8 @@ void LieStep<T, G>::residual() {
             Vector f = Vector::Zero();
             if (!body_.isFree()) {
                 const typename G::Element g = G::times(footElement_, at);
-                body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), nullptr);
+                body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(),
+                                nullptr);
             }
             forXi += at.dexpTransposed(f);
             force_.col(i) = at.rotateMomentum(f);
@@ -120,7 +123,8 @@ void LieStep<T, G>::residual() {
 
 /// Adds what the potential does to the second derivatives at node i; A = dexp(xi_i).
 template <class T, class G>
-void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A, Matrix& xiXi) {
+void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A,
+                                   Matrix& xiXi) {
     const typename G::Element g = G::times(footElement_, at);
     Vector f;
     Matrix slope;
@@ -137,14 +141,16 @@ void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& a
         for (int k = 0; k < n; ++k) moved.col(k) = -at.rotateBack(foot.col(k));
         const Matrix change = A.transpose() * slope * moved;
         for (int a = 0; a < m(); ++a)
-            jacobian.template block<n, n>(n * a, last) += (table_.weight(i) * h_ * table_.value(i, a)) * change;
+            jacobian.template block<n, n>(n * a, last) +=
+                (table_.weight(i) * h_ * table_.value(i, a)) * change;
     } else {
         // dexp(-xi_s)^T dW/dxi_i
         const Matrix turned = (slope - G::precessionMatrix(f)) * A;
         Matrix change;
         for (int k = 0; k < n; ++k) change.col(k) = end.dexpRightTransposed(at.rotateMomentum(turned.col(k)));
         for (int a = 0; a < m(); ++a)
-            jacobian.template block<n, n>(last, n * a) -= (table_.weight(i) * h_ * table_.value(i, a)) * change;
+            jacobian.template block<n, n>(last, n * a) -=
+                (table_.weight(i) * h_ * table_.value(i, a)) * change;
     }
 }
 
@@ -169,7 +175,8 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
             const Matrix forXi = (h_ * value) * xiXi + slope * vXi;
             const Matrix forV = value * vXi.transpose() + (slope / h_) * vv;
             for (int c = 0; c < m(); ++c)
-                jacobian.template block<n, n>(n * a, n * c) += table_.value(i, c) * forXi + table_.derivative(i, c) * forV;
+                jacobian.template block<n, n>(n * a, n * c) +=
+                    table_.value(i, c) * forXi + table_.derivative(i, c) * forV;
         }
     }
     const typename G::template Chart<1> end(Y_.col(m() - 1));
@@ -180,9 +187,12 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
     ++report_->linearSolves;
     // Inertias far apart make pivots far apart; only what is lost in round-off is singular.
     switch (lu_.factorise()) {
-        case SmallLu<T>::Result::regular: break;
-        case SmallLu<T>::Result::singular: return Attempt::singular;
-        case SmallLu<T>::Result::notFinite: return Attempt::notFinite;
+        case SmallLu<T>::Result::regular:
+            break;
+        case SmallLu<T>::Result::singular:
+            return Attempt::singular;
+        case SmallLu<T>::Result::notFinite:
+            return Attempt::notFinite;
     }
     return Attempt::solved;
 }
@@ -205,8 +215,8 @@ T LieStep<T, G>::correction() {
     return scale > T(0) ? T(size / scale) : size;
 }
 
-/// What round-off in the equations leaves of the corrections: they are momenta of the heaviest axis, or of the whole body on
-/// its way, and move the lightest axis.
+/// What round-off in the equations leaves of the corrections: they are momenta of the heaviest axis, or of
+/// the whole body on its way, and move the lightest axis.
 template <class T, class G>
 T LieStep<T, G>::floor() const {
     T heaviest = inertia_.template head<3>().maxCoeff();
@@ -265,8 +275,8 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& st
         report_->residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
         correct();
-        // At round-off, or no longer shrinking within a few digits of it, or so fast that the next correction would be.
-        // Light axes stop further away from it: there a new Jacobian must not have helped either.
+        // At round-off, or no longer shrinking within a few digits of it, or so fast that the next correction
+        // would be. Light axes stop further away from it: there a new Jacobian must not have helped either.
         const bool isStalled = size >= last * T(0.25), isAtFloor = sinceJacobian == 0 && size < floor();
         const bool isSmall = size <= tolerance_ || (isStalled && (size < stagnation || isAtFloor));
         const bool isNextSmall = iteration > 0 && size < last && size * (size / last) < T(0.25) * tolerance_;
@@ -295,11 +305,16 @@ Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::sto
     mu_ = G::bodyMomentum(footElement_, known_);
     if (!predict()) return isRateFinite(body_, poses_[0]) ? Outcome::diverged : Outcome::notFinite;
     switch (iterate(stop)) {
-        case Attempt::solved: break;
-        case Attempt::failed: return Outcome::diverged;
-        case Attempt::notFinite: return Outcome::notFinite;
-        case Attempt::singular: return Outcome::singular;
-        case Attempt::stopped: return Outcome::stopped;
+        case Attempt::solved:
+            break;
+        case Attempt::failed:
+            return Outcome::diverged;
+        case Attempt::notFinite:
+            return Outcome::notFinite;
+        case Attempt::singular:
+            return Outcome::singular;
+        case Attempt::stopped:
+            return Outcome::stopped;
     }
     // Beyond, the chart folds over itself at 2 pi, and the solution is hardly the wanted one.
     const Vector end = Y_.col(m() - 1);

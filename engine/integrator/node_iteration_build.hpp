@@ -12,8 +12,8 @@
 namespace extremal {
 namespace detail {
 
-/// (j, i): weight of the force at node j in its continuation to 1 + c_i, by the polynomial of the highest degree whose
-/// Legendre coefficients the rule integrates exactly.
+/// (j, i): weight of the force at node j in its continuation to 1 + c_i, by the polynomial of the highest
+/// degree whose Legendre coefficients the rule integrates exactly.
 template <class T>
 typename NodeIteration<T>::Square continuation(const Rule<T>& rule) {
     const int n = rule.size(), degree = std::min(n - 1, rule.degree / 2);
@@ -23,7 +23,8 @@ typename NodeIteration<T>::Square continuation(const Rule<T>& rule) {
             const T x = 2 * c - 1;
             row(0) = T(1);
             if (degree > 0) row(1) = x;
-            for (int k = 1; k < degree; ++k) row(k + 1) = (T(2 * k + 1) * x * row(k) - T(k) * row(k - 1)) / T(k + 1);
+            for (int k = 1; k < degree; ++k)
+                row(k + 1) = (T(2 * k + 1) * x * row(k) - T(k) * row(k - 1)) / T(k + 1);
         };
         fill(here.row(i), rule.c[static_cast<std::size_t>(i)]);
         fill(beyond.row(i), T(1) + rule.c[static_cast<std::size_t>(i)]);
@@ -55,7 +56,8 @@ private:
 }  // namespace detail
 
 template <class T>
-NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& table, const T& h, const T& tolerance)
+NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& table, const T& h,
+                                const T& tolerance)
     : mechanics_(mechanics),
       d_(mechanics.dimension),
       n_(table.nodes()),
@@ -64,7 +66,8 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
       h_(h),
       tolerance_(tolerance),
       isExact_(tolerance <= std::numeric_limits<T>::epsilon()) {
-    const Square kinetic = table.testDerivative.transpose() * table.weight.asDiagonal() * table.derivative / h;
+    const Square kinetic =
+        table.testDerivative.transpose() * table.weight.asDiagonal() * table.derivative / h;
     const Square inverse = kinetic.partialPivLu().inverse();
     const Square moments = h * (table.testValue.transpose() * table.weight.asDiagonal());  // m x n
     const Square toForces = -inverse * moments;                                            // m x n
@@ -92,14 +95,17 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     Square N = G;
     for (int j = 0; j < n_; ++j) N.col(j) *= table.weight(j) != T(0) ? T(1 / (h * table.weight(j))) : T(0);
     using std::abs;
-    const auto orLinear = [&](const T& time, const T& c) {  // the space has the linear functions, but for rounding
+    const auto orLinear = [&](const T& time,
+                              const T& c) {  // the space has the linear functions, but for rounding
         return abs(T(time - h * c)) <= 16 * std::numeric_limits<T>::epsilon() * abs(h) ? T(h * c) : time;
     };
     typename Table<T>::Vector times = -table.value * inverse.col(m_ - 1);
     for (int i = 0; i < n_; ++i) times(i) = orLinear(times(i), table.node(i));
     const T end = orLinear(T(-inverse(m_ - 1, m_ - 1)), T(1));
-    // From here on multiples of one unit: differences are exact, and so is the condition N_ij - N_ji = s_i - s_j.
-    const detail::Grid<T> round(std::max({T(abs(end)), T(N.cwiseAbs().maxCoeff()), T(times.cwiseAbs().maxCoeff())}));
+    // From here on multiples of one unit: differences are exact, and so is the condition N_ij - N_ji = s_i -
+    // s_j.
+    const detail::Grid<T> round(
+        std::max({T(abs(end)), T(N.cwiseAbs().maxCoeff()), T(times.cwiseAbs().maxCoeff())}));
     velocityToEnd_ = round(end);
     for (int i = 0; i < stride_; ++i) {
         slope_[at(0, i)] = round(times(std::min(i, n_ - 1)));
@@ -108,7 +114,8 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     for (int j = 0; j < n_; ++j)
         for (int i = 0; i < stride_; ++i) {
             const int node = std::min(i, n_ - 1);
-            N_[at(j, i)] = node >= j ? round(N(node, j)) : round(N(j, node)) + (slope_[at(0, node)] - slope_[at(0, j)]);
+            N_[at(j, i)] =
+                node >= j ? round(N(node, j)) : round(N(j, node)) + (slope_[at(0, node)] - slope_[at(0, j)]);
         }
     for (int k = 0; k < d_; ++k) inverseMass_[static_cast<std::size_t>(k)] = 1 / mechanics.masses[k];
     if constexpr (std::is_same_v<T, double>)
@@ -161,7 +168,8 @@ void NodeIteration<T>::startFromConstantForce(const T& t, const T* q) {
         for (int i = 0; i < n_; ++i) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
 }
 
-/// Size of the last sweep's change: each coordinate against its own increments and the round-off of its own value.
+/// Size of the last sweep's change: each coordinate against its own increments and the round-off of its own
+/// value.
 template <class T>
 T NodeIteration<T>::largestChange(const T* q) const {
     using std::abs;
@@ -170,7 +178,8 @@ T NodeIteration<T>::largestChange(const T* q) const {
         const SweepSize<T>& size = size_[static_cast<std::size_t>(k)];
         const T roundOff = std::numeric_limits<T>::epsilon() * abs(q[k]);
         if (!(size.change <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
-        if (size.change > roundOff * T(0.01)) worst = std::max(worst, T(size.change / std::max(size.scale, roundOff)));
+        if (size.change > roundOff * T(0.01))
+            worst = std::max(worst, T(size.change / std::max(size.scale, roundOff)));
     }
     return worst;
 }
@@ -181,7 +190,8 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
                                                           const std::stop_token& stop, StepReport& report) {
     const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
     place(t, p, carryQ, carryP);
-    Sweep<T> s{d_, n_, stride_, start_.data(), base_.data(), F_.data(), nullptr, impulse_.data(), inverseMass_.data(), q,
+    Sweep<T> s{d_,        n_,        stride_,         start_.data(),       base_.data(),
+               F_.data(), nullptr,   impulse_.data(), inverseMass_.data(), q,
                Z_.data(), Q_.data(), size_.data()};
     const auto useImpulses = [&] {  // from here on; the continuation of the last step is in terms of forces
         s.G = N_.data();
@@ -206,9 +216,10 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         report.residual = static_cast<double>(size);
         hasForces_ = false;
         if (!(size < std::numeric_limits<T>::infinity())) return Result::notFinite;
-        // One more sweep would change less than is lost to round-off anyway, or the changes no longer shrink within a few
-        // digits of it. Then the forces are taken where that sweep has put the nodes: left where the nodes were, or had we
-        // stopped at round-off itself, they would have a bias that adds up over millions of steps.
+        // One more sweep would change less than is lost to round-off anyway, or the changes no longer shrink
+        // within a few digits of it. Then the forces are taken where that sweep has put the nodes: left where
+        // the nodes were, or had we stopped at round-off itself, they would have a bias that adds up over
+        // millions of steps.
         const T coming = iteration > 0 ? size * std::min(T(1), T(size / last)) : size;
         const bool isEnough = isExact_ ? coming <= T(0.01) * tolerance_ : size <= tolerance_;
         if (isEnough || (size < stagnation && size >= last * T(0.25))) {
@@ -221,7 +232,8 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
             return Result::solved;
         }
         growing = size >= last ? growing + 1 : 0;
-        if (growing >= 4 || (iteration >= 3 && size > last * T(0.1) && size > stagnation)) return Result::slow;
+        if (growing >= 4 || (iteration >= 3 && size > last * T(0.1) && size > stagnation))
+            return Result::slow;
         last = size;
     }
     return Result::slow;
@@ -235,15 +247,17 @@ void NodeIteration<T>::increments(T* dq, T* dp, T* carryQ, T* carryP) const {
     };
     for (int k = 0; k < d_; ++k) {
         const auto c = static_cast<std::size_t>(k);
-        Wide kicks[2] = {Wide(0), Wide(0)}, impulses[2] = {Wide(0), Wide(0)};  // two, as each waits for its last sum
-        for (int i = 0; i < stride_; i += 2)  // beyond the nodes impulses are 0
+        Wide kicks[2] = {Wide(0), Wide(0)},
+             impulses[2] = {Wide(0), Wide(0)};  // two, as each waits for its last sum
+        for (int i = 0; i < stride_; i += 2)    // beyond the nodes impulses are 0
             for (int l = 0; l < 2; ++l) {
                 kicks[l] += Wide(toEnd_[at(0, i + l)]) * Wide(impulse_[at(k, i + l)]);
                 impulses[l] += Wide(impulse_[at(k, i + l)]);
             }
         const Wide kick = kicks[0] + kicks[1], impulse = impulses[0] + impulses[1];
         const Wide drift(velocityToEnd_);
-        split(drift * Wide(v0_[c]) + (kick * Wide(inverseMass_[c]) + drift * Wide(lost_[c])), dq[k], carryQ[k]);
+        split(drift * Wide(v0_[c]) + (kick * Wide(inverseMass_[c]) + drift * Wide(lost_[c])), dq[k],
+              carryQ[k]);
         split(impulse, dp[k], carryP[k]);
     }
 }

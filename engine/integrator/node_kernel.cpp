@@ -12,9 +12,7 @@ Lanes term(const Sweep<double>& s, const double* F, int i, int j) {
 }
 
 /// One instruction, which a NaN in a escapes.
-double larger(double a, double b) {
-    return b > a ? b : a;
-}
+double larger(double a, double b) { return b > a ? b : a; }
 /// Of eight; uses the array up.
 double largest(double* v) {
     for (int l = 0; l < 4; ++l) v[l] = larger(v[l], v[l + 4]);
@@ -22,14 +20,15 @@ double largest(double* v) {
     return larger(v[0], v[1]);
 }
 
-/// Sums are written out and go through memory every eight terms: the compiler keeps straight lines of Lanes in vector
-/// registers, but takes accumulators that live through a loop apart.
+/// Sums are written out and go through memory every eight terms: the compiler keeps straight lines of Lanes
+/// in vector registers, but takes accumulators that live through a loop apart.
 void sweepLanes(const Sweep<double>& s) {
     for (int k = 0; k < s.d; ++k) {
         const double* F = s.F + k * s.stride;
         if (s.weight) {
             double* const impulse = s.impulse + k * s.stride;
-            for (int j = 0; j < s.stride; j += 8) (Lanes::load(s.weight + j) * Lanes::load(F + j)).store(impulse + j);
+            for (int j = 0; j < s.stride; j += 8)
+                (Lanes::load(s.weight + j) * Lanes::load(F + j)).store(impulse + j);
             F = impulse;
         }
         double change = 0, scale = 0;
@@ -43,7 +42,8 @@ void sweepLanes(const Sweep<double>& s) {
                                     (term(s, F, i, j + 6) + term(s, F, i, j + 7)));
                 (Lanes::load(sum) + part).store(sum);
             }
-            const Lanes z = Lanes::load(s.base + k * s.stride + i) + Lanes::load(sum) * Lanes(s.inverseMass[k]);
+            const Lanes z =
+                Lanes::load(s.base + k * s.stride + i) + Lanes::load(sum) * Lanes(s.inverseMass[k]);
             const auto magnitude = [](double v) { return __builtin_fabs(v); };
             (z - Lanes::load(Z)).map(magnitude).store(moved);
             z.map(magnitude).store(far);

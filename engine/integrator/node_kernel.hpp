@@ -1,8 +1,9 @@
 /// One sweep of the fixed-point iteration over all nodes of a step (node_iteration.hpp):
 ///     Z_k(i) <- base_k(i) + sum_j G(i, j) w_j F_k(j) / mass_k,     Q_k(i) <- q_k + Z_k(i),
 /// and the impulses w_j F_k(j) themselves; without weights F takes their place.
-/// Arrays of d coordinates x `stride` nodes, node fastest; G by columns, G[j * stride + i]; stride is a multiple of 8.
-/// Gives the largest change of Z and the largest Z of each coordinate; NaNs may go unseen, and are then in Z.
+/// Arrays of d coordinates x `stride` nodes, node fastest; G by columns, G[j * stride + i]; stride is a
+/// multiple of 8. Gives the largest change of Z and the largest Z of each coordinate; NaNs may go unseen, and
+/// are then in Z.
 #pragma once
 
 #include <cmath>
@@ -21,8 +22,8 @@ struct Sweep {
     const T* G = nullptr;
     const T* base = nullptr;
     const T* F = nullptr;
-    const T* weight = nullptr;  ///< w_j, or none
-    T* impulse = nullptr;       ///< w_j F_k(j), where there are weights
+    const T* weight = nullptr;       ///< w_j, or none
+    T* impulse = nullptr;            ///< w_j F_k(j), where there are weights
     const T* inverseMass = nullptr;  ///< d
     const T* q = nullptr;            ///< d
     T* Z = nullptr;

@@ -14,15 +14,20 @@ namespace {
 
 using Quad = __float128;
 /// The zeros lose 0.6 digits for each degree: up to 24 quadruple precision is enough, and fast.
-using Long = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>, boost::multiprecision::et_off>;
+using Long =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<80>, boost::multiprecision::et_off>;
 constexpr int mostForQuad = 24;
 
 /// Complex numbers in more than double precision: as much as is needed here.
 template <class Wide>
 struct WideComplex {
     Wide re = 0, im = 0;
-    friend WideComplex operator+(const WideComplex& a, const WideComplex& b) { return {a.re + b.re, a.im + b.im}; }
-    friend WideComplex operator-(const WideComplex& a, const WideComplex& b) { return {a.re - b.re, a.im - b.im}; }
+    friend WideComplex operator+(const WideComplex& a, const WideComplex& b) {
+        return {a.re + b.re, a.im + b.im};
+    }
+    friend WideComplex operator-(const WideComplex& a, const WideComplex& b) {
+        return {a.re - b.re, a.im - b.im};
+    }
     friend WideComplex operator*(const WideComplex& a, const WideComplex& b) {
         return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
     }
@@ -34,16 +39,19 @@ struct WideComplex {
     std::complex<double> rounded() const { return {static_cast<double>(re), static_cast<double>(im)}; }
 };
 
-/// All zeros of Q_s at once by Aberth's iteration. Q_s(z) is, up to a factor, the reverse Bessel polynomial theta_s(x) at
-/// x = -z/2, theta_n = (2n - 1) theta_{n-1} + x^2 theta_{n-2}: the sum of powers would lose all digits from s = 40 on.
+/// All zeros of Q_s at once by Aberth's iteration. Q_s(z) is, up to a factor, the reverse Bessel polynomial
+/// theta_s(x) at x = -z/2, theta_n = (2n - 1) theta_{n-1} + x^2 theta_{n-2}: the sum of powers would lose all
+/// digits from s = 40 on.
 template <class Wide>
 std::vector<WideComplex<Wide>> zerosOf(std::size_t s) {
     using Number = WideComplex<Wide>;
     std::vector<Number> x(s);
     for (std::size_t j = 0; j < s; ++j) {
-        // On an arc of the left half-plane, where they are known to be; off symmetry, so that no two move alike.
+        // On an arc of the left half-plane, where they are known to be; off symmetry, so that no two move
+        // alike.
         const double angle = 2.2 * ((static_cast<double>(j) + 0.4) / static_cast<double>(s) - 0.5);
-        x[j] = {-0.6 * static_cast<double>(s) * std::cos(angle) - 0.5, -0.6 * static_cast<double>(s) * std::sin(angle)};
+        x[j] = {-0.6 * static_cast<double>(s) * std::cos(angle) - 0.5,
+                -0.6 * static_cast<double>(s) * std::sin(angle)};
     }
     double last = 1e300;
     for (int iteration = 0; iteration < 400; ++iteration) {

@@ -76,8 +76,8 @@ void nameOf(const Settings& space, const Settings& rule, int n, PairProperties& 
     }
 }
 
-/// The error of L_d over h^(2 degree + 1) from the space, h^(order of the rule + 1) from the rule on the solution, and
-/// h^(2 consistency + 1) from the rule in the stationarity conditions, where it counts twice.
+/// The error of L_d over h^(2 degree + 1) from the space, h^(order of the rule + 1) from the rule on the
+/// solution, and h^(2 consistency + 1) from the rule in the stationarity conditions, where it counts twice.
 int orderOf(const Table<double>& table) {
     return std::min({2 * table.space.degree, table.rule.degree + 1, 2 * table.consistency});
 }
@@ -94,7 +94,8 @@ std::string shortfallOf(const Table<double>& table) {
 }
 
 PairProperties makeDescription(const Settings& space, const Settings& quadrature) {
-    if (const PairFamily* family = familyOf(space); family && family->describe) return family->describe(space, quadrature);
+    if (const PairFamily* family = familyOf(space); family && family->describe)
+        return family->describe(space, quadrature);
     PairProperties p;
     if (quadrature.type == "exact") {
         p.refusal = "the integral of the action is not known";
@@ -121,16 +122,19 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
         if (isLie && p.stabilityLimit > 0) p.stabilityLimit = std::numeric_limits<double>::infinity();
         p.shortfall = shortfallOf(table);
         if (table.consistency == 0) {
-            p.refusal = "the rule does not integrate the velocities of the space: not even a free particle would keep its speed";
-            p.hint = "a rule that is exact for degree " + std::to_string(std::max(0, table.space.degree - 1)) +
-                     " between the knots of the space";
+            p.refusal =
+                "the rule does not integrate the velocities of the space: not even a free particle would "
+                "keep its speed";
+            p.hint = "a rule that is exact for degree " +
+                     std::to_string(std::max(0, table.space.degree - 1)) + " between the knots of the space";
         }
     } catch (const InvalidScene& e) {
         p.refusal = e.problems().front().message;
         p.hint = e.problems().front().hint;
     }
     if (isLie) {
-        // The chart at the start of the step is seen from one side; but a curve of degree 1 has the same charts at both ends.
+        // The chart at the start of the step is seen from one side; but a curve of degree 1 has the same
+        // charts at both ends.
         p.claims.isSymmetric = rule.isSymmetric && (space.flag("symmetric") || space.integer("degree") == 1);
         p.shortName = ordinal("Lie", p.claims.order);
     } else {
@@ -153,7 +157,8 @@ std::string keyOf(const Settings& s) {
     return key;
 }
 
-/// What was made for a pair before. A result is a function of the settings alone, so it does not matter who asked first.
+/// What was made for a pair before. A result is a function of the settings alone, so it does not matter who
+/// asked first.
 template <class V>
 class Memory {
 public:
@@ -190,11 +195,13 @@ bool hasOneTable(const Settings& space) {
 
 Table<double> tableOf(const Settings& space, const Settings& quadrature) {
     static Memory<Table<double>> known;
-    return known.get(space, quadrature, [&] { return makeTable(makeSpace(space), makeRule<double>(quadrature)); });
+    return known.get(space, quadrature,
+                     [&] { return makeTable(makeSpace(space), makeRule<double>(quadrature)); });
 }
 
 Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
-    if (const PairFamily* family = familyOf(space); family && family->complete) return family->complete(space, quadrature);
+    if (const PairFamily* family = familyOf(space); family && family->complete)
+        return family->complete(space, quadrature);
     Settings q = quadrature;
     const double degree = space.number("degree");
     auto set = [&](const char* key, Value value) {
@@ -246,8 +253,7 @@ std::optional<Discretization> namedScheme(std::string_view id) {
 bool isPairFor(const Discretization& pair, const System& system) {
     for (const SpaceEntry& e : spaceEntries())
         if (e.item.id == pair.space.type)
-            return appliesTo(e, system) &&
-                   (pair.space.text("omega") != "model" || system.fast.frequency > 0);
+            return appliesTo(e, system) && (pair.space.text("omega") != "model" || system.fast.frequency > 0);
     return false;
 }
 
@@ -268,7 +274,8 @@ Discretization trustedPair(const System& system) {
     }
     if (system.hasWave()) {
         pair.space = {"fourier",
-                      {{"degree", 8.0}, {"energy_shift", "mean"}, {"form", "one-step"}, {"start", "gauss"}}, {}};
+                      {{"degree", 8.0}, {"energy_shift", "mean"}, {"form", "one-step"}, {"start", "gauss"}},
+                      {}};
         pair.quadrature = {"gauss", {{"nodes", 8.0}}, {}};
         return pair;
     }
@@ -295,7 +302,8 @@ double highestFrequency(const System& system, const State& state) {
     if (!m.velocity(m.model.get(), state.t, q, q + d, v.data())) return 0;
     m.jet(m.model.get(), state.t, q, v.data(), &value, gradient.data(), H.data());
     if (!H.allFinite()) return 0;
-    // Largest growth rate of the linearised flow by power iteration on (M^{-1} K)^2, K = -L_qq: enough for a warning.
+    // Largest growth rate of the linearised flow by power iteration on (M^{-1} K)^2, K = -L_qq: enough for a
+    // warning.
     const Eigen::MatrixXd A = dense::solve<double>(H.bottomRightCorner(d, d), -H.topLeftCorner(d, d));
     Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(d, 1, 1.5);
     double eigenvalue = 0;

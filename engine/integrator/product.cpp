@@ -41,9 +41,11 @@ struct ProductCurve {
         at.first.resize(static_cast<std::size_t>(n));
         at.second.assign(static_cast<std::size_t>(n * n), Moving(0.0));
         const Moving time = Moving::variable(t, 0), x = time * (2 / h) - 1.0;
-        const Moving s = sin(time * w), c = cos(time * w), F = 1.0 + s * a + c * b, G = time * (c * a - s * b);
+        const Moving s = sin(time * w), c = cos(time * w), F = 1.0 + s * a + c * b,
+                     G = time * (c * a - s * b);
         const auto pair = [&](int j, int k, const Moving& value) {
-            at.second[static_cast<std::size_t>(j * n + k)] = at.second[static_cast<std::size_t>(k * n + j)] = value;
+            at.second[static_cast<std::size_t>(j * n + k)] = at.second[static_cast<std::size_t>(k * n + j)] =
+                value;
         };
         Moving P(1.0), lower(0.0), slow(0.0);
         for (int j = 0; j <= degree; ++j) {
@@ -69,10 +71,17 @@ struct ProductCurve {
 
 class Product final : public Integrator {
 public:
-    Product(const System& system, std::vector<ProductCurve> curves, const Rule<double>& rule, const Clock& clock,
-            const SolverPolicy& policy, std::unique_ptr<Integrator> additive)
-        : mechanics_(system.mechanics), curves_(std::move(curves)), rule_(rule), clock_(clock), policy_(policy),
-          additive_(std::move(additive)), at_(curves_.size()), start_(curves_.size()), end_(curves_.size()) {
+    Product(const System& system, std::vector<ProductCurve> curves, const Rule<double>& rule,
+            const Clock& clock, const SolverPolicy& policy, std::unique_ptr<Integrator> additive)
+        : mechanics_(system.mechanics),
+          curves_(std::move(curves)),
+          rule_(rule),
+          clock_(clock),
+          policy_(policy),
+          additive_(std::move(additive)),
+          at_(curves_.size()),
+          start_(curves_.size()),
+          end_(curves_.size()) {
         int size = 0;
         for (const ProductCurve& c : curves_) {
             offset_.push_back(size);
@@ -141,10 +150,12 @@ private:
             const double tau = (i + 0.5) / fitSamples;
             added.evaluate<double>(tau, {z * tau, 0}, {z, 0}, {functions.col(i).data(), n}, slopes);
         }
-        return dense::leastSquares<double>(functions.transpose(), Eigen::MatrixXd::Identity(fitSamples, fitSamples));
+        return dense::leastSquares<double>(functions.transpose(),
+                                           Eigen::MatrixXd::Identity(fitSamples, fitSamples));
     }
 
-    /// The additive curve with its amplitudes over the mean of P. Where even that has no solution, a constant.
+    /// The additive curve with its amplitudes over the mean of P. Where even that has no solution, a
+    /// constant.
     void guess(const State& state) {
         const std::size_t d = curves_.size();
         fitted_ = state;
@@ -176,9 +187,12 @@ private:
             if (stop().stop_requested()) return Outcome::stopped;
             if (!assemble(state, report)) return Outcome::notFinite;
             switch (lu_.factorise()) {
-                case SmallLu<double>::Result::regular: break;
-                case SmallLu<double>::Result::singular: return Outcome::singular;
-                case SmallLu<double>::Result::notFinite: return Outcome::notFinite;
+                case SmallLu<double>::Result::regular:
+                    break;
+                case SmallLu<double>::Result::singular:
+                    return Outcome::singular;
+                case SmallLu<double>::Result::notFinite:
+                    return Outcome::notFinite;
             }
             lu_.solve(residual_.data());
             ++report.iterations;
@@ -187,14 +201,15 @@ private:
             if (!std::isfinite(size)) return Outcome::notFinite;
             report.residual = size;
             // Amplitudes over a small mean are ill-conditioned: their last digits never settle.
-            if (size <= 4 * epsilon || (size < 1e-7 && size >= last / 4)) return assemble(state, report) ? Outcome::converged : Outcome::notFinite;
+            if (size <= 4 * epsilon || (size < 1e-7 && size >= last / 4))
+                return assemble(state, report) ? Outcome::converged : Outcome::notFinite;
             last = size;
         }
         return Outcome::diverged;
     }
 
-    /// Takes the correction off X. Its size relative to the unknowns: slow part, amplitudes, frequency and momentum each to
-    /// their own kind.
+    /// Takes the correction off X. Its size relative to the unknowns: slow part, amplitudes, frequency and
+    /// momentum each to their own kind.
     double correction(const State& state) {
         double worst = 0;
         for (std::size_t k = 0; k < curves_.size(); ++k) {
@@ -231,7 +246,8 @@ private:
                 v_[k] = at_[k].q.g[0];
             }
             double value = 0;
-            mechanics_.jet(mechanics_.model.get(), state.t + rule_.c[i] * h, q_.data(), v_.data(), &value, gradient_.data(), hessian_.data());
+            mechanics_.jet(mechanics_.model.get(), state.t + rule_.c[i] * h, q_.data(), v_.data(), &value,
+                           gradient_.data(), hessian_.data());
             ++report.evaluations;
             if (!std::isfinite(value)) return false;
             std::copy_n(gradient_.begin(), d, forces_.begin() + static_cast<std::ptrdiff_t>(i) * d);
@@ -248,8 +264,11 @@ private:
     void addNode(int k, double weight) {
         const int d = static_cast<int>(curves_.size()), n = curves_[static_cast<std::size_t>(k)].size();
         const ProductCurve::At& at = at_[static_cast<std::size_t>(k)];
-        const double onQ = weight * gradient_[static_cast<std::size_t>(k)], onV = weight * gradient_[static_cast<std::size_t>(d + k)];
-        const auto H = [&](int i, int j) { return weight * hessian_[static_cast<std::size_t>(i * 2 * d + j)]; };
+        const double onQ = weight * gradient_[static_cast<std::size_t>(k)],
+                     onV = weight * gradient_[static_cast<std::size_t>(d + k)];
+        const auto H = [&](int i, int j) {
+            return weight * hessian_[static_cast<std::size_t>(i * 2 * d + j)];
+        };
         const int row = offset_[static_cast<std::size_t>(k)];
         for (int j = 0; j < n; ++j) {
             const Moving& phi = at.first[static_cast<std::size_t>(j)];
@@ -279,7 +298,8 @@ private:
             R[j] += p0 * start_[at].first[a].value - p1 * end_[at].first[a].value;
             for (int i = 0; i < n; ++i) {
                 const auto b = static_cast<std::size_t>(i * n + j);
-                lu_.column(row + i)[row + j] += p0 * start_[at].second[b].value - p1 * end_[at].second[b].value;
+                lu_.column(row + i)[row + j] +=
+                    p0 * start_[at].second[b].value - p1 * end_[at].second[b].value;
             }
             lu_.column(row + n)[row + j] = -end_[at].first[a].value;
             lu_.column(row + j)[row + n] = start_[at].first[a].value;
@@ -318,8 +338,10 @@ PairProperties describeProduct(const Settings&, const Settings& quadrature) {
     p.stabilityLimit = std::numeric_limits<double>::infinity();
     p.knownAs = "product form";
     p.shortName = "MS*";
-    p.caution = "is an experiment: its fast amplitudes are multiples of the slow parts, and steps have no solution where these pass "
-                "through 0 or the amplitudes vanish. See the handbook, Multiscale";
+    p.caution =
+        "is an experiment: its fast amplitudes are multiples of the slow parts, and steps have no solution "
+        "where these pass "
+        "through 0 or the amplitudes vanish. See the handbook, Multiscale";
     if (isFilon(quadrature)) {
         p.refusal = "the frequency may change from step to step, and a Filon rule needs it beforehand";
         p.hint = "auto, or a rule with 24 nodes a fast period";
@@ -327,18 +349,21 @@ PairProperties describeProduct(const Settings&, const Settings& quadrature) {
     return p;
 }
 
-std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& pair, const Clock& clock,
-                                                  const SolverPolicy& policy) {
+std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& pair,
+                                                  const Clock& clock, const SolverPolicy& policy) {
     Discretization additive = pair;
     additive.space.type = "oscillatory";
     std::erase_if(additive.space.keys, [](const auto& member) { return member.first == "frequency"; });
     additive.quadrature = {"auto", {}, {}};
     const Phases<double> z = oscillatoryPhases(system, additive.space, clock.step);
-    if (z[1] != 0) throw InvalidScene("/space/omega", "must be one frequency in a product", "the space oscillatory takes two");
+    if (z[1] != 0)
+        throw InvalidScene("/space/omega", "must be one frequency in a product",
+                           "the space oscillatory takes two");
     const double periods = std::abs(z[0]) / (2 * std::numbers::pi);
     if (!(periods < 1e4))
-        throw InvalidScene("/step", "has " + formatNumber(periods, 3) + " fast periods, and products resolve each of them",
-                           "a smaller step, or the space oscillatory");
+        throw InvalidScene(
+            "/step", "has " + formatNumber(periods, 3) + " fast periods, and products resolve each of them",
+            "a smaller step, or the space oscillatory");
     const bool isFree = pair.space.text("frequency") == "free";
     std::vector<ProductCurve> curves;
     int degree = 0;
@@ -346,9 +371,11 @@ std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Di
         curves.push_back({basis.degree, isFree, z[0] / clock.step});
         degree = std::max(degree, basis.degree);
     }
-    const Rule<double> made = makeRule<double>(pair.quadrature.type == "auto" ? resolvingRule(z[0], degree) : pair.quadrature);
+    const Rule<double> made =
+        makeRule<double>(pair.quadrature.type == "auto" ? resolvingRule(z[0], degree) : pair.quadrature);
     checkResolution(z[0], made);
-    return std::make_unique<Product>(system, std::move(curves), made, clock, policy, makeIntegrator(system, additive, clock));
+    return std::make_unique<Product>(system, std::move(curves), made, clock, policy,
+                                     makeIntegrator(system, additive, clock));
 }
 
 }  // namespace extremal

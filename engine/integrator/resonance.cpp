@@ -32,11 +32,13 @@ double fraction(double z) {
     return x - std::floor(x);
 }
 bool isSafe(const Phases<double>& z) {
-    return std::all_of(z.begin(), z.end(), [](double x) { return x == 0 || (fraction(x) >= 0.1 && fraction(x) <= 0.5); });
+    return std::all_of(z.begin(), z.end(),
+                       [](double x) { return x == 0 || (fraction(x) >= 0.1 && fraction(x) <= 0.5); });
 }
 Phases<double> scaled(const Phases<double>& z, double factor) { return {z[0] * factor, z[1] * factor}; }
 
-/// The factor of the step next to 1 that makes it safe for all frequencies, in the middle of the safe part for one.
+/// The factor of the step next to 1 that makes it safe for all frequencies, in the middle of the safe part
+/// for one.
 double nearestSafe(const Phases<double>& z) {
     const double faster = std::max(std::abs(z[0]), std::abs(z[1])) / std::numbers::pi;
     if (z[1] == 0) {
@@ -55,7 +57,8 @@ double nearestSafe(const Phases<double>& z) {
 /// The shortest decimal that is still safe.
 double fewDigits(double step, const Phases<double>& frequency) {
     for (int digits = 2; digits < 17; ++digits)
-        if (const auto rounded = parseNumber(formatNumber(step, digits)); rounded && isSafe(scaled(frequency, *rounded)))
+        if (const auto rounded = parseNumber(formatNumber(step, digits));
+            rounded && isSafe(scaled(frequency, *rounded)))
             return *rounded;
     return step;
 }

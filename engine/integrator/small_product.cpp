@@ -60,7 +60,8 @@ inline void sumOfTwo(const SumOfTwo& p) {
     }
 }
 
-inline void combine(const double* p, const double* x, const double* q, const double* y, double* __restrict out, int n) {
+inline void combine(const double* p, const double* x, const double* q, const double* y,
+                    double* __restrict out, int n) {
     for (int i = 0; i < n; ++i) out[i] = p[i] * x[i] + q[i] * y[i];
 }
 

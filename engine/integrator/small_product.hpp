@@ -1,8 +1,9 @@
-/// Sums over the nodes of steps that have many of them, in the instruction set of this machine: C += A B, and columns weighted
-/// row by row.
+/// Sums over the nodes of steps that have many of them, in the instruction set of this machine: C += A B, and
+/// columns weighted row by row.
 ///
-/// Matrices are stored by columns. A is rows x depth with `stride` rows in memory, a multiple of 8; those beyond `rows` may hold
-/// anything finite. B is depth x columns; C is rows x columns. The order of summation does not depend on the instruction set.
+/// Matrices are stored by columns. A is rows x depth with `stride` rows in memory, a multiple of 8; those
+/// beyond `rows` may hold anything finite. B is depth x columns; C is rows x columns. The order of summation
+/// does not depend on the instruction set.
 #pragma once
 
 namespace extremal {
@@ -17,7 +18,8 @@ struct SmallProduct {
     int rows, columns, depth;
 };
 
-/// c = A a + B b in nearly twice the precision: terms of both cancel. A and B are rows x depth with `stride` rows in memory.
+/// c = A a + B b in nearly twice the precision: terms of both cancel. A and B are rows x depth with `stride`
+/// rows in memory.
 struct SumOfTwo {
     const double *A, *a, *B, *b;
     int stride, rows, depth;

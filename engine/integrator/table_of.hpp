@@ -1,5 +1,5 @@
-/// The table of a pair as a scene names it, remembered: it is computed in quadruple precision where it can be, which
-/// takes as long as thousands of steps.
+/// The table of a pair as a scene names it, remembered: it is computed in quadruple precision where it can
+/// be, which takes as long as thousands of steps.
 #pragma once
 
 #include "engine/action/table.hpp"
@@ -7,7 +7,8 @@
 
 namespace extremal {
 
-/// Whether a pair has one table, whatever the system and the step. An oscillatory one has not (integrator/oscillatory.hpp).
+/// Whether a pair has one table, whatever the system and the step. An oscillatory one has not
+/// (integrator/oscillatory.hpp).
 bool hasOneTable(const Settings& space);
 
 /// Keys must be checked and complete. Throws InvalidScene where the pair makes no sense. Any thread may ask.

@@ -20,9 +20,11 @@ namespace {
 /// Ec: NaN where it is the mean energy of the start.
 double shiftOf(const Settings& space) {
     const Value* shift = space.find("energy_shift");
-    if (!shift || (shift->isString() && shift->asString() == "mean")) return std::numeric_limits<double>::quiet_NaN();
+    if (!shift || (shift->isString() && shift->asString() == "mean"))
+        return std::numeric_limits<double>::quiet_NaN();
     if (shift->isNumber() && std::isfinite(shift->asNumber())) return shift->asNumber();
-    throw InvalidScene("/space/energy_shift", "must be a number or \"mean\"", "mean: the energy of the start");
+    throw InvalidScene("/space/energy_shift", "must be a number or \"mean\"",
+                       "mean: the energy of the start");
 }
 
 /// Microseconds of one transform there and back.
@@ -34,7 +36,8 @@ constexpr double overhead = 0.2;
 /// Measured on one machine at N = 256 and 512; it is the ratios that choose.
 double costOf(WaveSolver solver, const Hamiltonian& h, int degree, double step) {
     const double n = h.size(), s = degree, band = std::max(1, h.harmonics());
-    if (solver == WaveSolver::banded) return overhead + 0.0018 * n * s * (band > 1 ? 1.6 * band : 1) + 0.003 * n;
+    if (solver == WaveSolver::banded)
+        return overhead + 0.0018 * n * s * (band > 1 ? 1.6 * band : 1) + 0.003 * n;
     if (solver == WaveSolver::dense) return overhead + 0.00035 * n * n + transforms(n);
     // Iterations grow with the part of the potential that the preconditioner does not see.
     const auto [low, high] = std::minmax_element(h.potential().begin(), h.potential().end());
@@ -45,29 +48,37 @@ double costOf(WaveSolver solver, const Hamiltonian& h, int degree, double step) 
 
 std::string duration(double microseconds) {
     if (microseconds < 1e3) return formatNumber(microseconds, 2) + " µs";
-    return microseconds < 1e6 ? formatNumber(microseconds / 1e3, 2) + " ms" : formatNumber(microseconds / 1e6, 2) + " s";
+    return microseconds < 1e6 ? formatNumber(microseconds / 1e3, 2) + " ms"
+                              : formatNumber(microseconds / 1e6, 2) + " s";
 }
 
 void checkSolver(WaveSolver solver, const Hamiltonian& h) {
     if (solver != WaveSolver::dense && !h.isPeriodic())
-        throw InvalidScene("/solver/method", std::string(name(solver)) + " needs a periodic domain: it works on Fourier modes",
+        throw InvalidScene("/solver/method",
+                           std::string(name(solver)) + " needs a periodic domain: it works on Fourier modes",
                            "auto or dense");
     if (solver != WaveSolver::dense && !h.isSplit())
-        throw InvalidScene("/solver/method",
-                           std::string(name(solver)) + " needs a potential that acts at the nodes, not by convolution", "auto or dense");
+        throw InvalidScene(
+            "/solver/method",
+            std::string(name(solver)) + " needs a potential that acts at the nodes, not by convolution",
+            "auto or dense");
     if (solver == WaveSolver::banded && h.isPlane())
         throw InvalidScene("/solver/method", "banded is for one dimension", "auto or krylov");
     if (solver != WaveSolver::krylov && h.isTimeDependent())
-        throw InvalidScene("/solver/method", std::string(name(solver)) + " needs a potential that does not depend on t",
+        throw InvalidScene("/solver/method",
+                           std::string(name(solver)) + " needs a potential that does not depend on t",
                            "krylov");
     if (solver == WaveSolver::banded && !BandedPoles::isPossible(h.size(), std::max(1, h.harmonics())))
-        throw InvalidScene("/solver/method",
-                           "banded needs a potential of at most 8 harmonics and at least 4 modes for each and 4 more, got " +
-                               std::to_string(h.harmonics()) + " harmonics and " + std::to_string(h.size()) + " modes",
-                           "auto, dense or krylov");
+        throw InvalidScene(
+            "/solver/method",
+            "banded needs a potential of at most 8 harmonics and at least 4 modes for each and 4 more, got " +
+                std::to_string(h.harmonics()) + " harmonics and " + std::to_string(h.size()) + " modes",
+            "auto, dense or krylov");
     if (solver == WaveSolver::dense && h.size() > Eigenstates::denseLimit)
-        throw InvalidScene("/solver/method", "dense takes at most " + std::to_string(Eigenstates::denseLimit) +
-                                                 " modes, got " + std::to_string(h.size()), "auto or krylov");
+        throw InvalidScene("/solver/method",
+                           "dense takes at most " + std::to_string(Eigenstates::denseLimit) + " modes, got " +
+                               std::to_string(h.size()),
+                           "auto or krylov");
 }
 
 PairProperties describeThreeLevel(const Settings& space, const Settings& quadrature) {
@@ -78,7 +89,8 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
         return p;
     }
     const double alpha = threeLevelAlpha(quadrature);
-    const bool isExact = alpha == 1.0 / 6, isSymmetric = quadrature.type == "exact" || makeRule<double>(quadrature).isSymmetric;
+    const bool isExact = alpha == 1.0 / 6,
+               isSymmetric = quadrature.type == "exact" || makeRule<double>(quadrature).isSymmetric;
     p.claims = {isExact && space.text("start") != "variational" ? 4 : 2, true, true, {"bilinear form"}};
     p.curveOrder = p.claims.order;
     p.shortName = "3L" + std::to_string(p.claims.order);
@@ -86,7 +98,8 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
     p.isExplicit = alpha == 0;
     p.stabilityLimit = threeLevelLimit(alpha);
     if (!isSymmetric || !(alpha >= 0 && alpha <= 0.25 + 1e-14)) {
-        p.refusal = "the three-level form takes symmetric rules with a weight of 0 to 1/4 on the outer levels";
+        p.refusal =
+            "the three-level form takes symmetric rules with a weight of 0 to 1/4 on the outer levels";
         p.hint = "exact, trapezoid or midpoint";
     }
     return p;
@@ -98,16 +111,21 @@ bool isBetweenWalls(const System& system) { return system.hasWave() && !system.w
 
 bool hasFullMatrix(const System& system) { return system.hasWave() && !system.wave->isSplit(); }
 
-void requirePeriodic(const System& system, const std::string& pointer, const std::string& what, const std::string& hint) {
+void requirePeriodic(const System& system, const std::string& pointer, const std::string& what,
+                     const std::string& hint) {
     if (isBetweenWalls(system))
-        throw InvalidScene(pointer, what + " needs a periodic domain, and the boundary of this model is dirichlet", hint);
+        throw InvalidScene(
+            pointer, what + " needs a periodic domain, and the boundary of this model is dirichlet", hint);
 }
 
-void requireSplit(const System& system, const std::string& pointer, const std::string& what, const std::string& hint) {
+void requireSplit(const System& system, const std::string& pointer, const std::string& what,
+                  const std::string& hint) {
     requirePeriodic(system, pointer, what, hint);
     if (hasFullMatrix(system))
-        throw InvalidScene(pointer, what + " needs a potential that acts at the nodes, and the product of this model is convolution",
-                           hint);
+        throw InvalidScene(
+            pointer,
+            what + " needs a potential that acts at the nodes, and the product of this model is convolution",
+            hint);
 }
 
 WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step) {
@@ -120,7 +138,8 @@ WavePlan planWave(const System& system, const Settings& space, const Settings& s
             return {s, true, costOf(s, h, degree, step)};
         }
     if (!solver.type.empty() && solver.type != "auto")
-        throw InvalidScene("/solver/method", solver.type + " does not solve the linear systems of a wave function",
+        throw InvalidScene("/solver/method",
+                           solver.type + " does not solve the linear systems of a wave function",
                            "auto, banded, dense or krylov");
     plan.microseconds = std::numeric_limits<double>::infinity();
     for (const WaveSolver s : {WaveSolver::banded, WaveSolver::dense, WaveSolver::krylov}) {
@@ -149,20 +168,25 @@ double waveFrequency(const System& system, const Settings& space, const State& s
 
 namespace {
 
-std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& pair, const Clock& clock, WaveSolver solver) {
+std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& pair, const Clock& clock,
+                                   WaveSolver solver) {
     const int degree = pair.space.integer("degree");
     const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
     if (system.wave->isTimeDependent() && pair.space.text("form") == "three-level")
-        throw InvalidScene("/space/form", "three-level needs a potential that does not depend on t", "one-step");
-    if (pair.space.text("form") == "three-level") requirePeriodic(system, "/space/form", "three-level", "one-step");
-    const int iterations = pair.solver.integer("max_iterations") > 0 ? pair.solver.integer("max_iterations") : 600;
+        throw InvalidScene("/space/form", "three-level needs a potential that does not depend on t",
+                           "one-step");
+    if (pair.space.text("form") == "three-level")
+        requirePeriodic(system, "/space/form", "three-level", "one-step");
+    const int iterations =
+        pair.solver.integer("max_iterations") > 0 ? pair.solver.integer("max_iterations") : 600;
     const double tolerance = given > 0 ? given : 1e-14;
     if (pair.space.text("form") == "three-level") {
         const std::string start = pair.space.text("start");
         return makeThreeLevelWave(system.wave, clock, shift,
                                   {threeLevelAlpha(pair.quadrature),
                                    start == "variational" ? WaveStart::variational
-                                                          : start == "exact" ? WaveStart::exact : WaveStart::gauss,
+                                   : start == "exact"     ? WaveStart::exact
+                                                          : WaveStart::gauss,
                                    solver, tolerance, iterations});
     }
     // A potential that depends on time has no factors: its stages are solved together.
@@ -182,9 +206,11 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, const Clock& clock) {
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair,
+                                               const Clock& clock) {
     if (!system.hasWave())
-        throw InvalidScene("/space/type", pair.space.type + " needs a wave function, and " + system.id + " has none",
+        throw InvalidScene("/space/type",
+                           pair.space.type + " needs a wave function, and " + system.id + " has none",
                            "another space: extremal list spaces");
     const int slabs = std::max(1, pair.space.integer("slabs"));
     if (pair.space.text("time_basis") == "chebyshev")
@@ -192,11 +218,13 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
     const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
     const auto make = [system, pair, plan, slabs](const Clock& of) -> std::unique_ptr<Integrator> {
         const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
-        auto step = isChebyshev ? makeCollocationWave(system.wave, of, std::numeric_limits<double>::quiet_NaN(),
-                                                      chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
-                                : makeWave(system, pair, of, plan.solver);
+        auto step = isChebyshev
+                        ? makeCollocationWave(system.wave, of, std::numeric_limits<double>::quiet_NaN(),
+                                              chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
+                        : makeWave(system, pair, of, plan.solver);
         step->setAbout(isChebyshev ? "all stages together by GMRES"
-                                   : std::string(name(plan.solver)) + (plan.isForced ? " as wanted, about " : ", about ") +
+                                   : std::string(name(plan.solver)) +
+                                         (plan.isForced ? " as wanted, about " : ", about ") +
                                          duration(slabs * plan.microseconds) + " a step");
         return step;
     };
@@ -213,17 +241,19 @@ PairProperties describeWave(const Settings& space, const Settings& quadrature) {
     p.knownAs = s == 1 ? "Crank-Nicolson" : "";
     p.stabilityLimit = std::numeric_limits<double>::infinity();
     if (space.text("time_basis") == "chebyshev") {
-        // The interpolatory rule of s symmetric nodes; as a space it is tested at its own nodes, whatever the rule.
+        // The interpolatory rule of s symmetric nodes; as a space it is tested at its own nodes, whatever the
+        // rule.
         p.claims.order = s + s % 2;
         p.curveOrder = s;
         p.claims.conserves = {"norm"};
         p.claims.isSymplectic = false;
         p.shortName = "C" + std::to_string(p.claims.order);
     }
-    const bool isGauss = quadrature.type == "gauss" && quadrature.integer("nodes") == s && quadrature.integer("panels") <= 1;
+    const bool isGauss =
+        quadrature.type == "gauss" && quadrature.integer("nodes") == s && quadrature.integer("panels") <= 1;
     if (!isGauss) {
-        p.refusal = "the one-step form of degree " + std::to_string(s) + " takes Gauss with " + std::to_string(s) +
-                    (s == 1 ? " node" : " nodes");
+        p.refusal = "the one-step form of degree " + std::to_string(s) + " takes Gauss with " +
+                    std::to_string(s) + (s == 1 ? " node" : " nodes");
         p.hint = "quadrature auto";
     }
     return p;

@@ -10,7 +10,8 @@ namespace {
 
 class BandedWave final : public WaveStep {
 public:
-    BandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift, int degree, int together)
+    BandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift, int degree,
+               int together)
         : WaveStep(std::move(hamiltonian), clock, shift), degree_(degree), together_(together) {}
 
 private:
@@ -20,7 +21,8 @@ private:
             // Groups of three, where s is odd, have no lanes of their own.
             if (g.zeta.size() == 3) {
                 const auto pair = padeGroups(degree_, 2);
-                for (auto it = pair.end() - 2; it != pair.end(); ++it) groups_.emplace_back(Y, it->zeta, it->residue, it->sign);
+                for (auto it = pair.end() - 2; it != pair.end(); ++it)
+                    groups_.emplace_back(Y, it->zeta, it->residue, it->sign);
                 continue;
             }
             groups_.emplace_back(Y, g.zeta, g.residue, g.sign);
@@ -40,8 +42,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                         int degree, int together) {
+std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+                                         double shift, int degree, int together) {
     return std::make_unique<BandedWave>(std::move(hamiltonian), clock, shift, degree, together);
 }
 

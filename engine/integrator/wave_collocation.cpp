@@ -1,5 +1,5 @@
-/// Collocation in time for wave functions with any nodes, and with potentials that depend on time: all stages together by
-/// GMRES, preconditioned mode by mode with the kinetic part and the middle of the potential,
+/// Collocation in time for wave functions with any nodes, and with potentials that depend on time: all stages
+/// together by GMRES, preconditioned mode by mode with the kinetic part and the middle of the potential,
 ///     P_k = 1 + i dt (T_k + Vmid - Ec)/hbar A,   an s x s matrix for each wave number, inverted once.
 /// Two transforms an iteration and stage.
 #include <Eigen/Core>
@@ -16,8 +16,8 @@ namespace {
 
 class CollocationWave final : public WaveStep {
 public:
-    CollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift, const Rule<double>& rule,
-                    double tolerance, int maxIterations)
+    CollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
+                    const Rule<double>& rule, double tolerance, int maxIterations)
         : WaveStep(std::move(hamiltonian), clock, shift),
           rule_(rule),
           tolerance_(tolerance),
@@ -53,7 +53,8 @@ private:
         for (std::size_t k = 0; k < size_; ++k) {
             const Complex y(0, factor * (hamiltonian().kinetic()[k] + middle_ - shift()));
             const Eigen::MatrixXcd P = Eigen::MatrixXcd::Identity(s, s) + y * A_.cast<Complex>();
-            Eigen::Map<Eigen::MatrixXcd>(inverse_.data() + k * stages_ * stages_, s, s) = dense::inverse<Complex>(P);
+            Eigen::Map<Eigen::MatrixXcd>(inverse_.data() + k * stages_ * stages_, s, s) =
+                dense::inverse<Complex>(P);
         }
     }
     /// u <- P^{-1} z; stage after stage.
@@ -84,7 +85,8 @@ private:
             for (std::size_t j = 0; j < stages_; ++j) {
                 hamiltonian().fourier().rawToNodes(u_.data() + j * size_, psi_.data());
                 const double* kick = V_.data() + j * size_;
-                for (std::size_t x = 0; x < size_; ++x) psi_[x] = {-kick[x] * psi_[x].imag(), kick[x] * psi_[x].real()};
+                for (std::size_t x = 0; x < size_; ++x)
+                    psi_[x] = {-kick[x] * psi_[x].imag(), kick[x] * psi_[x].real()};
                 hamiltonian().fourier().rawToCoefficients(psi_.data(), image_.data() + j * size_);
                 ++report.evaluations;
             }
@@ -97,7 +99,8 @@ private:
                     for (std::size_t k = 0; k < size_; ++k) to[k] += a * from[k];
                 }
         };
-        report.outcome = gmres_.solve(apply, rhs_.data(), z_.data(), tolerance_, maxIterations_, report.iterations, stop());
+        report.outcome = gmres_.solve(apply, rhs_.data(), z_.data(), tolerance_, maxIterations_,
+                                      report.iterations, stop());
         if (report.outcome != Outcome::converged) return;
         ++report.linearSolves;
         precondition(z_.data(), u_.data());
@@ -124,9 +127,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                              const Rule<double>& rule, double tolerance, int maxIterations) {
-    return std::make_unique<CollocationWave>(std::move(hamiltonian), clock, shift, rule, tolerance, maxIterations);
+std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian,
+                                              const Clock& clock, double shift, const Rule<double>& rule,
+                                              double tolerance, int maxIterations) {
+    return std::make_unique<CollocationWave>(std::move(hamiltonian), clock, shift, rule, tolerance,
+                                             maxIterations);
 }
 
 }  // namespace extremal

@@ -60,8 +60,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                        int degree) {
+std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+                                        double shift, int degree) {
     return std::make_unique<DenseWave>(std::move(hamiltonian), clock, shift, degree);
 }
 

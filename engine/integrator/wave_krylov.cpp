@@ -20,7 +20,9 @@ public:
           w_(static_cast<std::size_t>(n())) {}
 
 private:
-    void prepare() override { poles_.emplace(shared(), dt(), shift(), padeZeros(degree_), tolerance_, maxIterations_); }
+    void prepare() override {
+        poles_.emplace(shared(), dt(), shift(), padeZeros(degree_), tolerance_, maxIterations_);
+    }
     void step(double, Complex* v, StepReport& report) override {
         for (std::size_t j = 0; j < poles_->size(); ++j) {
             report.outcome = poles_->solve(j, v, w_.data(), report, stop());
@@ -42,9 +44,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeKrylovWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                         int degree, double tolerance, int maxIterations) {
-    return std::make_unique<KrylovWave>(std::move(hamiltonian), clock, shift, degree, tolerance, maxIterations);
+std::unique_ptr<WaveStep> makeKrylovWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+                                         double shift, int degree, double tolerance, int maxIterations) {
+    return std::make_unique<KrylovWave>(std::move(hamiltonian), clock, shift, degree, tolerance,
+                                        maxIterations);
 }
 
 }  // namespace extremal

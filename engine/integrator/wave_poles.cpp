@@ -5,8 +5,8 @@
 
 namespace extremal {
 
-WavePoles::WavePoles(std::shared_ptr<const Hamiltonian> hamiltonian, double dt, double shift, std::vector<Complex> zeta,
-                     double tolerance, int maxIterations)
+WavePoles::WavePoles(std::shared_ptr<const Hamiltonian> hamiltonian, double dt, double shift,
+                     std::vector<Complex> zeta, double tolerance, int maxIterations)
     : hamiltonian_(std::move(hamiltonian)),
       zeta_(std::move(zeta)),
       tolerance_(tolerance),
@@ -19,10 +19,12 @@ WavePoles::WavePoles(std::shared_ptr<const Hamiltonian> hamiltonian, double dt, 
     const double middle = (*low + *high) / 2, factor = dt / h.hbar();
     for (const double v : h.potential()) kick_.push_back(factor * (v - middle) / h.size());
     for (const Complex& z : zeta_)
-        for (const double T : h.kinetic()) inverse_.push_back(1.0 / (z + Complex(0, factor * (T + middle - shift))));
+        for (const double T : h.kinetic())
+            inverse_.push_back(1.0 / (z + Complex(0, factor * (T + middle - shift))));
 }
 
-Outcome WavePoles::solve(std::size_t j, const Complex* v, Complex* w, StepReport& report, const std::stop_token& stop) {
+Outcome WavePoles::solve(std::size_t j, const Complex* v, Complex* w, StepReport& report,
+                         const std::stop_token& stop) {
     const std::size_t size = u_.size();
     const Complex* inverse = inverse_.data() + j * size;
     const auto scale = [&](const Complex* u, Complex* out) {
@@ -34,12 +36,14 @@ Outcome WavePoles::solve(std::size_t j, const Complex* v, Complex* w, StepReport
     const auto apply = [&](const Complex* u, Complex* out) {
         scale(u, scaled_.data());
         hamiltonian_->fourier().rawToNodes(scaled_.data(), psi_.data());
-        for (std::size_t i = 0; i < size; ++i) psi_[i] = {-kick_[i] * psi_[i].imag(), kick_[i] * psi_[i].real()};
+        for (std::size_t i = 0; i < size; ++i)
+            psi_[i] = {-kick_[i] * psi_[i].imag(), kick_[i] * psi_[i].real()};
         hamiltonian_->fourier().rawToCoefficients(psi_.data(), out);
         for (std::size_t i = 0; i < size; ++i) out[i] += u[i];
         ++report.evaluations;
     };
-    const Outcome outcome = gmres_.solve(apply, v, u_.data(), tolerance_, maxIterations_, report.iterations, stop);
+    const Outcome outcome =
+        gmres_.solve(apply, v, u_.data(), tolerance_, maxIterations_, report.iterations, stop);
     if (outcome != Outcome::converged) return outcome;
     ++report.linearSolves;
     scale(u_.data(), w);

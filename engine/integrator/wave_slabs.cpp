@@ -13,7 +13,10 @@ public:
     using Make = std::function<std::unique_ptr<Integrator>(const Clock&)>;
 
     Slabs(Make make, const Clock& clock, int slabs)
-        : make_(std::move(make)), clock_(clock), slabs_(slabs), slab_(make_({clock.start, clock.step / slabs})) {}
+        : make_(std::move(make)),
+          clock_(clock),
+          slabs_(slabs),
+          slab_(make_({clock.start, clock.step / slabs})) {}
 
     StepReport advance(State& state) override {
         slab_->setStop(stop());
@@ -56,7 +59,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeSlabs(std::function<std::unique_ptr<Integrator>(const Clock&)> make, const Clock& clock, int slabs) {
+std::unique_ptr<Integrator> makeSlabs(std::function<std::unique_ptr<Integrator>(const Clock&)> make,
+                                      const Clock& clock, int slabs) {
     return std::make_unique<Slabs>(std::move(make), clock, slabs);
 }
 

@@ -27,8 +27,8 @@ private:
 
 class KrylovInverse final : public ShiftedInverse {
 public:
-    KrylovInverse(const std::shared_ptr<const Hamiltonian>& h, double dt, double shift, Complex zeta, double tolerance,
-                  int maxIterations)
+    KrylovInverse(const std::shared_ptr<const Hamiltonian>& h, double dt, double shift, Complex zeta,
+                  double tolerance, int maxIterations)
         : poles_(h, dt, shift, {zeta}, tolerance, maxIterations), w_(static_cast<std::size_t>(h->size())) {}
     Outcome apply(Complex* v, StepReport& report, const std::stop_token& stop) override {
         const Outcome outcome = poles_.solve(0, v, w_.data(), report, stop);
@@ -46,7 +46,8 @@ public:
     DenseInverse(const std::shared_ptr<const Hamiltonian>& h, double dt, double shift, Complex zeta)
         : h_(h), states_(Eigenstates::of(h)) {
         const auto n = static_cast<std::size_t>(h->size());
-        for (const double E : states_->energies()) factor_.push_back(1.0 / (zeta + Complex(0, dt * (E - shift) / h->hbar())));
+        for (const double E : states_->energies())
+            factor_.push_back(1.0 / (zeta + Complex(0, dt * (E - shift) / h->hbar())));
         psi_.resize(n);
         parts_.resize(2 * n);
         d_.resize(2 * n);
@@ -85,11 +86,13 @@ CyclicBand cyclicBand(const Hamiltonian& h, double dt, double shift) {
     const auto& V = h.potentialHarmonics();
     CyclicBand Y;
     for (const double T : h.kinetic()) Y.diagonal.push_back(factor * (T + V[0].real() - shift));
-    for (int m = 1; m <= std::max(1, h.harmonics()); ++m) Y.offDiagonal.push_back(factor * V[static_cast<std::size_t>(m)]);
+    for (int m = 1; m <= std::max(1, h.harmonics()); ++m)
+        Y.offDiagonal.push_back(factor * V[static_cast<std::size_t>(m)]);
     return Y;
 }
 
-std::unique_ptr<ShiftedInverse> makeShiftedInverse(WaveSolver solver, const std::shared_ptr<const Hamiltonian>& hamiltonian,
+std::unique_ptr<ShiftedInverse> makeShiftedInverse(WaveSolver solver,
+                                                   const std::shared_ptr<const Hamiltonian>& hamiltonian,
                                                    double dt, double shift, Complex zeta, double tolerance,
                                                    int maxIterations) {
     if (solver == WaveSolver::banded) return std::make_unique<BandedInverse>(*hamiltonian, dt, shift, zeta);

@@ -22,7 +22,8 @@ public:
     virtual Outcome apply(Complex* v, StepReport& report, const std::stop_token& stop) = 0;
 };
 
-std::unique_ptr<ShiftedInverse> makeShiftedInverse(WaveSolver solver, const std::shared_ptr<const Hamiltonian>& hamiltonian,
+std::unique_ptr<ShiftedInverse> makeShiftedInverse(WaveSolver solver,
+                                                   const std::shared_ptr<const Hamiltonian>& hamiltonian,
                                                    double dt, double shift, Complex zeta, double tolerance,
                                                    int maxIterations);
 

@@ -57,7 +57,8 @@ void WaveStep::curve(double tau, std::span<double> x) const {
     state.t = startTime_;
     state.x.resize(x.size());
     const double angle = -shift_ * (startTime_ - origin_) / hamiltonian_->hbar();
-    for (std::size_t i = 0; i < before_.size(); ++i) coefficients(state.x.data())[i] = before_[i] * std::polar(1.0, angle);
+    for (std::size_t i = 0; i < before_.size(); ++i)
+        coefficients(state.x.data())[i] = before_[i] * std::polar(1.0, angle);
     if (tau > 0) {
         const auto shorter = withStep({startTime_, tau * clock_.step}, shift_);
         (void)shorter->advance(state);

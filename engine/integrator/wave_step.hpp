@@ -1,7 +1,9 @@
-/// What the one-step integrators of wave functions share: the gauge, the clock, and a curve between the nodes.
+/// What the one-step integrators of wave functions share: the gauge, the clock, and a curve between the
+/// nodes.
 ///
-/// v = e^{i Ec (t - t_0)/hbar} c is carried on by step(); the state gets c. As long as the state is the one that was handed
-/// out last, v goes on as it is: the phase is computed from t at every node. Internal to engine/integrator.
+/// v = e^{i Ec (t - t_0)/hbar} c is carried on by step(); the state gets c. As long as the state is the one
+/// that was handed out last, v goes on as it is: the phase is computed from t at every node. Internal to
+/// engine/integrator.
 #pragma once
 
 #include <string>
@@ -21,7 +23,8 @@ public:
     StepReport advance(State& state) final;
     /// A shorter step from the state before: as accurate as the scheme itself. Makes it on first use.
     void curve(double tau, std::span<double> x) const override;
-    /// Also called when the state was replaced from outside: what is remembered of the last step no longer belongs to it.
+    /// Also called when the state was replaced from outside: what is remembered of the last step no longer
+    /// belongs to it.
     void restart() override {}
     std::string about() const override { return about_; }
     void setAbout(std::string about) { about_ = std::move(about); }
@@ -53,11 +56,11 @@ private:
 };
 
 /// The three ways. Groups of `together` poles: 1, 2 or 4.
-std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                         int degree, int together);
-std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                        int degree);
-std::unique_ptr<WaveStep> makeKrylovWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                         int degree, double tolerance, int maxIterations);
+std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+                                         double shift, int degree, int together);
+std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+                                        double shift, int degree);
+std::unique_ptr<WaveStep> makeKrylovWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+                                         double shift, int degree, double tolerance, int maxIterations);
 
 }  // namespace extremal

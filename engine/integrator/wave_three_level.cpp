@@ -10,8 +10,8 @@
 namespace extremal {
 namespace {
 
-std::unique_ptr<WaveStep> gaussStep(const std::shared_ptr<const Hamiltonian>& h, const Clock& clock, double shift, int degree,
-                                    const ThreeLevel& form) {
+std::unique_ptr<WaveStep> gaussStep(const std::shared_ptr<const Hamiltonian>& h, const Clock& clock,
+                                    double shift, int degree, const ThreeLevel& form) {
     if (form.solver == WaveSolver::banded) return makeBandedWave(h, clock, shift, degree, 2);
     if (form.solver == WaveSolver::dense) return makeDenseWave(h, clock, shift, degree);
     return makeKrylovWave(h, clock, shift, degree, form.tolerance, form.maxIterations);
@@ -19,7 +19,8 @@ std::unique_ptr<WaveStep> gaussStep(const std::shared_ptr<const Hamiltonian>& h,
 
 class ThreeLevelWave final : public WaveStep {
 public:
-    ThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift, const ThreeLevel& form)
+    ThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
+                   const ThreeLevel& form)
         : WaveStep(std::move(hamiltonian), clock, shift), form_(form) {
         for (auto* v : {&previous_, &next_, &work_}) v->resize(static_cast<std::size_t>(n()));
         first_.x.resize(2 * previous_.size());
@@ -28,11 +29,13 @@ public:
 private:
     void prepare() override {
         if (form_.alpha > 0)
-            inverse_ = makeShiftedInverse(form_.solver, shared(), dt(), shift(), 1 / (2 * form_.alpha), form_.tolerance,
-                                          form_.maxIterations);
-        // Both shifts are the same and the gauge is known: the step is in v, so its own phase is taken out again.
+            inverse_ = makeShiftedInverse(form_.solver, shared(), dt(), shift(), 1 / (2 * form_.alpha),
+                                          form_.tolerance, form_.maxIterations);
+        // Both shifts are the same and the gauge is known: the step is in v, so its own phase is taken out
+        // again.
         if (form_.start != WaveStart::variational)
-            starter_ = gaussStep(shared(), {0, dt()}, shift(), form_.start == WaveStart::gauss ? 2 : 8, form_);
+            starter_ =
+                gaussStep(shared(), {0, dt()}, shift(), form_.start == WaveStart::gauss ? 2 : 8, form_);
     }
     void restart() override { hasPrevious_ = false; }
 
@@ -77,7 +80,8 @@ private:
         }
         if (form_.alpha == 0) {
             image(v, report);
-            for (std::size_t i = 0; i < size; ++i) next_[i] = v[i] + Complex(next_[i].imag(), -next_[i].real());
+            for (std::size_t i = 0; i < size; ++i)
+                next_[i] = v[i] + Complex(next_[i].imag(), -next_[i].real());
             return Outcome::converged;
         }
         const double zeta = 1 / (2 * form_.alpha), c = (1 - 2 * form_.alpha) / (2 * form_.alpha);
@@ -107,8 +111,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
-                                             const ThreeLevel& form) {
+std::unique_ptr<WaveStep> makeThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian,
+                                             const Clock& clock, double shift, const ThreeLevel& form) {
     return std::make_unique<ThreeLevelWave>(std::move(hamiltonian), clock, shift, form);
 }
 
@@ -124,8 +128,8 @@ double threeLevelLimit(double alpha) {
     return alpha < 0.25 - 1e-14 ? 1 / std::sqrt(1 - 4 * alpha) : std::numeric_limits<double>::infinity();
 }
 
-double bilinearForm(const Hamiltonian& h, double alpha, double dt, double shift, const Complex* before, const Complex* after,
-                    Complex* image, Complex* work) {
+double bilinearForm(const Hamiltonian& h, double alpha, double dt, double shift, const Complex* before,
+                    const Complex* after, Complex* image, Complex* work) {
     const int n = h.size();
     // c = e^{-i Ec t/hbar} v: the phase between the two levels goes.
     const Complex back = std::polar(1.0, shift * dt / h.hbar());

@@ -4,7 +4,8 @@
 ///   * `S lagrangian(t, q, v)`, generic in the number S (double, Dual, Jet): any Lagrangian; optionally
 ///     `void velocity(t, q, p, v)`, the inverse Legendre transform in closed form;
 ///   * `S potential(t, q)` and `std::array<T, d> masses<T>()`: L = 1/2 sum_i m_i v_i^2 - V(t, q), separable;
-///     optionally `static constexpr bool isNodeParallel = true` (node_forces.hpp), and `void force(t, q, f)`, -dV/dq in closed form where the derivative of `potential` is slower.
+///     optionally `static constexpr bool isNodeParallel = true` (node_forces.hpp), and `void force(t, q, f)`,
+///     -dV/dq in closed form where the derivative of `potential` is slower.
 /// q and v are std::array<S, d>.
 #pragma once
 
@@ -70,7 +71,8 @@ struct Calls {
         std::size_t k = 0;
         for (std::size_t i = 0; i < 2 * n; ++i) {
             gradient[i] = L.g[i];
-            for (std::size_t j = 0; j <= i; ++j, ++k) hessian[i * 2 * n + j] = hessian[j * 2 * n + i] = L.h[k];
+            for (std::size_t j = 0; j <= i; ++j, ++k)
+                hessian[i * 2 * n + j] = hessian[j * 2 * n + i] = L.h[k];
         }
     }
     static void gradient(const void* p, const T& t, const T* q, const T* v, T* g) {
@@ -85,9 +87,7 @@ struct Calls {
             for (std::size_t i = 0; i < 2 * n; ++i) g[i] = L.g[i];
         }
     }
-    static void force(const void* p, const T& t, const T* q, T* f)
-        requires SeparableModel<M>
-    {
+    static void force(const void* p, const T& t, const T* q, T* f) requires SeparableModel<M> {
         if constexpr (requires(const M& m) { m.force(t, q, f); }) {
             self(p).model.force(t, q, f);
         } else {
@@ -133,7 +133,8 @@ struct Calls {
                 scale += abs(v[i]);
             }
             if (!(size < T(1e300))) return false;
-            if (size <= T(1e-15) * scale || (previous >= T(0) && size >= previous)) return size <= T(1e-8) * scale;
+            if (size <= T(1e-15) * scale || (previous >= T(0) && size >= previous))
+                return size <= T(1e-8) * scale;
             previous = size;
         }
         return false;

@@ -1,7 +1,8 @@
 /// Mechanics of a separable model whose dimension is only known at run time.
 ///
-/// A model has `int dimension() const`, `double mass(int i) const`, and in closed form `double potential(t, q)`,
-/// `void force(t, q, f)` (f = -dV/dq) and `void curvature(t, q, V)` (V = d2V/dq2, d x d). Included by its .cpp file only.
+/// A model has `int dimension() const`, `double mass(int i) const`, and in closed form `double potential(t,
+/// q)`, `void force(t, q, f)` (f = -dV/dq) and `void curvature(t, q, V)` (V = d2V/dq2, d x d). Included by
+/// its .cpp file only.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,8 @@ struct RuntimeCalls {
         s.model.force(t, q, g);
         for (int i = 0; i < s.d(); ++i) g[s.d() + i] = s.masses[static_cast<std::size_t>(i)] * v[i];
     }
-    static void jet(const void* p, const double& t, const double* q, const double* v, double* value, double* g, double* h) {
+    static void jet(const void* p, const double& t, const double* q, const double* v, double* value,
+                    double* g, double* h) {
         const RuntimeCalls& s = self(p);
         const int d = s.d(), n = 2 * d;
         gradient(p, t, q, v, g);
@@ -51,11 +53,15 @@ struct RuntimeCalls {
     static double energy(const void* p, const double& t, const double* q, const double* momentum) {
         const RuntimeCalls& s = self(p);
         double sum = s.model.potential(t, q);
-        for (int i = 0; i < s.d(); ++i) sum += 0.5 * momentum[i] * momentum[i] / s.masses[static_cast<std::size_t>(i)];
+        for (int i = 0; i < s.d(); ++i)
+            sum += 0.5 * momentum[i] * momentum[i] / s.masses[static_cast<std::size_t>(i)];
         return sum;
     }
-    static void force(const void* p, const double& t, const double* q, double* f) { self(p).model.force(t, q, f); }
-    static bool flow(const void* p, const double& t, const double* q, const double* momentum, double* qdot, double* pdot) {
+    static void force(const void* p, const double& t, const double* q, double* f) {
+        self(p).model.force(t, q, f);
+    }
+    static bool flow(const void* p, const double& t, const double* q, const double* momentum, double* qdot,
+                     double* pdot) {
         force(p, t, q, pdot);
         return velocity(p, t, q, momentum, qdot);
     }

@@ -18,7 +18,8 @@ constexpr int meridians = 36, parallels = 18;  // of an ellipsoid's faces
 std::array<double, 3> boxOf(const BodyMechanics<double>& body) {
     const auto& I = body.inertia;
     std::array<double, 3> half{};
-    for (std::size_t i = 0; i < 3; ++i) half[i] = std::sqrt(std::max(0.0, I[(i + 1) % 3] + I[(i + 2) % 3] - I[i]));
+    for (std::size_t i = 0; i < 3; ++i)
+        half[i] = std::sqrt(std::max(0.0, I[(i + 1) % 3] + I[(i + 2) % 3] - I[i]));
     return half;
 }
 
@@ -41,8 +42,8 @@ Solid ellipsoidSolid(const std::array<double, 3>& half, const Place& at) {
     for (int p = 1; p < parallels; ++p)
         for (int m = 0; m < meridians; ++m) {
             const double theta = std::numbers::pi * p / parallels, phi = 2 * std::numbers::pi * m / meridians;
-            solid.corners.push_back(at(half[0] * std::sin(theta) * std::cos(phi), half[1] * std::sin(theta) * std::sin(phi),
-                                       half[2] * std::cos(theta)));
+            solid.corners.push_back(at(half[0] * std::sin(theta) * std::cos(phi),
+                                       half[1] * std::sin(theta) * std::sin(phi), half[2] * std::cos(theta)));
         }
     const int top = static_cast<int>(solid.corners.size()), bottom = top + 1;
     solid.corners.push_back(at(0, 0, half[2]));
@@ -77,8 +78,9 @@ void addSections(const std::array<double, 3>& half, const Place& at, Drawing& dr
 }  // namespace
 
 FieldInfo shapeField() {
-    return choiceField("shape", "drawn as", {"box", "ellipsoid"},
-                       "What the stage shows: the box with these moments of inertia, or the ellipsoid of inertia.");
+    return choiceField(
+        "shape", "drawn as", {"box", "ellipsoid"},
+        "What the stage shows: the box with these moments of inertia, or the ellipsoid of inertia.");
 }
 
 BodyShape shapeOf(const BodyMechanics<double>& body, const Settings& settings) {
@@ -105,7 +107,8 @@ BodyShape poinsotEllipsoid(const BodyMechanics<double>& body, const double* x, d
     return shape;
 }
 
-void drawBody(const BodyShape& shape, const std::array<double, 3>& centre, const double* x, Drawing& drawing) {
+void drawBody(const BodyShape& shape, const std::array<double, 3>& centre, const double* x,
+              Drawing& drawing) {
     using Vector = so3::Vector<double>;
     const so3::Matrix<double> R = so3::matrixAt(x);
     const auto at = [&](double a, double b, double c) {

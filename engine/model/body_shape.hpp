@@ -15,17 +15,18 @@ struct BodyShape {
 /// The key "shape": "box" or "ellipsoid".
 FieldInfo shapeField();
 
-/// box: the homogeneous one with these moments of inertia. ellipsoid: that of inertia, y . I y = 1, whose semi-axes are as
-/// 1/sqrt(I). The longest is 1. Moments that no body has (one larger than the sum of the others) and thin rods and plates
-/// are given a visible thickness.
+/// box: the homogeneous one with these moments of inertia. ellipsoid: that of inertia, y . I y = 1, whose
+/// semi-axes are as 1/sqrt(I). The longest is 1. Moments that no body has (one larger than the sum of the
+/// others) and thin rods and plates are given a visible thickness.
 BodyShape shapeOf(const BodyMechanics<double>& body, const Settings& settings);
 
-/// Poinsot's: the ellipsoid of inertia of a free body that touches the plane at `distance` from its centre which the
-/// momentum is normal to, and rolls on it: semi-axes distance |Pi| / sqrt(2 E I), cut at twice the distance.
+/// Poinsot's: the ellipsoid of inertia of a free body that touches the plane at `distance` from its centre
+/// which the momentum is normal to, and rolls on it: semi-axes distance |Pi| / sqrt(2 E I), cut at twice the
+/// distance.
 BodyShape poinsotEllipsoid(const BodyMechanics<double>& body, const double* x, double distance);
 
-/// Adds the body around `centre` (space axes), turned by the attitude of x, and its axes where they leave it, with their
-/// numbers.
+/// Adds the body around `centre` (space axes), turned by the attitude of x, and its axes where they leave it,
+/// with their numbers.
 void drawBody(const BodyShape& shape, const std::array<double, 3>& centre, const double* x, Drawing& drawing);
 
 }  // namespace extremal

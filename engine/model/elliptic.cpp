@@ -18,7 +18,8 @@ constexpr int mostPanels = 4'000'000;
 double coefficient(const EllipticProblem& p, double x) {
     const double a = p.a(x / p.epsilon);
     if (a > 0 && std::isfinite(a)) return a;
-    throw InvalidScene("/a", "must be positive, got " + formatNumber(a) + " at s = " + formatNumber(x / p.epsilon, 6));
+    throw InvalidScene(
+        "/a", "must be positive, got " + formatNumber(a) + " at s = " + formatNumber(x / p.epsilon, 6));
 }
 
 }  // namespace
@@ -37,7 +38,8 @@ EllipticHat ellipticHat(const EllipticProblem& problem, EllipticElements kind, i
         if (kind == EllipticElements::linear) sum += width;
         for (int p = 0; p < panels && kind == EllipticElements::multiscale; ++p)
             for (std::size_t j = 0; j < rule.c.size(); ++j)
-                sum += rule.b[j] * width / panels / coefficient(problem, place(i) + (p + rule.c[j]) * width / panels);
+                sum += rule.b[j] * width / panels /
+                       coefficient(problem, place(i) + (p + rule.c[j]) * width / panels);
         R.push_back(sum);
     }
     const auto middle = R[static_cast<std::size_t>(n)], end = R.back();
@@ -56,8 +58,9 @@ EllipticSolution::EllipticSolution(EllipticProblem problem, int elements)
     b_ = rule.b;
     const double wanted = std::max(4.0, 4 / (problem_.epsilon * elements_));
     if (!(wanted * elements_ <= mostPanels))
-        throw InvalidScene("/epsilon", "needs " + formatNumber(wanted * elements_, 3) + " panels of quadrature, the limit is " +
-                                                 std::to_string(mostPanels),
+        throw InvalidScene("/epsilon",
+                           "needs " + formatNumber(wanted * elements_, 3) +
+                               " panels of quadrature, the limit is " + std::to_string(mostPanels),
                            "a larger epsilon");
     perElement_ = static_cast<int>(std::ceil(wanted));
     ends_.reserve(static_cast<std::size_t>(elements_ * perElement_) + 1);
@@ -68,16 +71,20 @@ EllipticSolution::EllipticSolution(EllipticProblem problem, int elements)
 
 /// Ends of elements are i / elements, whatever the panels.
 double EllipticSolution::start(int panel) const {
-    return (static_cast<double>(panel / perElement_) + static_cast<double>(panel % perElement_) / perElement_) / elements_;
+    return (static_cast<double>(panel / perElement_) +
+            static_cast<double>(panel % perElement_) / perElement_) /
+           elements_;
 }
 
-/// The sums continued from x0 to x1, within one panel. F inside is integrated by the same rule on a shorter stretch.
+/// The sums continued from x0 to x1, within one panel. F inside is integrated by the same rule on a shorter
+/// stretch.
 EllipticSolution::Sums EllipticSolution::added(Sums from, double x0, double x1) const {
     Sums sums = from;
     const double length = x1 - x0;
     const auto forces = [&](double width) {
         Wide sum = 0;
-        for (std::size_t j = 0; j < c_.size(); ++j) sum += Wide(b_[j] * width) * Wide(problem_.f(x0 + c_[j] * width));
+        for (std::size_t j = 0; j < c_.size(); ++j)
+            sum += Wide(b_[j] * width) * Wide(problem_.f(x0 + c_[j] * width));
         return sum;
     };
     for (std::size_t i = 0; i < c_.size(); ++i) {
@@ -112,7 +119,8 @@ std::vector<double> EllipticSolution::nodal(EllipticElements kind) const {
     // Of each element: its stiffness, and the load on its right node; the left one takes the rest of int f.
     std::vector<Wide> stiffness(n), right(n), force(n);
     for (std::size_t e = 0; e < n; ++e) {
-        const std::size_t first = e * static_cast<std::size_t>(perElement_), last = first + static_cast<std::size_t>(perElement_);
+        const std::size_t first = e * static_cast<std::size_t>(perElement_),
+                          last = first + static_cast<std::size_t>(perElement_);
         const Wide length = ends_[last].R - ends_[first].R;
         Wide mean = 0, load = 0;
         for (std::size_t panel = first; panel < last; ++panel) {
@@ -141,7 +149,8 @@ std::vector<double> EllipticSolution::nodal(EllipticElements kind) const {
         diagonal[i] -= factor * stiffness[i - 1];
         rhs[i] += factor * rhs[i - 1];
     }
-    for (std::size_t i = n; i-- > 1;) u[i] = (rhs[i] + (i + 1 < n ? stiffness[i] * u[i + 1] : 0)) / diagonal[i];
+    for (std::size_t i = n; i-- > 1;)
+        u[i] = (rhs[i] + (i + 1 < n ? stiffness[i] * u[i + 1] : 0)) / diagonal[i];
     return {u.begin(), u.end()};
 }
 

@@ -9,8 +9,8 @@ namespace extremal {
 namespace {
 
 /// Around axis a, with b the middle axis and c the other end of the order.
-void addFamily(std::vector<EnergyCurve>& curves, const std::array<double, 3>& w, std::size_t a, std::size_t b, std::size_t c,
-               int pieces) {
+void addFamily(std::vector<EnergyCurve>& curves, const std::array<double, 3>& w, std::size_t a, std::size_t b,
+               std::size_t c, int pieces) {
     constexpr int levels = 4;
     if (!(std::abs(w[a] - w[b]) > 1e-12 * std::abs(w[a]))) return;
     for (int level = 1; level <= levels; ++level) {

@@ -1,8 +1,9 @@
 /// An exact solution from given initial data: fills the state x at given times.
 ///
-/// Made from a callable `(double t, std::span<double> x)`, or, where many times at once are cheaper, from a callable
-/// `(std::span<const double> t, double* x)` with the state of time i at x + i * width. It may keep a warm start between
-/// calls, so each thread makes its own. Empty where there is none.
+/// Made from a callable `(double t, std::span<double> x)`, or, where many times at once are cheaper, from a
+/// callable
+/// `(std::span<const double> t, double* x)` with the state of time i at x + i * width. It may keep a warm
+/// start between calls, so each thread makes its own. Empty where there is none.
 #pragma once
 
 #include <concepts>
@@ -18,16 +19,17 @@ public:
     ExactSolution() = default;
 
     template <class F>
-        requires std::invocable<F&, double, std::span<double>>
-    ExactSolution(F each) {
+    requires std::invocable<F&, double, std::span<double>> ExactSolution(F each) {
         many_ = [each = std::move(each)](std::span<const double> t, double* x, std::size_t width) mutable {
             for (std::size_t i = 0; i < t.size(); ++i) each(t[i], std::span<double>(x + i * width, width));
         };
     }
     template <class F>
-        requires std::invocable<F&, std::span<const double>, double*>
-    ExactSolution(F many) {
-        many_ = [many = std::move(many)](std::span<const double> t, double* x, std::size_t) mutable { many(t, x); };
+    requires std::invocable < F&, std::span<const double>,
+    double* > ExactSolution(F many) {
+        many_ = [many = std::move(many)](std::span<const double> t, double* x, std::size_t) mutable {
+            many(t, x);
+        };
     }
 
     explicit operator bool() const { return static_cast<bool>(many_); }

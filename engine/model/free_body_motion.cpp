@@ -15,8 +15,8 @@ namespace {
 using Vector = so3::Vector<double>;
 using Quaternion = so3::Quaternion<double>;
 
-/// sn, cn, dn of u from the complementary parameter m1 = 1 - m, by descending Landen steps (Bulirsch 1965). Boost's
-/// jacobi_elliptic takes the modulus, which near 1 no longer says what m1 is.
+/// sn, cn, dn of u from the complementary parameter m1 = 1 - m, by descending Landen steps (Bulirsch 1965).
+/// Boost's jacobi_elliptic takes the modulus, which near 1 no longer says what m1 is.
 struct Jacobi {
     double sn, cn, dn;
 
@@ -166,8 +166,9 @@ private:
         const Jacobi j(v, m1_);
         const double root = std::sqrt(1 - n_);
         const double third =
-            n_ == 0 ? 0 : n_ / 3 * j.sn * j.sn * j.sn *
-                              boost::math::ellint_rj(j.cn * j.cn, j.dn * j.dn, 1.0, 1 - n_ * j.sn * j.sn);
+            n_ == 0 ? 0
+                    : n_ / 3 * j.sn * j.sn * j.sn *
+                          boost::math::ellint_rj(j.cn * j.cn, j.dn * j.dn, 1.0, 1 - n_ * j.sn * j.sn);
         const double arc = (std::numbers::pi * halves + std::atan2(root * j.sn, j.cn)) / root;
         angle = C_ * C_ / L_ * u + L_ * (2 * halves * thirdKind_ + third) - C_ * arc;
         const Vector P(parity * A_ * j.cn, parity * turn_ * B_ * j.sn, C_ * j.dn);

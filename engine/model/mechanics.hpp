@@ -1,9 +1,9 @@
 /// A mechanical system as the integrators see it: a Lagrangian L(t, q, v) behind one plain call per node.
 ///
-/// T is the scalar (double; quadruple precision in tests). Arrays of length d: q[i], v[i], p[i]. Gradients of length
-/// 2d: (dL/dq_0.., dL/dv_0..). Hessians 2d x 2d, symmetric, entry (i, j) at i * 2d + j, same order (q, v).
-/// One indirect call that fills everything is as fast as inlining, and lets each integrator be compiled once per
-/// dimension instead of once per system.
+/// T is the scalar (double; quadruple precision in tests). Arrays of length d: q[i], v[i], p[i]. Gradients of
+/// length 2d: (dL/dq_0.., dL/dv_0..). Hessians 2d x 2d, symmetric, entry (i, j) at i * 2d + j, same order (q,
+/// v). One indirect call that fills everything is as fast as inlining, and lets each integrator be compiled
+/// once per dimension instead of once per system.
 #pragma once
 
 #include <memory>
@@ -30,14 +30,15 @@ struct Mechanics {
     /// iteration apply, and force and masses are set.
     bool isSeparable = false;
     void (*force)(const void*, const T& t, const T* q, T* f) = nullptr;  ///< f = -dV/dq
-    /// The forces at many nodes together, where the system offers it (null else): coordinate k of node i is q[k * nodes + i],
-    /// likewise f; `nodes` is a multiple of 8.
+    /// The forces at many nodes together, where the system offers it (null else): coordinate k of node i is
+    /// q[k * nodes + i], likewise f; `nodes` is a multiple of 8.
     void (*forces)(const void*, const T* t, int nodes, const T* q, T* f) = nullptr;
-    /// Where the system offers it (null else), for any Lagrangian: gradients and Hessians at many nodes together, entry k of
-    /// node i at k * nodes + i in q, v, gradient (2d entries) and Hessian (4d^2 entries); `nodes` is a multiple of 8.
+    /// Where the system offers it (null else), for any Lagrangian: gradients and Hessians at many nodes
+    /// together, entry k of node i at k * nodes + i in q, v, gradient (2d entries) and Hessian (4d^2
+    /// entries); `nodes` is a multiple of 8.
     void (*gradients)(const void*, const T* t, int nodes, const T* q, const T* v, T* gradients) = nullptr;
     void (*hessians)(const void*, const T* t, int nodes, const T* q, const T* v, T* hessians) = nullptr;
-    const T* masses = nullptr;                                           ///< length d
+    const T* masses = nullptr;  ///< length d
     bool isTimeDependent = false;
 };
 

@@ -1,7 +1,7 @@
 /// The forces of a separable model at many nodes together, in the instruction set of this machine.
 ///
-/// A model opts in by `static constexpr bool isNodeParallel = true`; its `potential` (and `force`) must then be generic in
-/// Lanes, too: plain arithmetic and sqrt are worth it, other functions run lane by lane.
+/// A model opts in by `static constexpr bool isNodeParallel = true`; its `potential` (and `force`) must then
+/// be generic in Lanes, too: plain arithmetic and sqrt are worth it, other functions run lane by lane.
 #pragma once
 
 #include <array>
@@ -13,7 +13,9 @@
 namespace extremal {
 
 template <class M>
-concept NodeParallelModel = requires { requires M::isNodeParallel; };
+concept NodeParallelModel = requires {
+    requires M::isNodeParallel;
+};
 
 template <class M>
 struct NodeForces {
@@ -37,7 +39,8 @@ private:
             } else {
                 using S = Dual<Lanes, M::dimension>;
                 std::array<S, d> Q;
-                for (std::size_t k = 0; k < d; ++k) Q[k] = S::variable(Lanes::load(q + at(k)), static_cast<int>(k));
+                for (std::size_t k = 0; k < d; ++k)
+                    Q[k] = S::variable(Lanes::load(q + at(k)), static_cast<int>(k));
                 const S U = m.potential(Lanes::load(t + i), Q);
                 for (std::size_t k = 0; k < d; ++k) force[k] = -U.g[k];
             }

@@ -1,8 +1,9 @@
-/// The gradient of a Lagrangian, and its Hessian, at many nodes together, in the instruction set of this machine.
+/// The gradient of a Lagrangian, and its Hessian, at many nodes together, in the instruction set of this
+/// machine.
 ///
-/// A model opts in by `static constexpr bool isNodeParallel = true`; its `lagrangian` must then be generic in Dual and Jet of
-/// Lanes, too: arithmetic and sqrt are worth it, other functions run lane by lane. Arrays are node by node within each
-/// coordinate: entry k of node i is at k * nodes + i, `nodes` a multiple of 8.
+/// A model opts in by `static constexpr bool isNodeParallel = true`; its `lagrangian` must then be generic in
+/// Dual and Jet of Lanes, too: arithmetic and sqrt are worth it, other functions run lane by lane. Arrays are
+/// node by node within each coordinate: entry k of node i is at k * nodes + i, `nodes` a multiple of 8.
 #pragma once
 
 #include <array>
@@ -15,8 +16,10 @@ namespace extremal {
 
 template <class M>
 struct NodeLagrangian {
-    using Gradients = void (*)(const void*, const double* t, int nodes, const double* q, const double* v, double* g);
-    using Hessians = void (*)(const void*, const double* t, int nodes, const double* q, const double* v, double* h);
+    using Gradients = void (*)(const void*, const double* t, int nodes, const double* q, const double* v,
+                               double* g);
+    using Hessians = void (*)(const void*, const double* t, int nodes, const double* q, const double* v,
+                              double* h);
 
     /// For the model at the start of what `model` points to.
     static Gradients gradients() { return ForThisMachine<&gradientLanes>::call(); }
@@ -35,14 +38,16 @@ private:
         }
         return m.lagrangian(Lanes::load(t + i), Q, V);
     }
-    static void gradientLanes(const void* model, const double* t, int nodes, const double* q, const double* v, double* g) {
+    static void gradientLanes(const void* model, const double* t, int nodes, const double* q, const double* v,
+                              double* g) {
         const M& m = *static_cast<const M*>(model);
         for (int i = 0; i < nodes; i += 8) {
             const auto L = at<Dual<Lanes, 2 * d>>(m, t, nodes, q, v, i);
             for (int k = 0; k < 2 * d; ++k) L.g[static_cast<std::size_t>(k)].store(g + k * nodes + i);
         }
     }
-    static void hessianLanes(const void* model, const double* t, int nodes, const double* q, const double* v, double* h) {
+    static void hessianLanes(const void* model, const double* t, int nodes, const double* q, const double* v,
+                             double* h) {
         const M& m = *static_cast<const M*>(model);
         for (int i = 0; i < nodes; i += 8) {
             const auto L = at<Jet<Lanes, 2 * d>>(m, t, nodes, q, v, i);

@@ -27,16 +27,20 @@ std::vector<Quantity> columnsOf(const BodyMechanics<double>& body) {
     const char* spin = "kg m²/s";
     std::vector<Quantity> columns;
     for (const char* c : {"w", "x", "y", "z"})
-        columns.push_back({std::string("attitude.") + c, std::string("attitude ") + c, std::string("q_") + c, ""});
+        columns.push_back(
+            {std::string("attitude.") + c, std::string("attitude ") + c, std::string("q_") + c, ""});
     for (const auto& [c, symbol] : {std::pair{"1", "Π₁"}, {"2", "Π₂"}, {"3", "Π₃"}})
-        columns.push_back({std::string("momentum.body.") + c, std::string("body momentum ") + c, symbol, spin});
+        columns.push_back(
+            {std::string("momentum.body.") + c, std::string("body momentum ") + c, symbol, spin});
     for (const char* c : {"x", "y", "z"})
-        columns.push_back({std::string("momentum.space.") + c, std::string("space momentum ") + c, std::string("π_") + c, spin});
+        columns.push_back({std::string("momentum.space.") + c, std::string("space momentum ") + c,
+                           std::string("π_") + c, spin});
     if (body.dimension != 6) return columns;
     for (const char* c : {"x", "y", "z"})
         columns.push_back({std::string("position.") + c, std::string("position ") + c, c, "m"});
     for (const char* c : {"x", "y", "z"})
-        columns.push_back({std::string("p.") + c, std::string("linear momentum ") + c, std::string("p_") + c, "kg m/s"});
+        columns.push_back(
+            {std::string("p.") + c, std::string("linear momentum ") + c, std::string("p_") + c, "kg m/s"});
     return columns;
 }
 
@@ -61,7 +65,8 @@ void rate(const BodyMechanics<double>& body, const double* x, double* dx) {
     const Matrix R = so3::matrix(q);
     std::array<double, 6> f{};
     if (!body.isFree())
-        body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, nullptr, f.data(), nullptr);
+        body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, nullptr, f.data(),
+                       nullptr);
     const Vector torque = Map(f.data()), dPi = so3::cross(momentum, w) + torque, dpi = R * torque;
     for (int i = 0; i < 4; ++i) dx[i] = dq(i);
     for (int i = 0; i < 3; ++i) {
@@ -82,12 +87,14 @@ double frequency(const BodyMechanics<double>& body, const double* x) {
     if (body.isFree()) return turning;
     const Matrix R = so3::matrix(attitude(x));
     std::array<double, 36> slope{};
-    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, nullptr, nullptr, slope.data());
+    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, nullptr, nullptr,
+                   slope.data());
     double stiffest = 0;
     for (int row = 0; row < body.dimension; ++row)
         for (int column = 0; column < body.dimension; ++column)
-            stiffest = std::max(stiffest, std::abs(slope[static_cast<std::size_t>(column * body.dimension + row)]) /
-                                              body.inertia[static_cast<std::size_t>(row)]);
+            stiffest =
+                std::max(stiffest, std::abs(slope[static_cast<std::size_t>(column * body.dimension + row)]) /
+                                       body.inertia[static_cast<std::size_t>(row)]);
     const double swinging = std::sqrt(stiffest);
     return std::isfinite(swinging) ? std::max(turning, swinging) : turning;
 }
@@ -102,9 +109,10 @@ std::vector<double> startOf(const BodyMechanics<double>& body, const Settings& i
     q /= length;
     const std::vector<double> momentum = initial.numbers("momentum"), rates = initial.numbers("omega");
     if (momentum.empty() == rates.empty())
-        throw InvalidScene(momentum.empty() ? "" : "/omega",
-                           momentum.empty() ? "has neither momentum nor omega" : "stands beside momentum: one is too many",
-                           "give exactly one of momentum and omega, in body axes");
+        throw InvalidScene(
+            momentum.empty() ? "" : "/omega",
+            momentum.empty() ? "has neither momentum nor omega" : "stands beside momentum: one is too many",
+            "give exactly one of momentum and omega, in body axes");
     Vector Pi;
     for (int i = 0; i < 3; ++i) {
         const auto k = static_cast<std::size_t>(i);
@@ -120,12 +128,13 @@ std::vector<double> startOf(const BodyMechanics<double>& body, const Settings& i
                            "give at most one of velocity and linear_momentum");
     if (linear.empty()) linear.assign(3, 0);
     x.insert(x.end(), position.begin(), position.end());
-    for (std::size_t i = 0; i < 3; ++i) x.push_back(velocity.empty() ? linear[i] : body.inertia[3] * velocity[i]);
+    for (std::size_t i = 0; i < 3; ++i)
+        x.push_back(velocity.empty() ? linear[i] : body.inertia[3] * velocity[i]);
     return x;
 }
 
-FieldInfo optionalVector(const char* key, const char* title, const char* symbol, const char* unit, std::vector<std::string> components,
-                         const char* description) {
+FieldInfo optionalVector(const char* key, const char* title, const char* symbol, const char* unit,
+                         std::vector<std::string> components, const char* description) {
     FieldInfo f = numbers(key, title, unit, std::move(components), nullptr, description);
     f.symbol = symbol;
     f.isOptional = true;
@@ -138,7 +147,8 @@ double bodyPotential(const BodyMechanics<double>& body, const double* x) {
     if (body.isFree()) return 0;
     const Matrix R = so3::matrix(attitude(x));
     double value = 0;
-    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, &value, nullptr, nullptr);
+    body.potential(body.model.get(), R.data(), body.dimension == 6 ? x + 10 : nullptr, &value, nullptr,
+                   nullptr);
     return value;
 }
 
@@ -175,11 +185,13 @@ std::vector<FieldInfo> bodyInitialFields(bool movesInSpace) {
         numbers("attitude", "attitude", "", {"w", "x", "y", "z"}, Value::Array{1.0, 0.0, 0.0, 0.0},
                 "Quaternion from body to space, of length 1."),
         optionalVector("momentum", "momentum", "Π", "kg m²/s", body, "Angular momentum in body axes."),
-        optionalVector("omega", "rate", "Ω", "rad/s", body, "Angular velocity in body axes, instead of momentum.")};
+        optionalVector("omega", "rate", "Ω", "rad/s", body,
+                       "Angular velocity in body axes, instead of momentum.")};
     if (!movesInSpace) return fields;
     fields.push_back(numbers("position", "position", "m", space, Value::Array{0.0, 0.0, 0.0},
                              "Centre of mass in space axes."));
-    fields.push_back(optionalVector("velocity", "velocity", "v", "m/s", space, "Velocity of the centre of mass, in space axes."));
+    fields.push_back(optionalVector("velocity", "velocity", "v", "m/s", space,
+                                    "Velocity of the centre of mass, in space axes."));
     fields.push_back(optionalVector("linear_momentum", "impulse", "p", "kg m/s", space,
                                     "Linear momentum in space axes, instead of velocity."));
     return fields;
@@ -187,7 +199,8 @@ std::vector<FieldInfo> bodyInitialFields(bool movesInSpace) {
 
 FieldInfo inertiaField(std::array<double, 3> fallback) {
     FieldInfo f = numbers("inertia", "inertia", "kg m²", {"1", "2", "3"},
-                          Value::Array{fallback[0], fallback[1], fallback[2]}, "The three principal moments of inertia.");
+                          Value::Array{fallback[0], fallback[1], fallback[2]},
+                          "The three principal moments of inertia.");
     f.symbol = "I";
     f.min = 0;
     f.isMinExcluded = true;

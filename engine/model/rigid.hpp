@@ -1,5 +1,5 @@
-/// What all rigid bodies have in common as systems: their state's columns, initial data, energy, error, rate and picture.
-/// Included by the .cpp files of the bodies in model/systems.
+/// What all rigid bodies have in common as systems: their state's columns, initial data, energy, error, rate
+/// and picture. Included by the .cpp files of the bodies in model/systems.
 #pragma once
 
 #include <array>
@@ -9,12 +9,13 @@
 
 namespace extremal {
 
-/// Fills in what follows from system.body, which must be set (state: model/body.hpp). The error is the angle of
-/// R_ref^T R in rad; error.p the norm of the difference of the momenta in the body; on SE(3) error.position.
+/// Fills in what follows from system.body, which must be set (state: model/body.hpp). The error is the angle
+/// of R_ref^T R in rad; error.p the norm of the difference of the momenta in the body; on SE(3)
+/// error.position.
 void describeBody(System& system);
 
-/// Keys of /initial: attitude, and exactly one of momentum and omega, in body axes; on SE(3) position, and at most one
-/// of velocity and linear_momentum, in space axes.
+/// Keys of /initial: attitude, and exactly one of momentum and omega, in body axes; on SE(3) position, and at
+/// most one of velocity and linear_momentum, in space axes.
 std::vector<FieldInfo> bodyInitialFields(bool movesInSpace);
 
 /// The key "inertia": three principal moments.
@@ -29,8 +30,8 @@ inline Point onStage(double x, double y, double z) { return {x, z, -y}; }
 /// Adds space's axes with their names as scenery.
 void drawSpaceAxes(double length, Drawing& drawing);
 
-/// The polhode of a free body as the stage's inset: its momentum in body axes on the sphere, with the energy curves and
-/// the body's axes. Axis 3 is up.
+/// The polhode of a free body as the stage's inset: its momentum in body axes on the sphere, with the energy
+/// curves and the body's axes. Axis 3 is up.
 void addPolhode(System& system);
 
 }  // namespace extremal

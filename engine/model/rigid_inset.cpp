@@ -24,8 +24,10 @@ void addPolhode(System& system) {
             from[i] = side;
             to[i] = 1.13 * side;
             word[i] = 1.28 * side;
-            inset.backdrop.push_back(Segment{onStage(from[0], from[1], from[2]), onStage(to[0], to[1], to[2]), 1, ShapeRole::scenery});
-            if (side > 0) inset.backdrop.push_back(Word{onStage(word[0], word[1], word[2]), std::to_string(i + 1)});
+            inset.backdrop.push_back(Segment{onStage(from[0], from[1], from[2]), onStage(to[0], to[1], to[2]),
+                                             1, ShapeRole::scenery});
+            if (side > 0)
+                inset.backdrop.push_back(Word{onStage(word[0], word[1], word[2]), std::to_string(i + 1)});
         }
     inset.reach = [](const double* x) { return std::hypot(x[4], x[5], x[6]); };
     inset.tracer = [](const double* x) { return onStage(x[4], x[5], x[6]); };

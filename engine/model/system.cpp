@@ -8,7 +8,8 @@ namespace extremal {
 std::vector<Quantity> stateColumns(const System& system) {
     if (!system.columns.empty()) return system.columns;
     std::vector<Quantity> columns;
-    for (const Coordinate& c : system.coordinates) columns.push_back({"q." + c.name, c.title, c.symbol, c.unit});
+    for (const Coordinate& c : system.coordinates)
+        columns.push_back({"q." + c.name, c.title, c.symbol, c.unit});
     for (const Coordinate& c : system.coordinates)
         columns.push_back({"p." + c.name, c.title + " momentum", "p_" + c.symbol, c.momentumUnit});
     return columns;

@@ -1,10 +1,11 @@
 /// A system with its parameters in place: what a scene's "model" turns into.
 ///
-/// A System is a bag of optional capabilities: a field that is empty is something the system does not have (no exact
-/// solution, no conserved momentum, nothing to draw) or says in the usual way of its kind. A system with coordinates
-/// has the state x = (q, p) and says nearly everything through its mechanics; one whose state is something else (a body
-/// with an attitude, a wave function) names its columns and gives energy, error and start itself. Ask through the
-/// functions below the struct, which know the usual ways. One file of model/systems makes one entry.
+/// A System is a bag of optional capabilities: a field that is empty is something the system does not have
+/// (no exact solution, no conserved momentum, nothing to draw) or says in the usual way of its kind. A system
+/// with coordinates has the state x = (q, p) and says nearly everything through its mechanics; one whose
+/// state is something else (a body with an attitude, a wave function) names its columns and gives energy,
+/// error and start itself. Ask through the functions below the struct, which know the usual ways. One file of
+/// model/systems makes one entry.
 #pragma once
 
 #include <cmath>
@@ -43,7 +44,7 @@ struct Quantity {
 
 /// A momentum that Noether's theorem conserves, as a function of the state.
 struct MomentumMap {
-    std::string name;    ///< column "momentum.<name>"
+    std::string name;  ///< column "momentum.<name>"
     std::string symbol;
     std::string unit;
     /// p = x + d; of a system without coordinates both are x.
@@ -61,8 +62,8 @@ struct ErrorMeasure {
 /// The energy at (t, x).
 using EnergyFunction = std::function<double(double t, const double* x)>;
 
-/// What a field is sampled as, at nodes in space: for files, profiles and carpets. Rows do not hold it; runs keep a bounded
-/// number of frames.
+/// What a field is sampled as, at nodes in space: for files, profiles and carpets. Rows do not hold it; runs
+/// keep a bounded number of frames.
 struct FieldSampling {
     std::vector<double> x;                ///< the nodes
     std::vector<double> y;                ///< of a rectangle, the nodes in its second direction; else empty
@@ -79,17 +80,18 @@ class Hamiltonian;
 struct FastMotion {
     double frequency = 0;          ///< rad per unit of time, at rest; 0: none
     std::vector<int> coordinates;  ///< those that mainly oscillate fast; the others may as well
-    /// At (t, x): energy of the oscillation around its slow mean, and that energy over the frequency of the moment, which
-    /// slow motion changes by a small periodic part only. May be empty.
+    /// At (t, x): energy of the oscillation around its slow mean, and that energy over the frequency of the
+    /// moment, which slow motion changes by a small periodic part only. May be empty.
     EnergyFunction energy = {}, invariant = {};
-    /// The Hamiltonian in parts, each with its exact flow over a given time: the oscillation alone, and the rest in one or more
-    /// parts. x <- flow(x). May be empty.
+    /// The Hamiltonian in parts, each with its exact flow over a given time: the oscillation alone, and the
+    /// rest in one or more parts. x <- flow(x). May be empty.
     using Flow = std::function<void(double* x)>;
     std::function<Flow(double time)> fastFlow = {};
     std::vector<std::function<Flow(double time)>> slowFlows = {};
 };
 
-/// A slow model in place of the system: fewer unknowns y, their rate, and the state of the system that they stand for.
+/// A slow model in place of the system: fewer unknowns y, their rate, and the state of the system that they
+/// stand for.
 struct ReducedMotion {
     std::vector<double> start;
     std::function<void(const double* y, double* rate)> rate;
@@ -105,7 +107,7 @@ struct EllipticProblem;
 struct System {
     std::string id;
     std::string independent = "t";  ///< what the schemes go along: time, or a place
-    std::string timeUnit;    ///< "s", or empty if dimensionless
+    std::string timeUnit;           ///< "s", or empty if dimensionless
     std::string energyUnit;
 
     // Systems with coordinates: x = (q, p).
@@ -121,16 +123,18 @@ struct System {
     // Systems with another state.
     std::vector<Quantity> columns;  ///< what the first entries of x are: the state columns of every row
     EnergyFunction energy;
-    EnergyFunction casimir;         ///< of the bracket; kept by exact solutions
-    ErrorMeasure error;             ///< evaluate empty: the usual one of coordinates
+    EnergyFunction casimir;  ///< of the bracket; kept by exact solutions
+    ErrorMeasure error;      ///< evaluate empty: the usual one of coordinates
     std::function<bool(double t, const double* x, double* dx)> rate;  ///< xdot, to draw what is between rows
-    std::function<double(double t, const double* x)> frequency;       ///< of the fastest motion, rad per unit of time
-    /// x at the start, from the checked keys of /initial (ModelEntry::initial). Throws InvalidScene, with pointers
-    /// relative to /initial.
+    std::function<double(double t, const double* x)>
+        frequency;  ///< of the fastest motion, rad per unit of time
+    /// x at the start, from the checked keys of /initial (ModelEntry::initial). Throws InvalidScene, with
+    /// pointers relative to /initial.
     std::function<std::vector<double>(const Settings& initial)> start;
 
     FieldSampling field;
-    /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be empty.
+    /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be
+    /// empty.
     std::function<std::string(const double* x)> caution;
 
     /// No motion, but a boundary-value problem along x (elliptic.hpp).
@@ -139,7 +143,8 @@ struct System {
     FastMotion fast;
     std::vector<ReducedModel> reduced;
     std::vector<MomentumMap> momenta;
-    /// Makes the exact solution through the initial state (t, x), or returns an empty function where there is none.
+    /// Makes the exact solution through the initial state (t, x), or returns an empty function where there is
+    /// none.
     std::function<ExactSolution(const State& initial)> exact;
     /// Shapes of one state, for the stage; of a field, x is a sample of it (FieldSampling).
     std::function<void(const double* x, Drawing& drawing)> draw;
@@ -148,7 +153,8 @@ struct System {
     /// The default phase portrait and trajectory: names of state columns.
     std::string phaseX, phaseY, trajectoryX, trajectoryY;
     bool hasPlanarTrajectory = false;  ///< the two trajectory columns are lengths in one plane
-    /// Columns worth a plot against time each, where no plane holds the trajectory. Empty: up to three coordinates.
+    /// Columns worth a plot against time each, where no plane holds the trajectory. Empty: up to three
+    /// coordinates.
     std::vector<std::string> timePlots;
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
@@ -196,7 +202,8 @@ const std::vector<ModelEntry>& modelCatalog();
 /// The entry with this id, or null.
 const ModelEntry* findModel(std::string_view id);
 
-/// Whether a baseline, space or observable can be used on a system: its own rule, else every system with coordinates.
+/// Whether a baseline, space or observable can be used on a system: its own rule, else every system with
+/// coordinates.
 template <class Entry>
 bool appliesTo(const Entry& entry, const System& system) {
     return entry.applies ? entry.applies(system) : system.hasMechanics();

@@ -50,12 +50,15 @@ Gradient pack(const Vector& x, const Rotation& R) {
 }
 
 /// How (x, R) moves along g exp(eps zeta), zeta = (omega, v): (R v, R [omega]).
-Gradient tangent(const Rotation& R, const Vector& omega, const Vector& v) { return pack(R * v, R * so3::hat(omega)); }
+Gradient tangent(const Rotation& R, const Vector& omega, const Vector& v) {
+    return pack(R * v, R * so3::hat(omega));
+}
 
 Vector angularPart(int a) { return a < 3 ? Vector(Vector::Unit(a)) : Vector(Vector::Zero()); }
 Vector linearPart(int a) { return a < 3 ? Vector(Vector::Zero()) : Vector(Vector::Unit(a - 3)); }
 
-void potential(const void* model, const double* R, const double* x, double* value, double* force, double* slope) {
+void potential(const void* model, const double* R, const double* x, double* value, double* force,
+               double* slope) {
     const auto& [m, dimension] = *static_cast<const TypedPotential*>(model);
     const Place place(R, x);
     if (value) *value = m.energy(m.model.get(), 0.0, place.q.data(), place.v.data());  // at rest
@@ -87,14 +90,16 @@ void potential(const void* model, const double* R, const double* x, double* valu
         const Gradient Ht = H * tangent(rotation, angularPart(b), linearPart(b));
         const Rotation turned = rotation * so3::hat(angularPart(b));
         for (int a = 0; a < dimension; ++a)
-            slope[dimension * b + a] = Ht.dot(tangent(rotation, angularPart(a), linearPart(a))) +
-                               dL.dot(pack(turned * linearPart(a), turned * so3::hat(angularPart(a))));
+            slope[dimension * b + a] =
+                Ht.dot(tangent(rotation, angularPart(a), linearPart(a))) +
+                dL.dot(pack(turned * linearPart(a), turned * so3::hat(angularPart(a))));
     }
 }
 
 bool isPosition(const std::string& name) { return name == "x" || name == "y" || name == "z"; }
 
-void checkNames(const std::string& text, bool hasPosition, const std::vector<std::pair<std::string, double>>& parameters) {
+void checkNames(const std::string& text, bool hasPosition,
+                const std::vector<std::pair<std::string, double>>& parameters) {
     const Expression expression = parseExpression(text);
     std::set<std::string> known{"x", "y", "z", "pi"};
     for (const char* i : {"1", "2", "3"})
@@ -103,7 +108,8 @@ void checkNames(const std::string& text, bool hasPosition, const std::vector<std
     for (const Expression::Node& node : expression.nodes) {
         std::string problem;
         if (node.kind == Operator::name && node.name == "t") problem = "a potential does not depend on t";
-        if ((node.kind == Operator::name && node.name.ends_with("_t")) || (node.kind == Operator::call && node.name == "dot"))
+        if ((node.kind == Operator::name && node.name.ends_with("_t")) ||
+            (node.kind == Operator::call && node.name == "dot"))
             problem = "a potential does not depend on velocities";
         if (!hasPosition && node.kind == Operator::name && isPosition(node.name))
             problem = "this body turns about a fixed point: " + node.name + " has no meaning";
@@ -111,7 +117,8 @@ void checkNames(const std::string& text, bool hasPosition, const std::vector<std
             problem = "has an unknown name \"" + node.name + "\"";
         if (!problem.empty())
             throw ExpressionError(problem, node.position,
-                                  std::string("names: ") + (hasPosition ? "x, y, z, R11..R33, mass" : "R11..R33") +
+                                  std::string("names: ") +
+                                      (hasPosition ? "x, y, z, R11..R33, mass" : "R11..R33") +
                                       ", I1, I2, I3 and the parameters");
     }
 }
@@ -123,7 +130,8 @@ typed::TypedMechanics differentiated(const std::string& text, bool hasPosition,
     formula.coordinates = {"x", "y", "z", "R11", "R12", "R13", "R21", "R22", "R23", "R31", "R32", "R33"};
     formula.parameters = parameters;
     formula.text = "-(" + text + ")+(";
-    for (const std::string& name : formula.coordinates) formula.text += (name == "x" ? "" : "+") + name + "_t^2";
+    for (const std::string& name : formula.coordinates)
+        formula.text += (name == "x" ? "" : "+") + name + "_t^2";
     formula.text += ")/2";
     try {
         checkNames(text, hasPosition, parameters);
@@ -136,8 +144,10 @@ typed::TypedMechanics differentiated(const std::string& text, bool hasPosition,
 }
 
 /// Names beside the variables: mass, I1, I2, I3 and the user's own.
-std::vector<std::pair<std::string, double>> parametersOf(const Settings& settings, const BodyMechanics<double>& body) {
-    std::vector<std::pair<std::string, double>> all{{"I1", body.inertia[0]}, {"I2", body.inertia[1]}, {"I3", body.inertia[2]}};
+std::vector<std::pair<std::string, double>> parametersOf(const Settings& settings,
+                                                         const BodyMechanics<double>& body) {
+    std::vector<std::pair<std::string, double>> all{
+        {"I1", body.inertia[0]}, {"I2", body.inertia[1]}, {"I3", body.inertia[2]}};
     if (body.dimension == 6) all.emplace_back("mass", body.inertia[3]);
     std::set<std::string> taken{"mass", "I1", "I2", "I3", "x", "y", "z"};
     for (const char* i : {"1", "2", "3"})
@@ -146,9 +156,11 @@ std::vector<std::pair<std::string, double>> parametersOf(const Settings& setting
     if (!own || !own->isObject()) return all;
     for (const auto& [name, value] : own->asObject()) {
         const std::string problem = nameProblem(name);
-        if (!problem.empty()) throw InvalidScene("/parameters/" + name, "the name \"" + name + "\" " + problem);
+        if (!problem.empty())
+            throw InvalidScene("/parameters/" + name, "the name \"" + name + "\" " + problem);
         if (!taken.insert(name).second)
-            throw InvalidScene("/parameters/" + name, "the name \"" + name + "\" has a meaning already", "another name");
+            throw InvalidScene("/parameters/" + name, "the name \"" + name + "\" has a meaning already",
+                               "another name");
         all.emplace_back(name, value.asNumber());
     }
     return all;
@@ -189,7 +201,9 @@ MomentumMap angularMomentum(std::size_t k, bool movesInSpace) {
         return {std::string("space.") + axes[k], std::string("π_") + axes[k], "kg m²/s",
                 [k](const double* x, const double*) { return x[7 + k]; }};
     return {std::string("angular.") + axes[k], std::string("J_") + axes[k], "kg m²/s",
-            [k, a, b](const double* x, const double*) { return x[7 + k] + x[10 + a] * x[13 + b] - x[10 + b] * x[13 + a]; }};
+            [k, a, b](const double* x, const double*) {
+                return x[7 + k] + x[10 + a] * x[13 + b] - x[10 + b] * x[13 + a];
+            }};
 }
 
 }  // namespace
@@ -219,7 +233,8 @@ std::vector<MomentumMap> setTypedPotential(BodyMechanics<double>& body, const Se
     for (const int i : made.cyclic)
         if (i < 3 && movesInSpace) momenta.push_back(linearMomentum(static_cast<std::size_t>(i)));
     for (int k = 0; k < 3; ++k)
-        if (isSymmetricAbout(k, *model)) momenta.push_back(angularMomentum(static_cast<std::size_t>(k), movesInSpace));
+        if (isSymmetricAbout(k, *model))
+            momenta.push_back(angularMomentum(static_cast<std::size_t>(k), movesInSpace));
     return momenta;
 }
 

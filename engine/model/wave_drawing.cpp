@@ -8,8 +8,8 @@
 namespace extremal {
 namespace {
 
-/// |psi| over x as a curtain with the phase as its colour, above the potential. A wave spread over the whole domain stands a
-/// tenth of it high.
+/// |psi| over x as a curtain with the phase as its colour, above the potential. A wave spread over the whole
+/// domain stands a tenth of it high.
 void drawOnInterval(const Hamiltonian& h, const double* values, Drawing& drawing) {
     const auto n = static_cast<std::size_t>(h.size());
     const double L = h.domain().length, left = h.domain().left, unit = 0.1 * L * std::sqrt(L);
@@ -19,7 +19,9 @@ void drawOnInterval(const Hamiltonian& h, const double* values, Drawing& drawing
     const auto place = [&](std::size_t j) { return j < n ? h.x()[j] : left + L; };
     if (*high > *low) {
         const std::size_t every = std::max<std::size_t>(1, n / 256), last = h.isPeriodic() ? n : n - 1;
-        const auto at = [&](std::size_t j) { return Point{place(j), 0.3 * L * (V[j % n] - *low) / (*high - *low), 0}; };
+        const auto at = [&](std::size_t j) {
+            return Point{place(j), 0.3 * L * (V[j % n] - *low) / (*high - *low), 0};
+        };
         for (std::size_t j = 0; j + every <= last; j += every)
             drawing.shapes.push_back(Segment{at(j), at(j + every), 1.2, ShapeRole::scenery});
     }
@@ -41,7 +43,8 @@ void drawOnInterval(const Hamiltonian& h, const double* values, Drawing& drawing
     drawing.shapes.push_back(std::move(curtain));
 }
 
-/// A picture of at most this many points along a side, of all nodes and once more the first, which closes the domain.
+/// A picture of at most this many points along a side, of all nodes and once more the first, which closes the
+/// domain.
 constexpr int mostPoints = 129;
 
 template <class At>
@@ -64,8 +67,8 @@ Raster rasterOf(const wave::Grid& grid, At&& at) {
     return raster;
 }
 
-/// |psi| as how strong a colour is, the phase as its hue, over the potential in grey: each as strong as it can be where it is
-/// largest.
+/// |psi| as how strong a colour is, the phase as its hue, over the potential in grey: each as strong as it
+/// can be where it is largest.
 void drawOnRectangle(const Hamiltonian& h, const double* values, Drawing& drawing) {
     const wave::Grid& grid = h.grid();
     const auto n = static_cast<std::size_t>(h.size());
@@ -87,8 +90,8 @@ void drawOnRectangle(const Hamiltonian& h, const double* values, Drawing& drawin
         r.strengths.push_back(unit * std::hypot(values[j], values[n + j]));
         r.hues.push_back(std::atan2(values[n + j], values[j]) / (2 * std::numbers::pi));
     }));
-    const Point a = {grid.x.left, grid.y.left, 0}, c = {a[0] + grid.x.length, a[1] + grid.y.length, 0}, b = {c[0], a[1], 0},
-                d = {a[0], c[1], 0};
+    const Point a = {grid.x.left, grid.y.left, 0}, c = {a[0] + grid.x.length, a[1] + grid.y.length, 0},
+                b = {c[0], a[1], 0}, d = {a[0], c[1], 0};
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, d}, std::pair{d, a}})
         drawing.shapes.push_back(Segment{from, to, 1.2, ShapeRole::scenery});
 }

@@ -73,8 +73,9 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
     s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
     s.start = [h](const Settings& initial) {
-        const std::vector<Complex> c = wave::makePacket(*initial.find("psi"), "/psi", initial.flag("normalise"), h,
-                                                        {{"hbar", h->hbar()}, {"m", h->mass()}});
+        const std::vector<Complex> c =
+            wave::makePacket(*initial.find("psi"), "/psi", initial.flag("normalise"), h,
+                             {{"hbar", h->hbar()}, {"m", h->mass()}});
         const double* numbers = reinterpret_cast<const double*>(c.data());
         return std::vector<double>(numbers, numbers + 2 * c.size());
     };
@@ -103,7 +104,8 @@ wave::Domain domainOf(const Settings& settings, const std::string& key) {
 
 int modesOf(const Settings& settings, const std::string& key, bool isEven) {
     const int n = settings.integer(key);
-    if (isEven && n % 2 != 0) throw InvalidScene("/" + key, "must be even, got " + std::to_string(n), std::to_string(n + 1));
+    if (isEven && n % 2 != 0)
+        throw InvalidScene("/" + key, "must be even, got " + std::to_string(n), std::to_string(n + 1));
     return n;
 }
 
@@ -116,7 +118,8 @@ FieldInfo domainField(const std::string& key, const std::string& title, const st
 
 std::vector<FieldInfo> waveStartFields(const std::string& places) {
     FieldInfo psi = jsonField("psi", "wave function", "ψ", nullptr,
-                              "re and im as expressions in " + places + ", a packet by name with its keys, or values at the nodes.");
+                              "re and im as expressions in " + places +
+                                  ", a packet by name with its keys, or values at the nodes.");
     psi.example = Value::Object{{"packet", "gaussian"}};
     return {psi, flagField("normalise", true, "Scale the wave function to norm 1.")};
 }

@@ -1,5 +1,5 @@
-/// What systems of wave functions share, whatever the shape of their domain: the System of an operator, how it is drawn, and
-/// the keys of a start.
+/// What systems of wave functions share, whatever the shape of their domain: the System of an operator, how
+/// it is drawn, and the keys of a start.
 #pragma once
 
 #include <functional>
@@ -12,10 +12,11 @@
 
 namespace extremal {
 
-/// The state is the coefficients of the wave function (wave/hamiltonian.hpp): no column of a row, but what fields are
-/// sampled from. `make` is called once for the same settings as long as they are among the last few asked for: on a large
-/// grid the potential alone takes a tenth of a second. Any thread may ask.
-System makeWaveSystem(const Settings& settings, const std::function<std::shared_ptr<const Hamiltonian>(const Settings&)>& make);
+/// The state is the coefficients of the wave function (wave/hamiltonian.hpp): no column of a row, but what
+/// fields are sampled from. `make` is called once for the same settings as long as they are among the last
+/// few asked for: on a large grid the potential alone takes a tenth of a second. Any thread may ask.
+System makeWaveSystem(const Settings& settings,
+                      const std::function<std::shared_ptr<const Hamiltonian>(const Settings&)>& make);
 
 /// hbar and m.
 std::vector<FieldInfo> waveConstants();

@@ -6,7 +6,8 @@ namespace extremal {
 
 const ObservableEntry* findObservable(std::string_view id) {
     const auto& all = observableEntries();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const ObservableEntry& e) { return e.item.id == id; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const ObservableEntry& e) { return e.item.id == id; });
     return found == all.end() ? nullptr : &*found;
 }
 

@@ -1,4 +1,5 @@
-/// Names of what can be observed and seen; the observables themselves are in observe/observables, one file each.
+/// Names of what can be observed and seen; the observables themselves are in observe/observables, one file
+/// each.
 #pragma once
 
 #include <functional>
@@ -32,7 +33,8 @@ struct Observer {
     std::vector<Column> columns;  ///< names, symbols, units; values empty
     /// Fills one value per column.
     Evaluation evaluate;
-    /// Column whose size goes into the summary as a maximum over every node ("energy_error", ...); -1 if none.
+    /// Column whose size goes into the summary as a maximum over every node ("energy_error", ...); -1 if
+    /// none.
     int extreme = -1;
 };
 

@@ -1,8 +1,8 @@
 /// What an observer computes at nodes: one value per column.
 ///
-/// Made from a callable for one node, `(const State&, const StepReport&, double* values)`, or, for what every run looks at
-/// in every node, from one for a whole block, `(const NodeBlock&, double* values, std::size_t stride)`: the values of
-/// node i start at values + i * stride.
+/// Made from a callable for one node, `(const State&, const StepReport&, double* values)`, or, for what every
+/// run looks at in every node, from one for a whole block, `(const NodeBlock&, double* values, std::size_t
+/// stride)`: the values of node i start at values + i * stride.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,7 @@ public:
     Evaluation() = default;
 
     template <class F>
-        requires std::invocable<F&, const State&, const StepReport&, double*>
-    Evaluation(F each) {
+    requires std::invocable<F&, const State&, const StepReport&, double*> Evaluation(F each) {
         block_ = [each = std::move(each), state = State()](const NodeBlock& nodes, double* values,
                                                            std::size_t stride) mutable {
             for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -33,12 +32,14 @@ public:
         };
     }
     template <class F>
-        requires std::invocable<F&, const NodeBlock&, double*, std::size_t>
-    Evaluation(F block) : block_(std::move(block)) {}
+    requires std::invocable<F&, const NodeBlock&, double*, std::size_t> Evaluation(F block)
+        : block_(std::move(block)) {}
 
     explicit operator bool() const { return static_cast<bool>(block_); }
 
-    void operator()(const NodeBlock& nodes, double* values, std::size_t stride) const { block_(nodes, values, stride); }
+    void operator()(const NodeBlock& nodes, double* values, std::size_t stride) const {
+        block_(nodes, values, stride);
+    }
     /// At one node.
     void operator()(const State& state, const StepReport& report, double* values) const {
         block_(NodeBlock(state, report), values, 0);

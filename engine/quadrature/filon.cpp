@@ -27,8 +27,8 @@ std::vector<double> ascending(double x, int count) {
     return j;
 }
 
-/// Miller's backward recurrence, normalised by sum (2n+1) j_n^2 = 1: where j_n falls with n, the upward one is
-/// unstable.
+/// Miller's backward recurrence, normalised by sum (2n+1) j_n^2 = 1: where j_n falls with n, the upward one
+/// is unstable.
 std::vector<double> backward(double x, int count) {
     const int top = count + 30 + static_cast<int>(x);
     std::vector<double> j(static_cast<std::size_t>(top) + 2);
@@ -53,7 +53,8 @@ std::vector<double> upward(double x, int count) {
     std::vector<double> j(static_cast<std::size_t>(count));
     j[0] = std::sin(x) / x;
     if (count > 1) j[1] = (j[0] - std::cos(x)) / x;
-    for (std::size_t n = 2; n < j.size(); ++n) j[n] = static_cast<double>(2 * n - 1) / x * j[n - 1] - j[n - 2];
+    for (std::size_t n = 2; n < j.size(); ++n)
+        j[n] = static_cast<double>(2 * n - 1) / x * j[n - 1] - j[n - 2];
     return j;
 }
 
@@ -129,19 +130,22 @@ FilonRule filonRule(FilonNodes nodes, int count, double z) {
     return {e.node, weightsOf(e, z)};
 }
 
-FilonGrid filonGrid(FilonNodes nodes, int count, std::array<int, 2> phases, std::array<double, 2> z, double tau) {
+FilonGrid filonGrid(FilonNodes nodes, int count, std::array<int, 2> phases, std::array<double, 2> z,
+                    double tau) {
     const Expansion e = expansionOf(nodes, count);
     const int M = phases[0] * phases[1], K[] = {(phases[0] - 1) / 2, (phases[1] - 1) / 2};
     std::vector<std::array<int, 2>> place;
     std::vector<Complex> turn[2];
     for (std::size_t f = 0; f < 2; ++f)
-        for (int m = 0; m < phases[f]; ++m) turn[f].push_back(std::polar(1.0, -2 * std::numbers::pi * m / phases[f]));
+        for (int m = 0; m < phases[f]; ++m)
+            turn[f].push_back(std::polar(1.0, -2 * std::numbers::pi * m / phases[f]));
     FilonGrid grid;
     grid.node = e.node;
     for (int m = 0; m < phases[0]; ++m)
         for (int n = 0; n < phases[1]; ++n) {
             place.push_back({m, n});
-            grid.phase.push_back({2 * std::numbers::pi * m / phases[0], 2 * std::numbers::pi * n / phases[1]});
+            grid.phase.push_back(
+                {2 * std::numbers::pi * m / phases[0], 2 * std::numbers::pi * n / phases[1]});
         }
     grid.weight.resize(e.node.size() * grid.phase.size());
     // k and -k are conjugate: half of them, twice.
@@ -152,8 +156,10 @@ FilonGrid filonGrid(FilonNodes nodes, int count, std::array<int, 2> phases, std:
             const double share = (k == 0 && l == 0 ? 1.0 : 2.0) / M;
             for (std::size_t m = 0; m < place.size(); ++m) {
                 const int at[] = {k * place[m][0] % phases[0], (l + phases[1]) * place[m][1] % phases[1]};
-                const Complex wave = turn[0][static_cast<std::size_t>(at[0])] * turn[1][static_cast<std::size_t>(at[1])];
-                for (std::size_t i = 0; i < b.size(); ++i) grid.weight[i * place.size() + m] += share * (b[i] * wave).real();
+                const Complex wave =
+                    turn[0][static_cast<std::size_t>(at[0])] * turn[1][static_cast<std::size_t>(at[1])];
+                for (std::size_t i = 0; i < b.size(); ++i)
+                    grid.weight[i * place.size() + m] += share * (b[i] * wave).real();
             }
         }
     return grid;

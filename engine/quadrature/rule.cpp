@@ -229,12 +229,14 @@ void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share) {
         const T start = T(j) / T(rule.panels), end = T(j + 1) / T(rule.panels);
         if (j > 0 && tau <= start) return;
         const T length = (tau < end || j + 1 == rule.panels ? tau : end) - start;
-        const auto first = static_cast<std::size_t>(j * stride), last = first + static_cast<std::size_t>(perPanel);
+        const auto first = static_cast<std::size_t>(j * stride),
+                   last = first + static_cast<std::size_t>(perPanel);
         for (std::size_t i = first; i < last; ++i)
             for (std::size_t k = 0; k < inner.c.size(); ++k) {
                 T cardinal(1);
                 for (std::size_t l = first; l < last; ++l)
-                    if (l != i) cardinal *= (start + length * inner.c[k] - rule.c[l]) / (rule.c[i] - rule.c[l]);
+                    if (l != i)
+                        cardinal *= (start + length * inner.c[k] - rule.c[l]) / (rule.c[i] - rule.c[l]);
                 share[i] += length * inner.b[k] * cardinal;
             }
     }
@@ -243,8 +245,10 @@ void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share) {
 template <class T>
 Rule<T> makeRule(const Settings& q) {
     if (q.type == "exact")
-        throw InvalidScene("/quadrature/type", "the integral of this action is not known: exact is for wave functions in "
-                                               "three-level form", "gauss");
+        throw InvalidScene("/quadrature/type",
+                           "the integral of this action is not known: exact is for wave functions in "
+                           "three-level form",
+                           "gauss");
     const int n = q.integer("nodes"), panels = std::max(1, q.integer("panels"));
     if (q.type == "gauss") return composite(gauss<T>(n), panels);
     if (q.type == "lobatto") return composite(lobatto<T>(n), panels);
@@ -254,15 +258,15 @@ Rule<T> makeRule(const Settings& q) {
     return midpoint<T>(panels);
 }
 
-#define EXTREMAL_INSTANTIATE(T)             \
-    template Rule<T> gauss<T>(int);         \
-    template Rule<T> lobatto<T>(int);       \
-    template Rule<T> radau<T>(int, bool);   \
-    template Rule<T> clenshawCurtis<T>(int); \
-    template Rule<T> midpoint<T>(int);      \
-    template Rule<T> trapezoid<T>(int);     \
-    template Rule<T> composite<T>(const Rule<T>&, int);                       \
-    template Rule<T> merged<T>(const Rule<T>&);                               \
+#define EXTREMAL_INSTANTIATE(T)                                              \
+    template Rule<T> gauss<T>(int);                                          \
+    template Rule<T> lobatto<T>(int);                                        \
+    template Rule<T> radau<T>(int, bool);                                    \
+    template Rule<T> clenshawCurtis<T>(int);                                 \
+    template Rule<T> midpoint<T>(int);                                       \
+    template Rule<T> trapezoid<T>(int);                                      \
+    template Rule<T> composite<T>(const Rule<T>&, int);                      \
+    template Rule<T> merged<T>(const Rule<T>&);                              \
     template void partialWeights<T>(const Rule<T>&, const T&, std::span<T>); \
     template Rule<T> makeRule<T>(const Settings&);
 EXTREMAL_INSTANTIATE(double)

@@ -1,10 +1,10 @@
 /// Quadrature rules on [0, 1]: integral of f ~ sum_i b_i f(c_i), i = 0..n-1, nodes ascending.
 ///
-/// Nodes and weights are computed (Newton on the orthogonal polynomials), not tabulated, for any number of nodes.
-/// `degree` is the highest polynomial degree integrated exactly, so that the rule's order is degree + 1.
-/// A composite rule repeats a rule in equal panels; two panels that share an end both keep their node there, one just
-/// inside each, so that a function whose derivative jumps is seen from both sides. For smooth functions `merged` joins them.
-/// Double rules are computed in extended precision and rounded: good to 2e-16.
+/// Nodes and weights are computed (Newton on the orthogonal polynomials), not tabulated, for any number of
+/// nodes. `degree` is the highest polynomial degree integrated exactly, so that the rule's order is degree
+/// + 1. A composite rule repeats a rule in equal panels; two panels that share an end both keep their node
+/// there, one just inside each, so that a function whose derivative jumps is seen from both sides. For smooth
+/// functions `merged` joins them. Double rules are computed in extended precision and rounded: good to 2e-16.
 /// Sources: Abramowitz and Stegun 25.4; Waldvogel 2006 for Clenshaw-Curtis.
 #pragma once
 
@@ -46,8 +46,8 @@ Rule<T> composite(const Rule<T>& rule, int panels);
 template <class T>
 Rule<T> merged(const Rule<T>& rule);
 
-/// share[i] such that sum_i share[i] f(c_i) is the integral from 0 to tau of the polynomials that interpolate f at the
-/// nodes of each panel; at tau = 1 the weights. share has rule.size() entries.
+/// share[i] such that sum_i share[i] f(c_i) is the integral from 0 to tau of the polynomials that interpolate
+/// f at the nodes of each panel; at tau = 1 the weights. share has rule.size() entries.
 template <class T>
 void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share);
 

@@ -13,7 +13,8 @@ std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, co
                       const State& initial, const State& state) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
     if (outcome == Outcome::stepBudget)
-        return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an earlier end.";
+        return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
+               "earlier end.";
     if (const auto pair = innerPairOf(scheme))
         if (const std::string caution = describe(pair->space, pair->quadrature).caution; !caution.empty())
             return "The scheme " + caution + ".";
@@ -23,13 +24,14 @@ std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, co
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
     const double limit = stabilityLimitOf(scheme);
     if (w > 0 && std::isfinite(limit) && limit > 0 && step * w > limit)
-        return "h ω = " + formatNumber(step * w, 2) + " is beyond its stability limit " + formatNumber(limit, 3) +
-               ". Try h ≤ " + formatNumber(limit / w, 2) + ".";
+        return "h ω = " + formatNumber(step * w, 2) + " is beyond its stability limit " +
+               formatNumber(limit, 3) + ". Try h ≤ " + formatNumber(limit / w, 2) + ".";
     if (scheme.tolerance) return "Try a smaller tolerance, or start away from the singularity.";
     if (outcome == Outcome::singular)
         return "The equations of the step are singular here. Try other initial data, or a smaller step.";
     if (w > 0 && step * w > 0.5)
-        return "h ω = " + formatNumber(step * w, 2) + " is large for the solver. Try h ≤ " + formatNumber(0.5 / w, 2) + ".";
+        return "h ω = " + formatNumber(step * w, 2) + " is large for the solver. Try h ≤ " +
+               formatNumber(0.5 / w, 2) + ".";
     return "Try half the step, h = " + formatNumber(step / 2, 3) + ".";
 }
 

@@ -10,7 +10,7 @@
 namespace extremal {
 
 /// `initial` is the start of the run, `state` the last node that was reached.
-std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system, const State& initial,
-                      const State& state);
+std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system,
+                      const State& initial, const State& state);
 
 }  // namespace extremal

@@ -21,11 +21,16 @@ namespace extremal {
 enum class RunStatus { waiting, running, done, partial, failed };
 constexpr const char* name(RunStatus s) {
     switch (s) {
-        case RunStatus::waiting: return "waiting";
-        case RunStatus::running: return "running";
-        case RunStatus::done: return "done";
-        case RunStatus::partial: return "partial";
-        case RunStatus::failed: return "failed";
+        case RunStatus::waiting:
+            return "waiting";
+        case RunStatus::running:
+            return "running";
+        case RunStatus::done:
+            return "done";
+        case RunStatus::partial:
+            return "partial";
+        case RunStatus::failed:
+            return "failed";
     }
     return "";
 }
@@ -39,23 +44,25 @@ struct Summary {
     double failedAt = unknown;  ///< t of the node from which the step failed
     double tEnd = unknown;
     long long steps = 0, rejected = 0, newtonIterations = 0, evaluations = 0, linearSolves = 0;
-    double cpuSeconds = 0;      ///< thread CPU time of the scheme's steps alone
+    double cpuSeconds = 0;  ///< thread CPU time of the scheme's steps alone
     double maxEnergyError = unknown;
     double energyDrift = unknown;  ///< per unit time
     double maxMomentumError = unknown, maxNormError = unknown, maxError = unknown, finalError = unknown;
-    int orderClaimed = 0;          ///< 0: no claim
+    int orderClaimed = 0;  ///< 0: no claim
     double orderMeasured = unknown;
-    std::string advice;            ///< after a failure: what to try; for the window, not exported
-    std::string about;             ///< how the scheme solves its equations, where that was a choice; not exported
-    std::string caution;           ///< what is doubtful in a result that looks sound ("under-resolved: .."); not exported
+    std::string advice;  ///< after a failure: what to try; for the window, not exported
+    std::string about;   ///< how the scheme solves its equations, where that was a choice; not exported
+    std::string
+        caution;  ///< what is doubtful in a result that looks sound ("under-resolved: .."); not exported
 };
 
 struct SchemeResult {
     SchemeSpec spec;
-    int style = 0;            ///< index of colour and dash: the scheme's place in the scene, disabled ones counted
-    double fraction = 0;      ///< of the time interval covered, 0..1
+    int style = 0;  ///< index of colour and dash: the scheme's place in the scene, disabled ones counted
+    double fraction = 0;  ///< of the time interval covered, 0..1
     Trajectory trajectory;
-    Trajectory curve;  ///< t and state of a run of few steps, several times in each, from the scheme's own curve; for plots
+    Trajectory curve;  ///< t and state of a run of few steps, several times in each, from the scheme's own
+                       ///< curve; for plots
     std::vector<Frame> frames;  ///< of fields: at rows, all of them while they fit into their memory
     /// States where a column passes zero upwards, found on the scheme's own curve: one for each view
     /// "section".
@@ -71,9 +78,9 @@ struct SchemeResult {
 };
 
 struct ReferenceInfo {
-    std::string type = "none";         ///< "exact", "computed", "scheme", "file", "none"
+    std::string type = "none";  ///< "exact", "computed", "scheme", "file", "none"
     double estimatedError = Summary::unknown;
-    std::string description;           ///< "Gauss(12), h = 0.01": for the window
+    std::string description;             ///< "Gauss(12), h = 0.01": for the window
     std::vector<Problem> problems = {};  ///< why there is none although the scene asks for one
 };
 
@@ -82,7 +89,8 @@ struct Comparison {
     Scene scene;
     std::vector<std::shared_ptr<const SchemeResult>> schemes;
     ReferenceInfo reference;
-    std::vector<std::shared_ptr<const ParameterMap>> maps = {};  ///< of views "parameter-map": one a scheme that has a step
+    std::vector<std::shared_ptr<const ParameterMap>> maps =
+        {};  ///< of views "parameter-map": one a scheme that has a step
     bool isFinished = false;
 };
 

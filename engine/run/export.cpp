@@ -85,8 +85,9 @@ std::string cellText(const Value& value) {
 /// "slug.csv" -> "slug.field.csv".
 std::string fieldName(const std::string& csv) { return csv.substr(0, csv.size() - 4) + ".field.csv"; }
 
-/// t, the place (x, of a rectangle y too) and the components of the field: a row for each place of each frame. Of a rectangle
-/// as many frames, evenly spread, as make half a million rows: files of a gigabyte help nobody.
+/// t, the place (x, of a rectangle y too) and the components of the field: a row for each place of each
+/// frame. Of a rectangle as many frames, evenly spread, as make half a million rows: files of a gigabyte help
+/// nobody.
 template <class Sink>
 void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, Sink&& sink) {
     constexpr std::size_t blockSize = 1 << 16, mostRows = 1 << 19;
@@ -137,7 +138,9 @@ std::vector<std::pair<std::string, std::vector<const ParameterMap*>>> mapFiles(c
     std::size_t last = 0;
     for (const auto& map : comparison.maps) {
         if (files.empty() || map->view != last)
-            files.push_back({"parameter-map" + (files.empty() ? "" : "-" + std::to_string(files.size() + 1)) + ".csv", {}});
+            files.push_back(
+                {"parameter-map" + (files.empty() ? "" : "-" + std::to_string(files.size() + 1)) + ".csv",
+                 {}});
         files.back().second.push_back(map.get());
         last = map->view;
     }
@@ -150,7 +153,10 @@ std::string mapCsv(const std::vector<const ParameterMap*>& maps) {
         for (std::size_t i = 0; i < map->grid.values.size(); ++i)
             for (std::size_t j = 0; j < map->grid.steps.size(); ++j) {
                 const MapCell& cell = map->at(i, j);
-                text.append(csvCell(map->scheme)).append(",").append(formatNumber(map->grid.values[i])).append(",");
+                text.append(csvCell(map->scheme))
+                    .append(",")
+                    .append(formatNumber(map->grid.values[i]))
+                    .append(",");
                 text.append(formatNumber(map->grid.steps[j])).append(",");
                 if (std::isfinite(cell.value)) text += formatNumber(cell.value);
                 text.append(",").append(name(cell)).append("\n");
@@ -245,7 +251,8 @@ std::vector<std::string> exportComparison(const Comparison& comparison, const st
         if (comparison.schemes[i]->frames.empty()) continue;
         if (!system) system = makeSystem(comparison.scene);
         batch.open(fieldName(csv[i]));
-        writeFrames(system->field, comparison.schemes[i]->frames, [&](const std::string& block) { batch.append(block); });
+        writeFrames(system->field, comparison.schemes[i]->frames,
+                    [&](const std::string& block) { batch.append(block); });
         batch.close();
     }
     for (const auto& [file, events] : sectionFiles(comparison)) {

@@ -77,9 +77,11 @@ void InsideStep::start(const State& state) {
 /// More points where the curve oscillates, and in steps that belong to a part that is shown.
 int InsideStep::pointsIn(double start, double end, double periods) const {
     double most = points_;
-    if (const double all = pointsPerPeriod * periods; all * static_cast<double>(steps_) <= mostPoints) most = std::max(most, all);
+    if (const double all = pointsPerPeriod * periods; all * static_cast<double>(steps_) <= mostPoints)
+        most = std::max(most, all);
     for (const auto& [low, high] : parts_)
-        if (start < high && end > low) most = std::max(most, pointsPerPart * std::min(1.0, (end - start) / (high - low)));
+        if (start < high && end > low)
+            most = std::max(most, pointsPerPart * std::min(1.0, (end - start) / (high - low)));
     return static_cast<int>(std::ceil(most));
 }
 
@@ -89,7 +91,8 @@ void InsideStep::look(const Integrator& integrator, const State& before, const S
     if (points_ == 0) return;
     const double periods = integrator.periodsPerStep();
     const int points = pointsIn(before.t, after.t, periods);
-    // Equal distances would turn an oscillation that they do not resolve into a slower one: unequal ones fill its band.
+    // Equal distances would turn an oscillation that they do not resolve into a slower one: unequal ones fill
+    // its band.
     const bool isUneven = points < pointsPerPeriod * periods;
     const double golden = (std::sqrt(5.0) - 1) / 2;
     for (int j = 1; j <= points; ++j) {

@@ -1,5 +1,6 @@
 /// What is looked at inside the steps of a run, on the scheme's own curve: points for plots, their distance
-/// from the reference, and the events of sections. Where a view shows a part of the time axis its steps have more points.
+/// from the reference, and the events of sections. Where a view shows a part of the time axis its steps have
+/// more points.
 ///
 /// A section is the set of states where one column passes zero upwards: the sign is seen at the nodes, the
 /// place is found on the curve, to round-off of tau. An event that passes zero twice within one step is not

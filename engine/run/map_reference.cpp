@@ -9,8 +9,8 @@
 
 namespace extremal {
 
-MapReference::MapReference(const Scene& scene, const System& system, const State& initial, const std::vector<double>& steps,
-                           const std::stop_token& stop) {
+MapReference::MapReference(const Scene& scene, const System& system, const State& initial,
+                           const std::vector<double>& steps, const std::stop_token& stop) {
     constexpr double mostNumbers = 2e7;
     double nodes = 0;
     for (const double step : steps) nodes += (scene.end.value - scene.start.value) / step + 1;
@@ -21,11 +21,12 @@ MapReference::MapReference(const Scene& scene, const System& system, const State
         return;
     }
     reference_ = makeReference(scene, system, initial, stop);
-    if (reference_.make && reference_.info.type != "exact" && isSmall) askSolution(scene, initial, steps, stop);
+    if (reference_.make && reference_.info.type != "exact" && isSmall)
+        askSolution(scene, initial, steps, stop);
 }
 
-void MapReference::runScheme(const Scene& scene, const System& system, const State& initial, const std::vector<double>& steps,
-                             const std::stop_token& stop) {
+void MapReference::runScheme(const Scene& scene, const System& system, const State& initial,
+                             const std::vector<double>& steps, const std::stop_token& stop) {
     const SchemeSpec& spec = scene.reference.scheme.front();
     for (const double step : steps) {
         if (stop.stop_requested()) return;
@@ -38,7 +39,8 @@ void MapReference::runScheme(const Scene& scene, const System& system, const Sta
         integrator->setStop(stop);
         bool isKnown = true;
         for (std::size_t k = 1; k < nodes && isKnown; ++k) {
-            for (double i = 0; i < parts && isKnown; ++i) isKnown = integrator->advance(state).outcome == Outcome::converged;
+            for (double i = 0; i < parts && isKnown; ++i)
+                isKnown = integrator->advance(state).outcome == Outcome::converged;
             table->states.insert(table->states.end(), state.x.begin(), state.x.end());
         }
         if (!isKnown) table->states.assign(nodes * width, std::numeric_limits<double>::quiet_NaN());
@@ -56,9 +58,11 @@ void MapReference::askSolution(const Scene& scene, const State& initial, const s
     const std::size_t width = initial.x.size();
     for (const double step : steps) {
         const auto count = static_cast<std::size_t>(stepCount(scene.start.value, scene.end.value, step)) + 1;
-        auto table = std::make_shared<Table>(Table{initial.t, step, width, std::vector<double>(count * width)});
+        auto table =
+            std::make_shared<Table>(Table{initial.t, step, width, std::vector<double>(count * width)});
         for (std::size_t k = 0; k < count; ++k)
-            all.push_back({Clock{initial.t, step}.at(static_cast<long long>(k)), table->states.data() + k * width});
+            all.push_back(
+                {Clock{initial.t, step}.at(static_cast<long long>(k)), table->states.data() + k * width});
         tables_.push_back(std::move(table));
     }
     std::stable_sort(all.begin(), all.end(), [](const Node& a, const Node& b) { return a.t < b.t; });

@@ -1,9 +1,9 @@
-/// The reference of a column of a map: computed once, at the nodes of every step of the grid, and then looked up by every
-/// scheme. An exact solution is asked directly.
+/// The reference of a column of a map: computed once, at the nodes of every step of the grid, and then looked
+/// up by every scheme. An exact solution is asked directly.
 ///
-/// A scheme as the reference runs once for every step h of the grid, with h/n, n the least that is not above its own step:
-/// its nodes are then those of the run. (Between its nodes a variational scheme is worse than at them, and a fine error
-/// would show that.) Where it fails, nothing is known of the whole row.
+/// A scheme as the reference runs once for every step h of the grid, with h/n, n the least that is not above
+/// its own step: its nodes are then those of the run. (Between its nodes a variational scheme is worse than
+/// at them, and a fine error would show that.) Where it fails, nothing is known of the whole row.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ class MapReference {
 public:
     MapReference() = default;
     /// Throws InvalidScene for a file that cannot be used.
-    MapReference(const Scene& scene, const System& system, const State& initial, const std::vector<double>& steps,
-                 const std::stop_token& stop);
+    MapReference(const Scene& scene, const System& system, const State& initial,
+                 const std::vector<double>& steps, const std::stop_token& stop);
 
     /// For a run with the step of this row; empty where there is no reference.
     ExactSolution at(std::size_t row) const;
@@ -30,9 +30,10 @@ private:
         std::size_t width;
         std::vector<double> states;  ///< node after node
     };
-    void runScheme(const Scene& scene, const System& system, const State& initial, const std::vector<double>& steps,
-                   const std::stop_token& stop);
-    void askSolution(const Scene& scene, const State& initial, const std::vector<double>& steps, const std::stop_token& stop);
+    void runScheme(const Scene& scene, const System& system, const State& initial,
+                   const std::vector<double>& steps, const std::stop_token& stop);
+    void askSolution(const Scene& scene, const State& initial, const std::vector<double>& steps,
+                     const std::stop_token& stop);
 
     Reference reference_;
     std::vector<std::shared_ptr<const Table>> tables_;  ///< empty: the reference is asked itself

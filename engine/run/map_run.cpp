@@ -59,10 +59,12 @@ Value columnDocument(const Scene& scene, const MapGrid& grid, double value) {
     document.set("schemes", mapped);
     document.set("views", Value::Array{});
     document.set("observe", Value::Array{});
-    document.set("time", Value(Value::Object{{"start", scene.start.value}, {"end", scene.start.value + grid.duration}}));
+    document.set("time", Value(Value::Object{{"start", scene.start.value},
+                                             {"end", scene.start.value + grid.duration}}));
     auto& members = document.asObject();
     std::erase_if(members, [](const Value::Member& m) {
-        return m.first == "output" || m.first == "title" || m.first == "source" || m.first == "lesson" || m.first == "notes";
+        return m.first == "output" || m.first == "title" || m.first == "source" || m.first == "lesson" ||
+               m.first == "notes";
     });
     return document;
 }
@@ -92,8 +94,13 @@ struct MapColumn {
     const std::stop_token& stop;
     MapReference reference;
 
-    MapColumn(const Scene& scene_, const MapGrid& grid_, const ObservableEntry& observable_, const std::stop_token& stop_)
-        : scene(scene_), grid(grid_), observable(observable_), system(makeSystem(scene)), initial(initialState(scene, system)),
+    MapColumn(const Scene& scene_, const MapGrid& grid_, const ObservableEntry& observable_,
+              const std::stop_token& stop_)
+        : scene(scene_),
+          grid(grid_),
+          observable(observable_),
+          system(makeSystem(scene)),
+          initial(initialState(scene, system)),
           stop(stop_) {
         if (observable.needsReference) reference = MapReference(scene, system, initial, grid.steps, stop);
     }
@@ -112,7 +119,8 @@ struct MapColumn {
         const auto integrator = makeScheme(system, spec, step, start, scene.end.value);
         integrator->setStop(stop);
         const auto pair = pairOf(spec);
-        const Observer observer = observable.bind({system, start, reference.at(row), pair ? &*pair : nullptr, step});
+        const Observer observer =
+            observable.bind({system, start, reference.at(row), pair ? &*pair : nullptr, step});
         const auto found = std::find_if(observer.columns.begin(), observer.columns.end(),
                                         [&](const Column& c) { return c.name == grid.column; });
         if (found == observer.columns.end()) return {MapCell::End::refused};
@@ -140,7 +148,8 @@ struct MapColumn {
         while (state.node < steps && result.end == MapCell::End::done) {
             if (stop.stop_requested()) return {};
             nodes.clear();
-            const auto left = static_cast<std::size_t>(std::min<long long>(steps - state.node, static_cast<long long>(block)));
+            const auto left = static_cast<std::size_t>(
+                std::min<long long>(steps - state.node, static_cast<long long>(block)));
             Outcome outcome = Outcome::converged;
             while (nodes.size() < left && outcome == Outcome::converged)
                 outcome = integrator->advanceBlock(state, nodes, left - nodes.size()).outcome;
@@ -172,7 +181,8 @@ MapRun::MapRun(const Scene& scene) : scene_(scene) {
         const MapGrid grid = mapGridOf(scene, view);
         const std::size_t first = maps_.size();
         for (const std::size_t i : mappedSchemes(scene))
-            maps_.push_back({v, scene.schemes[i].label, static_cast<int>(i), grid, std::vector<std::string>(grid.values.size()),
+            maps_.push_back({v, scene.schemes[i].label, static_cast<int>(i), grid,
+                             std::vector<std::string>(grid.values.size()),
                              Cells(grid.values.size() * grid.steps.size())});
         if (maps_.size() == first) continue;
         for (std::size_t c = 0; c < grid.values.size(); ++c) tasks_.push_back({first, c});
@@ -187,7 +197,8 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
     const std::size_t rows = grid.steps.size(), schemes = mappedSchemes(scene_).size();
     const auto publish = [&, c = column](std::size_t s, const Cells& cells) {
         const std::lock_guard lock(mutex_);
-        std::copy(cells.begin(), cells.end(), maps_[first + s].cells.begin() + static_cast<std::ptrdiff_t>(c * rows));
+        std::copy(cells.begin(), cells.end(),
+                  maps_[first + s].cells.begin() + static_cast<std::ptrdiff_t>(c * rows));
         for (const MapCell& cell : cells) done_ += cell.end != MapCell::End::waiting;
     };
     const Value document = columnDocument(scene_, grid, grid.values[column]);
@@ -206,16 +217,19 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
         for (const std::size_t s : unknown) publish(s, Cells(rows, MapCell{MapCell::End::refused}));
         const std::lock_guard lock(mutex_);
         for (std::size_t s = 0; s < schemes && !read.errors.empty(); ++s)
-            maps_[first + s].problems[column] = read.errors.front().pointer + " " + read.errors.front().message;
+            maps_[first + s].problems[column] =
+                read.errors.front().pointer + " " + read.errors.front().message;
         return;
     }
     const MapColumn computed(read.scene, grid, *observable, stop);
     for (const std::size_t s : unknown) {
         Cells cells(rows);
-        for (std::size_t r = 0; r < rows && !stop.stop_requested(); ++r) cells[r] = computed.cell(read.scene.schemes[s], r);
-        const bool isWhole =
-            std::none_of(cells.begin(), cells.end(), [](const MapCell& c) { return c.end == MapCell::End::waiting; });
-        if (isWhole && scene_.reference.kind != ReferenceSpec::Kind::file) mapMemory().keep(keyOf(document, grid, s), cells);
+        for (std::size_t r = 0; r < rows && !stop.stop_requested(); ++r)
+            cells[r] = computed.cell(read.scene.schemes[s], r);
+        const bool isWhole = std::none_of(cells.begin(), cells.end(),
+                                          [](const MapCell& c) { return c.end == MapCell::End::waiting; });
+        if (isWhole && scene_.reference.kind != ReferenceSpec::Kind::file)
+            mapMemory().keep(keyOf(document, grid, s), cells);
         publish(s, cells);
     }
 }

@@ -24,11 +24,16 @@ struct MapCell {
 /// "done", "blow-up", "refused", or the cause of a failure; "stopped" of one that has not been computed.
 constexpr std::string_view name(const MapCell& cell) {
     switch (cell.end) {
-        case MapCell::End::waiting: return "stopped";
-        case MapCell::End::done: return "done";
-        case MapCell::End::blownUp: return "blow-up";
-        case MapCell::End::failed: return extremal::name(cell.cause);
-        case MapCell::End::refused: return "refused";
+        case MapCell::End::waiting:
+            return "stopped";
+        case MapCell::End::done:
+            return "done";
+        case MapCell::End::blownUp:
+            return "blow-up";
+        case MapCell::End::failed:
+            return extremal::name(cell.cause);
+        case MapCell::End::refused:
+            return "refused";
     }
     return "";
 }
@@ -39,7 +44,8 @@ struct ParameterMap {
     std::string scheme;    ///< its label
     int style = 0;
     MapGrid grid;
-    std::vector<std::string> problems;  ///< of each value of the parameter: why it makes no valid scene, else empty
+    std::vector<std::string>
+        problems;                ///< of each value of the parameter: why it makes no valid scene, else empty
     std::vector<MapCell> cells;  ///< of value i and step j at i * steps + j
 
     const MapCell& at(std::size_t i, std::size_t j) const { return cells[i * grid.steps.size() + j]; }

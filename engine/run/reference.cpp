@@ -22,7 +22,8 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Runs an integrator alongside, as far as it is asked, and answers from its curve. Going back in time starts anew.
+/// Runs an integrator alongside, as far as it is asked, and answers from its curve. Going back in time starts
+/// anew.
 class Marching {
 public:
     Marching(std::function<std::unique_ptr<Integrator>()> make, State initial)
@@ -57,17 +58,19 @@ private:
     bool hasFailed_ = false;
 };
 
-std::function<ExactSolution()> marching(std::function<std::unique_ptr<Integrator>()> make, const State& initial) {
+std::function<ExactSolution()> marching(std::function<std::unique_ptr<Integrator>()> make,
+                                        const State& initial) {
     return [make = std::move(make), initial]() -> ExactSolution {
         const auto march = std::make_shared<Marching>(make, initial);
         return [march](double t, std::span<double> x) { (*march)(t, x); };
     };
 }
 
-/// Largest distance of two solutions at times spread over the run; infinity where one is not known. Inside a step a wave
-/// function is not read off but made anew: of wave functions at nodes alone, which both have if b has steps of `step`.
-double distance(const ExactSolution& a, const ExactSolution& b, double step, const Scene& scene, const System& system,
-                const State& initial, const std::stop_token& stop) {
+/// Largest distance of two solutions at times spread over the run; infinity where one is not known. Inside a
+/// step a wave function is not read off but made anew: of wave functions at nodes alone, which both have if b
+/// has steps of `step`.
+double distance(const ExactSolution& a, const ExactSolution& b, double step, const Scene& scene,
+                const System& system, const State& initial, const std::stop_token& stop) {
     constexpr int most = 997;  // a prime: not in step with the nodes of either
     const double length = scene.end.value - scene.start.value;
     const ErrorMeasure measure = errorMeasure(system, initial);
@@ -76,18 +79,21 @@ double distance(const ExactSolution& a, const ExactSolution& b, double step, con
     std::vector<double> x(initial.x.size()), y(x), values(measure.columns.size());
     double worst = 0;
     for (int i = 1; i <= samples && !stop.stop_requested(); ++i) {
-        const double t = system.hasWave() ? Clock{initial.t, step}.at(nodes * i / samples) : scene.start.value + length * i / samples;
+        const double t = system.hasWave() ? Clock{initial.t, step}.at(nodes * i / samples)
+                                          : scene.start.value + length * i / samples;
         a(t, x);
         b(t, y);
         measure.evaluate(x.data(), y.data(), values.data());
-        worst = std::max(worst, std::isfinite(values[0]) ? values[0] : std::numeric_limits<double>::infinity());
+        worst =
+            std::max(worst, std::isfinite(values[0]) ? values[0] : std::numeric_limits<double>::infinity());
     }
     return worst;
 }
 
-/// Wave functions without eigenstates on a rectangle: Chebyshev's series, whose error is the round-off of its products with H.
-/// Refining steps of an implicit scheme to that would take tens of times as long.
-Reference bySeries(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
+/// Wave functions without eigenstates on a rectangle: Chebyshev's series, whose error is the round-off of its
+/// products with H. Refining steps of an implicit scheme to that would take tens of times as long.
+Reference bySeries(const Scene& scene, const System& system, const State& initial,
+                   const std::stop_token& stop) {
     const double length = scene.end.value - scene.start.value;
     const Hamiltonian& h = *system.wave;
     const double products = length * (h.highest() - h.lowest()) / (2 * h.hbar());
@@ -106,8 +112,10 @@ Reference bySeries(const Scene& scene, const System& system, const State& initia
     return reference;
 }
 
-Reference computed(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
-    if (system.hasWave() && system.wave->isPlane() && !system.wave->isTimeDependent()) return bySeries(scene, system, initial, stop);
+Reference computed(const Scene& scene, const System& system, const State& initial,
+                   const std::stop_token& stop) {
+    if (system.hasWave() && system.wave->isPlane() && !system.wave->isTimeDependent())
+        return bySeries(scene, system, initial, stop);
     constexpr double maxSteps = 2e6;
     const Discretization pair = trustedPair(system);
     auto solution = [&](double step) {
@@ -143,7 +151,8 @@ Reference computed(const Scene& scene, const System& system, const State& initia
     return best;
 }
 
-Reference fromScheme(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
+Reference fromScheme(const Scene& scene, const System& system, const State& initial,
+                     const std::stop_token& stop) {
     const SchemeSpec spec = scene.reference.scheme.front();
     // An adaptive code must not be stopped at the very end of the others by round-off.
     const double end = scene.end.value + 1e-6 * (scene.end.value - scene.start.value);
@@ -171,7 +180,8 @@ Reference fromFile(const Scene& scene, const System& system) {
     std::ifstream in(scene.reference.path);
     std::string line;
     if (!in || !std::getline(in, line))
-        throw InvalidScene("/reference/path", "cannot read \"" + scene.reference.path + "\"", "a CSV with t and the state");
+        throw InvalidScene("/reference/path", "cannot read \"" + scene.reference.path + "\"",
+                           "a CSV with t and the state");
     std::vector<std::string> header;
     std::istringstream cells(line);
     for (std::string cell; std::getline(cells, cell, ',');) {
@@ -182,7 +192,8 @@ Reference fromFile(const Scene& scene, const System& system) {
     auto find = [&](const std::string& name) {
         const auto it = std::find(header.begin(), header.end(), name);
         if (it == header.end())
-            throw InvalidScene("/reference/path", "\"" + scene.reference.path + "\" has no column \"" + name + "\"",
+            throw InvalidScene("/reference/path",
+                               "\"" + scene.reference.path + "\" has no column \"" + name + "\"",
                                "a CSV with t and the state columns");
         return static_cast<std::size_t>(it - header.begin());
     };
@@ -218,7 +229,8 @@ Reference fromFile(const Scene& scene, const System& system) {
 
 }  // namespace
 
-Reference makeReference(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop) {
+Reference makeReference(const Scene& scene, const System& system, const State& initial,
+                        const std::stop_token& stop) {
     using Kind = ReferenceSpec::Kind;
     const Kind kind = scene.reference.kind;
     if (kind == Kind::none) return {};
@@ -232,14 +244,16 @@ Reference makeReference(const Scene& scene, const System& system, const State& i
             // An angle that grows by w t cannot be known better than to round-off of w t.
             const bool turnsInPhase = system.hasBody() || system.hasWave();
             const double turns = turnsInPhase ? 0.25 * highestFrequency(system, initial) *
-                                                        (scene.end.value - scene.start.value) : 0;
+                                                    (scene.end.value - scene.start.value)
+                                              : 0;
             reference.info = {"exact", 2e-15 * std::max(turnsInPhase ? 1.0 : scale, turns), "exact solution"};
             reference.make = [exact = system.exact, initial] { return exact(initial); };
             return reference;
         }
     }
     if (kind == Kind::exact)
-        throw InvalidScene("/reference", "no exact solution is known from these initial data", "use \"auto\"");
+        throw InvalidScene("/reference", "no exact solution is known from these initial data",
+                           "use \"auto\"");
     return computed(scene, system, initial, stop);
 }
 

@@ -1,7 +1,8 @@
 /// The solution that errors are measured against, and how good it is itself.
 ///
-/// exact: the model's own; computed: Gauss collocation of degree 12 at a step refined until two of them agree, evaluated
-/// on its own curve (dense); scheme: a scheme of the user's choice; file: rows of a CSV, known only at their times.
+/// exact: the model's own; computed: Gauss collocation of degree 12 at a step refined until two of them
+/// agree, evaluated on its own curve (dense); scheme: a scheme of the user's choice; file: rows of a CSV,
+/// known only at their times.
 #pragma once
 
 #include <functional>
@@ -14,13 +15,14 @@ namespace extremal {
 
 struct Reference {
     ReferenceInfo info;
-    /// Makes a solution for one run: each keeps its own place in time. Empty where there is no reference. At times it
-    /// does not know it gives NaN.
+    /// Makes a solution for one run: each keeps its own place in time. Empty where there is no reference. At
+    /// times it does not know it gives NaN.
     std::function<ExactSolution()> make;
 };
 
-/// Prepares the reference a scene asks for. Takes time for computed ones; gives up with kind none when stopped.
-/// Throws InvalidScene for a file that cannot be used.
-Reference makeReference(const Scene& scene, const System& system, const State& initial, const std::stop_token& stop);
+/// Prepares the reference a scene asks for. Takes time for computed ones; gives up with kind none when
+/// stopped. Throws InvalidScene for a file that cannot be used.
+Reference makeReference(const Scene& scene, const System& system, const State& initial,
+                        const std::stop_token& stop);
 
 }  // namespace extremal

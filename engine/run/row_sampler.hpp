@@ -1,5 +1,5 @@
-/// Which nodes become rows: with output.every = E the first node at or after each multiple of E, else every m-th node
-/// with the smallest m that gives at most 2,000 rows; always the first and the last node reached.
+/// Which nodes become rows: with output.every = E the first node at or after each multiple of E, else every
+/// m-th node with the smallest m that gives at most 2,000 rows; always the first and the last node reached.
 #pragma once
 
 #include <algorithm>

@@ -16,8 +16,8 @@
 
 namespace extremal {
 
-/// One coordinator prepares the reference, then a pool takes the schemes in turn, and after them the columns of maps: each
-/// is one task, so results do not depend on the number of threads.
+/// One coordinator prepares the reference, then a pool takes the schemes in turn, and after them the columns
+/// of maps: each is one task, so results do not depend on the number of threads.
 struct Run::Impl {
     Scene scene;
     System system;
@@ -38,7 +38,8 @@ struct Run::Impl {
             if (scene.schemes[i].isEnabled)
                 tasks.push_back(std::make_unique<SchemeRun>(scene, scene.schemes[i], static_cast<int>(i)));
         if (scene.reference.kind == ReferenceSpec::Kind::exact && (!system.exact || !system.exact(initial)))
-            throw InvalidScene("/reference", "no exact solution is known for these initial data", "use \"auto\"");
+            throw InvalidScene("/reference", "no exact solution is known for these initial data",
+                               "use \"auto\"");
     }
 
     bool needsReference() const {
@@ -66,7 +67,8 @@ struct Run::Impl {
         const std::size_t all = tasks.size() + maps.tasks();
         auto takeTasks = [&] {
             for (std::size_t i = next++; i < all; i = next++)
-                i < tasks.size() ? tasks[i]->run(system, initial, ref, exact.get(), stop) : maps.run(i - tasks.size(), stop);
+                i < tasks.size() ? tasks[i]->run(system, initial, ref, exact.get(), stop)
+                                 : maps.run(i - tasks.size(), stop);
         };
         {
             std::vector<std::jthread> pool;
@@ -85,7 +87,8 @@ Run::~Run() { stop(); }
 
 void Run::start() {
     if (impl_->coordinator.joinable()) return;
-    impl_->coordinator = std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->work(stop); });
+    impl_->coordinator =
+        std::jthread([impl = impl_.get()](const std::stop_token& stop) { impl->work(stop); });
 }
 
 void Run::stop() { impl_->coordinator.request_stop(); }

@@ -1,9 +1,11 @@
-/// A run of a scene: every enabled scheme is a task on a pool of threads; results stream out while it goes on.
+/// A run of a scene: every enabled scheme is a task on a pool of threads; results stream out while it goes
+/// on.
 ///
 ///     Comparison result = run(scene);                 // wait for everything
 ///     Run r(scene); r.start(); ... r.latest(); r.stop();   // or watch it
 ///
-/// Construction throws InvalidScene if the scene cannot be run. Memory does not grow with the number of steps.
+/// Construction throws InvalidScene if the scene cannot be run. Memory does not grow with the number of
+/// steps.
 #pragma once
 
 #include <functional>
@@ -25,12 +27,12 @@ public:
     Run& operator=(const Run&) = delete;
 
     void start();
-    void stop();                 ///< returns at once; workers end within 50 ms and keep their partial result
+    void stop();  ///< returns at once; workers end within 50 ms and keep their partial result
     void wait();
     bool isFinished() const;
     /// What there is so far, at most some 30 ms old while running; cheap, callable from any thread.
     Comparison latest() const;
-    double fraction() const;     ///< of the whole work, 0..1
+    double fraction() const;  ///< of the whole work, 0..1
 
 private:
     struct Impl;

@@ -74,8 +74,8 @@ struct SchemeRun::Pass {
     std::stop_token stop;
     double step;
     bool isAdaptiveScheme;
-    long long steps = 0;       ///< planned; 0 for adaptive schemes
-    long long maxRows = 0;     ///< adaptive: rows kept at most; more sets hasOverflown
+    long long steps = 0;    ///< planned; 0 for adaptive schemes
+    long long maxRows = 0;  ///< adaptive: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
     bool isCurveWanted = false;
     Observer curveError;  ///< measured along the curve as well, where a view shows it
@@ -91,8 +91,8 @@ struct SchemeRun::Pass {
     std::size_t stateWidth = 0;  ///< entries of the state that every row holds
 
     Pass(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
-         const Reference& reference, const std::vector<std::string>& observe, double step_, long long stride, int style,
-         std::stop_token stop_)
+         const Reference& reference, const std::vector<std::string>& observe, double step_, long long stride,
+         int style, std::stop_token stop_)
         : scene(scene_),
           spec(spec_),
           system(system_),
@@ -100,7 +100,8 @@ struct SchemeRun::Pass {
           step(step_),
           isAdaptiveScheme(isAdaptive(spec_)),
           frames(system_.field.y.empty() ? FrameKeeper::usual : FrameKeeper::large),
-          sampler(initial.t, scene_.every ? std::optional<double>(scene_.every->value) : std::nullopt, stride),
+          sampler(initial.t, scene_.every ? std::optional<double>(scene_.every->value) : std::nullopt,
+                  stride),
           initialNode(initial),
           state(initial) {
         if (!isAdaptiveScheme) steps = stepCount(scene.start.value, scene.end.value, step);
@@ -117,13 +118,14 @@ struct SchemeRun::Pass {
         bindObservers(reference, observe, initial);
     }
 
-    void bindObservers(const Reference& reference, const std::vector<std::string>& observe, const State& initial) {
+    void bindObservers(const Reference& reference, const std::vector<std::string>& observe,
+                       const State& initial) {
         const auto pair = pairOf(spec);
         for (const std::string& id : observe) {
             const ObservableEntry* entry = findObservable(id);
             if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
-            Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{}, pair ? &*pair : nullptr,
-                                 step}),
+            Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{},
+                                 pair ? &*pair : nullptr, step}),
                     result.trajectory.columns.size(), nullptr};
             if (b.observer.extreme >= 0) {
                 if (id == "energy") b.extreme = &Summary::maxEnergyError;
@@ -164,15 +166,20 @@ struct SchemeRun::Pass {
         if (system.field) keepFrame(nodes.t(i), nodes.x(i), false);
         if (system.caution && result.summary.caution.empty()) {
             result.summary.caution = system.caution(nodes.x(i));
-            if (!result.summary.caution.empty()) result.summary.caution += ", at t = " + formatNumber(nodes.t(i), 3);
+            if (!result.summary.caution.empty())
+                result.summary.caution += ", at t = " + formatNumber(nodes.t(i), 3);
         }
     }
     void keepFrame(double t, const double* x, bool isLast) {
-        frames.offer(t, isLast, [&] {
-            auto picture = std::make_shared<std::vector<double>>(system.field.places() * system.field.components.size());
-            system.field.sample(x, picture->data());
-            return picture;
-        }, result.frames);
+        frames.offer(
+            t, isLast,
+            [&] {
+                auto picture = std::make_shared<std::vector<double>>(system.field.places() *
+                                                                     system.field.components.size());
+                system.field.sample(x, picture->data());
+                return picture;
+            },
+            result.frames);
     }
     /// A row off the nodes, or at the last of them.
     void keepAlone(const State& at, const StepReport& report, double done) {
@@ -180,9 +187,7 @@ struct SchemeRun::Pass {
         look(one);
         keep(one, 0, done);
     }
-    bool isDone() const {
-        return isAdaptiveScheme ? state.t >= scene.end.value : state.node >= steps;
-    }
+    bool isDone() const { return isAdaptiveScheme ? state.t >= scene.end.value : state.node >= steps; }
     void finish(Outcome outcome) {
         Summary& s = result.summary;
         s.tEnd = state.t;
@@ -281,14 +286,16 @@ struct SchemeRun::Pass {
                 measure(nodes);
                 for (std::size_t i = 0; i < nodes.size(); ++i) {
                     count(nodes.report(i));
-                    isLastNodeRow = !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
+                    isLastNodeRow =
+                        !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
                     if (isLastNodeRow) keep(nodes, i, static_cast<double>(nodes.node(i)));
                 }
                 lastReport = nodes.report(nodes.size() - 1);
                 if (isDense) lookDense(start.t, lastReport, nextMultiple);
                 if (inside) inside->look(*integrator, start, state, lastReport);
             }
-            if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows) hasOverflown = true;
+            if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows)
+                hasOverflown = true;
             if (hasOverflown) {
                 // More nodes than can be held: count on, keep nothing; a second pass knows the stride.
                 for (Column& c : result.trajectory.columns) c.values.clear();
@@ -331,8 +338,8 @@ void SchemeRun::publish(const SchemeResult& result) {
     latest_ = std::move(copy);
 }
 
-void SchemeRun::run(const System& system, const State& initial, const Reference& reference, ExactActions* exact,
-                    const std::stop_token& stop) {
+void SchemeRun::run(const System& system, const State& initial, const Reference& reference,
+                    ExactActions* exact, const std::stop_token& stop) {
     const int style = latest()->style;
     using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
@@ -368,7 +375,8 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
             if (p.hasOverflown) {
                 result = std::move(pass(m, 0).result);
             } else if (m > 1) {
-                for (Column& c : result.trajectory.columns) c.values = thinned(c.values, static_cast<std::size_t>(m));
+                for (Column& c : result.trajectory.columns)
+                    c.values = thinned(c.values, static_cast<std::size_t>(m));
                 result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
             }
         }
@@ -393,8 +401,8 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
     }
 }
 
-/// Slope of log(max error) over log(step) from runs with h, h/2 and h/4; points at the floor of the reference or of
-/// round-off are left out.
+/// Slope of log(max error) over log(step) from runs with h, h/2 and h/4; points at the floor of the reference
+/// or of round-off are left out.
 void SchemeRun::measureOrder(SchemeResult& result, const System& system, const State& initial,
                              const Reference& reference, const std::stop_token& stop) const {
     double scale = 0;

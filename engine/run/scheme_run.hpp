@@ -1,7 +1,8 @@
 /// One scheme of a scene, run from start to end: nodes, rows, extremes, outcome.
 ///
-/// Steps go in blocks: the states of a block are taken first, under the clock of the thread, then looked at, so that
-/// cpu_seconds is the cost of the scheme alone. Every node is seen by the running extremes; only the rows are kept.
+/// Steps go in blocks: the states of a block are taken first, under the clock of the thread, then looked at,
+/// so that cpu_seconds is the cost of the scheme alone. Every node is seen by the running extremes; only the
+/// rows are kept.
 #pragma once
 
 #include <functional>
@@ -22,8 +23,8 @@ class SchemeRun {
 public:
     SchemeRun(const Scene& scene, const SchemeSpec& spec, int style);
 
-    /// Integrates; returns when done, failed or stopped. Never throws for numerical trouble. `exact`: null where no view
-    /// compares actions.
+    /// Integrates; returns when done, failed or stopped. Never throws for numerical trouble. `exact`: null
+    /// where no view compares actions.
     void run(const System& system, const State& initial, const Reference& reference, ExactActions* exact,
              const std::stop_token& stop);
 
@@ -33,8 +34,8 @@ public:
 private:
     struct Pass;
     void publish(const SchemeResult& result);
-    void measureOrder(SchemeResult& result, const System& system, const State& initial, const Reference& reference,
-                      const std::stop_token& stop) const;
+    void measureOrder(SchemeResult& result, const System& system, const State& initial,
+                      const Reference& reference, const std::stop_token& stop) const;
 
     const Scene& scene_;
     SchemeSpec spec_;

@@ -47,7 +47,8 @@ std::optional<Discretization> pairOf(const SchemeSpec& scheme) {
 
 std::optional<Discretization> innerPairOf(const SchemeSpec& scheme) {
     if (scheme.kind == SchemeSpec::Kind::pair)
-        return Discretization{scheme.space, completeQuadrature(scheme.space, scheme.quadrature), scheme.solver};
+        return Discretization{scheme.space, completeQuadrature(scheme.space, scheme.quadrature),
+                              scheme.solver};
     if (scheme.kind != SchemeSpec::Kind::named) return {};
     auto pair = namedScheme(scheme.named);
     if (pair && !scheme.solver.type.empty()) pair->solver = scheme.solver;
@@ -75,7 +76,8 @@ namespace {
 
 std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& scheme, const Clock& clock,
                                       const State& start, double end) {
-    if (const auto pair = innerPairOf(scheme)) return makeIntegrator(system, settled(*pair, system, start), clock);
+    if (const auto pair = innerPairOf(scheme))
+        return makeIntegrator(system, settled(*pair, system, start), clock);
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
     if (!entry) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
     if (!appliesTo(*entry, system)) {
@@ -96,13 +98,14 @@ std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& sc
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, const State& start,
-                                       double end) {
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step,
+                                       const State& start, double end) {
     const Clock clock{start.t, step};
     if (scheme.composition.type.empty()) return makeInner(system, scheme, clock, start, end);
-    return composed(
-        compositionParts(scheme.composition, innerClaimsOf(scheme).order), clock,
-        [system, scheme, start, end](const Clock& part) { return makeInner(system, scheme, part, start, end); });
+    return composed(compositionParts(scheme.composition, innerClaimsOf(scheme).order), clock,
+                    [system, scheme, start, end](const Clock& part) {
+                        return makeInner(system, scheme, part, start, end);
+                    });
 }
 
 double stabilityLimitOf(const SchemeSpec& scheme) {

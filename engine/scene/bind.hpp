@@ -13,8 +13,8 @@ namespace extremal {
 
 System makeSystem(const Scene& scene);
 
-/// The state at the start; velocities are turned into momenta, p = L_v(t, q, v), and two positions into the momentum of
-/// the exact motion between them. Schemes start from schemeStart (scene/two_positions.hpp).
+/// The state at the start; velocities are turned into momenta, p = L_v(t, q, v), and two positions into the
+/// momentum of the exact motion between them. Schemes start from schemeStart (scene/two_positions.hpp).
 State initialState(const Scene& scene, const System& system);
 
 /// The pair that a scheme stands for; none for baselines and compositions.
@@ -33,8 +33,8 @@ double stabilityLimitOf(const SchemeSpec& scheme);
 bool isAdaptive(const SchemeSpec& scheme);
 
 /// The integrator of a scheme with the given step, from a state to `end`. Throws InvalidScene.
-std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step, const State& start,
-                                       double end);
+std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step,
+                                       const State& start, double end);
 
 /// Number of whole steps from start to the last node not after end + 1e-9 step.
 long long stepCount(double start, double end, double step);

@@ -59,24 +59,30 @@ void checkStability(Reader& reader, const System& system, const Scene& scene, co
                    "a smaller step, or another scheme");
 }
 
-/// Three-level schemes of wave functions: known exactly, so a step beyond the limit is not a doubt but an error.
+/// Three-level schemes of wave functions: known exactly, so a step beyond the limit is not a doubt but an
+/// error.
 void checkWaveStep(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-                   const std::optional<Discretization>& pair, double stabilityLimit, const std::string& pointer) {
+                   const std::optional<Discretization>& pair, double stabilityLimit,
+                   const std::string& pointer) {
     // Split-step is unitary: the limit of a splitting is that of mechanics.
     const BaselineEntry* baseline = findBaseline(scheme.baseline.type);
-    if (baseline && claimsOf(*baseline, scheme.baseline).conserves != std::vector<std::string>{"bilinear form"}) return;
+    if (baseline &&
+        claimsOf(*baseline, scheme.baseline).conserves != std::vector<std::string>{"bilinear form"})
+        return;
     if (std::isinf(stabilityLimit) || !(stabilityLimit > 0)) return;
     const Settings unshifted{"fourier", {{"energy_shift", 0.0}}, {}};
-    const double frequency = waveFrequency(system, pair ? pair->space : unshifted, initialState(scene, system));
+    const double frequency =
+        waveFrequency(system, pair ? pair->space : unshifted, initialState(scene, system));
     const double h = scheme.step.value, limit = stabilityLimit / frequency;
     if (!(h > limit)) return;
     const std::string message = formatNumber(h) + " is beyond the stability limit " + formatNumber(limit, 6) +
-                                ": the largest energy turns by " + formatNumber(h * frequency, 4) + " a step, the limit is " +
-                                formatNumber(stabilityLimit, 4);
+                                ": the largest energy turns by " + formatNumber(h * frequency, 4) +
+                                " a step, the limit is " + formatNumber(stabilityLimit, 4);
     if (scheme.allowsUnstable)
         reader.warning(pointer + "/step", message);
     else
-        reader.error(pointer + "/step", message, "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true");
+        reader.error(pointer + "/step", message,
+                     "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true");
 }
 
 /// A rule with fewer nodes than it would have by itself, which costs the pair its order.
@@ -99,18 +105,22 @@ void checkResonance(Reader& reader, const System& system, const Scene& scene, co
     const auto found = resonanceOf(system, settled(pair, system, initialState(scene, system)), h);
     if (!found) return;
     reader.warning(pointer + "/step",
-                   formatNumber(h) + " may be near a resonance of the space: it has " + formatNumber(2 * found->periods, 6) +
-                       " half periods of the fast motion, and only a fractional part from 0.1 to 0.5 is safe; conditioning of "
-                       "the step " + formatNumber(found->conditioning, 2) + ", at the next safe one " +
+                   formatNumber(h) + " may be near a resonance of the space: it has " +
+                       formatNumber(2 * found->periods, 6) +
+                       " half periods of the fast motion, and only a fractional part from 0.1 to 0.5 is "
+                       "safe; conditioning of "
+                       "the step " +
+                       formatNumber(found->conditioning, 2) + ", at the next safe one " +
                        formatNumber(found->usual, 2),
                    "the step " + formatNumber(found->near), found->near);
 }
 
-/// Steps of a body that turn it so far that the attitude may lose a thousandth of what it turns. Measured over 60 rad on
-/// free bodies and a top with Gauss(s): 1e-3 is reached between 1.25 and 1.5 at degree 2, 2.25 and 2.5 at 3, 3 and 3.5 at 4.
-/// Newton's method goes on finding solutions up to about 4. A symmetric scheme takes two half steps.
-void checkTurn(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme, const Discretization& pair,
-               const std::string& pointer) {
+/// Steps of a body that turn it so far that the attitude may lose a thousandth of what it turns. Measured
+/// over 60 rad on free bodies and a top with Gauss(s): 1e-3 is reached between 1.25 and 1.5 at degree 2, 2.25
+/// and 2.5 at 3, 3 and 3.5 at 4. Newton's method goes on finding solutions up to about 4. A symmetric scheme
+/// takes two half steps.
+void checkTurn(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+               const Discretization& pair, const std::string& pointer) {
     constexpr double farthest[] = {1.25, 2.25, 3};  // of degrees 2, 3, 4
     if (!system.hasBody() || pair.space.type != "lie-polynomial" || !scheme.composition.type.empty()) return;
     const int degree = pair.space.integer("degree");
@@ -123,8 +133,9 @@ void checkTurn(Reader& reader, const System& system, const Scene& scene, const S
     const double perUnit = std::pow(10, 1 - std::floor(std::log10(limit / rate)));  // two digits
     const double usual = std::floor(limit / rate * perUnit) / perUnit;
     reader.warning(pointer + "/step",
-                   formatNumber(h) + " turns the body by " + formatNumber(h * rate, 3) + " rad a step, at the start: beyond " +
-                       formatNumber(limit, 3) + " rad a scheme of degree " + std::to_string(degree) +
+                   formatNumber(h) + " turns the body by " + formatNumber(h * rate, 3) +
+                       " rad a step, at the start: beyond " + formatNumber(limit, 3) +
+                       " rad a scheme of degree " + std::to_string(degree) +
                        " may lose a thousandth of what the body turns, or more",
                    "a higher degree, or the step " + formatNumber(usual, 2), usual);
 }
@@ -154,8 +165,8 @@ std::string durationText(double seconds) {
     return formatNumber(seconds / 86400, 2) + " days";
 }
 
-/// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds, but those of
-/// large wave functions.
+/// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds,
+/// but those of large wave functions.
 void checkCost(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                const std::string& pointer) {
     constexpr double longest = 60;

@@ -1,4 +1,5 @@
-/// Scene files: reading with every error named, and writing. The format is documented in the handbook ("Scenes").
+/// Scene files: reading with every error named, and writing. The format is documented in the handbook
+/// ("Scenes").
 #pragma once
 
 #include <string>
@@ -37,8 +38,8 @@ inline ReadScene readScene(const std::string& json, const std::vector<Override>&
 ReadScene readScene(const Value& document, const std::vector<Override>& overrides = {},
                     const std::string& directory = ".");
 
-/// The scene with every default filled in, as JSON text ending in a newline: reading and writing it again gives
-/// the same bytes.
+/// The scene with every default filled in, as JSON text ending in a newline: reading and writing it again
+/// gives the same bytes.
 std::string writeScene(const Scene& scene);
 Value toValue(const Scene& scene);
 

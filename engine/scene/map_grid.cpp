@@ -14,7 +14,8 @@ namespace {
 
 double roundedTo(double x, int digits) {
     char buffer[40];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::scientific, digits - 1);
+    const auto end =
+        std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::scientific, digits - 1);
     double rounded = x;
     std::from_chars(buffer, end.ptr, rounded);
     return rounded;
@@ -25,7 +26,8 @@ std::vector<double> equalRatios(double from, double to, int count) {
     const double each = std::log(to / from) / (count - 1);
     const int digits = each > 0 ? std::clamp(3 + static_cast<int>(std::ceil(-std::log10(each))), 3, 15) : 15;
     std::vector<double> all;
-    for (int i = 0; i < count; ++i) all.push_back(i == 0 ? from : i + 1 == count ? to : roundedTo(from * std::exp(i * each), digits));
+    for (int i = 0; i < count; ++i)
+        all.push_back(i == 0 ? from : i + 1 == count ? to : roundedTo(from * std::exp(i * each), digits));
     return all;
 }
 
@@ -38,22 +40,29 @@ FieldInfo optional(FieldInfo field) {
 
 const std::vector<FieldInfo>& mapFields() {
     static const std::vector<FieldInfo> all = [] {
-        FieldInfo parameter = optional(textField("parameter", "", {}, "The number of the model that varies; by default the one "
+        FieldInfo parameter = optional(textField("parameter", "", {},
+                                                 "The number of the model that varies; by default the one "
                                                  "that makes its fast oscillation faster."));
-        FieldInfo from = optional(positive("from", "from", "", 0, "Its least value, by default a thousandth of the model's."));
-        FieldInfo to = optional(positive("to", "to", "", 0, "Its largest value, by default a thousand times the model's."));
+        FieldInfo from = optional(
+            positive("from", "from", "", 0, "Its least value, by default a thousandth of the model's."));
+        FieldInfo to = optional(
+            positive("to", "to", "", 0, "Its largest value, by default a thousand times the model's."));
         from.fallback = to.fallback = {};
-        FieldInfo steps = optional(numbers("steps", "steps", "", {"smallest", "largest"}, {},
-                                           "The range of the step, by default a decade beyond those of the schemes."));
+        FieldInfo steps =
+            optional(numbers("steps", "steps", "", {"smallest", "largest"}, {},
+                             "The range of the step, by default a decade beyond those of the schemes."));
         steps.min = 0;
         steps.isMinExcluded = true;
-        FieldInfo cells = numbers("cells", "cells", "", {"columns", "rows"}, Value::Array{25, 20}, "Values and steps, in equal ratios.");
+        FieldInfo cells = numbers("cells", "cells", "", {"columns", "rows"}, Value::Array{25, 20},
+                                  "Values and steps, in equal ratios.");
         cells.min = 2;
         cells.max = 400;
-        FieldInfo duration = optional(positive("duration", "duration", "", 0, "How long each case runs, by default the "
+        FieldInfo duration = optional(positive("duration", "duration", "", 0,
+                                               "How long each case runs, by default the "
                                                "scene's time, or less where that were many steps."));
         duration.fallback = {};
-        FieldInfo value = textField("value", "", "energy_error", "The column of an observable whose largest size is shown.");
+        FieldInfo value = textField("value", "", "energy_error",
+                                    "The column of an observable whose largest size is shown.");
         return std::vector<FieldInfo>{parameter, from, to, steps, cells, duration, value};
     }();
     return all;
@@ -68,7 +77,8 @@ MapGrid mapGridOf(const Scene& scene, const View& view) {
         if (p.name == grid.parameter) grid.pointer = p.pointer;
     const auto cells = view.keys.numbers("cells"), steps = view.keys.numbers("steps");
     if (cells.size() == 2 && steps.size() == 2) {
-        grid.values = equalRatios(view.keys.number("from"), view.keys.number("to"), static_cast<int>(cells[0]));
+        grid.values =
+            equalRatios(view.keys.number("from"), view.keys.number("to"), static_cast<int>(cells[0]));
         grid.steps = equalRatios(steps[0], steps[1], static_cast<int>(cells[1]));
     }
     return grid;
@@ -83,12 +93,13 @@ std::vector<ModelParameter> parametersOf(const Scene& scene) {
         if (!value) continue;
         const std::string pointer = childPointer("/model", field.key);
         if (field.type == FieldType::number && value->isNumber())
-            all.push_back({field.key, pointer, field.symbol.empty() ? field.key : field.symbol, field.unit, value->asNumber(),
-                           field.min, field.max});
+            all.push_back({field.key, pointer, field.symbol.empty() ? field.key : field.symbol, field.unit,
+                           value->asNumber(), field.min, field.max});
         if (field.type != FieldType::constants || !value->isObject()) continue;
         constexpr double any = std::numeric_limits<double>::infinity();
         for (const auto& [name, number] : value->asObject())
-            if (number.isNumber()) all.push_back({name, childPointer(pointer, name), name, "", number.asNumber(), -any, any});
+            if (number.isNumber())
+                all.push_back({name, childPointer(pointer, name), name, "", number.asNumber(), -any, any});
     }
     return all;
 }

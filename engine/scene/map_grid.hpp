@@ -2,9 +2,10 @@
 ///
 ///     value_i = from (to/from)^(i/(columns - 1)),   step_j likewise,
 ///
-/// rounded to a few digits more than their spacing needs, so that a case can be written down. What a view leaves out
-/// follows from the scene: the parameter that makes the fast oscillation of the system faster (else the first number of
-/// the model), three decades to either side of it, and one to either side of the steps of the schemes.
+/// rounded to a few digits more than their spacing needs, so that a case can be written down. What a view
+/// leaves out follows from the scene: the parameter that makes the fast oscillation of the system faster
+/// (else the first number of the model), three decades to either side of it, and one to either side of the
+/// steps of the schemes.
 #pragma once
 
 #include <string>
@@ -22,9 +23,9 @@ inline constexpr const char* mapView = "parameter-map";
 const std::vector<FieldInfo>& mapFields();
 
 struct MapGrid {
-    std::string parameter;      ///< "k"
-    std::string pointer;        ///< where it stands in the document: "/model/k"
-    std::string column;         ///< of an observable, its largest size is shown: "energy_error"
+    std::string parameter;  ///< "k"
+    std::string pointer;    ///< where it stands in the document: "/model/k"
+    std::string column;     ///< of an observable, its largest size is shown: "energy_error"
     std::vector<double> values, steps;
     double duration = 0;
     bool operator==(const MapGrid&) const = default;

@@ -58,7 +58,8 @@ std::vector<Number> literals(const std::vector<double>& values) {
 }
 
 /// Keys of the model's own; the system says what is wrong with them together.
-void readGiven(Reader& reader, const Value* initial, const System& system, const ModelEntry& entry, Initial& result) {
+void readGiven(Reader& reader, const Value* initial, const System& system, const ModelEntry& entry,
+               Initial& result) {
     Reader quiet;
     readFields(quiet, entry.exampleInitial, "/initial", entry.initial, {}, result.given);
     if (!initial && entry.initial.empty()) return;  // nothing to say
@@ -107,7 +108,8 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
         if (initial->find(key)) given.emplace_back(key);
     if (given.size() > 1)
         reader.error("/initial", "has " + std::string(given.size() == 2 ? "both " : "") + joinNames(given),
-                     q1 ? "give the momentum, the velocity or the second position" : "give the momentum or the velocity");
+                     q1 ? "give the momentum, the velocity or the second position"
+                        : "give the momentum or the velocity");
     if (at && !q1)
         reader.error("/initial/at", "stands without q1", "q1 is the position that much after the start");
     if (q || p || v) result.pOrV.assign(system.coordinates.size(), Number{});
@@ -137,7 +139,8 @@ void readStart(Reader& reader, const System& system, Scene& scene) {
                 break;
             }
         }
-        if (!initial.at) reader.error("/initial/at", "is required: no scheme has a step", "the time from q to q1");
+        if (!initial.at)
+            reader.error("/initial/at", "is required: no scheme has a step", "the time from q to q1");
     }
     try {
         if (reader.errors.empty()) exactStart(scene, system);

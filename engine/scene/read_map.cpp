@@ -15,7 +15,8 @@ namespace {
 constexpr double mostCells = 10000, mostSteps = 1e9;
 
 /// The parameter that makes the fast oscillation faster, else the first of the model.
-std::string stiffnessOf(const Scene& scene, const System& system, const std::vector<ModelParameter>& parameters) {
+std::string stiffnessOf(const Scene& scene, const System& system,
+                        const std::vector<ModelParameter>& parameters) {
     const ModelEntry* entry = findModel(scene.model.type);
     for (const ModelParameter& p : parameters) {
         if (!(system.fast.frequency > 0) || !(p.value > 0) || !(4 * p.value <= p.max)) continue;
@@ -53,7 +54,8 @@ Value completed(Value object, const Scene& scene, const System& system) {
         // A thousand of the smallest steps show what a step does, if the largest has its turn as well.
         const Value& steps = *object.find("steps");
         const auto at = [&](std::size_t i) {
-            const bool isNumber = steps.isArray() && steps.asArray().size() == 2 && steps.asArray()[i].isNumber();
+            const bool isNumber =
+                steps.isArray() && steps.asArray().size() == 2 && steps.asArray()[i].isNumber();
             return isNumber ? steps.asArray()[i].asNumber() : length;
         };
         object.set("duration", std::min(length, std::max(1000 * at(0), 20 * at(1))));
@@ -69,18 +71,22 @@ void checkParameter(Reader& reader, const std::string& pointer, const View& view
         if (p.name != name) continue;
         for (const char* key : {"from", "to"})
             if (const double x = view.keys.number(key); x < p.min || x > p.max)
-                reader.error(childPointer(pointer, key), "must be a value that the model admits for " + name + ", " +
-                                                             formatNumber(p.min) + " to " + formatNumber(p.max) + ", got " + formatNumber(x));
+                reader.error(childPointer(pointer, key), "must be a value that the model admits for " + name +
+                                                             ", " + formatNumber(p.min) + " to " +
+                                                             formatNumber(p.max) + ", got " +
+                                                             formatNumber(x));
     }
     if (std::find(names.begin(), names.end(), name) == names.end()) {
         if (names.empty())
-            reader.error(childPointer(pointer, "parameter"), "the model " + scene.model.type + " has no number to vary");
+            reader.error(childPointer(pointer, "parameter"),
+                         "the model " + scene.model.type + " has no number to vary");
         else
             reader.unknownName(childPointer(pointer, "parameter"), "parameter", name, names);
     }
     const double from = view.keys.number("from"), to = view.keys.number("to");
     if (!(from < to))
-        reader.error(childPointer(pointer, "to"), "must be above \"from\", " + formatNumber(from) + ", got " + formatNumber(to));
+        reader.error(childPointer(pointer, "to"),
+                     "must be above \"from\", " + formatNumber(from) + ", got " + formatNumber(to));
 }
 
 void checkGrid(Reader& reader, const std::string& pointer, const View& view, const Scene& scene) {
@@ -88,17 +94,21 @@ void checkGrid(Reader& reader, const std::string& pointer, const View& view, con
     const double duration = view.keys.number("duration");
     for (std::size_t i = 0; i < 2; ++i)
         if (cells[i] != std::floor(cells[i]))
-            return reader.error(childPointer(childPointer(pointer, "cells"), i), "must be an integer, got " + formatNumber(cells[i]));
+            return reader.error(childPointer(childPointer(pointer, "cells"), i),
+                                "must be an integer, got " + formatNumber(cells[i]));
     if (cells[0] * cells[1] > mostCells)
-        return reader.error(childPointer(pointer, "cells"), formatCount(cells[0]) + " times " + formatCount(cells[1]) + " are " +
-                                                                formatCount(cells[0] * cells[1]) + " cells, the limit is " +
-                                                                formatCount(mostCells));
+        return reader.error(childPointer(pointer, "cells"),
+                            formatCount(cells[0]) + " times " + formatCount(cells[1]) + " are " +
+                                formatCount(cells[0] * cells[1]) + " cells, the limit is " +
+                                formatCount(mostCells));
     if (!(steps[0] < steps[1]))
-        return reader.error(childPointer(pointer, "steps"), "must be the smallest step and a larger one, got " +
-                                                                formatNumber(steps[0]) + " and " + formatNumber(steps[1]));
+        return reader.error(childPointer(pointer, "steps"),
+                            "must be the smallest step and a larger one, got " + formatNumber(steps[0]) +
+                                " and " + formatNumber(steps[1]));
     if (steps[1] > duration * (1 + 1e-9))
-        return reader.error(childPointer(pointer, "steps"), "has a step of " + formatNumber(steps[1]) +
-                                                                ", longer than the run of a case, " + formatNumber(duration),
+        return reader.error(childPointer(pointer, "steps"),
+                            "has a step of " + formatNumber(steps[1]) + ", longer than the run of a case, " +
+                                formatNumber(duration),
                             "a larger \"duration\"");
     const auto mapped = mappedSchemes(scene);
     if (mapped.empty())
@@ -106,18 +116,21 @@ void checkGrid(Reader& reader, const std::string& pointer, const View& view, con
     double total = 0;
     for (const double step : mapGridOf(scene, view).steps) total += cells[0] * duration / step;
     if (duration / steps[0] > scene.maxSteps || total > mostSteps)
-        reader.error(childPointer(pointer, "steps"), "needs " + formatNumber(total, 3) + " steps of each scheme, the limit is " +
-                                                         formatNumber(mostSteps),
+        reader.error(childPointer(pointer, "steps"),
+                     "needs " + formatNumber(total, 3) + " steps of each scheme, the limit is " +
+                         formatNumber(mostSteps),
                      "larger steps, fewer cells, or a shorter \"duration\"");
 }
 
 /// As that of a scheme, from some trial steps of each.
-void checkMapCost(Reader& reader, const std::string& pointer, const View& view, const Scene& scene, const System& system) {
+void checkMapCost(Reader& reader, const std::string& pointer, const View& view, const Scene& scene,
+                  const System& system) {
     constexpr double longest = 60;
     if (!reader.errors.empty()) return;
     const MapGrid grid = mapGridOf(scene, view);
     double steps = 0, seconds = 0;
-    for (const double step : grid.steps) steps += static_cast<double>(grid.values.size()) * grid.duration / step;
+    for (const double step : grid.steps)
+        steps += static_cast<double>(grid.values.size()) * grid.duration / step;
     for (const std::size_t i : mappedSchemes(scene)) {
         const SchemeSpec& scheme = scene.schemes[i];
         const double own = std::max(1.0, (scene.end.value - scene.start.value) / scheme.step.value);
@@ -132,7 +145,8 @@ void checkMapCost(Reader& reader, const std::string& pointer, const View& view, 
                        "larger steps, fewer cells, or a shorter \"duration\"");
 }
 
-void checkColumn(Reader& reader, const std::string& pointer, const View& view, const Scene& scene, const System& system) {
+void checkColumn(Reader& reader, const std::string& pointer, const View& view, const Scene& scene,
+                 const System& system) {
     if (!reader.errors.empty()) return;  // the columns may need what is wrong
     const std::string name = view.keys.text("value");
     std::vector<std::string> names;
@@ -142,7 +156,8 @@ void checkColumn(Reader& reader, const std::string& pointer, const View& view, c
         const bool isMissing = scene.reference.kind == ReferenceSpec::Kind::none &&
                                findObservable(column.observable)->needsReference;
         if (isMissing)
-            reader.warning(childPointer(pointer, "value"), "stays unknown: the reference is none", "set /reference to auto");
+            reader.warning(childPointer(pointer, "value"), "stays unknown: the reference is none",
+                           "set /reference to auto");
         return;
     }
     reader.unknownName(childPointer(pointer, "value"), "column", name, names);
@@ -150,10 +165,11 @@ void checkColumn(Reader& reader, const std::string& pointer, const View& view, c
 
 }  // namespace
 
-void readMap(Reader& reader, const Value& object, const std::string& pointer, const std::vector<std::string>& others,
-             const System& system, const Scene& scene, View& view) {
+void readMap(Reader& reader, const Value& object, const std::string& pointer,
+             const std::vector<std::string>& others, const System& system, const Scene& scene, View& view) {
     if (!(scene.end.value > scene.start.value)) return;
-    if (!readFields(reader, completed(object, scene, system), pointer, mapFields(), others, view.keys)) return;
+    if (!readFields(reader, completed(object, scene, system), pointer, mapFields(), others, view.keys))
+        return;
     const std::size_t errorsBefore = reader.errors.size();
     checkParameter(reader, pointer, view, scene);
     checkGrid(reader, pointer, view, scene);

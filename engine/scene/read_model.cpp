@@ -14,11 +14,13 @@ bool isNumeric(const FieldInfo& field) {
 /// Gives every numeric parameter its value; those written as expressions may use each other in any order.
 class ParameterResolver {
 public:
-    ParameterResolver(Reader& reader, const Value& model, const std::vector<FieldInfo>& fields) : reader_(reader) {
+    ParameterResolver(Reader& reader, const Value& model, const std::vector<FieldInfo>& fields)
+        : reader_(reader) {
         for (const FieldInfo& field : fields) {
             const Value* value = model.find(field.key);
             if (!value) value = &field.fallback;
-            if (isNumeric(field)) parameters_.push_back({field.key, childPointer("/model", field.key), value});
+            if (isNumeric(field))
+                parameters_.push_back({field.key, childPointer("/model", field.key), value});
             if (field.type != FieldType::constants || !value->isObject()) continue;
             for (const auto& [name, number] : value->asObject())
                 parameters_.push_back({name, childPointer(childPointer("/model", field.key), name), &number});

@@ -35,8 +35,8 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
 void readViews(Reader& reader, const Value& document, const System* system, Scene& scene);
 
 /// The keys of a view "parameter-map", with those it leaves out; `others` are keys read elsewhere.
-void readMap(Reader& reader, const Value& object, const std::string& pointer, const std::vector<std::string>& others,
-             const System& system, const Scene& scene, View& view);
+void readMap(Reader& reader, const Value& object, const std::string& pointer,
+             const std::vector<std::string>& others, const System& system, const Scene& scene, View& view);
 
 /// What needs several parts at once: numbers of steps and rows, refused and unstable pairs, stability limits,
 /// cost.

@@ -182,7 +182,8 @@ void readStep(Reader& reader, const Value& scheme, const std::string& pointer, b
         if (const double own = pair->space.number("elements"); own > 0) {
             const auto given = value ? reader.number(*value, place, Limits::positive()) : std::nullopt;
             if (given && std::abs(given->value * own - 1) > 1e-9)
-                reader.warning(place, "is not used: the space has " + formatNumber(own) + " elements", "", 1 / own);
+                reader.warning(place, "is not used: the space has " + formatNumber(own) + " elements", "",
+                               1 / own);
             spec.step = Number{1 / own, {}};
             return;
         }

@@ -40,7 +40,8 @@ private:
 void ViewReader::readColumns(View& view) const {
     const ViewKeys keys = keysOf(view.id, system);
     const char* const kind = keys.hasZeros ? "state column" : "column";
-    const auto check = [&](const Value& given, const std::string& at, const std::string& name, const std::vector<std::string>& names) {
+    const auto check = [&](const Value& given, const std::string& at, const std::string& name,
+                           const std::vector<std::string>& names) {
         if (given.isString() && !isOneOf(names, name)) reader.unknownName(at, kind, name, names);
     };
     for (const auto& [key, target] : {std::pair{"x", &view.x}, std::pair{"y", &view.y}}) {
@@ -81,20 +82,24 @@ void ViewReader::readNode(View& view) const {
     if (!node) return;
     const std::string at = childPointer(pointer, "node");
     if (!keysOf(view.id, system).hasNode) return reader.error(at, "is only for the view shape-function");
-    view.node = reader.number(*node, at, {1, static_cast<double>(lastNodeOf(scene)), false, true, "the nodes inside, from left to right"});
+    view.node = reader.number(
+        *node, at,
+        {1, static_cast<double>(lastNodeOf(scene)), false, true, "the nodes inside, from left to right"});
 }
 
 std::optional<ViewRange> ViewReader::rangeOf(const Value& value, const std::string& at, bool isLog) const {
     if (!reader.isArray(value, at, "two numbers")) return {};
     const Value::Array& ends = value.asArray();
     if (ends.size() != 2) {
-        reader.error(at, "must have two numbers, the lower end and the upper one, got " + std::to_string(ends.size()));
+        reader.error(
+            at, "must have two numbers, the lower end and the upper one, got " + std::to_string(ends.size()));
         return {};
     }
     Limits limits;
     if (isLog) limits = Limits::positive();
     if (isLog) limits.hint = "this axis is logarithmic";
-    const auto low = reader.number(ends[0], at + "/0", limits), high = reader.number(ends[1], at + "/1", limits);
+    const auto low = reader.number(ends[0], at + "/0", limits),
+               high = reader.number(ends[1], at + "/1", limits);
     if (!low || !high) return {};
     const std::string got = ", got " + formatNumber(low->value) + " and " + formatNumber(high->value);
     if (!(low->value < high->value)) {
@@ -126,7 +131,8 @@ void ViewReader::readCurve(View& view, const ViewAxes& axes) const {
     const auto text = reader.text(*curve, at);
     if (!text) return;
     if (axes.variable.empty())
-        return reader.error(at, "is for plots against time or a place, and this one is against something else",
+        return reader.error(at,
+                            "is for plots against time or a place, and this one is against something else",
                             "a trajectory against t, say: \"x\": \"t\"");
     if (const auto read = reader.curve(*text, at, axes.variable)) view.curve = *read;
 }
@@ -134,12 +140,15 @@ void ViewReader::readCurve(View& view, const ViewAxes& axes) const {
 void ViewReader::warnOfNothing(const View& view) const {
     if (view.id == "curve-error" && !isOneOf(scene.observe, "error"))
         reader.warning(pointer, "shows nothing: error is not observed", "add it to /observe");
-    for (const char* id : {"energy", "momentum", "error", "norm", "fast-energy", "slow-energy", "adiabatic-invariant"}) {
+    for (const char* id :
+         {"energy", "momentum", "error", "norm", "fast-energy", "slow-energy", "adiabatic-invariant"}) {
         if (view.id != id || isOneOf(scene.observe, id)) continue;
         const ObservableEntry* observable = findObservable(id);
         const bool isThere = !system || !observable || appliesTo(*observable, *system);
-        reader.warning(pointer, "shows nothing: " + view.id + (isThere ? " is not observed" : " is nothing this model has"),
-                       isThere ? "add it to /observe" : "leave it out");
+        reader.warning(
+            pointer,
+            "shows nothing: " + view.id + (isThere ? " is not observed" : " is nothing this model has"),
+            isThere ? "add it to /observe" : "leave it out");
     }
 }
 
@@ -149,13 +158,19 @@ const CatalogItem* itemOf(const Value* id) {
     return nullptr;
 }
 
-/// Keys that only this kind of view has. Those at their defaults are left out, so that a view without any is its name alone.
-void readOwnKeys(Reader& reader, const Value& object, const std::string& pointer, const CatalogItem& item, View& view) {
+/// Keys that only this kind of view has. Those at their defaults are left out, so that a view without any is
+/// its name alone.
+void readOwnKeys(Reader& reader, const Value& object, const std::string& pointer, const CatalogItem& item,
+                 View& view) {
     std::vector<FieldInfo> own = item.parameters;
-    std::erase_if(own, [](const FieldInfo& field) { return isOneOf(format::view, field.key); });  // read by the others here
+    std::erase_if(own, [](const FieldInfo& field) {
+        return isOneOf(format::view, field.key);
+    });  // read by the others here
     if (!readFields(reader, object, pointer, own, format::view, view.keys)) view.keys = {};
     for (const FieldInfo& field : own)
-        std::erase_if(view.keys.keys, [&](const Value::Member& m) { return m.first == field.key && m.second == field.fallback; });
+        std::erase_if(view.keys.keys, [&](const Value::Member& m) {
+            return m.first == field.key && m.second == field.fallback;
+        });
 }
 
 }  // namespace

@@ -64,7 +64,8 @@ std::optional<double> valueOfText(Reader& reader, const std::string& text, const
         std::string hint = e.hint;
         const std::string message = e.what();
         if (const auto quote = message.find("unknown name \""); quote != std::string::npos)
-            hint = suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
+            hint =
+                suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
         reader.error(pointer, "the expression " + message + "\n" + caretLines(text, e.position), hint);
     }
     return {};
@@ -79,7 +80,8 @@ std::optional<double> Reader::evaluateText(const std::string& text, const std::s
     return {};
 }
 
-std::optional<ViewCurve> Reader::curve(const std::string& text, const std::string& pointer, const std::string& variable) {
+std::optional<ViewCurve> Reader::curve(const std::string& text, const std::string& pointer,
+                                       const std::string& variable) {
     if (!valueOfText(*this, text, pointer, variable)) return {};
     ViewCurve result{text, {}};
     for (const std::string& name : parseExpression(text).names())

@@ -61,8 +61,10 @@ public:
 
     /// The value of an expression; not finite is an error.
     std::optional<double> evaluateText(const std::string& text, const std::string& pointer);
-    /// An expression in one variable and the parameters. Empty after recording an error, or if a parameter in it is wrong.
-    std::optional<ViewCurve> curve(const std::string& text, const std::string& pointer, const std::string& variable);
+    /// An expression in one variable and the parameters. Empty after recording an error, or if a parameter in
+    /// it is wrong.
+    std::optional<ViewCurve> curve(const std::string& text, const std::string& pointer,
+                                   const std::string& variable);
 };
 
 /// Defaults of keys whose descriptor has none because they follow from something else (nodes from the

@@ -33,7 +33,7 @@ struct SchemeSpec {
     Settings baseline;                ///< baseline: type = its name, keys = its options
     std::string named;                ///< named: id from the scheme catalogue
     Settings composition;             ///< type = "yoshida", ...; empty: the scheme as it is
-    Settings solver;                  ///< type = method ("auto", "newton", "fixed-point"); keys tolerance, max_iterations
+    Settings solver;  ///< type = method ("auto", "newton", "fixed-point"); keys tolerance, max_iterations
     bool allowsUnstable = false;
     bool operator==(const SchemeSpec&) const = default;
 };
@@ -45,7 +45,7 @@ struct Initial {
     Second second = Second::none;
     std::vector<Number> pOrV;  ///< second: momentum, velocity, or the position at a later time
     std::optional<Number> at;  ///< Second::position: how much later
-    Settings given;  ///< the keys of ModelEntry::initial; type empty
+    Settings given;            ///< the keys of ModelEntry::initial; type empty
     bool operator==(const Initial&) const = default;
 };
 
@@ -71,14 +71,14 @@ struct ViewCurve {
 };
 
 struct View {
-    std::string id;          ///< "energy", "phase", ...
-    std::string x, y;        ///< columns of a phase portrait or trajectory; empty: default
-    std::string at = {};     ///< column whose zeros make a section; empty: the first coordinate
-    std::string scheme = {}; ///< label, for pictures of one scheme; empty: of each
-    std::optional<Number> node = {}; ///< of a shape function; empty: the one in the middle
+    std::string id;                   ///< "energy", "phase", ...
+    std::string x, y;                 ///< columns of a phase portrait or trajectory; empty: default
+    std::string at = {};              ///< column whose zeros make a section; empty: the first coordinate
+    std::string scheme = {};          ///< label, for pictures of one scheme; empty: of each
+    std::optional<Number> node = {};  ///< of a shape function; empty: the one in the middle
     std::optional<ViewRange> xRange = {}, yRange = {};
     ViewCurve curve = {};
-    Settings keys = {};      ///< of views with keys of their own (CatalogItem::parameters); type empty
+    Settings keys = {};  ///< of views with keys of their own (CatalogItem::parameters); type empty
     bool operator==(const View&) const = default;
 };
 
@@ -93,7 +93,7 @@ struct Scene {
     std::optional<Number> every;  ///< output.every
     bool isDense = false;         ///< output.dense
     std::vector<View> views;
-    double maxSteps = 1e11;       ///< limits.steps
+    double maxSteps = 1e11;  ///< limits.steps
     bool operator==(const Scene&) const = default;
 };
 

@@ -176,7 +176,9 @@ Value initialData() {
     for (const ModelEntry& entry : modelCatalog())
         for (const FieldInfo& field : entry.initial)
             if (!p.find(field.key)) p.set(field.key, property(field));
-    return object(p, {}, "Coordinates, and momenta, velocities or a second position (q1, a time `at` later); or the keys of the model.");
+    return object(p, {},
+                  "Coordinates, and momenta, velocities or a second position (q1, a time `at` later); or the "
+                  "keys of the model.");
 }
 
 Value referenceChoice() {
@@ -212,7 +214,8 @@ Value viewChoice() {
     ends.set("maxItems", 2);
     range.set("x", ends);
     range.set("y", ends);
-    p.set("range", object(range, {}, "The part that the plot shows at first: two increasing numbers for an axis."));
+    p.set("range",
+          object(range, {}, "The part that the plot shows at first: two increasing numbers for an axis."));
     p.set("curve", typed("string", "An expression in the variable along x, drawn for comparison."));
     for (const CatalogItem& item : viewCatalog())
         for (const FieldInfo& field : item.parameters)
@@ -249,8 +252,7 @@ Value rootProperties() {
 }  // namespace
 
 Value sceneSchema() {
-    Value schema =
-        object(rootProperties(), {"extremal", "model", "schemes"}, "A comparison for Extremal.");
+    Value schema = object(rootProperties(), {"extremal", "model", "schemes"}, "A comparison for Extremal.");
     Value document{Value::Object{}};
     document.set("$schema", "https://json-schema.org/draft/2020-12/schema");
     document.set("title", "Extremal scene");

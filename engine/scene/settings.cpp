@@ -44,7 +44,7 @@ bool readNames(Reader& reader, const Value& value, const std::string& pointer, c
 
 /// Numbers by name; what the user wrote is kept as a whole where any of them is an expression.
 bool readConstants(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
-                 Settings& settings) {
+                   Settings& settings) {
     if (!reader.isObject(value, pointer)) return false;
     Value numbers{Value::Object{}};
     bool isSound = true, hasExpression = false;
@@ -61,10 +61,10 @@ bool readConstants(Reader& reader, const Value& value, const std::string& pointe
 }
 
 /// A choice, a number or an array of numbers; what the user wrote is kept where one of them is an expression.
-bool readChoiceOrNumbers(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
-                         Settings& settings) {
-    const bool isChoice =
-        std::any_of(field.choices.begin(), field.choices.end(), [&](const std::string& c) { return value == Value(c); });
+bool readChoiceOrNumbers(Reader& reader, const Value& value, const std::string& pointer,
+                         const FieldInfo& field, Settings& settings) {
+    const bool isChoice = std::any_of(field.choices.begin(), field.choices.end(),
+                                      [&](const std::string& c) { return value == Value(c); });
     bool hasExpression = false;
     const auto evaluated = [&](const Value& entry, const std::string& place) -> std::optional<Value> {
         if (!entry.isString()) return entry;
@@ -76,7 +76,8 @@ bool readChoiceOrNumbers(Reader& reader, const Value& value, const std::string& 
     if (value.isArray()) {
         Value::Array entries;
         for (std::size_t i = 0; i < value.asArray().size(); ++i)
-            if (auto entry = evaluated(value.asArray()[i], childPointer(pointer, i))) entries.push_back(std::move(*entry));
+            if (auto entry = evaluated(value.asArray()[i], childPointer(pointer, i)))
+                entries.push_back(std::move(*entry));
         if (entries.size() < value.asArray().size()) return false;
         result = std::move(entries);
     } else if (!isChoice) {
@@ -97,9 +98,12 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
         case FieldType::integer: {
             const auto number = reader.number(value, pointer, Limits::of(field));
             if (!number) return false;
-            const auto isValue = [&](const std::string& choice) { return choice == formatCount(number->value); };
+            const auto isValue = [&](const std::string& choice) {
+                return choice == formatCount(number->value);
+            };
             if (!field.choices.empty() && std::none_of(field.choices.begin(), field.choices.end(), isValue)) {
-                reader.error(pointer, "must be one of " + joinNames(field.choices) + ", got " + formatCount(number->value));
+                reader.error(pointer, "must be one of " + joinNames(field.choices) + ", got " +
+                                          formatCount(number->value));
                 return false;
             }
             settings.keys.emplace_back(field.key, number->value);

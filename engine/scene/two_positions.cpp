@@ -38,12 +38,14 @@ State stateOf(const Scene& scene, const Eigen::VectorXd& p0) {
 ActionBetween<double> solveExact(const Scene& scene, const System& system) {
     Eigen::MatrixXd ends(system.dimension(), 2);
     ends << valuesOf(scene.initial.q), valuesOf(scene.initial.pOrV);
-    return exactDiscreteLagrangian<double>(system.mechanics, scene.start.value, scene.initial.at->value, ends, 1e-15);
+    return exactDiscreteLagrangian<double>(system.mechanics, scene.start.value, scene.initial.at->value, ends,
+                                           1e-15);
 }
 
 ActionBetween<double> exactBetween(const Scene& scene, const System& system) {
     static Recent<std::tuple<Settings, Initial, double>, ActionBetween<double>> last(1);
-    return last.get({scene.model, scene.initial, scene.start.value}, [&] { return solveExact(scene, system); });
+    return last.get({scene.model, scene.initial, scene.start.value},
+                    [&] { return solveExact(scene, system); });
 }
 
 /// Nodes at equal times on the broken line through the nodes of the exact motion.
@@ -60,7 +62,8 @@ Eigen::MatrixXd sampled(const Eigen::MatrixXd& path, int n) {
 }
 
 /// p_0 for which the scheme's own n steps end at q_1, from a guess.
-Outcome shoot(const Scene& scene, const System& system, const SchemeSpec& scheme, double step, int n, Eigen::VectorXd& p0) {
+Outcome shoot(const Scene& scene, const System& system, const SchemeSpec& scheme, double step, int n,
+              Eigen::VectorXd& p0) {
     const int d = system.dimension();
     const Eigen::VectorXd q1 = valuesOf(scene.initial.pOrV);
     const State exact = stateOf(scene, p0);
@@ -97,19 +100,22 @@ Outcome shoot(const Scene& scene, const System& system, const SchemeSpec& scheme
 State exactStart(const Scene& scene, const System& system) {
     const ActionBetween<double> motion = exactBetween(scene, system);
     if (motion.outcome != Outcome::converged)
-        throw InvalidScene("/initial/q1",
-                           "no motion from q to q1 in the time " + formatNumber(scene.initial.at->value) + " was found",
-                           "positions closer to each other, another time, or p in place of q1");
+        throw InvalidScene(
+            "/initial/q1",
+            "no motion from q to q1 in the time " + formatNumber(scene.initial.at->value) + " was found",
+            "positions closer to each other, another time, or p in place of q1");
     return stateOf(scene, motion.startMomentum);
 }
 
-State schemeStart(const Scene& scene, const System& system, const SchemeSpec& scheme, double step, const State& initial) {
+State schemeStart(const Scene& scene, const System& system, const SchemeSpec& scheme, double step,
+                  const State& initial) {
     if (scene.initial.second != Initial::Second::position || isAdaptive(scheme)) return initial;
     const double at = scene.initial.at->value, steps = at / step;
     const int n = static_cast<int>(std::lround(std::min(steps, 1e6)));
     if (n < 1 || std::abs(steps - n) > 1e-9 * n)
-        throw InvalidScene("/step", formatNumber(step) + " does not reach the second position, at " + formatNumber(at) +
-                                        " after the start, by whole steps",
+        throw InvalidScene("/step",
+                           formatNumber(step) + " does not reach the second position, at " +
+                               formatNumber(at) + " after the start, by whole steps",
                            "a whole part of /initial/at");
     const ActionBetween<double> exact = exactBetween(scene, system);
     Eigen::VectorXd p0 = exact.startMomentum;

@@ -34,7 +34,8 @@ std::vector<std::string> columnsFor(const std::string& view, const Scene& scene,
     const State initial = initialState(scene, system);
     for (const std::string& id : scene.observe)
         if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
-            for (const Column& column : entry->bind({system, initial, {}}).columns) names.push_back(column.name);
+            for (const Column& column : entry->bind({system, initial, {}}).columns)
+                names.push_back(column.name);
     return names;
 }
 

@@ -16,7 +16,8 @@ struct ViewKeys {
     bool hasScheme = false;   ///< `scheme`: pictures of one scheme
     bool hasNode = false;     ///< `node`: shape functions
 };
-/// `system` is null where the model is wrong. A profile is a picture of one scheme in the plane, and has a curve of each on a line.
+/// `system` is null where the model is wrong. A profile is a picture of one scheme in the plane, and has a
+/// curve of each on a line.
 ViewKeys keysOf(const std::string& view, const System* system);
 
 /// What `x` and `y` of a view may be. Makes the start of the scene, to know what its observables write.

@@ -34,7 +34,9 @@ Value referenceValue(const ReferenceSpec& reference) {
     return value;
 }
 
-Value rangeValue(const ViewRange& range) { return Value::Array{numberValue(range.low), numberValue(range.high)}; }
+Value rangeValue(const ViewRange& range) {
+    return Value::Array{numberValue(range.low), numberValue(range.high)};
+}
 
 Value viewValue(const View& view) {
     Value value(Value::Object{{"view", view.id}});

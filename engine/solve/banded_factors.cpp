@@ -6,15 +6,16 @@
 
 namespace extremal {
 
-BandedFactors::BandedFactors(const std::vector<Complex>& diagonal, const std::vector<Complex>& up, const std::vector<Complex>& down)
+BandedFactors::BandedFactors(const std::vector<Complex>& diagonal, const std::vector<Complex>& up,
+                             const std::vector<Complex>& down)
     : rows(static_cast<int>(diagonal.size()) / 2), band(static_cast<int>(up.size())) {
     const int n = 2 * rows;
     Matrix left = Matrix::Zero(2 * band, 2 * band);
     for (int e = 0; e < 2; ++e) {
         // Seen from end 1 the order is reversed, and so are the off-diagonals.
-        const auto& above = e == 0 ? up : down;    // entry (r, r + 1 + d)
-        const auto& below = e == 0 ? down : up;    // entry (r + 1 + d, r)
-        Matrix band_(2 * band + 1, rows);          // (B + offset, r): entry (r, r + offset), as it is reduced
+        const auto& above = e == 0 ? up : down;  // entry (r, r + 1 + d)
+        const auto& below = e == 0 ? down : up;  // entry (r + 1 + d, r)
+        Matrix band_(2 * band + 1, rows);        // (B + offset, r): entry (r, r + offset), as it is reduced
         for (int r = 0; r < rows; ++r) {
             band_(band, r) = diagonal[static_cast<std::size_t>(e == 0 ? r : n - 1 - r)];
             for (int d = 0; d < band; ++d) {
@@ -35,7 +36,8 @@ BandedFactors::BandedFactors(const std::vector<Complex>& diagonal, const std::ve
             }
         }
         for (int i = 0; i < band; ++i)
-            for (int k = 0; k < band; ++k) left(e * band + i, e * band + k) = band_(band + k - i, rows - band + i);
+            for (int k = 0; k < band; ++k)
+                left(e * band + i, e * band + k) = band_(band + k - i, rows - band + i);
     }
     // Across the middle: row rows - B + i of end 0 and row rows - B + k of end 1 are 2B - 1 - i - k apart.
     for (int i = 0; i < band; ++i)
@@ -64,7 +66,8 @@ void BandedFactors::solve(Matrix& y) const {
         }
 }
 
-BandedFactors::Matrix BandedFactors::cornerCorrection(const std::vector<Complex>& up, const std::vector<Complex>& down) const {
+BandedFactors::Matrix BandedFactors::cornerCorrection(const std::vector<Complex>& up,
+                                                      const std::vector<Complex>& down) const {
     Matrix Z(2 * rows, 2 * band), C = Matrix::Zero(2 * band, 2 * band), ends_(2 * band, 2 * band);
     for (int q = 0; q < 2 * band; ++q) {
         Matrix unit = Matrix::Zero(rows, 2);

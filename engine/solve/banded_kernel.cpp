@@ -5,8 +5,8 @@
 namespace extremal {
 namespace {
 
-/// Vectors of the machine. Loops over arrays of them are unrolled and stay in registers, which loops over plain doubles that
-/// live through a loop do not.
+/// Vectors of the machine. Loops over arrays of them are unrolled and stay in registers, which loops over
+/// plain doubles that live through a loop do not.
 using Two [[gnu::vector_size(16)]] = double;
 using Four [[gnu::vector_size(32)]] = double;
 using Eight [[gnu::vector_size(64)]] = double;
@@ -181,7 +181,7 @@ struct Kernel {
     }
 };
 
-#define EXTREMAL_KERNEL(name, target, V, M, K)                                        \
+#define EXTREMAL_KERNEL(name, target, V, M, K)                                         \
     target void forward##name(const BandedSweep& s) { Kernel<V, M, K>::forward(s); }   \
     target void backward##name(const BandedSweep& s) { Kernel<V, M, K>::backward(s); } \
     target void factor##name(const BandedFactoring& s) { Kernel<V, M, K>::factor(s); } \

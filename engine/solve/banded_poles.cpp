@@ -43,8 +43,9 @@ private:
 
 struct BandedPoles::Impl {
     int rows = 0, band = 0, poles = 0;
-    int segments = 1, length = 0;     ///< rows that a lane goes through
-    std::array<int, 2> start{}, from{}, to{};  ///< of each segment: its first row; rows that it gives the result for
+    int segments = 1, length = 0;  ///< rows that a lane goes through
+    std::array<int, 2> start{}, from{},
+        to{};  ///< of each segment: its first row; rows that it gives the result for
     int reach = 0;
     double sign = 1;
     BandedCalls calls{};
@@ -81,18 +82,21 @@ struct BandedPoles::Impl {
     void correctCorners(Complex* v) const;
 };
 
-/// A bound of the factors of row r, both ends and all poles, where the band is one entry wide; 1 where there is none.
+/// A bound of the factors of row r, both ends and all poles, where the band is one entry wide; 1 where there
+/// is none.
 double BandedPoles::Impl::factorBound(const CyclicBand& Y, const Complexes& zeta, int r) const {
     double square = 1e300;
     for (int e = 0; e < 2; ++e)
         for (const Complex& pole : zeta)
-            square = std::min(square, std::norm(pole + Complex(0, Y.diagonal[static_cast<std::size_t>(place(e, r))])));
+            square = std::min(
+                square, std::norm(pole + Complex(0, Y.diagonal[static_cast<std::size_t>(place(e, r))])));
     const double least = std::sqrt(square), off = std::abs(Y.offDiagonal[0]);
     return least > 2 * off ? off / (least - off) : 1.0;
 }
 
-/// Far from the middle wave numbers are large and factors small: a substitution forgets where it came from within a few rows.
-/// Then each end is cut in two, and both halves go side by side, with as many rows in common as it takes to forget.
+/// Far from the middle wave numbers are large and factors small: a substitution forgets where it came from
+/// within a few rows. Then each end is cut in two, and both halves go side by side, with as many rows in
+/// common as it takes to forget.
 void BandedPoles::Impl::chooseSegments(const CyclicBand& Y, const Complexes& zeta) {
     const auto one = [&] {
         segments = 1;
@@ -129,7 +133,8 @@ void BandedPoles::Impl::allocate() {
     x.resize(static_cast<std::size_t>(2 * length * groups()));
     z.resize(static_cast<std::size_t>(2 * length * groups()));
     residues.resize(static_cast<std::size_t>(2 * lanes()));
-    for (int at = 0; at < lanes(); ++at) set(residues, 0, at, residue[static_cast<std::size_t>(at / groups())]);
+    for (int at = 0; at < lanes(); ++at)
+        set(residues, 0, at, residue[static_cast<std::size_t>(at / groups())]);
     ends.assign(static_cast<std::size_t>(2 * band), 0);
     calls = bandedCalls(groups(), poles);
     sweep = {length, band, x.data(), l.data(), u.data(), p.data(), residues.data(), y.data(), z.data()};
@@ -151,12 +156,14 @@ bool BandedPoles::Impl::factorOne(const CyclicBand& Y, const Complexes& zeta, Co
                 set(above, 0, at, e == 0 ? up : down);
                 for (int i = 0; i < length; ++i)
                     d.data()[static_cast<std::size_t>(i) * n + static_cast<std::size_t>(at)] =
-                        Y.diagonal[static_cast<std::size_t>(place(e, start[static_cast<std::size_t>(segment)] + i))];
+                        Y.diagonal[static_cast<std::size_t>(
+                            place(e, start[static_cast<std::size_t>(segment)] + i))];
             }
-    calls.factor({length, zetas.data(), d.data(), below.data(), above.data(), std::norm(Y.offDiagonal[0]), l.data(), u.data(),
-                  p.data()});
+    calls.factor({length, zetas.data(), d.data(), below.data(), above.data(), std::norm(Y.offDiagonal[0]),
+                  l.data(), u.data(), p.data()});
     for (int j = 0; j < poles; ++j) {
-        const Complex a = get(p, length - 1, lane(segments - 1, 0, j)), b = get(p, length - 1, lane(segments - 1, 1, j));
+        const Complex a = get(p, length - 1, lane(segments - 1, 0, j)),
+                      b = get(p, length - 1, lane(segments - 1, 1, j));
         const Complex scale = 1.0 / (1.0 - a * b * up * down);
         middle.insert(middle.end(), {scale * a, -scale * a * b * up, -scale * a * b * down, scale * b});
     }
@@ -198,7 +205,8 @@ bool BandedPoles::Impl::correctOne(const CyclicBand& Y, const Complexes& zeta, C
             }
     }
     double scale = 0;
-    for (std::size_t j = 0; j < zeta.size(); ++j) scale = std::max(scale, std::abs(residue[j]) / std::abs(zeta[j]));
+    for (std::size_t j = 0; j < zeta.size(); ++j)
+        scale = std::max(scale, std::abs(residue[j]) / std::abs(zeta[j]));
     std::vector<std::array<Complex, 4>> inner;  // r_j (1 + C P^T Z)^{-1} C, C = [0 down; up 0]
     reach = 0;
     for (std::size_t j = 0; j < zeta.size(); ++j) {
@@ -215,11 +223,13 @@ bool BandedPoles::Impl::correctOne(const CyclicBand& Y, const Complexes& zeta, C
     for (std::size_t j = 0; j < zeta.size(); ++j)
         for (std::size_t e = 0; e < 2; ++e)
             for (std::size_t r = 0; r < static_cast<std::size_t>(reach); ++r)
-                for (std::size_t q = 0; q < 2; ++q) correction.push_back(columns[j][e][r] * inner[j][2 * e + q]);
+                for (std::size_t q = 0; q < 2; ++q)
+                    correction.push_back(columns[j][e][r] * inner[j][2 * e + q]);
     return true;
 }
 
-void BandedPoles::Impl::factorAny(const CyclicBand& Y, const Complexes& zeta, const Complexes& up, const Complexes& down) {
+void BandedPoles::Impl::factorAny(const CyclicBand& Y, const Complexes& zeta, const Complexes& up,
+                                  const Complexes& down) {
     std::vector<BandedFactors::Matrix> corrections;
     double scale = 0;
     reach = 0;
@@ -228,7 +238,8 @@ void BandedPoles::Impl::factorAny(const CyclicBand& Y, const Complexes& zeta, co
     for (std::size_t j = 0; j < zeta.size(); ++j) {
         Complexes diagonal;
         for (int a = 0; a < 2 * rows; ++a)
-            diagonal.push_back(zeta[j] + Complex(0, Y.diagonal[static_cast<std::size_t>((a + rows) % (2 * rows))]));
+            diagonal.push_back(zeta[j] +
+                               Complex(0, Y.diagonal[static_cast<std::size_t>((a + rows) % (2 * rows))]));
         const BandedFactors f(diagonal, up, down);
         for (int e = 0; e < 2; ++e)
             for (int r = 0; r < rows; ++r) {
@@ -320,7 +331,8 @@ void BandedPoles::Impl::solveMiddle() const {
             for (int q = 0; q < size; ++q) sum += inverse[i * size + q] * ends[static_cast<std::size_t>(q)];
             set(y, rowOf(i), laneOf(i), sum);
         }
-        // A segment that does not meet the other end stops where it stands: what follows is forgotten on the way back.
+        // A segment that does not meet the other end stops where it stands: what follows is forgotten on the
+        // way back.
         for (int e = 0; e < 2 && segments == 2; ++e) {
             const int at = lane(0, e, j);
             set(y, length - 1, at, get(p, length - 1, at) * get(y, length - 1, at));
@@ -332,7 +344,8 @@ void BandedPoles::Impl::correctCorners(Complex* v) const {
     const auto size = static_cast<std::size_t>(2 * band);
     const Complex* M = correction.data();
     for (int j = 0; j < poles && reach > 0; ++j) {
-        for (int q = 0; q < 2 * band; ++q) ends[static_cast<std::size_t>(q)] = get(y, q % band, lane(0, q / band, j));
+        for (int q = 0; q < 2 * band; ++q)
+            ends[static_cast<std::size_t>(q)] = get(y, q % band, lane(0, q / band, j));
         for (int e = 0; e < 2; ++e)
             for (int r = 0; r < reach; ++r, M += size) {
                 double re = 0, im = 0;

@@ -14,8 +14,8 @@
 namespace extremal {
 
 template <class T>
-ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, const Vector& q0, const Vector& q1,
-                                                   const Vector* interior) const {
+ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, const Vector& q0,
+                                                   const Vector& q1, const Vector* interior) const {
     const int d = action_.dimension(), inner = action_.interior() * d;
     // A straight line has no interior: the interior functions are orthogonal to it in the velocities.
     Vector x = interior ? *interior : Vector(Vector::Zero(inner));
@@ -28,14 +28,17 @@ ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, cons
         Z.middleCols(1, action_.interior()) = Eigen::Map<const Matrix>(Y.data(), d, action_.interior());
         Z.col(action_.functions() - 1) = q1;
     };
-    result.outcome = solveNewton<T>(x, [&](const Vector& Y, Vector& F, Matrix* J) {
-        place(Y);
-        T S;
-        if (!action_.evaluate(t0, h, Z, S, &gradient, J ? &hessian : nullptr)) return false;
-        F = gradient.segment(d, inner);
-        if (J) *J = hessian.block(d, d, inner, inner);
-        return true;
-    }, std::max(T(q0.cwiseAbs().maxCoeff()), T(q1.cwiseAbs().maxCoeff())));
+    result.outcome = solveNewton<T>(
+        x,
+        [&](const Vector& Y, Vector& F, Matrix* J) {
+            place(Y);
+            T S;
+            if (!action_.evaluate(t0, h, Z, S, &gradient, J ? &hessian : nullptr)) return false;
+            F = gradient.segment(d, inner);
+            if (J) *J = hessian.block(d, d, inner, inner);
+            return true;
+        },
+        std::max(T(q0.cwiseAbs().maxCoeff()), T(q1.cwiseAbs().maxCoeff())));
     place(x);
     if (!action_.evaluate(t0, h, Z, result.action, &gradient, &hessian)) result.outcome = Outcome::notFinite;
     result.startMomentum = -gradient.head(d);
@@ -49,7 +52,8 @@ ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, cons
         hessian.bottomRightCorner(d, d);
     if (inner > 0) {
         coupling << hessian.block(d, 0, inner, d), hessian.block(d, d + inner, inner, d);
-        ends -= dense::product<T>(coupling.transpose(), dense::solve<T>(hessian.block(d, d, inner, inner), coupling));
+        ends -= dense::product<T>(coupling.transpose(),
+                                  dense::solve<T>(hessian.block(d, d, inner, inner), coupling));
     }
     result.hessian = ends;
     return result;
@@ -63,7 +67,8 @@ ActionBetween<T> DiscreteLagrangian<T>::between(const T& t0, const T& h, const M
     result.nodes = guess;
     Matrix start = result.interior;
     bool isSolved = true;
-    // Each evaluation solves the interiors of all elements, from those of the last point where that succeeded.
+    // Each evaluation solves the interiors of all elements, from those of the last point where that
+    // succeeded.
     auto assemble = [&](const Vector& x, Vector& F, Matrix* J) {
         if (N > 1) result.nodes.middleCols(1, N - 1) = Eigen::Map<const Matrix>(x.data(), d, N - 1);
         F = Vector::Zero((N - 1) * d);
@@ -135,7 +140,8 @@ template <class T>
 ActionBetween<T> exactDiscreteLagrangian(const Mechanics<T>& mechanics, const T& t0, const T& h,
                                          const typename ActionBetween<T>::Matrix& guess, double tolerance) {
     constexpr int degree = 12, mostElements = 256, mostWithoutSolution = 32;
-    static const Table<T> table = makeTable(polynomialSpace<T>(degree, PolynomialBasis::lobatto), gauss<T>(degree));
+    static const Table<T> table =
+        makeTable(polynomialSpace<T>(degree, PolynomialBasis::lobatto), gauss<T>(degree));
     const DiscreteLagrangian<T> Ld(mechanics, table);
     ActionBetween<T> result;
     auto path = guess;
@@ -156,7 +162,8 @@ ActionBetween<T> exactDiscreteLagrangian(const Mechanics<T>& mechanics, const T&
         // The size of the terms of which the action is the sum, against cancellation.
         double size = 0;
         for (int k = 0; k < N; ++k)
-            size += static_cast<double>(abs(Ld(t0 + h * k / T(N), h / T(N), fine.nodes.col(k), fine.nodes.col(k + 1)).action));
+            size += static_cast<double>(
+                abs(Ld(t0 + h * k / T(N), h / T(N), fine.nodes.col(k), fine.nodes.col(k + 1)).action));
         const bool isStagnant = difference >= last && difference < 1e-10 * size;
         coarse = fine.action;
         path = fine.nodes;
@@ -176,6 +183,7 @@ template ActionBetween<double> exactDiscreteLagrangian(const Mechanics<double>&,
                                                        const ActionBetween<double>::Matrix&, double);
 template ActionBetween<boost::multiprecision::float128> exactDiscreteLagrangian(
     const Mechanics<boost::multiprecision::float128>&, const boost::multiprecision::float128&,
-    const boost::multiprecision::float128&, const ActionBetween<boost::multiprecision::float128>::Matrix&, double);
+    const boost::multiprecision::float128&, const ActionBetween<boost::multiprecision::float128>::Matrix&,
+    double);
 
 }  // namespace extremal

@@ -18,15 +18,18 @@ GluedElements solveBetween(const SaddlePoint& problem, double t0, const Eigen::M
     result.start = nodes.col(0);
     result.end = nodes.col(nodes.cols() - 1);
     result.x = problem.broken(nodes);
-    result.outcome = solveNewton<double>(result.x, [&](const Eigen::VectorXd& x, Eigen::VectorXd& F, Eigen::MatrixXd* J) {
-        return problem.assemble(t0, result.start, result.end, x, F, J);
-    });
+    result.outcome =
+        solveNewton<double>(result.x, [&](const Eigen::VectorXd& x, Eigen::VectorXd& F, Eigen::MatrixXd* J) {
+            return problem.assemble(t0, result.start, result.end, x, F, J);
+        });
     readMultipliers(problem, result);
     return result;
 }
 
-GluedElements solveFrom(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes, const Eigen::VectorXd& p0) {
-    const int d = problem.dimension(), size = problem.size(), last = problem.multiplierOffset(problem.elements());
+GluedElements solveFrom(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes,
+                        const Eigen::VectorXd& p0) {
+    const int d = problem.dimension(), size = problem.size(),
+              last = problem.multiplierOffset(problem.elements());
     GluedElements result;
     result.start = nodes.col(0);
     result.x = problem.broken(nodes);
@@ -34,13 +37,15 @@ GluedElements solveFrom(const SaddlePoint& problem, double t0, const Eigen::Matr
     Eigen::VectorXd unknowns = result.x.tail(size - d), whole = result.x, gradient;
     Eigen::MatrixXd hessian;
     const Eigen::VectorXd nowhere = Eigen::VectorXd::Zero(d);  // the end is free: its row is not used
-    result.outcome = solveNewton<double>(unknowns, [&](const Eigen::VectorXd& x, Eigen::VectorXd& F, Eigen::MatrixXd* J) {
-        whole.tail(size - d) = x;
-        if (!problem.assemble(t0, result.start, nowhere, whole, gradient, J ? &hessian : nullptr)) return false;
-        F = gradient.head(last);
-        if (J) *J = hessian.block(0, d, last, size - d);
-        return true;
-    });
+    result.outcome =
+        solveNewton<double>(unknowns, [&](const Eigen::VectorXd& x, Eigen::VectorXd& F, Eigen::MatrixXd* J) {
+            whole.tail(size - d) = x;
+            if (!problem.assemble(t0, result.start, nowhere, whole, gradient, J ? &hessian : nullptr))
+                return false;
+            F = gradient.head(last);
+            if (J) *J = hessian.block(0, d, last, size - d);
+            return true;
+        });
     result.x.tail(size - d) = unknowns;
     problem.assemble(t0, result.start, nowhere, result.x, gradient, nullptr);
     result.end = -gradient.tail(d);

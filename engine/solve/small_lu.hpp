@@ -1,5 +1,5 @@
-/// Gaussian elimination with partial pivoting for the small dense systems of a step (up to some 50 unknowns): in place, with
-/// no allocation after the constructor, and cheaper there than what is made for large ones.
+/// Gaussian elimination with partial pivoting for the small dense systems of a step (up to some 50 unknowns):
+/// in place, with no allocation after the constructor, and cheaper there than what is made for large ones.
 ///
 /// T: any real scalar.
 #pragma once
@@ -49,7 +49,8 @@ public:
         }
         return Result::regular;
     }
-    /// Replaces the right-hand side by the solution, column by column: sums along rows would wait for each other.
+    /// Replaces the right-hand side by the solution, column by column: sums along rows would wait for each
+    /// other.
     void solve(T* x) const {
         for (std::size_t k = 0; k < size_; ++k)
             if (row_[k] != k) std::swap(x[k], x[row_[k]]);
@@ -67,7 +68,7 @@ public:
 
 private:
     std::size_t size_;
-    std::vector<T> a_, inverse_;  ///< a_: column after column; inverse_: of the pivots
+    std::vector<T> a_, inverse_;    ///< a_: column after column; inverse_: of the pivots
     std::vector<std::size_t> row_;  ///< what row k was exchanged with
 };
 

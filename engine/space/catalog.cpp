@@ -17,7 +17,8 @@ const std::vector<CatalogItem>& spaceCatalog() {
 
 Space<double> makeSpace(const Settings& space) {
     const auto& all = spaceEntries();
-    const auto found = std::find_if(all.begin(), all.end(), [&](const SpaceEntry& e) { return e.item.id == space.type; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const SpaceEntry& e) { return e.item.id == space.type; });
     if (found == all.end()) throw InvalidScene("/space/type", "there is no space \"" + space.type + "\"");
     return found->make(space);
 }

@@ -14,7 +14,7 @@ namespace extremal {
 struct SpaceEntry {
     CatalogItem item;
     std::function<Space<double>(const Settings& settings)> make;  ///< keys are checked and complete
-    std::function<bool(const System&)> applies;  ///< empty: every system with coordinates
+    std::function<bool(const System&)> applies;                   ///< empty: every system with coordinates
 };
 
 /// All spaces, in alphabetical order of their files; gathered from space/spaces.

@@ -7,7 +7,8 @@
 namespace extremal {
 
 OscillatoryBasis::OscillatoryBasis(int slow, const std::vector<int>& amplitudes) : degree(slow) {
-    for (std::size_t k = 0; k < amplitudes.size(); ++k) harmonics.push_back({{static_cast<int>(k) + 1, 0}, amplitudes[k]});
+    for (std::size_t k = 0; k < amplitudes.size(); ++k)
+        harmonics.push_back({{static_cast<int>(k) + 1, 0}, amplitudes[k]});
 }
 
 int OscillatoryBasis::highestDegree() const {
@@ -60,8 +61,8 @@ void OscillatoryBasis::evaluate(T tau, const Phases<T>& phase, const Phases<T>& 
     }
 }
 
-template void OscillatoryBasis::evaluate(double, const Phases<double>&, const Phases<double>&, std::span<double>,
-                                         std::span<double>) const;
+template void OscillatoryBasis::evaluate(double, const Phases<double>&, const Phases<double>&,
+                                         std::span<double>, std::span<double>) const;
 template void OscillatoryBasis::evaluate(long double, const Phases<long double>&, const Phases<long double>&,
                                          std::span<long double>, std::span<long double>) const;
 

@@ -1,12 +1,13 @@
-/// Curves with a slow and a fast part: polynomials, and harmonics of one frequency or of two with polynomial amplitudes,
+/// Curves with a slow and a fast part: polynomials, and harmonics of one frequency or of two with polynomial
+/// amplitudes,
 ///     q(tau) = sum_{j <= n} c_j P_j + sum_k sum_{j <= m_k} P_j (C_kj cos(k . phase) + S_kj sin(k . phase)),
-/// P_j Legendre's polynomials in 2 tau - 1, phase = z tau with z = step * frequency; k are multiples of the frequencies,
-/// such as (1, 0), (0, 1) and the combination (1, -1). The amplitudes are unknowns of their own, linear and additive; the
-/// printed product (sum p_j t^j)(1 + a_0 sin + a_1 cos) ties the fast amplitude to the slow mean, and fails where the mean
-/// passes through 0 (Leok 2004, sec. 6.2).
+/// P_j Legendre's polynomials in 2 tau - 1, phase = z tau with z = step * frequency; k are multiples of the
+/// frequencies, such as (1, 0), (0, 1) and the combination (1, -1). The amplitudes are unknowns of their own,
+/// linear and additive; the printed product (sum p_j t^j)(1 + a_0 sin + a_1 cos) ties the fast amplitude to
+/// the slow mean, and fails where the mean passes through 0 (Leok 2004, sec. 6.2).
 ///
-/// Between two nodes of a Filon grid (quadrature/filon.hpp) position and phases are independent: functions are evaluated
-/// at (tau, phase), and differentiated along the curve, d/dtau + z . d/dphase.
+/// Between two nodes of a Filon grid (quadrature/filon.hpp) position and phases are independent: functions
+/// are evaluated at (tau, phase), and differentiated along the curve, d/dtau + z . d/dphase.
 #pragma once
 
 #include <array>
@@ -54,7 +55,8 @@ struct OscillatoryBasis {
     /// value[a] at (tau, phase) and derivative[a] along the curve, by tau.
     /// T: double or long double.
     template <class T>
-    void evaluate(T tau, const Phases<T>& phase, const Phases<T>& z, std::span<T> value, std::span<T> derivative) const;
+    void evaluate(T tau, const Phases<T>& phase, const Phases<T>& z, std::span<T> value,
+                  std::span<T> derivative) const;
 };
 
 /// The space on one step with z = step * frequency.

@@ -25,8 +25,8 @@ struct Knots {
     }
 };
 
-/// Ends of equal cells, rounded to R: those of a twin in quadruple precision are the ones of its double, as rules
-/// place their nodes at them.
+/// Ends of equal cells, rounded to R: those of a twin in quadruple precision are the ones of its double, as
+/// rules place their nodes at them.
 template <class R, class T>
 Knots<T> equalCells(int degree, int cells) {
     Knots<T> knots{degree, {}};
@@ -34,7 +34,8 @@ Knots<T> equalCells(int degree, int cells) {
     return knots;
 }
 
-/// The degree + 1 B-splines that are not 0 in the cell [knot(span), knot(span + 1)), and those of one degree less.
+/// The degree + 1 B-splines that are not 0 in the cell [knot(span), knot(span + 1)), and those of one degree
+/// less.
 template <class T>
 struct Local {
     std::vector<T> N, lower;
@@ -63,7 +64,8 @@ Space<T> bSplines(Knots<T> knots) {
     space.size = degree + cells;
     space.degree = degree;
     space.hasKinks = degree == 1 && cells > 1;
-    space.evaluate = [degree, cells, knot = std::move(knots)](const T& tau, std::span<T> value, std::span<T> derivative) {
+    space.evaluate = [degree, cells, knot = std::move(knots)](const T& tau, std::span<T> value,
+                                                              std::span<T> derivative) {
         int span = degree;
         while (span < degree + cells - 1 && tau >= knot(span + 1)) ++span;
         const Local<T> local(tau, span, knot);
@@ -74,12 +76,9 @@ Space<T> bSplines(Knots<T> knots) {
             const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(r);
             value[i] = local.N[k];
             // N_a' = s (M_a / (knot a+s - knot a) - M_{a+1} / (knot a+s+1 - knot a+1)), M of degree s - 1.
-            if (r > 0)
-                derivative[i] += T(degree) * local.lower[k - 1] /
-                                 (knot(a + degree) - knot(a));
+            if (r > 0) derivative[i] += T(degree) * local.lower[k - 1] / (knot(a + degree) - knot(a));
             if (r < degree)
-                derivative[i] -= T(degree) * local.lower[k] /
-                                 (knot(a + degree + 1) - knot(a + 1));
+                derivative[i] -= T(degree) * local.lower[k] / (knot(a + degree + 1) - knot(a + 1));
         }
     };
     return space;
@@ -90,7 +89,8 @@ Space<T> bSplines(Knots<T> knots) {
 template <class T>
 Space<T> splineSpace(int degree, int cells) {
     if constexpr (std::is_same_v<T, double>)
-        return withWide(bSplines(equalCells<double, double>(degree, cells)), bSplines(equalCells<double, Quad>(degree, cells)));
+        return withWide(bSplines(equalCells<double, double>(degree, cells)),
+                        bSplines(equalCells<double, Quad>(degree, cells)));
     else
         return bSplines(equalCells<T, T>(degree, cells));
 }

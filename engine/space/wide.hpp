@@ -1,5 +1,5 @@
-/// Gives a space in double precision its twin in quadruple precision, so that tables are made without round-off.
-/// Internal to engine/space: includes the heavy header of quadruple numbers.
+/// Gives a space in double precision its twin in quadruple precision, so that tables are made without
+/// round-off. Internal to engine/space: includes the heavy header of quadruple numbers.
 #pragma once
 
 #include <boost/multiprecision/float128.hpp>

@@ -1,8 +1,8 @@
 /// Pictures of a field along a run, at most as many as fit into a fixed memory.
 ///
-/// Every row is offered. While all fit, all are kept; beyond the budget every second one is dropped and from then on only
-/// every second (fourth, ..) row is taken, so that the frames stay evenly spread over the rows. The first row always stays,
-/// and the last one offered is always there.
+/// Every row is offered. While all fit, all are kept; beyond the budget every second one is dropped and from
+/// then on only every second (fourth, ..) row is taken, so that the frames stay evenly spread over the rows.
+/// The first row always stays, and the last one offered is always there.
 #pragma once
 
 #include <cstddef>

@@ -16,12 +16,14 @@ struct Column {
     std::string symbol;  ///< for axis titles: "θ", "H - H(0)"
     std::string unit;    ///< "rad"; empty if dimensionless
     std::vector<double> values = {};
-    std::vector<std::string> words = {};  ///< names of the values 0, 1, ... of a column that is a choice; empty for numbers
+    std::vector<std::string> words =
+        {};  ///< names of the values 0, 1, ... of a column that is a choice; empty for numbers
 };
 
 struct Trajectory {
     std::vector<Column> columns;  ///< columns[0] is t
-    std::vector<double> nodes = {};  ///< steps done at each row, with a fraction inside a step; empty where not kept
+    std::vector<double> nodes =
+        {};  ///< steps done at each row, with a fraction inside a step; empty where not kept
 
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
     /// The column of that name, or null.

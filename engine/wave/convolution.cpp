@@ -12,8 +12,8 @@ ConvolutionProblem convolutionGalerkin(const Hamiltonian& h) {
     ConvolutionProblem p{Eigen::MatrixXcd::Zero(n, n), Eigen::VectorXd::Zero(n)};
     for (int a = -half; a <= half; ++a) {
         for (int b = std::max(-half, a - half); b <= std::min(half, a + half); ++b)
-            p.H(place(a), place(b)) +=
-                weight(a) * weight(b) * weight(a - b) * h.potentialHarmonics()[static_cast<std::size_t>(place(a - b))];
+            p.H(place(a), place(b)) += weight(a) * weight(b) * weight(a - b) *
+                                       h.potentialHarmonics()[static_cast<std::size_t>(place(a - b))];
         p.H(place(a), place(a)) += weight(a) * weight(a) * h.kinetic()[static_cast<std::size_t>(place(a))];
         p.W(place(a)) += weight(a) * weight(a);
     }
@@ -24,7 +24,8 @@ Eigen::MatrixXd realMatrix(const ConvolutionProblem& problem, const Fourier& fou
     const Eigen::Index n = problem.H.rows();
     const Eigen::VectorXd root = problem.W.cwiseSqrt().cwiseInverse();
     Eigen::MatrixXcd H = root.asDiagonal() * problem.H * root.asDiagonal();
-    // F^{-1} H F, a column at a time; F* is F^{-1}, so the rows of H F are those of the columns of (F^{-1} H*)*.
+    // F^{-1} H F, a column at a time; F* is F^{-1}, so the rows of H F are those of the columns of (F^{-1}
+    // H*)*.
     for (int pass = 0; pass < 2; ++pass) {
         Eigen::VectorXcd column(n);
         for (Eigen::Index k = 0; k < n; ++k) {

@@ -17,8 +17,8 @@ using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 
 bool isSame(const Hamiltonian& a, const Hamiltonian& b) {
-    return a.grid() == b.grid() && a.basis() == b.basis() && a.matrix() == b.matrix() && a.kinetic() == b.kinetic() &&
-           a.potential() == b.potential();
+    return a.grid() == b.grid() && a.basis() == b.basis() && a.matrix() == b.matrix() &&
+           a.kinetic() == b.kinetic() && a.potential() == b.potential();
 }
 
 }  // namespace
@@ -33,7 +33,8 @@ Matrix nodalMatrix(const Hamiltonian& h) {
     Matrix H(n, n);
     for (int j = 0; j < n; ++j)
         for (int l = 0; l <= j; ++l)
-            H(j, l) = H(l, j) = row[static_cast<std::size_t>(h.fourier().placeOf(j % nx - l % nx, j / nx - l / nx))].real();
+            H(j, l) = H(l, j) =
+                row[static_cast<std::size_t>(h.fourier().placeOf(j % nx - l % nx, j / nx - l / nx))].real();
     for (int j = 0; j < n; ++j) H(j, j) += h.potential()[static_cast<std::size_t>(j)];
     return H;
 }
@@ -72,13 +73,15 @@ std::vector<Complex> Eigenstates::coefficients(int n) const {
 void Eigenstates::toStates(const double* psi, double* d) const {
     const auto n = static_cast<Eigen::Index>(size());
     const ConstMatrix U(states_.data(), n, n);
-    for (const Eigen::Index part : {Eigen::Index{0}, n}) Vector(d + part, n).noalias() = U.transpose() * ConstVector(psi + part, n);
+    for (const Eigen::Index part : {Eigen::Index{0}, n})
+        Vector(d + part, n).noalias() = U.transpose() * ConstVector(psi + part, n);
 }
 
 void Eigenstates::fromStates(const double* d, double* psi) const {
     const auto n = static_cast<Eigen::Index>(size());
     const ConstMatrix U(states_.data(), n, n);
-    for (const Eigen::Index part : {Eigen::Index{0}, n}) Vector(psi + part, n).noalias() = U * ConstVector(d + part, n);
+    for (const Eigen::Index part : {Eigen::Index{0}, n})
+        Vector(psi + part, n).noalias() = U * ConstVector(d + part, n);
 }
 
 ExactSolution exactWave(const std::shared_ptr<const Hamiltonian>& hamiltonian, const State& initial) {

@@ -1,5 +1,5 @@
-/// Eigenstates of a Hamiltonian that does not depend on time: H v = E v, from the matrix in the coordinates v of
-/// Hamiltonian::toReal, which is real and symmetric, all at once. For N up to denseLimit.
+/// Eigenstates of a Hamiltonian that does not depend on time: H v = E v, from the matrix in the coordinates v
+/// of Hamiltonian::toReal, which is real and symmetric, all at once. For N up to denseLimit.
 ///
 /// With v_j = sum_n U_jn d_n the motion is d_n(t) = e^{-i E_n t/hbar} d_n(0), exact but for round-off.
 #pragma once

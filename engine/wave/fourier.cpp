@@ -20,12 +20,13 @@ fftw_complex* raw(const Complex* v) {
 
 /// One direction of the transform.
 ///
-/// A large rectangle whose plan is estimated is transformed row by row, then a few columns at a time through a buffer: such a
-/// plan for the whole goes down columns whose entries all fall into the same lines of the cache, and takes 2.5 times as long at
-/// 256 x 256.
+/// A large rectangle whose plan is estimated is transformed row by row, then a few columns at a time through
+/// a buffer: such a plan for the whole goes down columns whose entries all fall into the same lines of the
+/// cache, and takes 2.5 times as long at 256 x 256.
 class Direction {
 public:
-    Direction(int nx, int ny, int sign, Fourier::Planning planning) : nx_(nx), ny_(ny), together_(nx % 8 == 0 ? 8 : 2) {
+    Direction(int nx, int ny, int sign, Fourier::Planning planning)
+        : nx_(nx), ny_(ny), together_(nx % 8 == 0 ? 8 : 2) {
         std::vector<Complex> a(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)), b(a);
         const auto whole = [&](unsigned how) {
             const unsigned flags = how | FFTW_PRESERVE_INPUT;
@@ -39,10 +40,10 @@ public:
             first_ = whole(FFTW_ESTIMATE);
             return;
         }
-        first_ = fftw_plan_many_dft(1, &nx, ny, raw(a.data()), nullptr, 1, nx, raw(b.data()), nullptr, 1, nx, sign,
-                                    FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
-        columns_ = fftw_plan_many_dft(1, &ny, together_, raw(a.data()), nullptr, 1, ny, raw(a.data()), nullptr, 1, ny, sign,
-                                      FFTW_ESTIMATE);
+        first_ = fftw_plan_many_dft(1, &nx, ny, raw(a.data()), nullptr, 1, nx, raw(b.data()), nullptr, 1, nx,
+                                    sign, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+        columns_ = fftw_plan_many_dft(1, &ny, together_, raw(a.data()), nullptr, 1, ny, raw(a.data()),
+                                      nullptr, 1, ny, sign, FFTW_ESTIMATE);
     }
     ~Direction() {
         fftw_destroy_plan(first_);
@@ -77,7 +78,8 @@ private:
 struct Fourier::Plans {
     Direction forward, backward;
 
-    Plans(int nx, int ny, Planning planning) : forward(nx, ny, FFTW_FORWARD, planning), backward(nx, ny, FFTW_BACKWARD, planning) {}
+    Plans(int nx, int ny, Planning planning)
+        : forward(nx, ny, FFTW_FORWARD, planning), backward(nx, ny, FFTW_BACKWARD, planning) {}
 
     /// The planner is not thread-safe, executing is.
     static std::shared_ptr<const Plans> of(int nx, int ny, Planning planning) {
@@ -99,7 +101,8 @@ void scale(Complex* v, int n, double factor) {
 
 }  // namespace
 
-Fourier::Fourier(const wave::Grid& grid, Planning planning) : grid_(grid), plans_(Plans::of(grid.nx, grid.ny, planning)) {}
+Fourier::Fourier(const wave::Grid& grid, Planning planning)
+    : grid_(grid), plans_(Plans::of(grid.nx, grid.ny, planning)) {}
 
 double Fourier::waveNumber(int i) const { return 2 * std::numbers::pi * number(i) / grid_.x.length; }
 double Fourier::waveNumberY(int i) const { return 2 * std::numbers::pi * numberY(i) / grid_.y.length; }

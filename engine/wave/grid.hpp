@@ -1,7 +1,7 @@
 /// Where a wave function lives: nx equally spaced places of an interval, or nx by ny of a rectangle.
 ///
-/// Place (i, j) of a rectangle is entry i + j nx of every array. An interval has one place along y, at 0, whose width
-/// counts as 1: what is written for rectangles holds for intervals as it stands.
+/// Place (i, j) of a rectangle is entry i + j nx of every array. An interval has one place along y, at 0,
+/// whose width counts as 1: what is written for rectangles holds for intervals as it stands.
 #pragma once
 
 namespace extremal::wave {

@@ -17,8 +17,8 @@ namespace {
 void requireFinite(double V, double x, const double* y) {
     if (!std::isfinite(V))
         throw InvalidScene("/potential",
-                           "is not finite at x = " + formatNumber(x, 6) + (y ? ", y = " + formatNumber(*y, 6) : std::string()) +
-                               ": " + formatNumber(V),
+                           "is not finite at x = " + formatNumber(x, 6) +
+                               (y ? ", y = " + formatNumber(*y, 6) : std::string()) + ": " + formatNumber(V),
                            "a potential that is finite on the whole domain");
 }
 
@@ -30,7 +30,8 @@ std::vector<double> nodesOf(const wave::Domain& domain, int n) {
 
 }  // namespace
 
-Hamiltonian::Hamiltonian(const wave::Grid& grid, double hbar, double mass, wave::Potential potential, WaveBasis basis)
+Hamiltonian::Hamiltonian(const wave::Grid& grid, double hbar, double mass, wave::Potential potential,
+                         WaveBasis basis)
     : grid_(grid), hbar_(hbar), mass_(mass), potential_(std::move(potential)), basis_(basis) {
     V_.resize(static_cast<std::size_t>(size()));
     if (basis == WaveBasis::walls)
@@ -81,7 +82,8 @@ void Hamiltonian::convolve() {
 }
 
 std::shared_ptr<const Hamiltonian> Hamiltonian::withModes(int nx, int ny) const {
-    return std::make_shared<const Hamiltonian>(wave::Grid{grid_.x, nx, grid_.y, ny}, hbar_, mass_, potential_, basis_);
+    return std::make_shared<const Hamiltonian>(wave::Grid{grid_.x, nx, grid_.y, ny}, hbar_, mass_, potential_,
+                                               basis_);
 }
 
 void Hamiltonian::onInterval() {
@@ -101,8 +103,10 @@ void Hamiltonian::onInterval() {
         x_[static_cast<std::size_t>(j)] = middle + half * I.nodes(j);
         V_[static_cast<std::size_t>(j)] = V(2 * j + 2);
     }
-    const Eigen::MatrixXd inPotential = I.values * I.weights.cwiseProduct(V).asDiagonal() * I.values.transpose();
-    matrix_ = hbar_ * hbar_ / (2 * mass_ * half * half) * I.kinetic + (inPotential + inPotential.transpose()) / 2;
+    const Eigen::MatrixXd inPotential =
+        I.values * I.weights.cwiseProduct(V).asDiagonal() * I.values.transpose();
+    matrix_ =
+        hbar_ * hbar_ / (2 * mass_ * half * half) * I.kinetic + (inPotential + inPotential.transpose()) / 2;
     lowest_ = V.minCoeff();
     highest_ = matrix_.cwiseAbs().rowwise().sum().maxCoeff();
 }

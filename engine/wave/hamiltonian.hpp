@@ -1,18 +1,20 @@
-/// The Schroedinger operator i hbar c' = H c. On a periodic domain, an interval or a rectangle, on a Fourier grid,
-/// pseudo-spectrally (WaveBasis::fourier),
+/// The Schroedinger operator i hbar c' = H c. On a periodic domain, an interval or a rectangle, on a Fourier
+/// grid, pseudo-spectrally (WaveBasis::fourier),
 ///     H = diag(hbar^2 |k|^2/2m) + F diag(V(x_j, t)) F^{-1},   F unitary (wave/fourier.hpp),
-/// Hermitian at any N, the coefficient at k = -N/2 included (the printed Nyquist rows of the seed are not). hbar^2 k^2/2m is
-/// the right kinetic term; the printed one lacks the mass.
+/// Hermitian at any N, the coefficient at k = -N/2 included (the printed Nyquist rows of the seed are not).
+/// hbar^2 k^2/2m is the right kinetic term; the printed one lacks the mass.
 ///
-/// WaveBasis::convolution is the seed's own: V psi by the exact convolution of their coefficients (wave/convolution.hpp), on an
-/// interval; made Hermitian by c = W^{1/2} v/sqrt(2 pi), which halves the square at k = -N/2. It differs from the
-/// former by aliasing alone, which vanishes spectrally with N, and its H is a full matrix.
+/// WaveBasis::convolution is the seed's own: V psi by the exact convolution of their coefficients
+/// (wave/convolution.hpp), on an interval; made Hermitian by c = W^{1/2} v/sqrt(2 pi), which halves the
+/// square at k = -N/2. It differs from the former by aliasing alone, which vanishes spectrally with N, and
+/// its H is a full matrix.
 ///
-/// Between walls (WaveBasis::walls, psi = 0 at both ends) there are polynomials instead, with mass and stiffness from the
-/// action (wave/interval.hpp): H is a real symmetric matrix in c, and V enters through its values at the points of the rule.
+/// Between walls (WaveBasis::walls, psi = 0 at both ends) there are polynomials instead, with mass and
+/// stiffness from the action (wave/interval.hpp): H is a real symmetric matrix in c, and V enters through its
+/// values at the points of the rule.
 ///
-/// The state of a run is c, as 2N numbers (re, im in turn): |c|^2 is the norm squared, h sum |psi_j|^2 or u* M u.
-/// A Hamiltonian is immutable and shared; work arrays come from the caller and hold N numbers.
+/// The state of a run is c, as 2N numbers (re, im in turn): |c|^2 is the norm squared, h sum |psi_j|^2 or u*
+/// M u. A Hamiltonian is immutable and shared; work arrays come from the caller and hold N numbers.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,7 +43,8 @@ public:
     bool isPlane() const { return grid_.isPlane(); }
     WaveBasis basis() const { return basis_; }
     bool isPeriodic() const { return basis_ != WaveBasis::walls; }
-    /// Whether H is a part diagonal in c and a part diagonal at the nodes, each of which moves psi by phases alone.
+    /// Whether H is a part diagonal in c and a part diagonal at the nodes, each of which moves psi by phases
+    /// alone.
     bool isSplit() const { return basis_ == WaveBasis::fourier; }
     double hbar() const { return hbar_; }
     double mass() const { return mass_; }
@@ -60,8 +63,8 @@ public:
     /// Values of psi at the nodes from c, and back; not in place.
     void toNodes(const Complex* c, Complex* psi) const;
     void toCoefficients(const Complex* psi, Complex* c) const;
-    /// Orthonormal coordinates in which H is a real matrix: the inverse transform of c (psi_j sqrt(h) where H is split), or c
-    /// itself between walls; and back, which uses v up.
+    /// Orthonormal coordinates in which H is a real matrix: the inverse transform of c (psi_j sqrt(h) where H
+    /// is split), or c itself between walls; and back, which uses v up.
     void toReal(const Complex* c, Complex* v) const;
     void fromReal(Complex* v, Complex* c) const;
     /// Values at the middles of `rows` equal cells from those at the nodes, between walls: (row, node).
@@ -73,7 +76,8 @@ public:
     const std::vector<double>& potential() const { return V_; }
     /// V at the nodes and t.
     void potentialAt(double t, double* V) const;
-    /// On an interval: the largest a for which V has a harmonic exp(2 pi i a x/L) above round-off; of the samples, so at most N/2.
+    /// On an interval: the largest a for which V has a harmonic exp(2 pi i a x/L) above round-off; of the
+    /// samples, so at most N/2.
     int harmonics() const { return harmonics_; }
     /// Coefficients of V: V(x_j) = sum_a Vhat_a exp(2 pi i a j/N), in FFT order.
     const std::vector<Complex>& potentialHarmonics() const { return Vhat_; }
@@ -112,8 +116,9 @@ private:
 inline const Complex* coefficients(const double* x) { return reinterpret_cast<const Complex*>(x); }
 inline Complex* coefficients(double* x) { return reinterpret_cast<Complex*>(x); }
 
-/// A wave function between walls for pictures, from its values at the nodes (all real parts, then all imaginary parts): at
-/// `rows` equally spaced points and the walls. Nodes crowd at the walls and are far apart in the middle.
+/// A wave function between walls for pictures, from its values at the nodes (all real parts, then all
+/// imaginary parts): at `rows` equally spaced points and the walls. Nodes crowd at the walls and are far
+/// apart in the middle.
 struct EvenSamples {
     std::vector<double> x, re, im;
 };

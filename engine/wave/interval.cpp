@@ -22,7 +22,8 @@ Eigen::MatrixXd coefficientsOfCardinals(int N) {
         for (int j = 0; j <= N; ++j) {
             const double ends = (k == 0 || k == N ? 0.5 : 1.0) * (j == 0 || j == N ? 0.5 : 1.0);
             // Node j is -cos(pi j/N).
-            T(k, j) = (k % 2 == 0 ? 2.0 : -2.0) / N * ends * std::cos(std::numbers::pi * ((k * j) % (2 * N)) / N);
+            T(k, j) =
+                (k % 2 == 0 ? 2.0 : -2.0) / N * ends * std::cos(std::numbers::pi * ((k * j) % (2 * N)) / N);
         }
     return T;
 }
@@ -70,7 +71,8 @@ Eigen::MatrixXd differentiation(const Eigen::VectorXd& nodes) {
         for (int j = 0; j <= N; ++j) {
             if (i == j) continue;
             // The difference of two sines as a product keeps the digits near the ends.
-            const double a = std::numbers::pi * (2 * i - N) / (2.0 * N), b = std::numbers::pi * (2 * j - N) / (2.0 * N);
+            const double a = std::numbers::pi * (2 * i - N) / (2.0 * N),
+                         b = std::numbers::pi * (2 * j - N) / (2.0 * N);
             D(i, j) = weightOf(j, N) / weightOf(i, N) / (2 * std::cos((a + b) / 2) * std::sin((a - b) / 2));
             sum += D(i, j);
         }

@@ -1,14 +1,15 @@
 /// Polynomials on [-1, 1] that vanish at both ends, for wave functions between walls (Dirichlet boundaries).
 ///
-/// Through N + 1 Chebyshev extrema, N = n + 1, psi = sum_j u_j phi_j over the n inner ones. The action's integrals over x by
-/// Clenshaw-Curtis with 2N + 1 nodes (exact to degree 2N + 1) give
+/// Through N + 1 Chebyshev extrema, N = n + 1, psi = sum_j u_j phi_j over the n inner ones. The action's
+/// integrals over x by Clenshaw-Curtis with 2N + 1 nodes (exact to degree 2N + 1) give
 ///     mass       M_ij = sum_k w_k phi_i(y_k) phi_j(y_k)    = R^T R,   R upper triangular
 ///     stiffness  K_ij = sum_k w_k phi_i'(y_k) phi_j'(y_k)
-/// both symmetric, and i hbar M u' = (hbar^2/2m K + V) u. The state of a run is c = R u: then |c|^2 = u* M u is the norm squared
-/// of the discrete inner product, and the operator R^-T (..) R^-1 is real and symmetric. Squared differentiation matrices at the
-/// nodes are not, and lose the norm.
+/// both symmetric, and i hbar M u' = (hbar^2/2m K + V) u. The state of a run is c = R u: then |c|^2 = u* M u
+/// is the norm squared of the discrete inner product, and the operator R^-T (..) R^-1 is real and symmetric.
+/// Squared differentiation matrices at the nodes are not, and lose the norm.
 ///
-/// An Interval is immutable; lengths are those of [-1, 1]. What has no dimension here gets it in wave/hamiltonian.hpp.
+/// An Interval is immutable; lengths are those of [-1, 1]. What has no dimension here gets it in
+/// wave/hamiltonian.hpp.
 #pragma once
 
 #include <Eigen/Core>

@@ -39,7 +39,8 @@ struct Wave {
     double k, cosine, sine;
 };
 
-std::function<double(double, double, double)> fieldOnInterval(const Domain& domain, const RandomField& field) {
+std::function<double(double, double, double)> fieldOnInterval(const Domain& domain,
+                                                              const RandomField& field) {
     SplitMix random(static_cast<std::uint64_t>(field.seed));
     std::vector<Wave> waves;
     double variance = 0;
@@ -58,7 +59,8 @@ std::function<double(double, double, double)> fieldOnInterval(const Domain& doma
     }
     return [waves, left = domain.left](double x, double, double) {
         double sum = 0;
-        for (const Wave& w : waves) sum += w.cosine * std::cos(w.k * (x - left)) + w.sine * std::sin(w.k * (x - left));
+        for (const Wave& w : waves)
+            sum += w.cosine * std::cos(w.k * (x - left)) + w.sine * std::sin(w.k * (x - left));
         return sum;
     };
 }
@@ -73,7 +75,8 @@ struct Plane {
     double at(double x, double y) const {
         const Number stepX = std::polar(1.0, 2 * std::numbers::pi * (x - grid.x.left) / grid.x.length),
                      stepY = std::polar(1.0, 2 * std::numbers::pi * (y - grid.y.left) / grid.y.length),
-                     first = std::polar(1.0, -2 * std::numbers::pi * reach * (x - grid.x.left) / grid.x.length);
+                     first =
+                         std::polar(1.0, -2 * std::numbers::pi * reach * (x - grid.x.left) / grid.x.length);
         double sum = 0;
         Number turnY = 1;
         for (const auto& row : rows) {
@@ -93,8 +96,11 @@ struct Plane {
 
 std::function<double(double, double, double)> fieldOnRectangle(const Grid& grid, const RandomField& field) {
     // Weights below 1e-12 do not count: the terms are many.
-    const double l = field.correlation, furthest = std::sqrt(4 * std::log(1e12)) / l, turn = 2 * std::numbers::pi;
-    const auto reachOf = [&](const Domain& d) { return static_cast<int>(std::min(256.0, std::floor(furthest * d.length / turn))); };
+    const double l = field.correlation, furthest = std::sqrt(4 * std::log(1e12)) / l,
+                 turn = 2 * std::numbers::pi;
+    const auto reachOf = [&](const Domain& d) {
+        return static_cast<int>(std::min(256.0, std::floor(furthest * d.length / turn)));
+    };
     const auto plane = std::make_shared<Plane>(Plane{grid, reachOf(grid.x), {}});
     SplitMix random(static_cast<std::uint64_t>(field.seed));
     double variance = 0;
@@ -112,7 +118,8 @@ std::function<double(double, double, double)> fieldOnRectangle(const Grid& grid,
     const double scale = variance > 0 ? field.amplitude / std::sqrt(variance) : 0;
     for (auto& row : plane->rows)
         for (Number& z : row) z *= scale;
-    return [plane = std::shared_ptr<const Plane>(plane)](double x, double y, double) { return plane->at(x, y); };
+    return
+        [plane = std::shared_ptr<const Plane>(plane)](double x, double y, double) { return plane->at(x, y); };
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// Random potentials: a periodic Gaussian random field of variance 1 in mean and correlation exp(-|r|^2/(2 l^2)) about, from a
-/// seed: the same on every machine.
+/// Random potentials: a periodic Gaussian random field of variance 1 in mean and correlation exp(-|r|^2/(2
+/// l^2)) about, from a seed: the same on every machine.
 ///
 /// A sum over wave numbers k of the domain (on a rectangle over half the plane of them) of
 ///     w_k (g_k cos k.r + g'_k sin k.r),   w_k = exp(-|k|^2 l^2/4),   g normal,

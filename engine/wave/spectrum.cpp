@@ -50,8 +50,9 @@ double spectrumTail(const Hamiltonian& h, const Complex* c) {
 std::string resolutionCaution(const Hamiltonian& h, const Complex* c) {
     const double tail = spectrumTail(h, c);
     if (!(tail > 1e-4)) return {};
-    return "under-resolved: " + formatNumber(tail, 2) + " of the wave function is in the upper eighth of its " +
-           std::to_string(h.grid().nx) + (h.isPlane() ? " x " + std::to_string(h.grid().ny) : std::string()) + " modes";
+    return "under-resolved: " + formatNumber(tail, 2) +
+           " of the wave function is in the upper eighth of its " + std::to_string(h.grid().nx) +
+           (h.isPlane() ? " x " + std::to_string(h.grid().ny) : std::string()) + " modes";
 }
 
 MeanMomentum meanMomentum(const Hamiltonian& h, const Complex* c) {
@@ -90,7 +91,8 @@ NodeMeans nodeMeans(const Hamiltonian& h, const Complex* c, Complex* work) {
     } else {
         const Interval& I = h.interval();
         for (Eigen::Index i = 0; i < I.points.size(); ++i)
-            add(left + (1 + I.points(i)) * h.domain().length / 2, 0, I.weights(i) * std::norm(atPoint(I.values, i, c)));
+            add(left + (1 + I.points(i)) * h.domain().length / 2, 0,
+                I.weights(i) * std::norm(atPoint(I.values, i, c)));
     }
     means.x /= all;
     means.y /= all;
@@ -108,7 +110,8 @@ double currentInTheMiddle(const Hamiltonian& h, const Complex* c, Complex* work,
     }
     const wave::Grid& grid = h.grid();
     for (int i = 0; i < n; ++i)
-        slope[i] = 2 * h.fourier().number(i) == -grid.nx ? Complex(0) : Complex(0, h.fourier().waveNumber(i)) * c[i];
+        slope[i] =
+            2 * h.fourier().number(i) == -grid.nx ? Complex(0) : Complex(0, h.fourier().waveNumber(i)) * c[i];
     h.fourier().toNodes(slope, work);
     // The slopes on the line make room for the values.
     for (int j = 0; j < grid.ny; ++j) slope[j] = work[grid.nx / 2 + j * grid.nx];

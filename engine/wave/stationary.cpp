@@ -13,7 +13,8 @@ namespace {
 /// The KKT matrix at (c, E) and its preconditioner; vectors have dc, then dE.
 class KktSystem {
 public:
-    KktSystem(const Hamiltonian& h, const std::vector<Complex>& c) : h_(h), c_(c), n_(c.size()), image_(n_), work_(n_), scaled_(n_ + 1) {
+    KktSystem(const Hamiltonian& h, const std::vector<Complex>& c)
+        : h_(h), c_(c), n_(c.size()), image_(n_), work_(n_), scaled_(n_ + 1) {
         double mean = 0;
         for (const double V : h.potential()) mean += V / static_cast<double>(n_);
         mean_ = mean;
@@ -21,7 +22,8 @@ public:
 
     void setEnergy(double E) {
         E_ = E;
-        // T + mean - E passes through zero near the state's own wave numbers; what counts is that it is large where T is.
+        // T + mean - E passes through zero near the state's own wave numbers; what counts is that it is large
+        // where T is.
         const double floor = std::max({1e-3 * std::abs(E), std::abs(mean_ - E), 1e-12 * h_.highest()});
         inverse_.clear();
         for (const double T : h_.kinetic()) inverse_.push_back(1 / std::max(T + mean_ - E, floor));
@@ -71,7 +73,8 @@ StationaryState refineState(const Hamiltonian& h, std::vector<Complex> guess) {
     std::vector<Complex> image(size), work(size), rhs(size + 1), u(size + 1), step(size + 1);
     const double norm = std::sqrt(squaredNorm(s.c.data(), n));
     for (Complex& v : s.c) v /= norm;
-    const double roundOff = std::numeric_limits<double>::epsilon() * std::max(std::abs(h.highest()), std::abs(h.lowest()));
+    const double roundOff =
+        std::numeric_limits<double>::epsilon() * std::max(std::abs(h.highest()), std::abs(h.lowest()));
     for (int k = 0; k <= mostSteps; ++k) {
         h.apply(h.potential().data(), s.c.data(), image.data(), work.data());
         if (k == 0) s.energy = innerProduct(s.c.data(), image.data(), n).real();
@@ -86,8 +89,8 @@ StationaryState refineState(const Hamiltonian& h, std::vector<Complex> guess) {
         int iterations = 0;
         // Quadratic convergence asks for a relative error of the size of the residual and no less.
         const double tolerance = std::clamp(0.1 * s.residual / (1 + std::abs(s.energy)), 1e-9, 1e-2);
-        const Outcome outcome = gmres.solve([&](const Complex* from, Complex* to) { system.apply(from, to); }, rhs.data(), u.data(),
-                                            tolerance, mostIterations, iterations, {});
+        const Outcome outcome = gmres.solve([&](const Complex* from, Complex* to) { system.apply(from, to); },
+                                            rhs.data(), u.data(), tolerance, mostIterations, iterations, {});
         if (outcome == Outcome::notFinite) break;
         system.precondition(u.data(), step.data());
         for (std::size_t i = 0; i < size; ++i) s.c[i] += step[i];

@@ -5,9 +5,9 @@
 /// Newton's method on the KKT system
 ///     [ H - E   -c ] [dc]   [ -(H c - E c)    ]
 ///     [  -c*     0 ] [dE] = [ -(1 - c* c)/2   ]
-/// converges quadratically from a guess near a state, on grids of any size: H, which must be split, enters through its products
-/// alone. The system is solved by GMRES, preconditioned by the same one with T + (mean of V) - E in place of H - E, bounded away
-/// from zero.
+/// converges quadratically from a guess near a state, on grids of any size: H, which must be split, enters
+/// through its products alone. The system is solved by GMRES, preconditioned by the same one with T + (mean
+/// of V) - E in place of H - E, bounded away from zero.
 #pragma once
 
 #include <memory>
@@ -25,8 +25,8 @@ struct StationaryState {
     bool isConverged = false;
 };
 
-/// From a guess and its mean energy, at t = 0. Converged where the energy moves by less than 1e-13 of its size, or of the
-/// round-off of products with H; at most 12 steps.
+/// From a guess and its mean energy, at t = 0. Converged where the energy moves by less than 1e-13 of its
+/// size, or of the round-off of products with H; at most 12 steps.
 StationaryState refineState(const Hamiltonian& hamiltonian, std::vector<Complex> guess);
 
 }  // namespace extremal

@@ -14,7 +14,8 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& pointer, const std::string& text, const ExpressionError& e,
                          const std::string& hint) {
-    throw InvalidScene(pointer, "the expression " + std::string(e.what()) + "\n" + caretLines(text, e.position),
+    throw InvalidScene(pointer,
+                       "the expression " + std::string(e.what()) + "\n" + caretLines(text, e.position),
                        e.hint.empty() ? hint : e.hint);
 }
 
@@ -49,7 +50,8 @@ double numberOf(const Value& value, const std::string& pointer, const Constants&
     return number;
 }
 
-Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants, Variables variables) {
+Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants,
+                    Variables variables) {
     Function f;
     std::vector<std::string> known{"x"};
     if (variables.hasY) known.push_back("y");
@@ -76,7 +78,8 @@ Function functionOf(const std::string& text, const std::string& pointer, const C
     return f;
 }
 
-std::vector<double> parametersOf(const Value& object, const std::string& pointer, const std::vector<Parameter>& parameters,
+std::vector<double> parametersOf(const Value& object, const std::string& pointer,
+                                 const std::vector<Parameter>& parameters,
                                  const std::vector<std::string>& others, const Constants& constants) {
     std::vector<std::string> known = others;
     for (const Parameter& p : parameters) known.push_back(p.key);

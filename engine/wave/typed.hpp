@@ -1,5 +1,5 @@
-/// Numbers and functions as users write them inside the keys of a model whose shape no descriptor can hold: potentials
-/// and wave packets.
+/// Numbers and functions as users write them inside the keys of a model whose shape no descriptor can hold:
+/// potentials and wave packets.
 ///
 /// Every error is an InvalidScene that names the pointer, with a caret below the place in an expression.
 #pragma once
@@ -27,7 +27,8 @@ struct Function {
 struct Variables {
     bool hasY = false, hasTime = false;
 };
-Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants, Variables variables);
+Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants,
+                    Variables variables);
 
 /// One parameter of a named potential or packet.
 struct Parameter {
@@ -36,7 +37,8 @@ struct Parameter {
     bool isRequired = false, isPositive = false;
 };
 /// The parameters of an object, in their order; keys that are neither parameters nor `others` are errors.
-std::vector<double> parametersOf(const Value& object, const std::string& pointer, const std::vector<Parameter>& parameters,
+std::vector<double> parametersOf(const Value& object, const std::string& pointer,
+                                 const std::vector<Parameter>& parameters,
                                  const std::vector<std::string>& others, const Constants& constants);
 
 }  // namespace extremal::wave

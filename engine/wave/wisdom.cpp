@@ -26,7 +26,8 @@ double microsecondsOf(const Fourier& fourier) {
             fourier.rawToNodes(from.data(), to.data());
             fourier.rawToCoefficients(to.data(), back.data());
         }
-        best = std::min(best, std::chrono::duration<double, std::micro>(Time::now() - before).count() / repeats);
+        best =
+            std::min(best, std::chrono::duration<double, std::micro>(Time::now() - before).count() / repeats);
     } while (Time::now() - start < std::chrono::milliseconds(200));
     return best;
 }
@@ -47,7 +48,8 @@ TransformGain measureTransform(const TransformSize& size) {
 }
 
 std::string wisdom() {
-    const std::unique_ptr<char, void (*)(char*)> text(fftw_export_wisdom_to_string(), [](char* s) { fftw_free(s); });
+    const std::unique_ptr<char, void (*)(char*)> text(fftw_export_wisdom_to_string(),
+                                                      [](char* s) { fftw_free(s); });
     return text ? std::string(text.get()) : std::string();
 }
 

@@ -1,7 +1,9 @@
-/// FFTW's wisdom, where somebody wants it: which ways of making a transform were measured as the fastest on a machine.
+/// FFTW's wisdom, where somebody wants it: which ways of making a transform were measured as the fastest on a
+/// machine.
 ///
-/// Plans are estimated unless told otherwise, as a plan measured at the start of a run changes the last bits from run to run.
-/// Wisdom is measured once and kept in a file: runs with the same file give the same bits again.
+/// Plans are estimated unless told otherwise, as a plan measured at the start of a run changes the last bits
+/// from run to run. Wisdom is measured once and kept in a file: runs with the same file give the same bits
+/// again.
 #pragma once
 
 #include <string>
@@ -9,8 +11,8 @@
 
 namespace extremal {
 
-/// Plans made from now on follow this file, which is FFTW's own; sizes that it does not know are estimated. Throws
-/// std::runtime_error with the reason.
+/// Plans made from now on follow this file, which is FFTW's own; sizes that it does not know are estimated.
+/// Throws std::runtime_error with the reason.
 void useWisdom(const std::string& file);
 
 /// nx nodes, or nx by ny.

@@ -67,7 +67,8 @@ private slots:
         QVERIFY(a.out.contains("Midpoint A  done"));
         QCOMPARE(filesIn(dir.filePath("out")),
                  (QStringList{"midpoint-a.csv", "scene.json", "summary.csv", "summary.json"}));
-        const QByteArrayList rows = tests::contentOf(dir.filePath("out/midpoint-a.csv")).trimmed().split('\n');
+        const QByteArrayList rows =
+            tests::contentOf(dir.filePath("out/midpoint-a.csv")).trimmed().split('\n');
         QCOMPARE(rows.size(), 12);
         QCOMPARE(rows[0], QByteArray("t,q.x,q.y,p.x,p.y,energy,energy_error,error,error.p,error.x,error.y"));
         QVERIFY(rows[1].startsWith("0,0.4,0,0,2,"));

@@ -1,4 +1,5 @@
-/// The commands that README and handbook show, run as a user would type them, in an empty folder without a display.
+/// The commands that README and handbook show, run as a user would type them, in an empty folder without a
+/// display.
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
@@ -38,7 +39,8 @@ class ReadmeTest : public QObject {
 private slots:
     void everyCommandWorks_data() {
         QTest::addColumn<QString>("page");
-        for (const char* page : {"README.md", "resources/handbook/tour.md", "resources/handbook/command-line.md"})
+        for (const char* page :
+             {"README.md", "resources/handbook/tour.md", "resources/handbook/command-line.md"})
             QTest::newRow(page) << page;
     }
 
@@ -73,7 +75,8 @@ private slots:
         QVERIFY(program.waitForFinished(120000));
         QCOMPARE(program.exitCode(), 0);
         const QStringList files = QDir(folder.filePath("pendulum")).entryList(QDir::Files);
-        for (const char* name : {"scene.json", "summary.csv", "summary.json"}) QVERIFY2(files.contains(name), name);
+        for (const char* name : {"scene.json", "summary.csv", "summary.json"})
+            QVERIFY2(files.contains(name), name);
         QVERIFY(files.filter(".csv").size() > 2);  // the summary, and one for each scheme
     }
 };

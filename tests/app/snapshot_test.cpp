@@ -17,7 +17,8 @@ namespace {
 
 using tests::Answer;
 
-Answer snapshot(const QStringList& arguments, const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
+Answer snapshot(const QStringList& arguments,
+                const QProcessEnvironment& environment = QProcessEnvironment::systemEnvironment()) {
     tests::Surroundings around;
     around.environment = environment;
     around.environment.remove("QT_QPA_PLATFORM");  // no display, and no help from outside
@@ -37,7 +38,8 @@ private slots:
     void drawsEveryPresetsViewsWithoutADisplay() {
         for (const char* preset : {"spring-pendulum", "pendulum", "kepler", "harmonic-oscillator"}) {
             const Answer a = snapshot({QString("preset:") + preset, "--out", path("all.png")});
-            QVERIFY2(a.code == 0 || a.code == 1, qPrintable(a.err));  // 1: a scheme of the preset fails, as it should
+            QVERIFY2(a.code == 0 || a.code == 1,
+                     qPrintable(a.err));  // 1: a scheme of the preset fails, as it should
             QCOMPARE(QImage(path("all.png")).size(), QSize(1200, 800));
         }
     }
@@ -52,27 +54,31 @@ private slots:
     }
 
     void saysInJsonWhatWasDrawn() {
-        const Answer a = snapshot({"preset:kepler", "--view", "stage", "--time", "3.14", "--size", "320x200", "--json",
-                                   "--out", path("k.png")});
+        const Answer a = snapshot({"preset:kepler", "--view", "stage", "--time", "3.14", "--size", "320x200",
+                                   "--json", "--out", path("k.png")});
         const QJsonObject json = QJsonDocument::fromJson(a.out.toUtf8()).object();
         QCOMPARE(json["file"].toString(), path("k.png"));
         QCOMPARE(json["width"].toInt(), 320);
         QCOMPARE(json["height"].toInt(), 200);
         QCOMPARE(json["view"].toString(), QString("stage"));
-        QVERIFY(std::abs(json["time"].toDouble() - 3.14) < 0.06);  // the nearest row: half the first scheme's step
+        QVERIFY(std::abs(json["time"].toDouble() - 3.14) <
+                0.06);  // the nearest row: half the first scheme's step
     }
 
     void compareTellsEqualFromDifferent() {
         const QStringList common = {"preset:kepler", "--view", "stage", "--size", "400x300"};
         snapshot(common + QStringList{"--out", path("base.png")});
-        const Answer same = snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png")});
+        const Answer same =
+            snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png")});
         QCOMPARE(same.code, 0);
-        const Answer other = snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png"),
-                                                           "--time", "3"});
+        const Answer other = snapshot(
+            common + QStringList{"--out", path("new.png"), "--compare", path("base.png"), "--time", "3"});
         QCOMPARE(other.code, 1);
         QVERIFY(!QImage(path("new.png.diff.png")).isNull());
-        QCOMPARE(snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png"), "--time", "3",
-                                               "--tolerance", "50"}).code, 0);
+        QCOMPARE(snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png"),
+                                               "--time", "3", "--tolerance", "50"})
+                     .code,
+                 0);
     }
 
     void unusableArgumentsAreNamedAndWriteNothing() {
@@ -110,7 +116,8 @@ private slots:
         QVERIFY2(a.err.contains("libosmesa6"), qPrintable(a.err));
         QVERIFY(!QFile::exists(path("stage.png")));
         // What draws no stage still works.
-        QCOMPARE(snapshot({"preset:kepler", "--view", "phase", "--out", path("phase.png")}, environment).code, 0);
+        QCOMPARE(snapshot({"preset:kepler", "--view", "phase", "--out", path("phase.png")}, environment).code,
+                 0);
     }
 };
 

@@ -34,7 +34,8 @@ private slots:
         const QJsonArray rows = QJsonDocument::fromJson(first.out.toUtf8()).object()["transforms"].toArray();
         QCOMPARE(rows.size(), qsizetype(1));
         QCOMPARE(rows[0].toObject()["modes"].toString(), QString("64"));
-        QVERIFY(rows[0].toObject()["estimated"].toDouble() > 0 && rows[0].toObject()["measured"].toDouble() > 0);
+        QVERIFY(rows[0].toObject()["estimated"].toDouble() > 0 &&
+                rows[0].toObject()["measured"].toDouble() > 0);
         const auto plans = [&] { return contentOf(file).count('\n'); };
         const auto before = plans();
         QVERIFY(before > 2);
@@ -48,7 +49,9 @@ private slots:
         const QString file = folder.filePath("wisdom");
         QCOMPARE(extremalWith({}, {"wisdom", "--out", file, "--modes", "128", "--quiet"}).code, 0);
         const auto run = [&](const QString& out) {
-            return extremalWith(file, {"run", "preset:revival", "--set", "/time/end=0.1", "--out", folder.filePath(out), "--quiet"}).code;
+            return extremalWith(file, {"run", "preset:revival", "--set", "/time/end=0.1", "--out",
+                                       folder.filePath(out), "--quiet"})
+                .code;
         };
         QCOMPARE(run("a"), 0);
         QCOMPARE(run("b"), 0);

@@ -1,8 +1,9 @@
 /// Ten million steps of degree 8 on the Hénon-Heiles system at H = 0.13: how the energy error grows.
 ///
-/// Round-off that is not biased makes a random walk: its size after n steps grows like sqrt(n), and a straight line
-/// fitted through it explains no more than chance does. Prints, for several orbits, the error at the end, the slope in
-/// units of what a random walk of the same size would show by chance, and the exponent fitted over the ensemble.
+/// Round-off that is not biased makes a random walk: its size after n steps grows like sqrt(n), and a
+/// straight line fitted through it explains no more than chance does. Prints, for several orbits, the error
+/// at the end, the slope in units of what a random walk of the same size would show by chance, and the
+/// exponent fitted over the ensemble.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -47,10 +48,12 @@ int main(int argc, char** argv) {
             jumps += (e - last) * (e - last);
             last = e;
         }
-        // A random walk with steps of variance s^2 has slopes of variance about (6/5) s^2 / n through the origin.
+        // A random walk with steps of variance s^2 has slopes of variance about (6/5) s^2 / n through the
+        // origin.
         const double slope = sxy / sxx, chance = std::sqrt(1.2 * jumps / samples / samples);
-        std::printf("orbit %d: |dH| at most %.2e, at the end %+.2e; slope %+.2f of chance; %.2f iterations a step\n", orbit,
-                    worst, last, slope / chance, static_cast<double>(iterations) / static_cast<double>(steps));
+        std::printf(
+            "orbit %d: |dH| at most %.2e, at the end %+.2e; slope %+.2f of chance; %.2f iterations a step\n",
+            orbit, worst, last, slope / chance, static_cast<double>(iterations) / static_cast<double>(steps));
     }
     double n = 0, mx = 0, my = 0, sxx = 0, sxy = 0;
     for (int k = 10; k <= samples; ++k) {
@@ -61,6 +64,8 @@ int main(int argc, char** argv) {
         sxx += x * x;
         sxy += x * y;
     }
-    std::printf("root mean square over the orbits grows as steps^%.2f (0.5: random walk, 1: drift); at the end %.2e, mean %+.2e\n",
-                (sxy - mx * my / n) / (sxx - mx * mx / n), std::sqrt(spread[samples]), mean[samples]);
+    std::printf(
+        "root mean square over the orbits grows as steps^%.2f (0.5: random walk, 1: drift); at the end %.2e, "
+        "mean %+.2e\n",
+        (sxy - mx * my / n) / (sxx - mx * mx / n), std::sqrt(spread[samples]), mean[samples]);
 }

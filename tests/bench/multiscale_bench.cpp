@@ -1,7 +1,8 @@
-/// Multiscale schemes against the impulse method with the exact oscillator, the best resolved peer, on the stiff spring
-/// pendulum to t = 10: CPU time to bring both the angle and the extension (over its amplitude) below an error, at the times
-/// 0.1, 0.2, ..., 10. Prints the cheapest run of each that reaches it, nodes evaluated, and the ratio in one process.
-/// References: the motion in quadruple precision; for k = 1e12 R3 at a quarter of the largest step.
+/// Multiscale schemes against the impulse method with the exact oscillator, the best resolved peer, on the
+/// stiff spring pendulum to t = 10: CPU time to bring both the angle and the extension (over its amplitude)
+/// below an error, at the times 0.1, 0.2, ..., 10. Prints the cheapest run of each that reaches it, nodes
+/// evaluated, and the ratio in one process. References: the motion in quadruple precision; for k = 1e12 R3 at
+/// a quarter of the largest step.
 
 #include <algorithm>
 #include <array>
@@ -91,7 +92,9 @@ std::vector<std::pair<std::string, Discretization>> pairs() {
 }
 Make impulse(int order) {
     Settings keys{"impulse", {{"order", static_cast<double>(order)}}, {}};
-    return [keys, make = findBaseline("impulse")->make](const System& s, const Clock& c) { return make(s, {c, 10, 0, keys}); };
+    return [keys, make = findBaseline("impulse")->make](const System& s, const Clock& c) {
+        return make(s, {c, 10, 0, keys});
+    };
 }
 
 void keepBest(Cost& best, const Cost& found, double wanted, const std::string& name) {
@@ -120,14 +123,16 @@ Cost bestPeer(const Problem& p, double wanted) {
                 nearest.name = "impulse " + std::to_string(order);
             }
             if (once.seconds > best.seconds * 1.5) break;
-            if (once.error <= wanted) keepBest(best, measure(p, impulse(order), 10 / n), wanted, "impulse " + std::to_string(order));
+            if (once.error <= wanted)
+                keepBest(best, measure(p, impulse(order), 10 / n), wanted,
+                         "impulse " + std::to_string(order));
         }
     return best.name.empty() ? nearest : best;
 }
 
 void print(const char* who, const Cost& c) {
-    std::printf("  %-10s %-10s h = %-9.4g error %.1e (theta %.1e)  %.3e s  %lld evaluations\n", who, c.name.c_str(), c.step, c.error,
-                c.errorTheta, c.seconds, c.evaluations);
+    std::printf("  %-10s %-10s h = %-9.4g error %.1e (theta %.1e)  %.3e s  %lld evaluations\n", who,
+                c.name.c_str(), c.step, c.error, c.errorTheta, c.seconds, c.evaluations);
 }
 
 Rows rowsOf(double k) {
@@ -175,10 +180,12 @@ int main() {
             if (k < 1e9) {
                 const Cost peer = bestPeer(p, wanted);
                 print("peer", peer);
-                std::printf("  ratio %.3f%s\n", ours.seconds / peer.seconds, peer.error > wanted ? " (the peer misses the error)" : "");
+                std::printf("  ratio %.3f%s\n", ours.seconds / peer.seconds,
+                            peer.error > wanted ? " (the peer misses the error)" : "");
                 if (k == 1e8 && wanted == 1e-6) peerAt8 = peer.seconds;
             } else {
-                std::printf("  ratio %.5f (peer extrapolated as sqrt k from 1e8)\n", ours.seconds / (peerAt8 * 100));
+                std::printf("  ratio %.5f (peer extrapolated as sqrt k from 1e8)\n",
+                            ours.seconds / (peerAt8 * 100));
                 std::printf("  cost at k = 1e12 over that at 1e6: %.2f\n", ours.seconds / at6);
             }
             if (k == 1e6 && wanted == 1e-6) at6 = ours.seconds;

@@ -1,7 +1,8 @@
 /// Wave functions in the plane: transforms, and work against precision, in one process.
 ///
-/// Transforms: ours, by rows and then a few columns at a time, against one estimated and one measured plan of FFTW for the whole.
-/// P: V = 20 (2 - cos x - cos y) + 10 cos(x - y), which couples x and y, 128 x 128 modes, T = 1. Reference: Chebyshev's series.
+/// Transforms: ours, by rows and then a few columns at a time, against one estimated and one measured plan of
+/// FFTW for the whole. P: V = 20 (2 - cos x - cos y) + 10 cos(x - y), which couples x and y, 128 x 128 modes,
+/// T = 1. Reference: Chebyshev's series.
 
 #include <fftw3.h>
 
@@ -37,7 +38,8 @@ void compareTransforms(int n) {
     std::vector<Complex> from(size, Complex(1)), to(size);
     const auto raw = [](std::vector<Complex>& v) { return reinterpret_cast<fftw_complex*>(v.data()); };
     const auto whole = [&](unsigned how) {
-        const fftw_plan plan = fftw_plan_dft_2d(n, n, raw(from), raw(to), FFTW_FORWARD, how | FFTW_PRESERVE_INPUT);
+        const fftw_plan plan =
+            fftw_plan_dft_2d(n, n, raw(from), raw(to), FFTW_FORWARD, how | FFTW_PRESERVE_INPUT);
         std::fill(from.begin(), from.end(), Complex(1));
         const double time = microseconds([&] { fftw_execute(plan); });
         fftw_destroy_plan(plan);
@@ -46,7 +48,8 @@ void compareTransforms(int n) {
     const Fourier fourier({{0, 1}, n, {0, 1}, n}, Fourier::Planning::estimated);
     const double own = microseconds([&] { fourier.rawToCoefficients(from.data(), to.data()); });
     const double estimated = whole(FFTW_ESTIMATE), measured = whole(FFTW_MEASURE);
-    std::printf("%4d x %-4d ours %8.1f us, over estimated %.2f, over measured %.2f\n", n, n, own, own / estimated, own / measured);
+    std::printf("%4d x %-4d ours %8.1f us, over estimated %.2f, over measured %.2f\n", n, n, own,
+                own / estimated, own / measured);
 }
 
 }  // namespace
@@ -54,10 +57,22 @@ void compareTransforms(int n) {
 int main() {
     for (const int n : {64, 128, 256, 512}) compareTransforms(n);
 
-    Problem p{"P", makeSystem("schrodinger-2d", {{"potential", "20*(2 - cos(x) - cos(y)) + 10*cos(x - y)"}, {"modes", 128.0}, {"modes_y", 128.0}}),
-              {}, 1, {}, 1e-12, 2};
-    p.start = makeStart(p.system, {{"packet", "periodic-gaussian"}, {"kappa", 10.0}, {"centre", 1.2}, {"wave_number", 3.0},
-                                   {"kappa_y", 8.0}, {"centre_y", 0.5}, {"wave_number_y", -2.0}});
+    Problem p{"P",
+              makeSystem("schrodinger-2d", {{"potential", "20*(2 - cos(x) - cos(y)) + 10*cos(x - y)"},
+                                            {"modes", 128.0},
+                                            {"modes_y", 128.0}}),
+              {},
+              1,
+              {},
+              1e-12,
+              2};
+    p.start = makeStart(p.system, {{"packet", "periodic-gaussian"},
+                                   {"kappa", 10.0},
+                                   {"centre", 1.2},
+                                   {"wave_number", 3.0},
+                                   {"kappa_y", 8.0},
+                                   {"centre_y", 0.5},
+                                   {"wave_number_y", -2.0}});
     p.exact = baselineMethod("chebyshev-propagation")(p, 16);
     const double targets[] = {1e-3, 1e-6, 1e-9};
     double splitting[3], gaussian[3];
@@ -69,7 +84,9 @@ int main() {
     printCosts(p, "chebyshev-propagation", baselineMethod("chebyshev-propagation"), targets, nullptr);
     for (const int degree : {2, 4, 8})
         for (const double tolerance : {1e-7, 1e-10})
-            printCosts(p, "Gauss " + std::to_string(2 * degree) + (tolerance > 1e-9 ? ", krylov to 1e-7" : ", krylov to 1e-10"),
+            printCosts(p,
+                       "Gauss " + std::to_string(2 * degree) +
+                           (tolerance > 1e-9 ? ", krylov to 1e-7" : ", krylov to 1e-10"),
                        pairMethod(degree, "krylov", tolerance), targets, gaussian);
     std::printf("%-34s", "best Gauss / best splitting");
     for (int i = 0; i < 3; ++i)

@@ -1,8 +1,9 @@
-/// The free body with moments 1, 2, 3 from Pi = (cos 1.1, 0, sin 1.1) to t = 100, its attitude to a given accuracy: CPU time
-/// of the Lie group scheme of degree 4, of Boost.odeint's dopri5 on quaternions, of splitting and of the closed form.
+/// The free body with moments 1, 2, 3 from Pi = (cos 1.1, 0, sin 1.1) to t = 100, its attitude to a given
+/// accuracy: CPU time of the Lie group scheme of degree 4, of Boost.odeint's dopri5 on quaternions, of
+/// splitting and of the closed form.
 ///
-/// Every code runs at the cheapest step or tolerance that reaches the accuracy; medians of repeated runs, all in one
-/// process. Only the ratios mean anything.
+/// Every code runs at the cheapest step or tolerance that reaches the accuracy; medians of repeated runs, all
+/// in one process. Only the ratios mean anything.
 #include <boost/numeric/odeint.hpp>
 
 #include <algorithm>
@@ -63,8 +64,12 @@ double runIntegrator(const System& system, const Discretization& pair, double st
 }
 double runSplitting(const System& system, int order, double steps) {
     const auto n = static_cast<long long>(steps);
-    const auto integrator = findBaseline("rigid-splitting")->make(
-        system, {{0, T / static_cast<double>(n)}, 0, 0, {"rigid-splitting", {{"order", static_cast<double>(order)}}, {}}});
+    const auto integrator =
+        findBaseline("rigid-splitting")
+            ->make(system, {{0, T / static_cast<double>(n)},
+                            0,
+                            0,
+                            {"rigid-splitting", {{"order", static_cast<double>(order)}}, {}}});
     const auto end = after(*integrator, bodyState(standard().start), n);
     return end ? attitudeError(end->x, known().q) : 1e300;
 }
@@ -84,8 +89,9 @@ double runOdeint(double tolerance) {
         d[5] = x[6] * w1 - x[4] * w3;
         d[6] = x[4] * w2 - x[5] * w1;
     };
-    odeint::integrate_adaptive(odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_dopri5<Array>()), rhs, y,
-                               0.0, T, 0.1);
+    odeint::integrate_adaptive(
+        odeint::make_controlled(tolerance, tolerance, odeint::runge_kutta_dopri5<Array>()), rhs, y, 0.0, T,
+        0.1);
     return attitudeError({y[0], y[1], y[2], y[3]}, known().q);
 }
 
@@ -113,14 +119,16 @@ int main() {
         for (const int degree : {2, 3, 4, 6, 8}) {
             const std::string name = "lie-" + std::to_string(degree);
             const double s = show(name.c_str(), cheapest(wanted, steps, [&](double n) {
-                return runIntegrator(system, liePair(degree), std::floor(n));
-            }));
+                                      return runIntegrator(system, liePair(degree), std::floor(n));
+                                  }));
             if (degree == 4) lie4 = s;
         }
         for (const int order : {4, 6})
-            show(order == 4 ? "splitting 4" : "splitting 6",
-                 cheapest(wanted, steps, [&](double n) { return runSplitting(system, order, std::floor(n)); }));
-        std::printf("%-22s %8.0e  ratio %.2f (target: at most 5 at 1e-9)\n\n", "lie-4 / dopri5", wanted, lie4 / dopri);
+            show(order == 4 ? "splitting 4" : "splitting 6", cheapest(wanted, steps, [&](double n) {
+                     return runSplitting(system, order, std::floor(n));
+                 }));
+        std::printf("%-22s %8.0e  ratio %.2f (target: at most 5 at 1e-9)\n\n", "lie-4 / dopri5", wanted,
+                    lie4 / dopri);
     }
     const extremal::State start = bodyState(standard().start);
     std::vector<double> x(10);

@@ -1,5 +1,5 @@
-/// What a typed Lagrangian costs against the built-in system: the same scheme in the same process, best of several
-/// alternating runs, as a ratio. Also single evaluations, and what differentiation itself takes.
+/// What a typed Lagrangian costs against the built-in system: the same scheme in the same process, best of
+/// several alternating runs, as a ratio. Also single evaluations, and what differentiation itself takes.
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -31,8 +31,8 @@ std::pair<double, double> compare(F&& typed, G&& builtIn) {
 }
 
 void report(const char* system, const char* what, std::pair<double, double> t, double count) {
-    std::printf("%-16s %-26s typed %8.1f ns, built-in %8.1f ns, ratio %.2f\n", system, what, 1e9 * t.first / count,
-                1e9 * t.second / count, t.first / t.second);
+    std::printf("%-16s %-26s typed %8.1f ns, built-in %8.1f ns, ratio %.2f\n", system, what,
+                1e9 * t.first / count, 1e9 * t.second / count, t.first / t.second);
 }
 
 void benchmark(const System& typed, const System& builtIn, const State& start, double h) {
@@ -87,6 +87,7 @@ int main() {
     benchmark(typedSpringPendulum(), systemNamed("spring-pendulum"), {0, 0, {0.05, 1, 0, 0}}, 0.001);
     const double first = timeOf([] { typedSystem({"x"}, {{"k", 1}}, "x_t^2/2 - k*x^2/2 + x^3*sin(x)"); });
     const double again = timeOf([] { typedSystem({"x"}, {{"k", 2}}, "x_t^2/2 - k*x^2/2 + x^3*sin(x)"); });
-    std::printf("a new Lagrangian %.2f ms, the same with another parameter %.2f ms\n", 1e3 * first, 1e3 * again);
+    std::printf("a new Lagrangian %.2f ms, the same with another parameter %.2f ms\n", 1e3 * first,
+                1e3 * again);
     return 0;
 }

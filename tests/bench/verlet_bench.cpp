@@ -1,6 +1,6 @@
-/// How much the program adds to a bare loop: 10^7 Störmer-Verlet steps on Kepler, energy and error observed at every
-/// node, against (a) a hand-written loop of steps alone and (b) one that computes energy and the exact solution too.
-/// Prints ratios measured in one process, and the growth of memory.
+/// How much the program adds to a bare loop: 10^7 Störmer-Verlet steps on Kepler, energy and error observed
+/// at every node, against (a) a hand-written loop of steps alone and (b) one that computes energy and the
+/// exact solution too. Prints ratios measured in one process, and the growth of memory.
 #include <sys/resource.h>
 
 #include <cmath>
@@ -66,12 +66,14 @@ int main() {
             d = (E - 0.6 * std::sin(E) - M) / (1 - 0.6 * std::cos(E));
             E -= d;
         }
-        worstError = std::max(worstError, std::hypot(watched.x - (std::cos(E) - 0.6), watched.y - 0.8 * std::sin(E)));
+        worstError =
+            std::max(worstError, std::hypot(watched.x - (std::cos(E) - 0.6), watched.y - 0.8 * std::sin(E)));
     }
     const double byHand = cpuSeconds() - start;
 
     const std::string text = R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[0.4,0],"p":[0,2]},
-        "time":{"end":)" + std::to_string(static_cast<double>(steps) * h) + R"(},
+        "time":{"end":)" + std::to_string(static_cast<double>(steps) * h) +
+                             R"(},
         "schemes":[{"baseline":"stormer-verlet","step":0.001}],"observe":["energy","error"]})";
     const Scene scene = readScene(std::string_view(text)).scene;
     start = cpuSeconds();

@@ -1,9 +1,9 @@
-/// Work against precision for wave functions: variational Gauss schemes with the energy shift against split-step methods and a
-/// Chebyshev series, in one process (wave_costs.hpp).
+/// Work against precision for wave functions: variational Gauss schemes with the energy shift against
+/// split-step methods and a Chebyshev series, in one process (wave_costs.hpp).
 ///
-/// A: i psi_t = -psi_xx/2 + 50 (1 - cos x) psi, N = 256, T = 1. S: hbar = 0.01, V = 1 - cos x, N = 512, T = 2. G: A with the
-/// potential 50 (1 - exp(cos x - 1) + sin(5 x)/20), which has many harmonics. "bare": a loop of SRKN 14a by hand, whose
-/// neighbouring drifts are one.
+/// A: i psi_t = -psi_xx/2 + 50 (1 - cos x) psi, N = 256, T = 1. S: hbar = 0.01, V = 1 - cos x, N = 512, T
+/// = 2. G: A with the potential 50 (1 - exp(cos x - 1) + sin(5 x)/20), which has many harmonics. "bare": a
+/// loop of SRKN 14a by hand, whose neighbouring drifts are one.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,8 @@ System onCircle(const char* potential, double hbar, double modes) {
 }
 
 State packet(const System& system, double kappa, double k) {
-    return makeStart(system, {{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", 1.2}, {"wave_number", k}});
+    return makeStart(
+        system, {{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", 1.2}, {"wave_number", k}});
 }
 
 std::vector<double> bareSrkn14a(const Problem& p, int n) {
@@ -43,7 +44,8 @@ std::vector<double> bareSrkn14a(const Problem& p, int n) {
         return result;
     };
     for (std::size_t s = 0; s < table.size(); ++s)  // a palindrome
-        phases.push_back(2 * s < table.size() ? phase(table[s].isKick, table[s].fraction) : phases[table.size() - 1 - s]);
+        phases.push_back(2 * s < table.size() ? phase(table[s].isKick, table[s].fraction)
+                                              : phases[table.size() - 1 - s]);
     const auto joined = phase(false, table.front().fraction + table.back().fraction);
     std::vector<double> x = p.start.x;
     std::vector<Complex> psi(size);
@@ -79,17 +81,22 @@ void compare(const Problem& p, const char* solver) {
     double best[4], peer[4];
     std::fill(best, best + 4, 1e300);
     std::fill(peer, peer + 4, 1e300);
-    const auto row = [&](const std::string& name, const Method& method, double* least) { printCosts(p, name, method, targets, least); };
+    const auto row = [&](const std::string& name, const Method& method, double* least) {
+        printCosts(p, name, method, targets, least);
+    };
     row("SRKN 14a, bare loop", bareSrkn14a, peer);
-    for (const char* id : {"srkn-14a", "srkn-11b", "blanes-moan-s6", "suzuki-4", "strang", "crank-nicolson", "chebyshev-propagation"})
+    for (const char* id : {"srkn-14a", "srkn-11b", "blanes-moan-s6", "suzuki-4", "strang", "crank-nicolson",
+                           "chebyshev-propagation"})
         row(id, baselineMethod(id), std::string(id).starts_with("srkn") ? peer : nullptr);
     const bool isBanded = std::string(solver) == "banded";
     for (const int degree : {4, 8, 12, 16})
         for (const double tolerance : isBanded ? std::vector<double>{0, 1e-10} : std::vector<double>{1e-13})
-            row("Gauss " + std::to_string(2 * degree) + ", " + solver + (isBanded ? tolerance > 0 ? ", fours" : ", pairs" : ""),
+            row("Gauss " + std::to_string(2 * degree) + ", " + solver +
+                    (isBanded ? tolerance > 0 ? ", fours" : ", pairs" : ""),
                 pairMethod(degree, solver, tolerance), best);
     if (!isBanded)
-        for (const int degree : {8, 16}) row("Gauss " + std::to_string(2 * degree) + ", dense", pairMethod(degree, "dense", 0), best);
+        for (const int degree : {8, 16})
+            row("Gauss " + std::to_string(2 * degree) + ", dense", pairMethod(degree, "dense", 0), best);
     std::printf("%-34s", "best Gauss / best SRKN");
     for (int i = 0; i < 4; ++i) std::printf("%12.2f", best[i] / peer[i]);
     std::printf("\n");

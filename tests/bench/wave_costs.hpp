@@ -1,5 +1,5 @@
-/// What the benchmarks of wave functions share: CPU seconds of a whole run with set-up, median of five, read off at fixed errors
-/// by log-log interpolation over the number of steps.
+/// What the benchmarks of wave functions share: CPU seconds of a whole run with set-up, median of five, read
+/// off at fixed errors by log-log interpolation over the number of steps.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +48,11 @@ inline State makeStart(const System& system, Value::Object psi) {
 inline Discretization gauss(int degree, const char* solver, double tolerance) {
     Discretization pair;
     pair.space = {"fourier",
-                  {{"degree", static_cast<double>(degree)}, {"energy_shift", "mean"}, {"form", "one-step"}, {"start", "gauss"}}, {}};
+                  {{"degree", static_cast<double>(degree)},
+                   {"energy_shift", "mean"},
+                   {"form", "one-step"},
+                   {"start", "gauss"}},
+                  {}};
     pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
     pair.solver = {solver, {{"tolerance", tolerance}}, {}};
     return pair;
@@ -116,14 +120,17 @@ inline double costAt(const std::vector<Point>& points, double error) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].error > error) continue;
         if (i == 0) return points[0].time;
-        const double w = std::log(points[i - 1].error / error) / std::log(points[i - 1].error / points[i].error);
+        const double w =
+            std::log(points[i - 1].error / error) / std::log(points[i - 1].error / points[i].error);
         return std::exp(std::log(points[i - 1].time) + w * std::log(points[i].time / points[i - 1].time));
     }
     return std::nan("");
 }
 
-/// CPU seconds of one method to some errors, as a row; the least of all rows so far is kept in `least`, which may be null.
-inline void printCosts(const Problem& p, const std::string& name, const Method& method, std::span<const double> targets, double* least) {
+/// CPU seconds of one method to some errors, as a row; the least of all rows so far is kept in `least`, which
+/// may be null.
+inline void printCosts(const Problem& p, const std::string& name, const Method& method,
+                       std::span<const double> targets, double* least) {
     const auto points = curveOf(p, method);
     std::printf("%-34s", name.c_str());
     for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -138,7 +145,8 @@ inline void printCosts(const Problem& p, const std::string& name, const Method& 
 }
 
 inline void printHeading(const Problem& p, std::span<const double> targets) {
-    std::printf("\n%s (reference good to %.0e)\n%-34s", p.name, p.referenceError, "CPU seconds to an L2 error of");
+    std::printf("\n%s (reference good to %.0e)\n%-34s", p.name, p.referenceError,
+                "CPU seconds to an L2 error of");
     for (const double t : targets) std::printf("%12.0e", t);
     std::printf("\n");
 }

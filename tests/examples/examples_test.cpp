@@ -16,9 +16,13 @@ namespace extremal::examples_test {
 
 namespace {
 
-System quartic() { return systems::quartic_oscillator().make({"quartic-oscillator", {{"m", 1}, {"c", 1}}, {}}); }
+System quartic() {
+    return systems::quartic_oscillator().make({"quartic-oscillator", {{"m", 1}, {"c", 1}}, {}});
+}
 
-System harmonic() { return findModel("harmonic-oscillator")->make({"harmonic-oscillator", {{"m", 1}, {"k", 1}}, {}}); }
+System harmonic() {
+    return findModel("harmonic-oscillator")->make({"harmonic-oscillator", {{"m", 1}, {"k", 1}}, {}});
+}
 
 State integrate(const System& system, const Discretization& pair, State state, double step, int steps) {
     const auto integrator = makeIntegrator(system, pair, Clock{0, step});
@@ -51,7 +55,8 @@ private slots:
     }
 
     void spaceFittedToTheFrequencyIsExact() {
-        // The exact motion cos t lies in the space, so the step finds it, here with four fifths of a period each.
+        // The exact motion cos t lies in the space, so the step finds it, here with four fifths of a period
+        // each.
         const double step = 5;
         const SpaceEntry entry = spaces::trigonometric();
         const Rule<double> rule = gauss<double>(24);
@@ -60,7 +65,8 @@ private slots:
         double q = 1, p = 0;
         for (int i = 0; i < 20; ++i)
             QVERIFY(integrator.advance(i * step, &q, &p, {}).outcome == Outcome::converged);
-        QVERIFY2(std::hypot(q - std::cos(20 * step), p + std::sin(20 * step)) < 1e-11, qPrintable(QString::number(q)));
+        QVERIFY2(std::hypot(q - std::cos(20 * step), p + std::sin(20 * step)) < 1e-11,
+                 qPrintable(QString::number(q)));
     }
 
     void schemeClaimsAndHasTheOrderOfItsDegree() {
@@ -71,7 +77,8 @@ private slots:
         const auto finest = end(1280), coarse = end(40), fine = end(80);
         for (std::size_t i = 0; i < 2; ++i) {
             const double order = std::log2(std::abs(coarse[i] - finest[i]) / std::abs(fine[i] - finest[i]));
-            QVERIFY2(std::abs(order - 4) < 0.1, qPrintable(QString::number(order)));  // measured: 3.995 for q, 3.999 for p
+            QVERIFY2(std::abs(order - 4) < 0.1,
+                     qPrintable(QString::number(order)));  // measured: 3.995 for q, 3.999 for p
         }
     }
 

@@ -57,8 +57,8 @@ System make(const Settings& settings) {
 
 ModelEntry quartic_oscillator() {
     ModelEntry e;
-    e.item = {"quartic-oscillator", "quartic oscillator", "A mass in a quartic well.",
-              infos(fields()), {}, ""};
+    e.item = {
+        "quartic-oscillator", "quartic oscillator", "A mass in a quartic well.", infos(fields()), {}, ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 20;

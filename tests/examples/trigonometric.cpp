@@ -15,8 +15,7 @@ SpaceEntry trigonometric() {
         space.size = 3;    // 1, cos z tau, sin z tau; none of them belongs to an end point
         space.degree = 0;  // constants are the only polynomials in it
         const double f = settings.number("z");
-        space.evaluate = [f](const double& tau, std::span<double> value,
-                             std::span<double> derivative) {
+        space.evaluate = [f](const double& tau, std::span<double> value, std::span<double> derivative) {
             value[0] = 1;
             value[1] = std::cos(f * tau);
             value[2] = std::sin(f * tau);

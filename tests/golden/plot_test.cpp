@@ -31,7 +31,9 @@ class PlotGoldenTest : public QObject {
         v.scheme = scheme;
         return makeFigure(comparison, v, &system);
     }
-    static QImage picture(const Figure& f, const Theme& theme = Theme::light()) { return renderFigure(f, {600, 400}, theme); }
+    static QImage picture(const Figure& f, const Theme& theme = Theme::light()) {
+        return renderFigure(f, {600, 400}, theme);
+    }
     static void check(const QImage& image, const QString& name) {
         const GoldenResult result = checkGolden(image, name, GoldenLimits::plot());
         QVERIFY2(result.isEqual, qPrintable(result.message));
@@ -42,7 +44,8 @@ private slots:
     void errorLooksAsKept() { check(picture(figure("error"), Theme::dark()), "plot-error-dark"); }
     void phaseLooksAsKept() { check(picture(figure("phase")), "plot-phase"); }
     void theKktMatrixLooksAsKept() {
-        const Figure nodal = frameworkFigure("sparsity", "Lobatto basis"), modal = frameworkFigure("sparsity", "Legendre basis");
+        const Figure nodal = frameworkFigure("sparsity", "Lobatto basis"),
+                     modal = frameworkFigure("sparsity", "Legendre basis");
         check(picture(nodal), "plot-kkt-nodal");
         check(picture(modal, Theme::dark()), "plot-kkt-modal-dark");
         QVERIFY(!isWithin(compareImages(picture(nodal), picture(modal), 8), GoldenLimits::plot()));
@@ -59,7 +62,8 @@ private slots:
         check(picture(map, Theme::dark()), "plot-map-dark");
         Figure wrong = map;
         wrong.heat->faults[29] = "diverged";  // one cell, blown up before
-        QVERIFY(compareImages(picture(map), picture(wrong), 8).differingPercent > GoldenLimits::plot().differingPercent);
+        QVERIFY(compareImages(picture(map), picture(wrong), 8).differingPercent >
+                GoldenLimits::plot().differingPercent);
     }
     void aMissingEntryOfTheMatrixIsSeen() {
         const Figure right = frameworkFigure("sparsity", "tents");
@@ -71,7 +75,8 @@ private slots:
     }
     void theDiscreteLagrangianLooksAsKept() {
         check(picture(frameworkFigure("discrete-lagrangian", "")), "plot-discrete-lagrangian");
-        check(picture(frameworkFigure("discrete-lagrangian", ""), Theme::dark()), "plot-discrete-lagrangian-dark");
+        check(picture(frameworkFigure("discrete-lagrangian", ""), Theme::dark()),
+              "plot-discrete-lagrangian-dark");
     }
     void thePolhodeLooksAsKept() {
         const Scene scene = readScene(loadSceneText("preset:free-body")).scene;

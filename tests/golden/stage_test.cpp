@@ -42,10 +42,13 @@ private slots:
     void oscillatorLooksAsKept() { check(stage(fake::oscillator(), 2, Theme::light()), "stage-oscillator"); }
 
     void aBodyLooksAsKept() { check(stage(fake::freeBody(), 6.2, Theme::light()), "stage-body"); }
-    void aBodyLooksAsKeptInTheDark() { check(stage(fake::freeBody(), 3.1, Theme::dark()), "stage-body-dark"); }
+    void aBodyLooksAsKeptInTheDark() {
+        check(stage(fake::freeBody(), 3.1, Theme::dark()), "stage-body-dark");
+    }
     void anEllipsoidOfInertiaLooksAsKept() {
         fake::Film film = fake::freeBody();
-        film.model = fake::settings("rigid-body", {{"inertia", Value::Array{1.0, 2.0, 3.0}}, {"shape", "ellipsoid"}});
+        film.model =
+            fake::settings("rigid-body", {{"inertia", Value::Array{1.0, 2.0, 3.0}}, {"shape", "ellipsoid"}});
         check(stage(film, 6.2, Theme::light()), "stage-ellipsoid");
     }
     void aTopLooksAsKept() { check(stage(fake::heavyTop(), 4.4, Theme::light()), "stage-top"); }

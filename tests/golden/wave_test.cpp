@@ -22,7 +22,8 @@ class WaveGoldenTest : public QObject {
             "initial": {"psi": {"packet": "periodic-gaussian", "kappa": 12, "centre": 2, "wave_number": 2}}, "time": {"end": 2},
             "schemes": [{"label": "Gauss 8", "step": 0.05, "scheme": "schrodinger-gauss-4"},
                         {"label": "Crank-Nicolson", "step": 0.1, "baseline": "crank-nicolson"}],
-            "reference": {"type": "none"}, "observe": ["norm"], "output": {"every": 0.1}, "views": ["stage", "carpet"]})J")).scene;
+            "reference": {"type": "none"}, "observe": ["norm"], "output": {"every": 0.1}, "views": ["stage", "carpet"]})J"))
+                                      .scene;
         return read;
     }
     static const Comparison& comparison() {
@@ -36,8 +37,11 @@ class WaveGoldenTest : public QObject {
         if (!part.empty()) v.keys.keys.emplace_back("part", part);
         return makeFigure(comparison(), v, &system);
     }
-    static QImage picture(const Figure& f, const Theme& theme = Theme::light()) { return renderFigure(f, {480, 320}, theme); }
-    static void check(const QImage& image, const QString& name, const GoldenLimits& limits = GoldenLimits::plot()) {
+    static QImage picture(const Figure& f, const Theme& theme = Theme::light()) {
+        return renderFigure(f, {480, 320}, theme);
+    }
+    static void check(const QImage& image, const QString& name,
+                      const GoldenLimits& limits = GoldenLimits::plot()) {
         const GoldenResult result = checkGolden(image, name, limits);
         QVERIFY2(result.isEqual, qPrintable(result.message));
     }
@@ -49,7 +53,8 @@ private slots:
         request.width = 480;
         request.height = 320;
         request.time = 1.2;
-        check(snapshotImage(std::make_shared<const Comparison>(comparison()), request), "wave-stage", GoldenLimits::stage());
+        check(snapshotImage(std::make_shared<const Comparison>(comparison()), request), "wave-stage",
+              GoldenLimits::stage());
     }
     void theCarpetLooksAsKept() { check(picture(figure("carpet")), "wave-carpet"); }
     void theProfileLooksAsKept() { check(picture(figure("profile")), "wave-profile"); }
@@ -58,7 +63,8 @@ private slots:
         check(picture(figure("profile", "both"), Theme::dark()), "wave-parts-dark");
         Figure alike = figure("profile", "both");
         for (Series& s : alike.series) s.isPale = false;
-        QVERIFY(!isWithin(compareImages(picture(figure("profile", "both")), picture(alike), 8), GoldenLimits::plot()));
+        QVERIFY(!isWithin(compareImages(picture(figure("profile", "both")), picture(alike), 8),
+                          GoldenLimits::plot()));
     }
     void theSpectrumLooksAsKept() { check(picture(figure("spectrum")), "wave-spectrum"); }
     void theConjugateIsSeen() {
@@ -72,7 +78,8 @@ private slots:
             "initial": {"psi": {"packet": "periodic-gaussian", "kappa": 6, "centre": 2, "wave_number": 3, "kappa_y": 4,
                                 "centre_y": 3, "wave_number_y": "-2*pi/5"}}, "time": {"end": 1},
             "schemes": [{"label": "SRKN 11b", "step": 0.05, "baseline": "srkn-11b"}],
-            "reference": {"type": "none"}, "observe": ["norm"], "views": ["stage", "profile"]})J")).scene;
+            "reference": {"type": "none"}, "observe": ["norm"], "views": ["stage", "profile"]})J"))
+                                .scene;
         const auto result = std::make_shared<const Comparison>(run(plane));
         const System system = makeSystem(plane);
         SnapshotRequest request;
@@ -82,7 +89,8 @@ private slots:
         request.time = 0.6;
         check(snapshotImage(result, request), "plane-stage", GoldenLimits::stage());
         for (const char* view : {"profile", "carpet", "spectrum"})
-            check(picture(makeFigure(*result, View{view, "", ""}, &system), Theme::dark()), QString("plane-%1-dark").arg(view));
+            check(picture(makeFigure(*result, View{view, "", ""}, &system), Theme::dark()),
+                  QString("plane-%1-dark").arg(view));
         View real{"profile", "", ""};
         real.keys.keys.emplace_back("part", "real");
         check(picture(makeFigure(*result, real, &system)), "plane-real");
@@ -96,7 +104,8 @@ private slots:
         Comparison made = handmade::comparison();
         for (auto& scheme : made.schemes) {
             auto counted = std::make_shared<SchemeResult>(*scheme);
-            for (std::size_t r = 0; r < counted->trajectory.rows(); ++r) counted->trajectory.nodes.push_back(5.0 * static_cast<double>(r));
+            for (std::size_t r = 0; r < counted->trajectory.rows(); ++r)
+                counted->trajectory.nodes.push_back(5.0 * static_cast<double>(r));
             scheme = counted;
         }
         const System pendulum = handmade::pendulum();

@@ -1,5 +1,5 @@
-/// What follows from the discrete action: multipliers are momenta, nodal and element-wise assembly agree, and L_d is close
-/// to the exact discrete Lagrangian to the order of the pair.
+/// What follows from the discrete action: multipliers are momenta, nodal and element-wise assembly agree, and
+/// L_d is close to the exact discrete Lagrangian to the order of the pair.
 #include <QTest>
 
 #include <boost/multiprecision/float128.hpp>
@@ -60,14 +60,15 @@ struct PairCase {
     double tolerance;  ///< round-off of the explicit system in the basis of the space
 };
 std::vector<PairCase> pairCases() {
-    return {{"midpoint", polynomialPair(1, {"midpoint", {}, {}}), 1e-14},
-            {"degree 2, Lobatto", polynomialPair(2, {"lobatto", {}, {}}), 1e-14},
-            {"degree 3, Gauss, Legendre", polynomialPair(3, {"gauss", {}, {}}, "legendre"), 1e-14},
-            {"degree 4, Radau, Chebyshev modes", polynomialPair(4, {"radau", {}, {}}, "chebyshev-modal"), 1e-14},
-            {"degree 6, Gauss, equispaced", polynomialPair(6, {"gauss", {}, {}}, "equispaced"), 1e-13},
-            {"degree 24, Gauss, Legendre", polynomialPair(24, {"gauss", {}, {}}, "legendre"), 1e-12},
-            {"spline 3 with 4 cells", splinePair(3, 4, {"gauss", {}, {}}), 1e-14},
-            {"spline 1 with 3 cells, trapezoid", splinePair(1, 3, {"trapezoid", {}, {}}), 1e-14}};
+    return {
+        {"midpoint", polynomialPair(1, {"midpoint", {}, {}}), 1e-14},
+        {"degree 2, Lobatto", polynomialPair(2, {"lobatto", {}, {}}), 1e-14},
+        {"degree 3, Gauss, Legendre", polynomialPair(3, {"gauss", {}, {}}, "legendre"), 1e-14},
+        {"degree 4, Radau, Chebyshev modes", polynomialPair(4, {"radau", {}, {}}, "chebyshev-modal"), 1e-14},
+        {"degree 6, Gauss, equispaced", polynomialPair(6, {"gauss", {}, {}}, "equispaced"), 1e-13},
+        {"degree 24, Gauss, Legendre", polynomialPair(24, {"gauss", {}, {}}, "legendre"), 1e-12},
+        {"spline 3 with 4 cells", splinePair(3, 4, {"gauss", {}, {}}), 1e-14},
+        {"spline 1 with 3 cells, trapezoid", splinePair(1, 3, {"trapezoid", {}, {}}), 1e-14}};
 }
 
 }  // namespace
@@ -80,7 +81,8 @@ class ActionTest : public QObject {
     void addPairs() {
         QTest::addColumn<int>("index");
         const auto cases = pairCases();
-        for (std::size_t i = 0; i < cases.size(); ++i) QTest::addRow("%s", cases[i].name) << static_cast<int>(i);
+        for (std::size_t i = 0; i < cases.size(); ++i)
+            QTest::addRow("%s", cases[i].name) << static_cast<int>(i);
     }
     PairCase current() const {
         QFETCH(int, index);
@@ -104,10 +106,12 @@ private slots:
     void initTestCase() {
         const Mechanics<Quad> pendulum = bindMechanics<Quad>(PendulumModel{});
         for (const double h : {0.04, 0.03, 0.02, 0.015})
-            for (const auto& [q, v] : {std::pair{0.5, 1.2}, std::pair{1.0, 0.7}, std::pair{1.6, -0.4}, std::pair{2.5, 1.0}}) {
+            for (const auto& [q, v] :
+                 {std::pair{0.5, 1.2}, std::pair{1.0, 0.7}, std::pair{1.6, -0.4}, std::pair{2.5, 1.0}}) {
                 ActionBetween<Quad>::Matrix ends(1, 2);
                 ends << Quad(q), Quad(q + h * v - h * h * std::sin(q) / 2);
-                motions_.push_back({h, ends, exactDiscreteLagrangian<Quad>(pendulum, 0, Quad(h), ends, 1e-31)});
+                motions_.push_back(
+                    {h, ends, exactDiscreteLagrangian<Quad>(pendulum, 0, Quad(h), ends, 1e-31)});
                 QVERIFY(motions_.back().exact.outcome == Outcome::converged);
             }
     }
@@ -119,14 +123,17 @@ private slots:
             const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, n);
             QVERIFY(path.q.cols() == n + 1);
             const SaddlePoint glued(system.mechanics, tableOf(c.pair), h, n);
-            // The element-wise system with explicit multipliers, from the same start: no momentum formula in it.
+            // The element-wise system with explicit multipliers, from the same start: no momentum formula in
+            // it.
             const GluedElements from = solveFrom(glued, 0, path.q, path.p.col(0));
             QVERIFY(from.outcome == Outcome::converged);
             const GluedElements between = solveBetween(glued, 0, path.q);
             QVERIFY(between.outcome == Outcome::converged);
-            const double forward = relative(from.multipliers, path.p), fixed = relative(between.multipliers, path.p);
+            const double forward = relative(from.multipliers, path.p),
+                         fixed = relative(between.multipliers, path.p);
             const double end = (from.end - path.q.col(n)).norm() / path.q.col(n).norm();
-            qInfo("%s on %s: multipliers %.1e and %.1e, end %.1e", c.name, system.id.c_str(), forward, fixed, end);
+            qInfo("%s on %s: multipliers %.1e and %.1e, end %.1e", c.name, system.id.c_str(), forward, fixed,
+                  end);
             QVERIFY(forward < 10 * c.tolerance && end < 10 * c.tolerance);
             QVERIFY(fixed < 100 * c.tolerance);  // ends close together: the momenta are differences over h
         });
@@ -139,8 +146,10 @@ private slots:
             const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, n);
             const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(c.pair));
             // Discrete Euler-Lagrange equations at the nodes of the element-wise run.
-            const double residual = Ld.eulerLagrange(0, h, path.q).cwiseAbs().maxCoeff() / path.p.cwiseAbs().maxCoeff();
-            // The nodal system, solved between the ends from a poor guess: the broken line bent away from the run.
+            const double residual =
+                Ld.eulerLagrange(0, h, path.q).cwiseAbs().maxCoeff() / path.p.cwiseAbs().maxCoeff();
+            // The nodal system, solved between the ends from a poor guess: the broken line bent away from the
+            // run.
             Eigen::MatrixXd guess = path.q;
             for (int k = 1; k < n; ++k) guess.col(k) *= 1 + 1e-3 * k;
             const ActionBetween<double> nodal = Ld.between(0, h, guess);
@@ -148,10 +157,12 @@ private slots:
             const double nodes = relative(nodal.nodes, path.q);
             const double momenta = (nodal.startMomentum - path.p.col(0)).norm() / path.p.norm() +
                                    (nodal.endMomentum - path.p.col(n)).norm() / path.p.norm();
-            qInfo("%s on %s: residual %.1e, nodes %.1e, momenta %.1e", c.name, system.id.c_str(), residual, nodes, momenta);
+            qInfo("%s on %s: residual %.1e, nodes %.1e, momenta %.1e", c.name, system.id.c_str(), residual,
+                  nodes, momenta);
             QVERIFY(residual < 1e-12);
             QVERIFY(nodes < 1e-13);
-            QVERIFY(momenta < 1e-11);  // measured: 1.3e-12, of the midpoint rule on the stiff spring; else below 5e-15
+            QVERIFY(momenta <
+                    1e-11);  // measured: 1.3e-12, of the midpoint rule on the stiff spring; else below 5e-15
             // Teeth: one node moved by a millionth is seen.
             Eigen::MatrixXd moved = path.q;
             moved.col(3) *= 1 + 1e-6;
@@ -160,7 +171,8 @@ private slots:
     }
     void multipliersOfAnotherRuleAreNotTheMomenta() {
         // Teeth: the comparison above would notice a wrong condition of stationarity.
-        const Path path = pathOf(*makeIntegrator(kepler_, polynomialPair(2, {"gauss", {}, {}}), {0, 0.05}), keplerStart, 3);
+        const Path path =
+            pathOf(*makeIntegrator(kepler_, polynomialPair(2, {"gauss", {}, {}}), {0, 0.05}), keplerStart, 3);
         const SaddlePoint other(kepler_.mechanics, tableOf(polynomialPair(2, {"lobatto", {}, {}})), 0.05, 3);
         const GluedElements between = solveBetween(other, 0, path.q);
         QVERIFY(between.outcome == Outcome::converged);
@@ -195,7 +207,8 @@ private slots:
 
     void derivativesOfTheDiscreteLagrangianAreTheMomenta() {
         // By differences of the action alone: the momenta and the Hessian come from other formulas.
-        const DiscreteLagrangian<double> Ld(kepler_.mechanics, tableOf(polynomialPair(3, {"lobatto", {}, {}})));
+        const DiscreteLagrangian<double> Ld(kepler_.mechanics,
+                                            tableOf(polynomialPair(3, {"lobatto", {}, {}})));
         const Eigen::Vector2d q0(0.4, 0), q1(0.33, 0.3);
         const auto here = Ld(0, 0.2, q0, q1);
         for (int i = 0; i < 4; ++i) {
@@ -210,7 +223,8 @@ private slots:
             const double momentum = i < 2 ? -here.startMomentum(i) : here.endMomentum(i - 2);
             QVERIFY(std::abs(slope - momentum) < 1e-6);  // measured: 2e-7, of the differences
             Eigen::Vector4d row;
-            row << -(high.startMomentum - low.startMomentum) / (2 * e), (high.endMomentum - low.endMomentum) / (2 * e);
+            row << -(high.startMomentum - low.startMomentum) / (2 * e),
+                (high.endMomentum - low.endMomentum) / (2 * e);
             QVERIFY((row - here.hessian.col(i)).norm() < 1e-4 * here.hessian.norm());
         }
     }
@@ -221,7 +235,8 @@ private slots:
         QTest::addColumn<int>("expected");
         for (int degree = 1; degree <= 4; ++degree)
             for (const bool isGauss : {true, false})
-                QTest::addRow("degree %d, %s", degree, isGauss ? "Gauss" : "Lobatto") << degree << isGauss << 2 * degree + 1;
+                QTest::addRow("degree %d, %s", degree, isGauss ? "Gauss" : "Lobatto")
+                    << degree << isGauss << 2 * degree + 1;
         QTest::addRow("degree 3 with 3 Lobatto nodes, one too few") << -3 << false << 5;
     }
     void theDefectOfTheActionHasOrderTwoDegreePlusOne() {
@@ -267,7 +282,8 @@ private slots:
             QVERIFY(exact.outcome == Outcome::converged);
             const double p0 = (exact.startMomentum - Eigen::Vector2d(0, 2)).norm();
             const double p1 = (exact.endMomentum - Eigen::Vector2d(x[2], x[3])).norm();
-            qInfo("h = %g: action %.15g +- %.1e, p_0 %.1e, p_1 %.1e", h, exact.action, exact.estimatedError, p0, p1);
+            qInfo("h = %g: action %.15g +- %.1e, p_0 %.1e, p_1 %.1e", h, exact.action, exact.estimatedError,
+                  p0, p1);
             QVERIFY(p0 < 1e-11 && p1 < 1e-11);
         }
     }

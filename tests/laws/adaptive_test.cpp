@@ -1,5 +1,5 @@
-/// What every code that chooses its own steps keeps: it lands on the end, its errors follow the tolerance, its curve is
-/// the solution, and it gives up where the solution ends.
+/// What every code that chooses its own steps keeps: it lands on the end, its errors follow the tolerance,
+/// its curve is the solution, and it gives up where the solution ends.
 #include <QTest>
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace {
 
 struct AdaptiveRun {
     Outcome outcome = Outcome::converged;
-    double end = 0, error = 0, between = 0;  ///< largest distance from the exact solution at nodes, and between them
+    double end = 0, error = 0,
+           between = 0;  ///< largest distance from the exact solution at nodes, and between them
     long long steps = 0;
 };
 
@@ -54,7 +55,8 @@ class AdaptiveTest : public QObject {
     void addEntries() {
         QTest::addColumn<QString>("id");
         for (const BaselineEntry& e : baselineCatalog())
-            if (e.isAdaptive && appliesTo(e, kepler_)) QTest::newRow(e.item.id.c_str()) << QString::fromStdString(e.item.id);
+            if (e.isAdaptive && appliesTo(e, kepler_))
+                QTest::newRow(e.item.id.c_str()) << QString::fromStdString(e.item.id);
     }
     const BaselineEntry& current() const {
         QFETCH(QString, id);
@@ -78,8 +80,10 @@ private slots:
             QCOMPARE(r.outcome, Outcome::converged);
             tolerance.push_back(std::log(t));
             error.push_back(std::log(r.error));
-            qInfo("tolerance %.0e: %lld steps, error %.2e, between nodes %.2e", t, r.steps, r.error, r.between);
-            // Measured: at most equal, but for the polynomials of Bulirsch and Stoer, which lose a factor of 9.
+            qInfo("tolerance %.0e: %lld steps, error %.2e, between nodes %.2e", t, r.steps, r.error,
+                  r.between);
+            // Measured: at most equal, but for the polynomials of Bulirsch and Stoer, which lose a factor
+            // of 9.
             QVERIFY(r.between < 12 * r.error);
         }
         const double power = slope(tolerance, error);
@@ -90,8 +94,9 @@ private slots:
     void theFormulaHasTheOrderItClaims() {
         const int claimed = current().item.claims->order;
         if (claimed == 0) QSKIP("of variable order");
-        // Parts of the steps of a run: their errors are those of one step of the formula, one order higher. The mean of
-        // their logarithms over three revolutions, as every term of the error passes zero somewhere.
+        // Parts of the steps of a run: their errors are those of one step of the formula, one order higher.
+        // The mean of their logarithms over three revolutions, as every term of the error passes zero
+        // somewhere.
         const auto integrator = current().make(kepler_, {{0, 0}, 20, 1e-9, {}});
         std::vector<double> x(4), y(4), h, q(4, 0.0), p(4, 0.0);
         for (std::size_t i = 0; i < 4; ++i) h.push_back(std::log(std::pow(0.8, static_cast<double>(i))));
@@ -111,8 +116,8 @@ private slots:
         const double forQ = slope(h, q) / steps - 1, forP = slope(h, p) / steps - 1;
         qInfo("claimed %d, measured q %.2f, p %.2f, from errors of %.1e to %.1e", claimed, forQ, forP,
               std::exp(q.front() / steps), std::exp(q.back() / steps));
-        // Double leaves a short window between long steps and round-off: nearest whole numbers. Measured: 4.98, 5.19;
-        // 7.76, 7.68; 7.70, 7.64.
+        // Double leaves a short window between long steps and round-off: nearest whole numbers.
+        // Measured: 4.98, 5.19; 7.76, 7.68; 7.70, 7.64.
         QVERIFY(std::abs(forQ - claimed) < 0.4);
         QVERIFY(std::abs(forP - claimed) < 0.4);
     }
@@ -136,7 +141,8 @@ private slots:
         // Released at rest, the body falls into the centre at t = pi / sqrt 8.
         const AdaptiveRun r = runTo(current(), kepler_, {0, 0, {1, 0, 0, 0}}, 2, 1e-8);
         qInfo("%s at t = %.6f after %lld steps", std::string(name(r.outcome)).c_str(), r.end, r.steps);
-        QVERIFY(r.outcome == Outcome::stepBudget || r.outcome == Outcome::notFinite || r.outcome == Outcome::diverged);
+        QVERIFY(r.outcome == Outcome::stepBudget || r.outcome == Outcome::notFinite ||
+                r.outcome == Outcome::diverged);
         QVERIFY(std::abs(r.end - 1.1107207) < 1e-3);
     }
     void aStopIsHeard_data() { addEntries(); }

@@ -29,15 +29,17 @@ private slots:
         std::vector<double> moving = turning;
         moving.insert(moving.end(), {0.8, 0, 0.2, 0.1, 1.1, 0});
         const char* const pull = "-1/sqrt(x^2+y^2+z^2) + R33*z/10";
-        for (const System& s : {systemNamed("rigid-body"), systemNamed("heavy-top"), systemNamed("body-in-potential"),
-                                systemNamed("rigid-body-se3"), systemNamed("rigid-body-se3", {{"potential", pull}})}) {
+        for (const System& s :
+             {systemNamed("rigid-body"), systemNamed("heavy-top"), systemNamed("body-in-potential"),
+              systemNamed("rigid-body-se3"), systemNamed("rigid-body-se3", {{"potential", pull}})}) {
             const State start{0, 0, s.body.dimension == 3 ? turning : moving};
             for (const Case& c : everyScheme(8, s)) {
                 const auto integrator = c.make(s, {0, 0.02});
                 State state = start;
                 for (int i = 0; i < 3; ++i) (void)integrator->advance(state);
                 const long long before = allocations;
-                for (int i = 0; i < 100; ++i) QVERIFY(integrator->advance(state).outcome == Outcome::converged);
+                for (int i = 0; i < 100; ++i)
+                    QVERIFY(integrator->advance(state).outcome == Outcome::converged);
                 QVERIFY2(allocations == before, (c.name + " on " + s.id).c_str());
             }
         }

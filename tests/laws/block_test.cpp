@@ -24,7 +24,8 @@ private slots:
                     QCOMPARE(nodes.size(), size);
                     for (std::size_t i = 0; i < size; ++i) {
                         const StepReport report = one->advance(a);
-                        QVERIFY2(std::equal(a.x.begin(), a.x.end(), nodes.x(i)), (c.name + " on " + id).c_str());
+                        QVERIFY2(std::equal(a.x.begin(), a.x.end(), nodes.x(i)),
+                                 (c.name + " on " + id).c_str());
                         QVERIFY(nodes.t(i) == a.t && nodes.node(i) == a.node);
                         QVERIFY(nodes.report(i).step == report.step);
                     }

@@ -1,4 +1,5 @@
-/// Lie group integrators on rigid bodies: orders, reference numbers, what is kept and for how long, hard cases.
+/// Lie group integrators on rigid bodies: orders, reference numbers, what is kept and for how long, hard
+/// cases.
 #include <QTest>
 
 #include <algorithm>
@@ -14,7 +15,8 @@ struct LongRun {
     double momentum = 0, norm = 0;
     bool hasFailed = false;
 };
-LongRun longRun(const System& system, const Discretization& pair, const State& start, double h, long long steps) {
+LongRun longRun(const System& system, const Discretization& pair, const State& start, double h,
+                long long steps) {
     LongRun r;
     const EnergyFunction energy = energyOf(system);
     const double before = energy(0, start.x.data());
@@ -28,9 +30,11 @@ LongRun longRun(const System& system, const Discretization& pair, const State& s
         const auto quarter = static_cast<std::size_t>(4 * k / steps);
         r.energy[quarter] = std::max(r.energy[quarter], std::abs(energy(0, s.x.data()) - before));
         for (const MomentumMap& map : system.momenta)
-            r.momentum = std::max(r.momentum, std::abs(map.value(s.x.data(), s.x.data()) - map.value(start.x.data(), start.x.data())));
+            r.momentum = std::max(r.momentum, std::abs(map.value(s.x.data(), s.x.data()) -
+                                                       map.value(start.x.data(), start.x.data())));
         const double* q = s.x.data();
-        r.norm = std::max(r.norm, std::abs(std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]) - 1));
+        r.norm =
+            std::max(r.norm, std::abs(std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]) - 1));
     }
     return r;
 }
@@ -55,7 +59,8 @@ private slots:
             for (int degree = 1; degree <= 4; ++degree)
                 for (const char* rule : {"gauss", "lobatto"})
                     for (const bool isSymmetric : {false, true})
-                        QTest::addRow("%s, degree %d, %s%s", isTop ? "top" : "free", degree, rule, isSymmetric ? ", symmetric" : "")
+                        QTest::addRow("%s, degree %d, %s%s", isTop ? "top" : "free", degree, rule,
+                                      isSymmetric ? ", symmetric" : "")
                             << isTop << degree << QString(rule) << isSymmetric;
     }
     void ordersOfAttitudeAndMomentum() {
@@ -66,7 +71,8 @@ private slots:
         const KnownBody& body = isTop ? top() : standard();
         const Discretization pair = liePair(degree, {rule.toStdString(), {}, {}}, isSymmetric);
         QCOMPARE(describe(pair.space, pair.quadrature).claims.order, 2 * degree);
-        // Largest errors at five times against a far finer run; steps between round-off and where the first term reigns.
+        // Largest errors at five times against a far finer run; steps between round-off and where the first
+        // term reigns.
         constexpr int samples = 5;
         constexpr double T = 10;
         const System system = body.system();
@@ -81,7 +87,8 @@ private slots:
             return states;
         };
         const auto reference = at(liePair(8), isTop ? 200 : 80);
-        const int first = (isTop ? (degree == 4 ? 50 : 80) : (degree == 4 ? 10 : 20)) / (isSymmetric && degree > 1 ? 2 : 1);
+        const int first =
+            (isTop ? (degree == 4 ? 50 : 80) : (degree == 4 ? 10 : 20)) / (isSymmetric && degree > 1 ? 2 : 1);
         std::vector<double> h, attitude, momentum;
         for (const double factor : {1.0, 1.5, 2.0}) {
             const int n = samples * static_cast<int>(std::lround(first * factor / samples));
@@ -106,10 +113,12 @@ private slots:
 
     void errorsAreThoseOfTheReferenceTable() {
         // Measured by another program, from the same equations: errors at T = 10 with n steps.
-        const auto check = [](const KnownBody& body, int degree, const char* rule, int nodes, long long n, double expected) {
+        const auto check = [](const KnownBody& body, int degree, const char* rule, int nodes, long long n,
+                              double expected) {
             Discretization pair = liePair(degree, {rule, {{"nodes", static_cast<double>(nodes)}}, {}});
             const double e = errorsOf(body, 1, pair, n).attitude;
-            qInfo("%s, degree %d, %s(%d), n = %lld: %.3e, expected %.3e", body.name.c_str(), degree, rule, nodes, n, e, expected);
+            qInfo("%s, degree %d, %s(%d), n = %lld: %.3e, expected %.3e", body.name.c_str(), degree, rule,
+                  nodes, n, e, expected);
             QVERIFY(std::abs(e / expected - 1) < 0.03);
         };
         check(standard(), 1, "gauss", 1, 40, 3.15e-3);
@@ -130,10 +139,10 @@ private slots:
     }
 
     void boundsOfTheReferenceRuns() {
-        QVERIFY(errorsOf(standard(), 1, liePair(3), 40).attitude <= 5e-11);    // 3.5e-11
-        QVERIFY(errorsOf(standard(), 1, liePair(4), 40).attitude <= 2e-14);    // 4e-15
-        QVERIFY(errorsOf(standard(), 2, liePair(4), 400).attitude <= 2e-13);   // 4e-14
-        QVERIFY(errorsOf(top(), 1, liePair(3), 160).attitude <= 3e-10);        // 1.5e-10
+        QVERIFY(errorsOf(standard(), 1, liePair(3), 40).attitude <= 5e-11);   // 3.5e-11
+        QVERIFY(errorsOf(standard(), 1, liePair(4), 40).attitude <= 2e-14);   // 4e-15
+        QVERIFY(errorsOf(standard(), 2, liePair(4), 400).attitude <= 2e-13);  // 4e-14
+        QVERIFY(errorsOf(top(), 1, liePair(3), 160).attitude <= 3e-10);       // 1.5e-10
         QVERIFY(errorsOf(separatrix(), 1, liePair(4), 200).attitude <= 1e-13);
         QVERIFY(errorsOf(separatrix(), 2, liePair(4), 400).attitude <= 1e-9);
         QVERIFY(errorsOf(nearlySymmetric(), 1, liePair(4), 400).attitude <= 5e-13);
@@ -144,18 +153,21 @@ private slots:
         QTest::addColumn<bool>("isTop");
         QTest::addColumn<int>("degree");
         QTest::addColumn<int>("steps");
-        for (int degree = 1; degree <= 4; ++degree) QTest::addRow("free, degree %d", degree) << false << degree << (degree == 2 ? 1000000 : 100000);
-        for (int degree = 1; degree <= 4; ++degree) QTest::addRow("top, degree %d", degree) << true << degree << (degree == 2 ? 1000000 : 100000);
+        for (int degree = 1; degree <= 4; ++degree)
+            QTest::addRow("free, degree %d", degree) << false << degree << (degree == 2 ? 1000000 : 100000);
+        for (int degree = 1; degree <= 4; ++degree)
+            QTest::addRow("top, degree %d", degree) << true << degree << (degree == 2 ? 1000000 : 100000);
     }
     void longRunsKeepMomentumNormAndEnergy() {
         QFETCH(bool, isTop);
         QFETCH(int, degree);
         QFETCH(int, steps);
         const KnownBody& body = isTop ? top() : standard();
-        const LongRun r = longRun(body.system(), liePair(degree), bodyState(body.start), isTop ? 0.1 : 0.4, steps);
+        const LongRun r =
+            longRun(body.system(), liePair(degree), bodyState(body.start), isTop ? 0.1 : 0.4, steps);
         QVERIFY(!r.hasFailed);
-        qInfo("energy %.2e %.2e %.2e %.2e, momentum %.1e, |q| - 1 %.1e", r.energy[0], r.energy[1], r.energy[2], r.energy[3],
-              r.momentum, r.norm);
+        qInfo("energy %.2e %.2e %.2e %.2e, momentum %.1e, |q| - 1 %.1e", r.energy[0], r.energy[1],
+              r.energy[2], r.energy[3], r.momentum, r.norm);
         if (isTop)
             QVERIFY(r.momentum < 1e-12);
         else
@@ -192,17 +204,20 @@ private slots:
                     const auto back = after(*makeIntegrator(body.system(), pair, {h, -h}), *there, 1);
                     const double defect = largestDifference(back->x, start.x);
                     const bool claims = describe(pair.space, pair.quadrature).claims.isSymmetric;
-                    qInfo("%s, degree %d%s: %.1e", body.name.c_str(), degree, isSymmetric ? ", symmetric" : "", defect);
+                    qInfo("%s, degree %d%s: %.1e", body.name.c_str(), degree,
+                          isSymmetric ? ", symmetric" : "", defect);
                     QCOMPARE(claims, isSymmetric || degree == 1);
                     if (claims) QVERIFY(defect < 1e-14);
-                    if (!claims && degree < 4) QVERIFY(defect > 1e-11);  // free, degree 2: 1.1e-6, degree 3: 8.8e-10
+                    if (!claims && degree < 4)
+                        QVERIFY(defect > 1e-11);  // free, degree 2: 1.1e-6, degree 3: 8.8e-10
                 }
     }
 
     void theCurveMeetsTheNodesAndIsAccurateBetween() {
         for (const bool isSymmetric : {false, true}) {
             const KnownBody& body = top();
-            const auto integrator = makeIntegrator(body.system(), liePair(4, {"gauss", {}, {}}, isSymmetric), {0, 0.2});
+            const auto integrator =
+                makeIntegrator(body.system(), liePair(4, {"gauss", {}, {}}, isSymmetric), {0, 0.2});
             const auto fine = makeIntegrator(body.system(), liePair(4), {0, 0.01});
             State s = bodyState(body.start), f = s;
             std::vector<double> x(10);
@@ -224,15 +239,18 @@ private slots:
     }
 
     void largeStepsEndInOutcomes() {
-        // Solutions are found up to |xi| = 2 or so; beyond, the run says so and never returns a wrong-sized step as a good one.
+        // Solutions are found up to |xi| = 2 or so; beyond, the run says so and never returns a wrong-sized
+        // step as a good one.
         const System s = standard().system();
         for (int degree = 1; degree <= 4; ++degree)
             for (const double h : {1.0, 3.0, 8.0, 50.0, 1e3, 1e6}) {
                 State state = bodyState(standard().start);
                 const auto integrator = makeIntegrator(s, liePair(degree), {0, h});
                 StepReport report;
-                for (int k = 0; k < 20 && report.outcome == Outcome::converged; ++k) report = integrator->advance(state);
-                qInfo("degree %d, h = %g: %s after %lld steps", degree, h, std::string(name(report.outcome)).c_str(), state.node);
+                for (int k = 0; k < 20 && report.outcome == Outcome::converged; ++k)
+                    report = integrator->advance(state);
+                qInfo("degree %d, h = %g: %s after %lld steps", degree, h,
+                      std::string(name(report.outcome)).c_str(), state.node);
                 if (h <= 1) QVERIFY(report.outcome == Outcome::converged);
                 if (h >= 50) QVERIFY(report.outcome != Outcome::converged);
                 for (const double v : state.x) QVERIFY(std::isfinite(v));

@@ -19,14 +19,16 @@ std::vector<Case> everyBodyScheme(const System& system) {
             const Discretization pair = liePair(degree, {rule, {}, {}}, true);
             cases.push_back({"symmetric lie " + std::string(rule) + " " + std::to_string(degree),
                              describe(pair.space, pair.quadrature).claims,
-                             [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); }, true});
+                             [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); },
+                             true});
         }
     for (const BaselineEntry& e : baselineCatalog()) {
         if (e.isAdaptive || !appliesTo(e, system)) continue;
         std::vector<Settings> variants;
         for (const FieldInfo& f : e.item.parameters)
             if (f.key == "order")
-                for (const char* order : {"2", "4", "6"}) variants.push_back({e.item.id, {{"order", std::stod(order)}}, {}});
+                for (const char* order : {"2", "4", "6"})
+                    variants.push_back({e.item.id, {{"order", std::stod(order)}}, {}});
             else if (f.key == "projection")
                 for (const bool on : {true, false}) variants.push_back({e.item.id, {{"projection", on}}, {}});
         for (const Settings& keys : variants) {
@@ -34,7 +36,9 @@ std::vector<Case> everyBodyScheme(const System& system) {
             if (keys.find("order")) name += " " + std::to_string(keys.integer("order"));
             if (keys.find("projection")) name += keys.flag("projection") ? " projected" : " unprojected";
             cases.push_back({name, e.claims ? e.claims(keys) : *e.item.claims,
-                             [make = e.make, keys](const System& s, const Clock& c) { return make(s, {c, 0, 0, keys}); }});
+                             [make = e.make, keys](const System& s, const Clock& c) {
+                                 return make(s, {c, 0, 0, keys});
+                             }});
         }
     }
     return cases;
@@ -44,21 +48,26 @@ bool claims(const Case& c, const char* what) {
     return std::find(c.claims.conserves.begin(), c.claims.conserves.end(), what) != c.claims.conserves.end();
 }
 
-/// A tangent vector of T*SO(3) at x, six numbers: the attitude turned by zeta in the body, and the change of Pi.
+/// A tangent vector of T*SO(3) at x, six numbers: the attitude turned by zeta in the body, and the change of
+/// Pi.
 State moved(const State& s, const Eigen::Matrix<double, 6, 1>& v) {
     const so3::Quaternion<double> q(s.x[0], s.x[1], s.x[2], s.x[3]);
-    const so3::Quaternion<double> turned = so3::product(q, so3::quaternionExp(so3::Vector<double>(v.head<3>())));
-    return bodyState({s.x[4] + v(3), s.x[5] + v(4), s.x[6] + v(5)}, {turned(0), turned(1), turned(2), turned(3)});
+    const so3::Quaternion<double> turned =
+        so3::product(q, so3::quaternionExp(so3::Vector<double>(v.head<3>())));
+    return bodyState({s.x[4] + v(3), s.x[5] + v(4), s.x[6] + v(5)},
+                     {turned(0), turned(1), turned(2), turned(3)});
 }
 /// The opposite: how far x is from s.
 Eigen::Matrix<double, 6, 1> between(const State& s, const State& x) {
-    const so3::Quaternion<double> d = so3::product(so3::conjugate(so3::Quaternion<double>(s.x[0], s.x[1], s.x[2], s.x[3])),
-                                                   so3::Quaternion<double>(x.x[0], x.x[1], x.x[2], x.x[3]));
+    const so3::Quaternion<double> d =
+        so3::product(so3::conjugate(so3::Quaternion<double>(s.x[0], s.x[1], s.x[2], s.x[3])),
+                     so3::Quaternion<double>(x.x[0], x.x[1], x.x[2], x.x[3]));
     Eigen::Matrix<double, 6, 1> v;
     v << so3::log(so3::normalised(d)), x.x[4] - s.x[4], x.x[5] - s.x[5], x.x[6] - s.x[6];
     return v;
 }
-/// The canonical form in the left trivialisation, w(u, v) = u_z . v_Pi - u_Pi . v_z + Pi . [u_z, v_z], as a matrix.
+/// The canonical form in the left trivialisation, w(u, v) = u_z . v_Pi - u_Pi . v_z + Pi . [u_z, v_z], as a
+/// matrix.
 Eigen::Matrix<double, 6, 6> canonicalForm(const State& s) {
     Eigen::Matrix<double, 6, 6> w = Eigen::Matrix<double, 6, 6>::Zero();
     w.topLeftCorner<3, 3>() = -so3::hat(so3::Vector<double>(s.x[4], s.x[5], s.x[6]));
@@ -66,7 +75,8 @@ Eigen::Matrix<double, 6, 6> canonicalForm(const State& s) {
     w.bottomLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
     return w;
 }
-double symplecticDefect(const Case& scheme, const System& system, const State& start, double h, double sign = 1) {
+double symplecticDefect(const Case& scheme, const System& system, const State& start, double h,
+                        double sign = 1) {
     constexpr double delta = 2e-3;
     constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
     const auto step = [&](const State& s) { return after(*scheme.make(system, {0, h}), s, 1).value(); };
@@ -77,7 +87,8 @@ double symplecticDefect(const Case& scheme, const System& system, const State& s
             for (const int side : {1, -1}) {
                 Eigen::Matrix<double, 6, 1> v = Eigen::Matrix<double, 6, 1>::Zero();
                 v(j) = side * k * delta;
-                M.col(j) += side * c[static_cast<std::size_t>(k - 1)] / delta * between(end, step(moved(start, v)));
+                M.col(j) +=
+                    side * c[static_cast<std::size_t>(k - 1)] / delta * between(end, step(moved(start, v)));
             }
     Eigen::Matrix<double, 6, 6> w1 = canonicalForm(end), w0 = canonicalForm(start);
     w1.topLeftCorner<3, 3>() *= sign;
@@ -97,7 +108,8 @@ class BodyClaimsTest : public QObject {
         for (const bool isTop : {false, true}) {
             const auto cases = everyBodyScheme(isTop ? top_ : free_);
             for (std::size_t i = 0; i < cases.size(); ++i)
-                QTest::addRow("%s, %s", isTop ? "top" : "free", cases[i].name.c_str()) << isTop << static_cast<int>(i);
+                QTest::addRow("%s, %s", isTop ? "top" : "free", cases[i].name.c_str())
+                    << isTop << static_cast<int>(i);
         }
     }
     const System& system() const {
@@ -118,14 +130,16 @@ private slots:
     void theOrderIsTheOneClaimed() {
         const Case c = current();
         QFETCH(bool, isTop);
-        const auto reference = after(*makeIntegrator(system(), liePair(8), {0, isTop ? 0.02 : 0.1}), start(), isTop ? 200 : 40);
+        const auto reference =
+            after(*makeIntegrator(system(), liePair(8), {0, isTop ? 0.02 : 0.1}), start(), isTop ? 200 : 40);
         std::vector<double> h, attitude, momentum;
         for (double n = 3; n < 5000; n *= 1.3) {
             const auto steps = std::llround(n);
             const auto end = after(*c.make(system(), {0, 4.0 / static_cast<double>(steps)}), start(), steps);
             if (!end) continue;
             const auto& r = reference->x;
-            const double a = attitudeError(end->x, {r[0], r[1], r[2], r[3]}), p = momentumError(end->x, {r[4], r[5], r[6]});
+            const double a = attitudeError(end->x, {r[0], r[1], r[2], r[3]}),
+                         p = momentumError(end->x, {r[4], r[5], r[6]});
             if (std::max(a, p) > 3e-3) continue;
             if (std::min(a, p) < 3e-12) break;
             h.push_back(-std::log(static_cast<double>(steps)));
@@ -151,7 +165,8 @@ private slots:
         for (int k = 0; k < 20000; ++k) {
             QVERIFY(integrator->advance(s).outcome == Outcome::converged);
             for (const MomentumMap& map : system().momenta)
-                momentum = std::max(momentum, std::abs(map.value(s.x.data(), s.x.data()) - map.value(first.x.data(), first.x.data())));
+                momentum = std::max(momentum, std::abs(map.value(s.x.data(), s.x.data()) -
+                                                       map.value(first.x.data(), first.x.data())));
             drift = std::abs(energy(0, s.x.data()) - energy(0, first.x.data()));
             (k < 5000 ? early : k >= 15000 ? late : drift) = std::max(k < 5000 ? early : late, drift);
         }
@@ -183,7 +198,8 @@ private slots:
     void theStepIsSymplecticWhereClaimed_data() { addCases(); }
     void theStepIsSymplecticWhereClaimed() {
         const Case c = current();
-        const double defect = symplecticDefect(c, system(), start(), 0.5), broken = symplecticDefect(c, system(), start(), 0.5, -1);
+        const double defect = symplecticDefect(c, system(), start(), 0.5),
+                     broken = symplecticDefect(c, system(), start(), 0.5, -1);
         qInfo("|M^T w M - w| = %.1e; with the wrong sign of the bracket %.1e", defect, broken);
         QVERIFY(broken > 1e-3);  // the law can fail
         if (c.claims.isSymplectic)

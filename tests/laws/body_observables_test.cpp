@@ -1,5 +1,5 @@
-/// What runs of rigid bodies write beside the state, against what it should be: angle of the attitude error, Casimir,
-/// orthogonality with and without projection, momenta.
+/// What runs of rigid bodies write beside the state, against what it should be: angle of the attitude error,
+/// Casimir, orthogonality with and without projection, momenta.
 #include <QTest>
 
 #include <algorithm>
@@ -14,9 +14,11 @@ namespace extremal::laws::body_observables_test {
 namespace {
 
 Comparison runOf(const std::string& model, const std::string& schemes, const std::string& observe) {
-    const std::string text = R"({"extremal": 1, "title": "body", "model": )" + model +
-                             R"(, "initial": {"attitude": [0.5, 0.5, -0.5, 0.5], "momentum": [0.45, 0.1, 0.9]},
-        "time": {"end": 50}, "schemes": [)" + schemes + R"(], "observe": [)" + observe + "]}";
+    const std::string text =
+        R"({"extremal": 1, "title": "body", "model": )" + model +
+        R"(, "initial": {"attitude": [0.5, 0.5, -0.5, 0.5], "momentum": [0.45, 0.1, 0.9]},
+        "time": {"end": 50}, "schemes": [)" +
+        schemes + R"(], "observe": [)" + observe + "]}";
     return run(readScene(text).scene);
 }
 double largest(std::span<const double> values) {
@@ -30,7 +32,8 @@ double spread(std::span<const double> values) {
 }
 
 const char* const freeModel = R"({"type": "rigid-body", "inertia": [1, 2, 3]})";
-const char* const topModel = R"({"type": "heavy-top", "inertia": [1, 1, 0.5], "weight": 1, "centre": [0.3, 0, 1]})";
+const char* const topModel =
+    R"({"type": "heavy-top", "inertia": [1, 1, 0.5], "weight": 1, "centre": [0.3, 0, 1]})";
 
 }  // namespace
 
@@ -48,8 +51,10 @@ private slots:
         QCOMPARE(c.schemes.size(), std::size_t(5));
         for (const auto& scheme : c.schemes) {
             const double defect = largest(scheme->trajectory["orthogonality"]);
-            qInfo("%s: |R^T R - 1| = %.1e, error %.1e", scheme->spec.label.c_str(), defect, largest(scheme->trajectory["error"]));
-            const bool isKept = scheme->spec.label.find("projected") != std::string::npos || scheme->spec.label == "lie";
+            qInfo("%s: |R^T R - 1| = %.1e, error %.1e", scheme->spec.label.c_str(), defect,
+                  largest(scheme->trajectory["error"]));
+            const bool isKept =
+                scheme->spec.label.find("projected") != std::string::npos || scheme->spec.label == "lie";
             if (isKept)
                 QVERIFY(defect < 4e-15);
             else
@@ -84,8 +89,8 @@ private slots:
             for (const auto& scheme : c.schemes) {
                 const Trajectory& t = scheme->trajectory;
                 const double change = spread(t["casimir"]), momentum = largest(t["momentum_error"]);
-                qInfo("%s, %s: Casimir changes by %.1e, momentum by %.1e", isTop ? "top" : "free", scheme->spec.label.c_str(), change,
-                      momentum);
+                qInfo("%s, %s: Casimir changes by %.1e, momentum by %.1e", isTop ? "top" : "free",
+                      scheme->spec.label.c_str(), change, momentum);
                 const double start = isTop ? 0 : 0.45 * 0.45 + 0.1 * 0.1 + 0.9 * 0.9;
                 if (!isTop) QVERIFY(std::abs(t["casimir"][0] - start) < 1e-15);
                 // A top's is the vertical momentum, computed in the body.

@@ -1,5 +1,5 @@
-/// Independent routes to the Lie group step: the action written with matrices g and g' and nothing reduced, rotation
-/// vectors as coordinates with the Galerkin step of mechanical systems, and turned starts.
+/// Independent routes to the Lie group step: the action written with matrices g and g' and nothing reduced,
+/// rotation vectors as coordinates with the Galerkin step of mechanical systems, and turned starts.
 #include <QTest>
 
 #include <Eigen/LU>
@@ -21,7 +21,8 @@ using Vector = Eigen::Vector3d;
 
 Vector vee(const Matrix& m) { return {m(2, 1), m(0, 2), m(1, 0)}; }
 
-/// The curve of one step, found from the integrator's own curve: where it starts, and xi at the control points.
+/// The curve of one step, found from the integrator's own curve: where it starts, and xi at the control
+/// points.
 struct Curve {
     Matrix foot;
     std::vector<Vector> xi;  ///< at d_1 .. d_s = 1
@@ -41,10 +42,10 @@ Curve curveOf(const Integrator& integrator, const State& before, int degree) {
     return c;
 }
 
-/// S = h sum_i b_i [ 1/2 Omega . I Omega - U(g) ], Omega = vee(g^T g'), from the matrices g = foot exp(xi) and g' alone,
-/// after a complex change of the foot (from the right) and of xi.
-Complex action(const Curve& curve, const KnownBody& body, const Rule<double>& rule, double h, const Vector& footBy,
-               const std::vector<Vector>& xiBy) {
+/// S = h sum_i b_i [ 1/2 Omega . I Omega - U(g) ], Omega = vee(g^T g'), from the matrices g = foot exp(xi)
+/// and g' alone, after a complex change of the foot (from the right) and of xi.
+Complex action(const Curve& curve, const KnownBody& body, const Rule<double>& rule, double h,
+               const Vector& footBy, const std::vector<Vector>& xiBy) {
     const int degree = static_cast<int>(curve.xi.size());
     const Space<double> space = polynomialSpace<double>(degree, PolynomialBasis::lobatto);
     constexpr double tiny = 1e-40;
@@ -87,8 +88,8 @@ Complex action(const Curve& curve, const KnownBody& body, const Rule<double>& ru
     return sum / tiny;
 }
 
-/// Largest residual of the unreduced discrete Euler-Lagrange equations over two steps, D_2 L_d(g_0, g_1) + D_1 L_d(g_1, g_2)
-/// and the stationarity of the interior points.
+/// Largest residual of the unreduced discrete Euler-Lagrange equations over two steps, D_2 L_d(g_0, g_1) +
+/// D_1 L_d(g_1, g_2) and the stationarity of the interior points.
 double eulerLagrangeResidual(const KnownBody& body, const Discretization& pair, double h, double spoil = 0) {
     const int degree = pair.space.integer("degree");
     const Rule<double> rule = makeRule<double>(pair.quadrature);
@@ -143,18 +144,22 @@ struct RotationVectors {
             b = c.b[0];
         }
         const auto times = [](const std::array<S, 3>& u, const std::array<S, 3>& w) {
-            return std::array<S, 3>{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+            return std::array<S, 3>{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
+                                    u[0] * w[1] - u[1] * w[0]};
         };
         const auto qv = times(q, v), qqv = times(q, qv);
         S sum(T(0));
-        for (std::size_t i = 0; i < 3; ++i) sum = sum + square(v[i] - a * qv[i] + b * qqv[i]) * T(inertia[i] / 2);
+        for (std::size_t i = 0; i < 3; ++i)
+            sum = sum + square(v[i] - a * qv[i] + b * qqv[i]) * T(inertia[i] / 2);
         return sum;
     }
 };
 
 /// Attitude after n steps of the Galerkin step in the fixed chart, from q with the body momentum Pi.
-so3::Quaternion<double> fixedChart(int degree, double h, int n, const so3::Quaternion<double>& q, const Vector& Pi) {
-    const Table<double> table = makeTable(polynomialSpace<double>(degree, PolynomialBasis::lobatto), gauss<double>(degree));
+so3::Quaternion<double> fixedChart(int degree, double h, int n, const so3::Quaternion<double>& q,
+                                   const Vector& Pi) {
+    const Table<double> table =
+        makeTable(polynomialSpace<double>(degree, PolynomialBasis::lobatto), gauss<double>(degree));
     GalerkinStep<double, 3> step(bindMechanics<double>(RotationVectors{}), table, h, {});
     Vector x = so3::log(q);
     Vector p = so3::Exponential<double, 0>(x).dexpTransposed(Pi);
@@ -177,8 +182,10 @@ private slots:
                 for (const char* rule : {"gauss", "lobatto"}) {
                     const double h = body == &top() ? 0.2 : 0.5;
                     const double r = eulerLagrangeResidual(*body, liePair(degree, {rule, {}, {}}), h);
-                    const double broken = eulerLagrangeResidual(*body, liePair(degree, {rule, {}, {}}), h, 1e-6);
-                    qInfo("%s, degree %d, %s: %.1e; a curve that is 1e-6 off: %.1e", body->name.c_str(), degree, rule, r, broken);
+                    const double broken =
+                        eulerLagrangeResidual(*body, liePair(degree, {rule, {}, {}}), h, 1e-6);
+                    qInfo("%s, degree %d, %s: %.1e; a curve that is 1e-6 off: %.1e", body->name.c_str(),
+                          degree, rule, r, broken);
                     QVERIFY(r < 1e-13);  // measured: at most 2.1e-14
                     QVERIFY(broken > 1e-8);
                 }
@@ -189,17 +196,19 @@ private slots:
             for (int degree = 1; degree <= 4; ++degree)
                 for (const bool isSymmetric : {false, true}) {
                     const KnownBody& body = isTop ? top() : standard();
-                    const so3::Quaternion<double> turn =
-                        so3::quaternionExp(isTop ? so3::Vector<double>(0, 0, 1.1) : so3::Vector<double>(0.7, -1.2, 0.4));
+                    const so3::Quaternion<double> turn = so3::quaternionExp(
+                        isTop ? so3::Vector<double>(0, 0, 1.1) : so3::Vector<double>(0.7, -1.2, 0.4));
                     const auto run = [&](const so3::Quaternion<double>& q) {
-                        const auto integrator =
-                            makeIntegrator(body.system(), liePair(degree, {"gauss", {}, {}}, isSymmetric), {0, 0.2});
+                        const auto integrator = makeIntegrator(
+                            body.system(), liePair(degree, {"gauss", {}, {}}, isSymmetric), {0, 0.2});
                         return after(*integrator, bodyState(body.start, {q(0), q(1), q(2), q(3)}), 50)->x;
                     };
                     const auto plain = run({1, 0, 0, 0}), turned = run(turn);
-                    const auto expected = so3::product(turn, so3::Quaternion<double>(plain[0], plain[1], plain[2], plain[3]));
-                    const double defect = std::max(attitudeError(turned, {expected(0), expected(1), expected(2), expected(3)}),
-                                                   momentumError(turned, {plain[4], plain[5], plain[6]}));
+                    const auto expected =
+                        so3::product(turn, so3::Quaternion<double>(plain[0], plain[1], plain[2], plain[3]));
+                    const double defect =
+                        std::max(attitudeError(turned, {expected(0), expected(1), expected(2), expected(3)}),
+                                 momentumError(turned, {plain[4], plain[5], plain[6]}));
                     qInfo("%s, degree %d: %.1e", body.name.c_str(), degree, defect);
                     QVERIFY(defect < 1e-13);
                 }
@@ -213,16 +222,19 @@ private slots:
             const double step = 2.0 / n;
             const auto plain = fixedChart(2, step, n, here, Pi), turned = fixedChart(2, step, n, turn, Pi);
             if (n == 4) defect = angleBetween(so3::product(turn, plain), turned);
-            const auto right = after(*makeIntegrator(standard().system(), liePair(8), {0, 0.1}), bodyState(standard().start), 20);
+            const auto right = after(*makeIntegrator(standard().system(), liePair(8), {0, 0.1}),
+                                     bodyState(standard().start), 20);
             const Four q{right->x[0], right->x[1], right->x[2], right->x[3]};
             h.push_back(std::log(step));
-            error.push_back(std::log(angleBetween(so3::product(turn, so3::Quaternion<double>(q[0], q[1], q[2], q[3])), turned)));
+            error.push_back(std::log(
+                angleBetween(so3::product(turn, so3::Quaternion<double>(q[0], q[1], q[2], q[3])), turned)));
         }
         qInfo("fixed chart: defect %.1e at h = 0.5, order %.2f", defect, slope(h, error));
         QVERIFY(defect > 1e-6);
         QVERIFY(std::abs(slope(h, error) - 4) < 0.3);
         // In one step from the foot of its chart it is the Lie group step's curve, but not its momentum.
-        const auto natural = after(*makeIntegrator(standard().system(), liePair(2), {0, 0.5}), bodyState(standard().start), 1);
+        const auto natural =
+            after(*makeIntegrator(standard().system(), liePair(2), {0, 0.5}), bodyState(standard().start), 1);
         const auto fixed = fixedChart(2, 0.5, 1, here, Pi);
         QVERIFY(attitudeError(natural->x, {fixed(0), fixed(1), fixed(2), fixed(3)}) < 1e-3);
     }

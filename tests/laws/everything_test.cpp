@@ -25,7 +25,7 @@ std::vector<Case> schemesOn(const System& system) {
         made.name = composition.type + " of " + c.name;
         made.claims = composedClaims(composition, c.claims);
         made.make = [make = c.make, parts = compositionParts(composition, 2)](const System& s,
-                                                                                      const Clock& clock) {
+                                                                              const Clock& clock) {
             return composed(parts, clock, [make, s](const Clock& part) { return make(s, part); });
         };
         cases.push_back(std::move(made));
@@ -184,7 +184,8 @@ void lookAtModesty(Findings& f, bool isOnBodies) {
         f.broken.push_back("the order is better than claimed everywhere");
     if (!f.claims.isSymmetric && f.largestReturn < 1e-9)
         f.broken.push_back("returns everywhere, and does not claim it");
-    if ((f.claims.order > 0 && f.orders == 0) || f.returns == 0 || f.momenta == 0 || (!isOnBodies && f.derivatives == 0))
+    if ((f.claims.order > 0 && f.orders == 0) || f.returns == 0 || f.momenta == 0 ||
+        (!isOnBodies && f.derivatives == 0))
         f.broken.push_back("a claim was measured nowhere");
     if (isOnBodies) return;
     if (!f.claims.isSymplectic && f.largestSymplectic < 1e-6)

@@ -1,5 +1,5 @@
-/// Laws every group keeps: one suite over SO(3) and SE(3). Derivatives are checked by complex step, the coefficient
-/// functions against closed forms in 100 digits.
+/// Laws every group keeps: one suite over SO(3) and SE(3). Derivatives are checked by complex step, the
+/// coefficient functions against closed forms in 100 digits.
 #include <QTest>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -41,8 +41,12 @@ struct Rotations {
     static Vector<double> log(const Eigen::Matrix4d& g) {
         return so3::log(so3::Matrix<double>(g.topLeftCorner<3, 3>()));
     }
-    static Vector<double> bracket(const Vector<double>& u, const Vector<double>& v) { return so3::bracket(u, v); }
-    static Vector<double> precession(const Vector<double>& m, const Vector<double>& u) { return so3::precession(m, u); }
+    static Vector<double> bracket(const Vector<double>& u, const Vector<double>& v) {
+        return so3::bracket(u, v);
+    }
+    static Vector<double> precession(const Vector<double>& m, const Vector<double>& u) {
+        return so3::precession(m, u);
+    }
     static so3::Matrix<double> precessionMatrix(const Vector<double>& m) { return so3::precessionMatrix(m); }
 };
 
@@ -71,8 +75,12 @@ struct Motions {
     static Vector<double> log(const Eigen::Matrix4d& g) {
         return se3::log(se3::Motion<double>{g.topLeftCorner<3, 3>(), g.topRightCorner<3, 1>()});
     }
-    static Vector<double> bracket(const Vector<double>& u, const Vector<double>& v) { return se3::bracket(u, v); }
-    static Vector<double> precession(const Vector<double>& m, const Vector<double>& u) { return se3::precession(m, u); }
+    static Vector<double> bracket(const Vector<double>& u, const Vector<double>& v) {
+        return se3::bracket(u, v);
+    }
+    static Vector<double> precession(const Vector<double>& m, const Vector<double>& u) {
+        return se3::precession(m, u);
+    }
     static se3::Matrix<double> precessionMatrix(const Vector<double>& m) { return se3::precessionMatrix(m); }
 };
 
@@ -104,11 +112,14 @@ struct Laws {
     double oneParameterSubgroups() {  // exp((s + t) xi) = exp(s xi) exp(t xi)
         const V xi = vector(1.3);
         return (G::template element<double>(0.9 * xi) * G::template element<double>(-0.4 * xi) -
-                G::template element<double>(0.5 * xi)).norm();
+                G::template element<double>(0.5 * xi))
+            .norm();
     }
     double inverses() {
         const V xi = vector(angle());
-        return (G::template element<double>(xi) * G::template element<double>(-xi) - Eigen::Matrix4d::Identity()).norm();
+        return (G::template element<double>(xi) * G::template element<double>(-xi) -
+                Eigen::Matrix4d::Identity())
+            .norm();
     }
     double logOfExp() {
         const V xi = vector(angle());
@@ -117,7 +128,9 @@ struct Laws {
     double adjointIsConjugation() {  // g [v] g^{-1} = [Ad_g v]
         const V xi = vector(angle()), v = vector(1);
         const Eigen::Matrix4d g = G::template element<double>(xi), inverse = G::template element<double>(-xi);
-        return (g * G::template algebra<double>(v) * inverse - G::template algebra<double>(Chart(xi).rotate(v))).norm();
+        return (g * G::template algebra<double>(v) * inverse -
+                G::template algebra<double>(Chart(xi).rotate(v)))
+            .norm();
     }
     double adjointOfBracket() {
         const V u = vector(1), v = vector(1);
@@ -136,15 +149,19 @@ struct Laws {
                std::abs(at.dexpTransposed(m).dot(v) - m.dot(at.dexp(v))) +
                std::abs(at.dexpRightTransposed(m).dot(v) - m.dot(Chart(-xi).dexp(v))) +
                (G::precessionMatrix(m) * u - G::precession(m, u)).norm() +
-               std::abs(G::precession(m, u).dot(v) - m.dot(G::bracket(u, v))) + (at.dexpMatrix() * v - at.dexp(v)).norm();
+               std::abs(G::precession(m, u).dot(v) - m.dot(G::bracket(u, v))) +
+               (at.dexpMatrix() * v - at.dexp(v)).norm();
     }
-    double dexpIsTheBodyRate(double sign) {  // g^{-1} D exp(xi) . v = [dexp(xi) v]; sign -1: the printed dexp_{ad xi}
+    double dexpIsTheBodyRate(
+        double sign) {  // g^{-1} D exp(xi) . v = [dexp(xi) v]; sign -1: the printed dexp_{ad xi}
         const V xi = vector(angle()), v = vector(1);
         constexpr double h = 1e-40;
         CV z;
         for (int i = 0; i < G::n; ++i) z(i) = Complex(xi(i), h * v(i));
         const Eigen::Matrix4d slope = G::template element<Complex>(z).imag() / h;
-        return (G::template element<double>(-xi) * slope - G::template algebra<double>(Chart(sign * xi).dexp(v))).norm();
+        return (G::template element<double>(-xi) * slope -
+                G::template algebra<double>(Chart(sign * xi).dexp(v)))
+            .norm();
     }
     double dexpInverse() {
         const V xi = vector(2 * angle());
@@ -156,14 +173,21 @@ struct Laws {
         const V xi = vector(angle()), v = vector(1), m = vector(1), d = vector(1);
         const Chart at(xi);
         using CC = typename G::template Chart<Complex>;
-        double worst = (along(xi, d, [&](const CV& z) { return CC(z).dexp(complex(v)); }) - at.derivative(v) * d).norm();
+        double worst =
+            (along(xi, d, [&](const CV& z) { return CC(z).dexp(complex(v)); }) - at.derivative(v) * d).norm();
         worst = std::max(worst, (along(xi, d, [&](const CV& z) { return CC(z).dexpTransposed(complex(m)); }) -
-                                 at.derivativeOfTransposed(m) * d).norm());
-        worst = std::max(worst, (along(xi, d, [&](const CV& z) { return CC(z).dexpRightTransposed(complex(m)); }) -
-                                 at.derivativeOfRightTransposed(m) * d).norm());
+                                 at.derivativeOfTransposed(m) * d)
+                                    .norm());
+        worst = std::max(worst,
+                         (along(xi, d, [&](const CV& z) { return CC(z).dexpRightTransposed(complex(m)); }) -
+                          at.derivativeOfRightTransposed(m) * d)
+                             .norm());
         worst = std::max(worst, (at.derivative(v).transpose() * m - at.gradient(v, m)).norm());
         const V second = at.hessian(v, m) * d;
-        return std::max(worst, (along(xi, d, [&](const CV& z) { return CC(z).gradient(complex(v), complex(m)); }) - second).norm());
+        return std::max(
+            worst,
+            (along(xi, d, [&](const CV& z) { return CC(z).gradient(complex(v), complex(m)); }) - second)
+                .norm());
     }
 };
 
@@ -235,9 +259,10 @@ private slots:
             const double x = theta * theta;
             const auto c = so3::coefficients<3>(x);
             const auto e = exact(Long(x));
-            const double a1 = theta > 5 ? std::abs(c.a[1] - static_cast<double>(e.a[1])) * 30 : relative(c.a[1], e.a[1]);
-            low = std::max({low, relative(c.a[0], e.a[0]), relative(c.b[0], e.b[0]), a1, relative(c.b[1], e.b[1]),
-                            std::abs(c.s - static_cast<double>(e.s))});
+            const double a1 =
+                theta > 5 ? std::abs(c.a[1] - static_cast<double>(e.a[1])) * 30 : relative(c.a[1], e.a[1]);
+            low = std::max({low, relative(c.a[0], e.a[0]), relative(c.b[0], e.b[0]), a1,
+                            relative(c.b[1], e.b[1]), std::abs(c.s - static_cast<double>(e.s))});
             second = std::max({second, relative(c.a[2], e.a[2]), relative(c.b[2], e.b[2])});
             third = std::max(third, relative(c.b[3], e.b[3]));
         }
@@ -261,7 +286,8 @@ private slots:
             const auto c = so3::coefficients<2>(x);
             const auto e = exact(Long(theta) * Long(theta));
             for (std::size_t k = 0; k < 3; ++k)
-                worst = std::max({worst, relative(c.a[k].convert_to<Long>(), e.a[k]), relative(c.b[k].convert_to<Long>(), e.b[k])});
+                worst = std::max({worst, relative(c.a[k].convert_to<Long>(), e.a[k]),
+                                  relative(c.b[k].convert_to<Long>(), e.b[k])});
         }
         qInfo("%.1e", worst);
         QVERIFY(worst < 1e-30);
@@ -276,7 +302,8 @@ private slots:
             const so3::Matrix<double> R = so3::Exponential<double, 0>(xi).rotation();
             const so3::Vector<double> back = so3::log(R);
             // Up to pi the vector itself; within round-off of pi its opposite is as good.
-            return std::min((back - xi).norm(), xi.norm() > pi - 1e-14 ? (back + xi).norm() : 1e300) / xi.norm();
+            return std::min((back - xi).norm(), xi.norm() > pi - 1e-14 ? (back + xi).norm() : 1e300) /
+                   xi.norm();
         };
         for (int i = 0; i < 200000; ++i) {
             so3::Vector<double> axis(normal(random), normal(random), normal(random));
@@ -296,7 +323,8 @@ private slots:
         for (const auto& n : axes) {
             const so3::Matrix<double> R = 2 * n * n.transpose() - so3::Matrix<double>::Identity();
             const so3::Vector<double> xi = so3::log(R);
-            half = std::max({half, std::abs(xi.norm() / pi - 1), (so3::Exponential<double, 0>(xi).rotation() - R).norm()});
+            half = std::max({half, std::abs(xi.norm() / pi - 1),
+                             (so3::Exponential<double, 0>(xi).rotation() - R).norm()});
         }
         qInfo("half turns: %.1e", half);
         QVERIFY(half < 1e-14);

@@ -1,5 +1,6 @@
-/// Rigid bodies at the extremes: near the separatrix, moments of inertia ten powers of ten apart, a million radians a second,
-/// steps far too long. The answer is right or the outcome says that there is none; energy does not tell which.
+/// Rigid bodies at the extremes: near the separatrix, moments of inertia ten powers of ten apart, a million
+/// radians a second, steps far too long. The answer is right or the outcome says that there is none; energy
+/// does not tell which.
 #include <QTest>
 
 #include <algorithm>
@@ -61,7 +62,9 @@ private slots:
         QTest::addColumn<double>("first");
         QTest::addColumn<double>("second");
         QTest::addColumn<double>("third");
-        const auto add = [](const char* name, double a, double b, double c) { QTest::addRow("%s", name) << a << b << c; };
+        const auto add = [](const char* name, double a, double b, double c) {
+            QTest::addRow("%s", name) << a << b << c;
+        };
         add("rod 1e-4", 1e-4, 1, 1);
         add("rod 1e-8", 1e-8, 1, 1);
         add("rod 1e-10", 1e-10, 1, 1);
@@ -79,26 +82,31 @@ private slots:
         const double ratio = std::max({first, second, third}) / std::min({first, second, third});
         for (const int degree : {3, 4, 8}) {
             const Run r = runOf(system, Pi, liePair(degree), 10, 400);
-            qInfo("degree %d: %s, attitude %.1e, momentum %.1e, energy %.1e", degree, std::string(name(r.outcome)).c_str(),
-                  r.attitude, r.momentum, r.energy);
+            qInfo("degree %d: %s, attitude %.1e, momentum %.1e, energy %.1e", degree,
+                  std::string(name(r.outcome)).c_str(), r.attitude, r.momentum, r.energy);
             QVERIFY(r.outcome == Outcome::converged);
-            // The momentum of the light axis is a small difference: the last bits of the others are 1 / ratio of it.
+            // The momentum of the light axis is a small difference: the last bits of the others are 1 / ratio
+            // of it.
             QVERIFY(r.attitude < (degree == 3 ? 1e-9 : 1e-11) + 100 * ratio * 2.2e-16);
         }
     }
 
     void bodiesThatSpinThemselvesUpEndInOutcomes() {
-        // Not round, these turn at 1e6 rad/s and more before the first step is over: there is no answer at this step.
+        // Not round, these turn at 1e6 rad/s and more before the first step is over: there is no answer at
+        // this step.
         for (const Three& inertia : {Three{1e-10, 1, 1.1}, Three{1, 1, 1e10}, Three{1e-10, 1e-5, 1}})
             for (const int degree : {1, 2, 3, 4, 8}) {
-                const Run r = runOf(freeBody(inertia), momentumOf(inertia, {0.5, 0.3, 0.8}), liePair(degree), 10, 400);
-                qInfo("%g, %g, %g, degree %d: %s", inertia[0], inertia[1], inertia[2], degree, std::string(name(r.outcome)).c_str());
+                const Run r =
+                    runOf(freeBody(inertia), momentumOf(inertia, {0.5, 0.3, 0.8}), liePair(degree), 10, 400);
+                qInfo("%g, %g, %g, degree %d: %s", inertia[0], inertia[1], inertia[2], degree,
+                      std::string(name(r.outcome)).c_str());
                 QVERIFY(r.outcome != Outcome::converged);
             }
         // At steps that follow the spin there is: 1e-6, 1, 1.1 reaches 1e4 rad/s.
         const Three inertia{1e-6, 1, 1.1};
         const Run r = runOf(freeBody(inertia), momentumOf(inertia, {0.5, 0.3, 0.8}), liePair(4), 0.2, 4000);
-        qInfo("1e-6, 1, 1.1 at short steps: %s, attitude %.1e", std::string(name(r.outcome)).c_str(), r.attitude);
+        qInfo("1e-6, 1, 1.1 at short steps: %s, attitude %.1e", std::string(name(r.outcome)).c_str(),
+              r.attitude);
         QVERIFY(r.outcome == Outcome::converged);
         QVERIFY(r.attitude < 1e-6);
     }
@@ -118,7 +126,8 @@ private slots:
         const Three Pi = momentumOf(inertia, {rate, 0.3, 0.8});
         for (const int degree : {1, 2, 3, 4}) {
             const Run r = runOf(system, Pi, liePair(degree), 1e-3, 2000);
-            qInfo("degree %d: %s, attitude %.1e, energy %.1e", degree, std::string(name(r.outcome)).c_str(), r.attitude, r.energy);
+            qInfo("degree %d: %s, attitude %.1e, energy %.1e", degree, std::string(name(r.outcome)).c_str(),
+                  r.attitude, r.energy);
             QVERIFY(r.outcome == Outcome::converged);
             if (degree >= 3) QVERIFY(r.attitude < 1e-6);
         }
@@ -126,18 +135,20 @@ private slots:
         for (const int degree : {1, 2, 3, 4, 8})
             for (const double h : {8e-6, 1e-4, 1e-2, 1.0}) {
                 const Run r = runOf(system, Pi, liePair(degree), 4 * h, 4);
-                QVERIFY2(r.outcome != Outcome::converged, qPrintable(QString("degree %1, h = %2").arg(degree).arg(h)));
+                QVERIFY2(r.outcome != Outcome::converged,
+                         qPrintable(QString("degree %1, h = %2").arg(degree).arg(h)));
             }
     }
 
     void energySaysNothingAboutTheAttitudeOfAThinRod() {
-        // The preset's body and step: energy to round-off at every degree, attitude wrong by radians at degree 1.
+        // The preset's body and step: energy to round-off at every degree, attitude wrong by radians at
+        // degree 1.
         const System system = thinRod().system();
         const Run one = runOf(system, thinRod().start, liePair(1), 10, 100);
         const Run three = runOf(system, thinRod().start, liePair(3), 10, 100);
         const Run four = runOf(system, thinRod().start, liePair(4), 10, 100);
-        qInfo("energy %.1e, %.1e, %.1e; attitude %.1e, %.1e, %.1e", one.energy, three.energy, four.energy, one.attitude,
-              three.attitude, four.attitude);
+        qInfo("energy %.1e, %.1e, %.1e; attitude %.1e, %.1e, %.1e", one.energy, three.energy, four.energy,
+              one.attitude, three.attitude, four.attitude);
         QVERIFY(std::max({one.energy, three.energy, four.energy}) < 1e-13);
         QVERIFY(one.attitude > 0.5);
         QVERIFY(three.attitude < 1e-5);
@@ -153,7 +164,8 @@ private slots:
             const System system = freeBody({e, 1, 1});
             const Three Pi{e * std::cos(1.1), 0, std::sin(1.1)};
             const Run lie = runOf(system, Pi, liePair(1), 1, 50);
-            const auto dmv = findBaseline("moser-veselov")->make(system, {{0, 0.02}, 0, 0, {"moser-veselov", {{"order", 2.0}}, {}}});
+            const auto dmv = findBaseline("moser-veselov")
+                                 ->make(system, {{0, 0.02}, 0, 0, {"moser-veselov", {{"order", 2.0}}, {}}});
             State start = bodyState(Pi);
             std::vector<double> x(10);
             system.exact(start)(1, x);

@@ -52,13 +52,14 @@ inline std::vector<Settings> variantsOf(const CatalogItem& item, int maxStages) 
     return all;
 }
 
-/// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline, that fit the system. Experiments
-/// that come with a caution promise nothing.
+/// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline, that fit the
+/// system. Experiments that come with a caution promise nothing.
 inline std::vector<Case> everyScheme(int maxDegree, const System& system = systemNamed("kepler")) {
     std::vector<Case> cases;
     std::vector<Discretization> known;  // some names are of the same pair
     for (const SchemeEntry& e : schemeCatalog()) {
-        const int low = e.maxDegree == 0 ? 0 : e.minDegree, high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
+        const int low = e.maxDegree == 0 ? 0 : e.minDegree,
+                  high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
         for (int degree = low; degree <= high; ++degree) {
             const Discretization pair = e.make(degree);
             if (!isPairFor(pair, system) || std::find(known.begin(), known.end(), pair) != known.end() ||
@@ -66,16 +67,20 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
                 continue;
             known.push_back(pair);
             std::string name = e.item.id;
-            if (const auto at = name.find('<'); at != std::string::npos) name = name.substr(0, at) + std::to_string(degree);
+            if (const auto at = name.find('<'); at != std::string::npos)
+                name = name.substr(0, at) + std::to_string(degree);
             cases.push_back({name, describe(pair.space, pair.quadrature).claims,
-                             [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); }, true});
+                             [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); },
+                             true});
         }
     }
     for (const BaselineEntry& e : baselineCatalog()) {
         if (e.isAdaptive || !appliesTo(e, system)) continue;
         for (const Settings& keys : variantsOf(e.item, maxDegree)) {
-            const std::string stages = keys.find("stages") ? "-" + std::to_string(keys.integer("stages")) : "";
-            cases.push_back({e.item.id + stages, claimsOf(e, keys), [make = e.make, keys](const System& s, const Clock& c) {
+            const std::string stages =
+                keys.find("stages") ? "-" + std::to_string(keys.integer("stages")) : "";
+            cases.push_back({e.item.id + stages, claimsOf(e, keys),
+                             [make = e.make, keys](const System& s, const Clock& c) {
                                  return make(s, {c, 0, 0, keys});
                              }});
         }
@@ -92,7 +97,8 @@ inline Discretization polynomialPair(int degree, Settings quadrature, const std:
 
 inline Discretization splinePair(int degree, int cells, Settings quadrature) {
     Discretization pair;
-    pair.space = {"spline", {{"degree", static_cast<double>(degree)}, {"cells", static_cast<double>(cells)}}, {}};
+    pair.space = {
+        "spline", {{"degree", static_cast<double>(degree)}, {"cells", static_cast<double>(cells)}}, {}};
     pair.quadrature = completeQuadrature(pair.space, quadrature);
     return pair;
 }
@@ -104,7 +110,8 @@ inline std::optional<State> after(Integrator& integrator, State state, long long
     return state;
 }
 
-inline double distance(const std::vector<double>& a, const std::vector<double>& b, std::size_t from, std::size_t to) {
+inline double distance(const std::vector<double>& a, const std::vector<double>& b, std::size_t from,
+                       std::size_t to) {
     double sum = 0;
     for (std::size_t i = from; i < to; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
     return std::sqrt(sum);

@@ -1,5 +1,5 @@
-/// Independent routes to the step on SE(3): the action written with R, x and their rates, nothing reduced and nothing in
-/// body axes; an adaptive code on quaternions; the canonical form.
+/// Independent routes to the step on SE(3): the action written with R, x and their rates, nothing reduced and
+/// nothing in body axes; an adaptive code on quaternions; the canonical form.
 #include <QTest>
 
 #include <algorithm>
@@ -26,8 +26,9 @@ const char* const gravityGradient =
 constexpr Three inertia{0.12, 0.58, 0.61};
 
 System satellite() {
-    return systemNamed("rigid-body-se3",
-                       {{"inertia", listOf(inertia)}, {"potential", gravityGradient}, {"parameters", Value::Object{{"mu", 1.0}}}});
+    return systemNamed("rigid-body-se3", {{"inertia", listOf(inertia)},
+                                          {"potential", gravityGradient},
+                                          {"parameters", Value::Object{{"mu", 1.0}}}});
 }
 /// The same potential in C++.
 Complex gravity(const so3::Vector<Complex>& x, const so3::Matrix<Complex>& R) {
@@ -68,9 +69,10 @@ Curve curveOf(const Integrator& integrator, const State& before, int degree) {
     return c;
 }
 
-/// S = h sum_i b_i [ 1/2 Omega . I Omega + 1/2 |x'|^2 - U(x, R) ], Omega = vee(R^T R'), after a complex change of the foot
-/// (from the right) and of xi; its imaginary part is the derivative.
-double actionSlope(const Curve& curve, const Rule<double>& rule, double h, const Twist& footBy, const Twists<double>& xiBy) {
+/// S = h sum_i b_i [ 1/2 Omega . I Omega + 1/2 |x'|^2 - U(x, R) ], Omega = vee(R^T R'), after a complex
+/// change of the foot (from the right) and of xi; its imaginary part is the derivative.
+double actionSlope(const Curve& curve, const Rule<double>& rule, double h, const Twist& footBy,
+                   const Twists<double>& xiBy) {
     const int degree = static_cast<int>(curve.xi.size());
     const Space<double> space = polynomialSpace<double>(degree, PolynomialBasis::lobatto);
     constexpr double tiny = 1e-40;
@@ -122,7 +124,8 @@ double actionSlope(const Curve& curve, const Rule<double>& rule, double h, const
     return (sum / tiny).imag();
 }
 
-/// Largest residual of D_2 L_d(g_0, g_1) + D_1 L_d(g_1, g_2) = 0 and of the stationarity of the interior points.
+/// Largest residual of D_2 L_d(g_0, g_1) + D_1 L_d(g_1, g_2) = 0 and of the stationarity of the interior
+/// points.
 double eulerLagrangeResidual(const Discretization& pair, double h, double spoil = 0) {
     const int degree = pair.space.integer("degree");
     const Rule<double> rule = makeRule<double>(pair.quadrature);
@@ -193,14 +196,17 @@ double symplecticDefect(const Discretization& pair, double sign) {
     constexpr double delta = 1e-3;
     constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
     const System system = satellite();
-    const auto step = [&](const State& s) { return after(*makeIntegrator(system, pair, {0, 0.2}), s, 1).value(); };
+    const auto step = [&](const State& s) {
+        return after(*makeIntegrator(system, pair, {0, 0.2}), s, 1).value();
+    };
     const State end = step(start());
     Eigen::Matrix<double, 12, 12> M = Eigen::Matrix<double, 12, 12>::Zero();
     for (int j = 0; j < 12; ++j)
         for (int k = 1; k <= 3; ++k)
             for (const int side : {1, -1}) {
                 const Tangent v = side * k * delta * Tangent::Unit(j);
-                M.col(j) += side * c[static_cast<std::size_t>(k - 1)] / delta * between(end, step(moved(start(), v)));
+                M.col(j) +=
+                    side * c[static_cast<std::size_t>(k - 1)] / delta * between(end, step(moved(start(), v)));
             }
     return (M.transpose() * canonicalForm(end, sign) * M - canonicalForm(start(), sign)).norm();
 }
@@ -214,7 +220,8 @@ private slots:
         for (int degree = 1; degree <= 4; ++degree)
             for (const char* rule : {"gauss", "lobatto"}) {
                 const Discretization pair = liePair(degree, {rule, {}, {}});
-                const double r = eulerLagrangeResidual(pair, 0.2), broken = eulerLagrangeResidual(pair, 0.2, 1e-6);
+                const double r = eulerLagrangeResidual(pair, 0.2),
+                             broken = eulerLagrangeResidual(pair, 0.2, 1e-6);
                 qInfo("degree %d, %s: %.1e; a curve that is 1e-6 off: %.1e", degree, rule, r, broken);
                 QVERIFY(r < 1e-13);  // measured: at most 1.0e-14
                 QVERIFY(broken > 1e-8);
@@ -229,20 +236,22 @@ private slots:
         for (const int degree : {4, 6, 8}) {
             const auto end = after(*makeIntegrator(system, liePair(degree), {0, 0.05}), start(), 100);
             const double angle = attitudeError(end->x, {right.x[0], right.x[1], right.x[2], right.x[3]});
-            const double place = distance(end->x, right.x, 10, 13), momentum = distance(end->x, right.x, 4, 10);
+            const double place = distance(end->x, right.x, 10, 13),
+                         momentum = distance(end->x, right.x, 4, 10);
             qInfo("degree %d: attitude %.1e, position %.1e, momenta %.1e", degree, angle, place, momentum);
             QVERIFY(std::max({angle, place, momentum}) < 1e-11);  // degree 4: 1.2e-12, degree 8: 3.5e-13
         }
         const auto coarse = after(*makeIntegrator(system, liePair(1), {0, 0.05}), start(), 100);
-        QVERIFY(distance(coarse->x, right.x, 10, 13) > 1e-6);  // it is the scheme that agrees, not the measure
+        QVERIFY(distance(coarse->x, right.x, 10, 13) >
+                1e-6);  // it is the scheme that agrees, not the measure
     }
     void theStepIsSymplectic() {
         for (int degree = 1; degree <= 4; ++degree)
             for (const bool isSymmetric : {false, true}) {
                 const Discretization pair = liePair(degree, {"gauss", {}, {}}, isSymmetric);
                 const double defect = symplecticDefect(pair, 1), broken = symplecticDefect(pair, -1);
-                qInfo("degree %d%s: %.1e; with the wrong sign of the bracket %.1e", degree, isSymmetric ? ", symmetric" : "",
-                      defect, broken);
+                qInfo("degree %d%s: %.1e; with the wrong sign of the bracket %.1e", degree,
+                      isSymmetric ? ", symmetric" : "", defect, broken);
                 QVERIFY(defect < 2e-11);  // measured: at most 3.6e-12
                 QVERIFY(broken > 1e-3);
             }

@@ -1,5 +1,5 @@
-/// Lie group integrators on SE(3): a satellite in the gradient of gravity, bodies that move freely, and what typed
-/// potentials keep.
+/// Lie group integrators on SE(3): a satellite in the gradient of gravity, bodies that move freely, and what
+/// typed potentials keep.
 #include <QTest>
 
 #include <algorithm>
@@ -22,7 +22,9 @@ System satellite(const std::string& more = "") {
                                           {"potential", gravityGradient + more},
                                           {"parameters", Value::Object{{"mu", 1.0}}}});
 }
-System freelyMoving() { return systemNamed("rigid-body-se3", {{"inertia", Value::Array{1.0, 2.0, 3.0}}, {"mass", 2.0}}); }
+System freelyMoving() {
+    return systemNamed("rigid-body-se3", {{"inertia", Value::Array{1.0, 2.0, 3.0}}, {"mass", 2.0}});
+}
 
 /// Attitude q, momentum in the body, position and linear momentum in space.
 State motionState(const Four& q, const Three& Pi, const Vector& x, const Vector& p) {
@@ -31,23 +33,26 @@ State motionState(const Four& q, const Three& Pi, const Vector& x, const Vector&
     return s;
 }
 State satelliteStart() {
-    return motionState({std::cos(0.15), 0, 0, std::sin(0.15)}, {0.05 * 0.0012, 0.02 * 0.0058, 1.25 * 0.0061}, {0.8, 0, 0},
-                       {0, 1.2, 0.1});
+    return motionState({std::cos(0.15), 0, 0, std::sin(0.15)}, {0.05 * 0.0012, 0.02 * 0.0058, 1.25 * 0.0061},
+                       {0.8, 0, 0}, {0, 1.2, 0.1});
 }
-/// On a nearly round orbit, its long axis swinging about the direction of the centre: a regular motion, where drift shows.
+/// On a nearly round orbit, its long axis swinging about the direction of the centre: a regular motion, where
+/// drift shows.
 State librating() {
-    return motionState({std::cos(0.05), 0, 0, std::sin(0.05)}, {0, 0.02 * 0.0058, 0.0061}, {1, 0, 0}, {0, 1.02, 0});
+    return motionState({std::cos(0.05), 0, 0, std::sin(0.05)}, {0, 0.02 * 0.0058, 0.0061}, {1, 0, 0},
+                       {0, 1.02, 0});
 }
 State freeStart() {
-    return motionState({0.5, 0.5, -0.5, 0.5}, {std::cos(1.1), 0, std::sin(1.1)}, {0.3, -0.4, 0.1}, {1.1, 0.6, -0.8});
+    return motionState({0.5, 0.5, -0.5, 0.5}, {std::cos(1.1), 0, std::sin(1.1)}, {0.3, -0.4, 0.1},
+                       {1.1, 0.6, -0.8});
 }
 
 /// Everything turned about the origin.
 State turned(const State& s, const Quaternion& by) {
     const so3::Matrix<double> R = so3::matrix(by);
     const Quaternion q = so3::product(by, Quaternion(s.x[0], s.x[1], s.x[2], s.x[3]));
-    return motionState({q(0), q(1), q(2), q(3)}, {s.x[4], s.x[5], s.x[6]}, R * Vector(s.x[10], s.x[11], s.x[12]),
-                       R * Vector(s.x[13], s.x[14], s.x[15]));
+    return motionState({q(0), q(1), q(2), q(3)}, {s.x[4], s.x[5], s.x[6]},
+                       R * Vector(s.x[10], s.x[11], s.x[12]), R * Vector(s.x[13], s.x[14], s.x[15]));
 }
 
 double largestDifference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -57,8 +62,9 @@ double largestDifference(const std::vector<double>& a, const std::vector<double>
 }
 /// The four errors of a motion: attitude, momentum in the body relative to `spin`, position, linear momentum.
 std::array<double, 4> errorsOf(const State& a, const State& b, double spin) {
-    return {attitudeError(a.x, {b.x[0], b.x[1], b.x[2], b.x[3]}), momentumError(a.x, {b.x[4], b.x[5], b.x[6]}) / spin,
-            distance(a.x, b.x, 10, 13), distance(a.x, b.x, 13, 16)};
+    return {attitudeError(a.x, {b.x[0], b.x[1], b.x[2], b.x[3]}),
+            momentumError(a.x, {b.x[4], b.x[5], b.x[6]}) / spin, distance(a.x, b.x, 10, 13),
+            distance(a.x, b.x, 13, 16)};
 }
 
 }  // namespace
@@ -94,10 +100,12 @@ private slots:
         QVERIFY(reference.has_value());
         std::vector<double> h;
         std::array<std::vector<double>, 4> errors;
-        // Where the first term reigns: the errors of high degrees have to be small, and are soon at round-off.
+        // Where the first term reigns: the errors of high degrees have to be small, and are soon at
+        // round-off.
         const double largest = degree == 4 ? 1e-6 : 3e-3, smallest = degree == 4 ? 1e-12 : 2e-12;
         for (double n = 2; n < 2000; n *= degree == 4 ? 1.15 : 1.3) {
-            const auto end = run(liePair(degree, {rule.toStdString(), {}, {}}, isSymmetric), static_cast<int>(n));
+            const auto end =
+                run(liePair(degree, {rule.toStdString(), {}, {}}, isSymmetric), static_cast<int>(n));
             if (!end) continue;
             const auto e = errorsOf(*end, *reference, spin);
             const int kinds = isFree ? 3 : 4;  // free: the linear momentum is exact
@@ -114,9 +122,10 @@ private slots:
             errors[k].erase(errors[k].begin(), errors[k].end() - points);
             order[k] = slope(h, errors[k]);
         }
-        qInfo("claimed %d, measured attitude %.2f, momentum %.2f, position %.2f, linear momentum %.2f", 2 * degree, order[0],
-              order[1], order[2], order[3]);
-        for (std::size_t k = 0; k < (isFree ? 3 : 4); ++k) QVERIFY(std::abs(order[k] - 2 * degree) < (degree == 4 ? 0.5 : 0.1));
+        qInfo("claimed %d, measured attitude %.2f, momentum %.2f, position %.2f, linear momentum %.2f",
+              2 * degree, order[0], order[1], order[2], order[3]);
+        for (std::size_t k = 0; k < (isFree ? 3 : 4); ++k)
+            QVERIFY(std::abs(order[k] - 2 * degree) < (degree == 4 ? 0.5 : 0.1));
     }
 
     void orbitAndSpinTogetherKeepTheirAngularMomentum() {
@@ -133,14 +142,15 @@ private slots:
             for (int k = 0; k < steps; ++k) {
                 QVERIFY(integrator->advance(s).outcome == Outcome::converged);
                 for (const MomentumMap& map : system.momenta)
-                    momentum = std::max(momentum, std::abs(map.value(s.x.data(), nullptr) - map.value(start.x.data(), nullptr)));
+                    momentum = std::max(momentum, std::abs(map.value(s.x.data(), nullptr) -
+                                                           map.value(start.x.data(), nullptr)));
                 exchanged = std::max(exchanged, std::abs(s.x[9] - start.x[9]));
                 const double error = energy(0, s.x.data()) - energy(0, start.x.data());
                 auto& quarter = worst[static_cast<std::size_t>(4 * k / steps)];
                 quarter = std::max(quarter, std::abs(error));
             }
-            qInfo("degree %d: momentum %.1e, the spin alone %.1e; energy %.3e %.3e %.3e %.3e", degree, momentum, exchanged,
-                  worst[0], worst[1], worst[2], worst[3]);
+            qInfo("degree %d: momentum %.1e, the spin alone %.1e; energy %.3e %.3e %.3e %.3e", degree,
+                  momentum, exchanged, worst[0], worst[1], worst[2], worst[3]);
             QVERIFY(momentum < 1e-12);
             QVERIFY(exchanged > 1e-4);  // neither part is kept by itself: the law can fail
             QVERIFY(worst[3] <= 1.05 * worst[0] + 1e-12);
@@ -156,7 +166,8 @@ private slots:
             e = energy(0, s.x.data()) - energy(0, start.x.data());
         }
         qInfo("RK4: energy %.2e after half the time, %.2e at the end; momentum %.1e", error[0], error[1],
-              std::abs(system.momenta[2].value(s.x.data(), nullptr) - system.momenta[2].value(start.x.data(), nullptr)));
+              std::abs(system.momenta[2].value(s.x.data(), nullptr) -
+                       system.momenta[2].value(start.x.data(), nullptr)));
         QVERIFY(std::abs(error[1]) > 1.7 * std::abs(error[0]));
     }
     void onlyWhatThePotentialLeavesIsKept() {
@@ -186,22 +197,26 @@ private slots:
             double change = 0;
             for (int k = 0; k < 1000; ++k) {
                 QVERIFY(integrator->advance(s).outcome == Outcome::converged);
-                for (std::size_t i = 13; i < 16; ++i) change = std::max(change, std::abs(s.x[i] - start.x[i]));
+                for (std::size_t i = 13; i < 16; ++i)
+                    change = std::max(change, std::abs(s.x[i] - start.x[i]));
             }
             std::vector<double> x(16);
             exact(100, x);
             const State right{100, 0, x};
             const auto e = errorsOf(s, right, 1);
-            qInfo("degree %d: linear momentum %.1e, attitude %.1e, position %.1e", degree, change, e[0], e[2]);
+            qInfo("degree %d: linear momentum %.1e, attitude %.1e, position %.1e", degree, change, e[0],
+                  e[2]);
             QCOMPARE(change, 0.0);
-            if (degree == 4) QVERIFY(e[0] < 5e-11 && e[2] < 5e-12);  // 1.1e-11 rad after 1000 steps of round-off
+            if (degree == 4)
+                QVERIFY(e[0] < 5e-11 && e[2] < 5e-12);  // 1.1e-11 rad after 1000 steps of round-off
         }
     }
     void reducedAndUnreducedStepsAgree() {
         for (int degree = 1; degree <= 4; ++degree) {
             State a = freeStart(), b = a;
             const auto reduced = makeIntegrator(freelyMoving(), liePair(degree), {0, 0.2});
-            const auto full = makeIntegrator(freelyMoving(), liePair(degree, {"gauss", {}, {}}, false, false), {0, 0.2});
+            const auto full =
+                makeIntegrator(freelyMoving(), liePair(degree, {"gauss", {}, {}}, false, false), {0, 0.2});
             for (int k = 0; k < 500; ++k) {
                 QVERIFY(reduced->advance(a).outcome == Outcome::converged);
                 QVERIFY(full->advance(b).outcome == Outcome::converged);
@@ -214,7 +229,9 @@ private slots:
         const Quaternion by = so3::quaternionExp(Vector(0.7, -1.2, 0.4));
         for (int degree = 1; degree <= 4; ++degree) {
             const auto defect = [&](const System& system) {
-                const auto run = [&](const State& s) { return after(*makeIntegrator(system, liePair(degree), {0, 0.1}), s, 50).value(); };
+                const auto run = [&](const State& s) {
+                    return after(*makeIntegrator(system, liePair(degree), {0, 0.1}), s, 50).value();
+                };
                 State expected = turned(run(satelliteStart()), by), found = run(turned(satelliteStart(), by));
                 if (expected.x[0] * found.x[0] < 0)
                     for (std::size_t i = 0; i < 4; ++i) found.x[i] = -found.x[i];

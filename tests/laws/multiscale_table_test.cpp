@@ -1,5 +1,5 @@
-/// Multiscale schemes on the stiff spring pendulum, with up to 250 fast periods in a step: errors against the motion in
-/// quadruple precision, and the energy to t = 100.
+/// Multiscale schemes on the stiff spring pendulum, with up to 250 fast periods in a step: errors against the
+/// motion in quadruple precision, and the energy to t = 100.
 #include <QTest>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ struct Row {
     double theta, a, pa, pTheta, energy10, energy100;
 };
 
-/// Largest errors over all nodes to t = 10, and of the energy to t = 10 and t = 100, as an independent program has
-/// measured them.
+/// Largest errors over all nodes to t = 10, and of the energy to t = 10 and t = 100, as an independent
+/// program has measured them.
 const std::vector<Row> table = {
     {1e4, .05, 1, 3.3e-8, 4.2e-8, 4.1e-6, 9.8e-8, 1.4e-6, 1.4e-6},
     {1e4, .05, 2, 6.3e-11, 3.4e-12, 3.4e-10, 1.9e-10, 1.5e-10, 1.6e-10},
@@ -79,14 +79,16 @@ private slots:
     void errors_data() {
         QTest::addColumn<int>("index");
         for (std::size_t i = 0; i < table.size(); ++i)
-            QTest::addRow("k = %g, h = %g, R%d", table[i].k, table[i].h, table[i].scheme) << static_cast<int>(i);
+            QTest::addRow("k = %g, h = %g, R%d", table[i].k, table[i].h, table[i].scheme)
+                << static_cast<int>(i);
     }
     void errors() {
         QFETCH(int, index);
         const Row& row = table[static_cast<std::size_t>(index)];
         const System s = systemNamed("spring-pendulum", {{"k", row.k}});
-        // With the grid the figures were measured with, but below some three periods a step, where the automatic rule of the
-        // richer schemes is Gauss: R3 on its grid is then too ill-conditioned, and Gauss is the more accurate one.
+        // With the grid the figures were measured with, but below some three periods a step, where the
+        // automatic rule of the richer schemes is Gauss: R3 on its grid is then too ill-conditioned, and
+        // Gauss is the more accurate one.
         Discretization pair = *namedScheme("multiscale-r" + std::to_string(row.scheme));
         const bool isFilon = row.h * std::sqrt(row.k) > (row.scheme == 1 ? 19 : 21);
         if (isFilon) pair.quadrature = completeQuadrature(pair.space, {"filon-lobatto", {}, {}});
@@ -113,22 +115,32 @@ private slots:
             if (std::abs(place - std::round(place)) > 1e-9) continue;
             const auto& x = known[static_cast<std::size_t>(std::llround(place))];
             // h is rounded: over ten seconds the phase at k = 1e8 would differ by 5e-12.
-            const auto late = static_cast<double>(static_cast<long double>(state.node) * static_cast<long double>(row.h) -
-                                                  std::round(place) / 10.0L);
+            const auto late =
+                static_cast<double>(static_cast<long double>(state.node) * static_cast<long double>(row.h) -
+                                    std::round(place) / 10.0L);
             std::array<double, 4> exact = {x[1], x[2], x[3], x[4]}, rate{};
-            QVERIFY(m.flow(m.model.get(), state.t, exact.data(), exact.data() + 2, rate.data(), rate.data() + 2));
+            QVERIFY(
+                m.flow(m.model.get(), state.t, exact.data(), exact.data() + 2, rate.data(), rate.data() + 2));
             for (std::size_t i = 0; i < 4; ++i) exact[i] += late * rate[i];
-            for (std::size_t i = 0; i < 4; ++i) worst[i] = std::max(worst[i], std::abs(state.x[i] - exact[i]));
+            for (std::size_t i = 0; i < 4; ++i)
+                worst[i] = std::max(worst[i], std::abs(state.x[i] - exact[i]));
         }
-        qInfo("theta %.1e a %.1e p_a %.1e p_theta %.1e energy %.1e %.1e; %.1f iterations a step, %d at most, %.2f Jacobians",
-              worst[1], worst[0], worst[2], worst[3], worst[4], worst[5], 1.0 * iterations / static_cast<double>(state.node),
-              mostIterations, 1.0 * solves / static_cast<double>(state.node));
-        const std::array<double, 6> expected = {row.a, row.theta, row.pa, row.pTheta, row.energy10, row.energy100};
+        qInfo(
+            "theta %.1e a %.1e p_a %.1e p_theta %.1e energy %.1e %.1e; %.1f iterations a step, %d at most, "
+            "%.2f Jacobians",
+            worst[1], worst[0], worst[2], worst[3], worst[4], worst[5],
+            1.0 * iterations / static_cast<double>(state.node), mostIterations,
+            1.0 * solves / static_cast<double>(state.node));
+        const std::array<double, 6> expected = {row.a,      row.theta,    row.pa,
+                                                row.pTheta, row.energy10, row.energy100};
         for (std::size_t i = 0; i < 6; ++i) {
             // Near round-off only an upper bound means something.
             const bool isRoundOff = expected[i] < 1e-12 || (i >= 4 && row.k == 1e8);
-            QVERIFY2(worst[i] < (isRoundOff ? 5 : 2) * expected[i], qPrintable(QString("%1 %2 %3").arg(i).arg(worst[i]).arg(expected[i])));
-            if (!isRoundOff && isFilon) QVERIFY2(worst[i] > expected[i] / 2, qPrintable(QString("%1 %2 %3").arg(i).arg(worst[i]).arg(expected[i])));
+            QVERIFY2(worst[i] < (isRoundOff ? 5 : 2) * expected[i],
+                     qPrintable(QString("%1 %2 %3").arg(i).arg(worst[i]).arg(expected[i])));
+            if (!isRoundOff && isFilon)
+                QVERIFY2(worst[i] > expected[i] / 2,
+                         qPrintable(QString("%1 %2 %3").arg(i).arg(worst[i]).arg(expected[i])));
         }
     }
 };

@@ -53,7 +53,8 @@ private slots:
             for (int i = 0; i < 400; ++i) {
                 QCOMPARE(integrator->advance(state).outcome, Outcome::converged);
                 const double phase = 1000 * 0.05 * static_cast<double>(state.node);
-                worst = std::max({worst, std::abs(state.x[0] - std::cos(phase)), std::abs(state.x[1] / 1000 + std::sin(phase))});
+                worst = std::max({worst, std::abs(state.x[0] - std::cos(phase)),
+                                  std::abs(state.x[1] / 1000 + std::sin(phase))});
             }
             qInfo("R%d: %.1e", r, worst);
             QVERIFY(worst < 1e-11);
@@ -121,7 +122,8 @@ private slots:
             double k, h;
             int r;
         };
-        for (const Setting& c : {Setting{1e4, 0.25, 1}, Setting{1e4, 0.25, 2}, Setting{1e6, 0.2, 2}, Setting{1e8, 0.5, 2}}) {
+        for (const Setting& c :
+             {Setting{1e4, 0.25, 1}, Setting{1e4, 0.25, 2}, Setting{1e6, 0.2, 2}, Setting{1e8, 0.5, 2}}) {
             const double shorter = energyError(spring(c.k), named(c.r), c.h, springStart(c.k), 100);
             const double longer = energyError(spring(c.k), named(c.r), c.h, springStart(c.k), 1000);
             qInfo("k = %g, h = %g, R%d: %.2e to 100, %.2e to 1000", c.k, c.h, c.r, shorter, longer);
@@ -151,14 +153,18 @@ private slots:
     void anyStartEndsInAnOutcome() {
         // 200 starts, as wild as the pendulum allows, at any stiffness and a random step.
         std::mt19937 random(7);
-        const auto between = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
+        const auto between = [&](double low, double high) {
+            return std::uniform_real_distribution<>(low, high)(random);
+        };
         int failed = 0;
         double worst = 0;
         for (int i = 0; i < 200; ++i) {
             const double k = std::pow(10, between(4, 10)), amplitude = 0.1 * std::sqrt(1e4 / k);
             const System s = spring(k);
-            const State start{0, 0, {between(-amplitude, amplitude), between(-2.8, 2.8),
-                                     between(-1, 1) * amplitude * std::sqrt(k), between(-3, 3)}};
+            const State start{0,
+                              0,
+                              {between(-amplitude, amplitude), between(-2.8, 2.8),
+                               between(-1, 1) * amplitude * std::sqrt(k), between(-3, 3)}};
             const Discretization pair = named(1 + i % 3);
             const auto integrator = makeIntegrator(s, pair, {0, between(0.05, 0.4)});
             State state = start;
@@ -181,7 +187,8 @@ private slots:
     void theImpulseMethodHasItsOrders() {
         const double k = 100;
         const System s = spring(k);
-        const auto fine = after(*makeIntegrator(s, *namedScheme("galerkin-gauss-12"), {0, 0.01}), springStart(k), 200);
+        const auto fine =
+            after(*makeIntegrator(s, *namedScheme("galerkin-gauss-12"), {0, 0.01}), springStart(k), 200);
         QVERIFY(fine);
         for (const int order : {2, 4, 6, 8}) {
             const Settings keys{"impulse", {{"order", static_cast<double>(order)}}, {}};
@@ -190,7 +197,8 @@ private slots:
                                             : order == 6 ? std::vector{80, 112, 160, 224}
                                                          : std::vector{112, 160, 224, 320, 448};
             for (const int n : counts) {
-                const auto end = after(*findBaseline("impulse")->make(s, {{0, 2.0 / n}, 2, 0, keys}), springStart(k), n);
+                const auto end =
+                    after(*findBaseline("impulse")->make(s, {{0, 2.0 / n}, 2, 0, keys}), springStart(k), n);
                 QVERIFY(end);
                 const double error = distance(end->x, fine->x, 0, 2);
                 x.push_back(std::log(2.0 / n));
@@ -206,7 +214,8 @@ private slots:
             const auto exact = after(*makeIntegrator(s, named(3), {0, 0.1}), springStart(k), 100);
             QVERIFY(exact);
             for (const char* id : {"rigid-pendulum", "averaged"}) {
-                const auto end = after(*findBaseline(id)->make(s, {{0, 0.01}, 10, 0, {}}), springStart(k), 1000);
+                const auto end =
+                    after(*findBaseline(id)->make(s, {{0, 0.01}, 10, 0, {}}), springStart(k), 1000);
                 QVERIFY(end);
                 const double error = std::abs(end->x[1] - exact->x[1]);
                 qInfo("%s: error of theta %.1f / k", id, error * k);
@@ -236,10 +245,12 @@ private slots:
         QVERIFY(!(wrong < 0.05));
     }
     void resonancesAreSeen() {
-        // The space {1, tau, tau^2, (1, tau)(cos, sin)} of R1's fast coordinate is singular near z/pi = 11.7735.
+        // The space {1, tau, tau^2, (1, tau)(cos, sin)} of R1's fast coordinate is singular near z/pi
+        // = 11.7735.
         const System s = spring(1e4);
         double at = 0;
-        for (double x = 11.773; x < 11.774; x += 1e-5) at = std::max(at, stepConditioning(s, named(1), x * 3.14159265358979 / 100));
+        for (double x = 11.773; x < 11.774; x += 1e-5)
+            at = std::max(at, stepConditioning(s, named(1), x * 3.14159265358979 / 100));
         const double away = stepConditioning(s, named(1), 11.3 * 3.14159265358979 / 100);
         qInfo("conditioning up to %.1e there, %.1e at 11.3", at, away);
         QVERIFY(at > 30 * away);
@@ -265,7 +276,8 @@ private slots:
                 for (std::size_t j = 0; j < 4; ++j) worst[j] = std::max(worst[j], std::abs(x[j] - b.x[j]));
             }
             scheme->curve(1, x);
-            for (std::size_t j = 0; j < 4; ++j) QVERIFY(std::abs(x[j] - a.x[j]) < 1e-11 * (1 + std::abs(a.x[j])));
+            for (std::size_t j = 0; j < 4; ++j)
+                QVERIFY(std::abs(x[j] - a.x[j]) < 1e-11 * (1 + std::abs(a.x[j])));
             scheme->curve(0, x);
         }
         qInfo("a %.1e, theta %.1e, p_a %.1e, p_theta %.1e", worst[0], worst[1], worst[2], worst[3]);

@@ -18,7 +18,8 @@ private slots:
         const auto cases = everyScheme(3);
         for (std::size_t i = 0; i < cases.size(); ++i)
             for (const char* system : {"kepler", "pendulum"})
-                QTest::addRow("%s on %s", cases[i].name.c_str(), system) << static_cast<int>(i) << QString(system);
+                QTest::addRow("%s on %s", cases[i].name.c_str(), system)
+                    << static_cast<int>(i) << QString(system);
     }
     void everySchemeHasTheOrderItClaims() {
         QFETCH(int, index);
@@ -47,8 +48,8 @@ private slots:
         rule.b = {0.51, 0.49};
         const Table<double> broken = makeTable(polynomialSpace<double>(2, PolynomialBasis::lobatto), rule);
         const Orders o = measure(s, keplerStart, 3, 1e-1, [&](double h) {
-            return [h, step = std::make_shared<GalerkinStep<double, 2>>(s.mechanics, broken, h, SolverPolicy{})](
-                       State& state) {
+            return [h, step = std::make_shared<GalerkinStep<double, 2>>(s.mechanics, broken, h,
+                                                                        SolverPolicy{})](State& state) {
                 const Outcome o_ = step->advance(state.t, state.x.data(), state.x.data() + 2, {}).outcome;
                 state.t = h * static_cast<double>(++state.node);
                 return o_ == Outcome::converged;

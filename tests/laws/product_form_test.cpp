@@ -1,4 +1,5 @@
-/// The printed product of a slow part and one oscillation: right where its curves contain the motion, and where it fails.
+/// The printed product of a slow part and one oscillation: right where its curves contain the motion, and
+/// where it fails.
 #include <QTest>
 
 #include <Eigen/Core>
@@ -42,9 +43,10 @@ class ProductFormTest : public QObject {
 private slots:
     void aSpringUnderItsWeightIsExact() {
         // a_s (1 + alpha sin wt + beta cos wt), alpha and beta some 50: what the products are made for.
-        const System s = systemNamed("lagrangian", {{"coordinates", Value(Value::Array{"a"})},
-                                                    {"parameters", Value(Value::Object{{"k", 1e4}, {"g", 9.81}})},
-                                                    {"lagrangian", "a_t^2/2 + g*a - k*a^2/2"}});
+        const System s =
+            systemNamed("lagrangian", {{"coordinates", Value(Value::Array{"a"})},
+                                       {"parameters", Value(Value::Object{{"k", 1e4}, {"g", 9.81}})},
+                                       {"lagrangian", "a_t^2/2 + g*a - k*a^2/2"}});
         const double h = 0.1, rest = 9.81e-4;
         const auto integrator = makeIntegrator(s, product(2, 2, "fixed", 100.0), {0, h});
         State state{0, 0, {0.05, 0.3}};
@@ -69,7 +71,8 @@ private slots:
                 const double t = failsAt(s, product(4, 2, frequency), h, outcome);
                 qInfo("%s, h = %g: %s at t = %g", frequency, h, std::string(name(outcome)).c_str(), t);
                 QVERIFY(t < 10);
-                QVERIFY(outcome == Outcome::diverged || outcome == Outcome::singular || outcome == Outcome::notFinite);
+                QVERIFY(outcome == Outcome::diverged || outcome == Outcome::singular ||
+                        outcome == Outcome::notFinite);
                 QVERIFY(std::isinf(failsAt(s, *namedScheme("multiscale-r1"), h, ofAdded)));
             }
     }
@@ -93,7 +96,8 @@ private slots:
             up[at] += d;
             down[at] -= d;
             const std::vector<double> a = map(up), b = map(down);
-            for (int i = 0; i < 4; ++i) M(i, j) = (a[static_cast<std::size_t>(i)] - b[static_cast<std::size_t>(i)]) / (2 * d);
+            for (int i = 0; i < 4; ++i)
+                M(i, j) = (a[static_cast<std::size_t>(i)] - b[static_cast<std::size_t>(i)]) / (2 * d);
         }
         const double defect = (M.transpose() * J * M - J).cwiseAbs().maxCoeff() / M.cwiseAbs().maxCoeff();
         qInfo("defect %.1e", defect);

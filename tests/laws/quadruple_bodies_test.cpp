@@ -1,4 +1,5 @@
-/// Orders 8 to 16 of Lie group integrators in quadruple precision: double has no window between truncation and round-off.
+/// Orders 8 to 16 of Lie group integrators in quadruple precision: double has no window between truncation
+/// and round-off.
 #include <QTest>
 
 #include <boost/multiprecision/float128.hpp>
@@ -61,7 +62,8 @@ private slots:
         for (const bool isTop : {false, true})
             for (const int degree : {4, 5, 6, 8})
                 for (const bool isGauss : {true, false})
-                    QTest::addRow("%s, degree %d, %s", isTop ? "top" : "free", degree, isGauss ? "Gauss" : "Lobatto")
+                    QTest::addRow("%s, degree %d, %s", isTop ? "top" : "free", degree,
+                                  isGauss ? "Gauss" : "Lobatto")
                         << isTop << degree << isGauss;
     }
     void degreesUpToEightHaveTwiceTheirOrder() {
@@ -76,7 +78,8 @@ private slots:
             error.push_back(std::log(angle(reference, run(isTop, degree, isGauss, n))));
         }
         const double order = slope(h, error);
-        qInfo("claimed %d, measured %.2f, errors %.1e to %.1e", 2 * degree, order, std::exp(error.front()), std::exp(error.back()));
+        qInfo("claimed %d, measured %.2f, errors %.1e to %.1e", 2 * degree, order, std::exp(error.front()),
+              std::exp(error.back()));
         QVERIFY(std::abs(order - 2 * degree) < 0.35);
     }
 };

@@ -41,8 +41,10 @@ private slots:
                 const StepReport r = step.advance(T * k / n, x.data(), x.data() + 2, {});
                 QVERIFY(r.outcome == Outcome::converged);
             }
-            const Quad q = sqrt((x[0] - exact[0]) * (x[0] - exact[0]) + (x[1] - exact[1]) * (x[1] - exact[1]));
-            const Quad p = sqrt((x[2] - exact[2]) * (x[2] - exact[2]) + (x[3] - exact[3]) * (x[3] - exact[3]));
+            const Quad q =
+                sqrt((x[0] - exact[0]) * (x[0] - exact[0]) + (x[1] - exact[1]) * (x[1] - exact[1]));
+            const Quad p =
+                sqrt((x[2] - exact[2]) * (x[2] - exact[2]) + (x[3] - exact[3]) * (x[3] - exact[3]));
             h.push_back(std::log(3.0 / n));
             eq.push_back(static_cast<double>(log(q)));
             ep.push_back(static_cast<double>(log(p)));

@@ -1,6 +1,6 @@
-/// Round-off has no direction: over a million steps the energy of an orbit of order 16 walks at random, and nothing of it
-/// is a drift. What is left of bias, in the coefficients, the sums or the iteration that stops too early, adds up step after
-/// step and is seen here long before truncation is.
+/// Round-off has no direction: over a million steps the energy of an orbit of order 16 walks at random, and
+/// nothing of it is a drift. What is left of bias, in the coefficients, the sums or the iteration that stops
+/// too early, adds up step after step and is seen here long before truncation is.
 #include <QTest>
 
 #include <cmath>
@@ -53,7 +53,8 @@ class RandomWalkTest : public QObject {
     Q_OBJECT
 private slots:
     void energyWalksAtRandom() {
-        const char* longer = std::getenv("EXTREMAL_WALK_STEPS");  // measured for 10^7: rms 3.6e-15, drift 5.7e-15
+        const char* longer =
+            std::getenv("EXTREMAL_WALK_STEPS");  // measured for 10^7: rms 3.6e-15, drift 5.7e-15
         const int steps = longer ? std::atoi(longer) : 1000000;
         const Walk walk = walkOf(0, steps);
         const QString found = QString("rms %1, drift %2").arg(walk.rms).arg(walk.drift);

@@ -37,10 +37,10 @@ double stepDifference(const System& system, Integrator& a, Integrator& b) {
     return worst;
 }
 
-/// Partitioned Runge-Kutta step by fixed-point iteration, q' = p/m, p' = f(q), from the nodes and weights alone:
-/// A_ij = int_0^{c_i} l_j and Ahat from symplecticity, b_i Ahat_ij + b_j A_ji = b_i b_j.
-std::vector<double> partitionedRungeKutta(const Rule<double>& rule, const System& system, const std::vector<double>& x,
-                                          double h) {
+/// Partitioned Runge-Kutta step by fixed-point iteration, q' = p/m, p' = f(q), from the nodes and weights
+/// alone: A_ij = int_0^{c_i} l_j and Ahat from symplecticity, b_i Ahat_ij + b_j A_ji = b_i b_j.
+std::vector<double> partitionedRungeKutta(const Rule<double>& rule, const System& system,
+                                          const std::vector<double>& x, double h) {
     const auto n = static_cast<std::size_t>(rule.size()), d = system.coordinates.size();
     std::vector<std::vector<double>> A(n, std::vector<double>(n)), Ahat = A;
     const Rule<double> fine = gauss<double>(static_cast<int>(n));
@@ -116,7 +116,8 @@ private slots:
             const System s = systemNamed(id);
             const auto nodal = makeIntegrator(s, polynomialPair(degree, {"gauss", {}, {}}), {0, 0.02});
             for (const char* basis : {"chebyshev", "equispaced", "legendre", "chebyshev-modal"}) {
-                const auto other = makeIntegrator(s, polynomialPair(degree, {"gauss", {}, {}}, basis), {0, 0.02});
+                const auto other =
+                    makeIntegrator(s, polynomialPair(degree, {"gauss", {}, {}}, basis), {0, 0.02});
                 const double difference = stepDifference(s, *nodal, *other);
                 qInfo("%s, %s: %.2e", id, basis, difference);
                 QVERIFY(difference < 2e-14);  // measured: below 2e-15, at degree 24 as well
@@ -124,7 +125,8 @@ private slots:
         }
     }
     void everyBasisGivesTheSameCurve() {
-        // The curve alone is evaluated in the basis: cardinal functions of equispaced points reach 1e5 at degree 24.
+        // The curve alone is evaluated in the basis: cardinal functions of equispaced points reach 1e5 at
+        // degree 24.
         const System s = systemNamed("kepler");
         for (const int degree : {3, 12, 24})
             for (const char* basis : {"chebyshev", "equispaced", "legendre", "chebyshev-modal"}) {
@@ -143,8 +145,9 @@ private slots:
             }
     }
     void splinesOfDegreeOneAreAsManySteps() {
-        // A broken line with n cells is n steps of straight lines: the stationarity conditions at its knots are the
-        // discrete Euler-Lagrange equations. With both ends of a cell as nodes, each side of a knot has its own.
+        // A broken line with n cells is n steps of straight lines: the stationarity conditions at its knots
+        // are the discrete Euler-Lagrange equations. With both ends of a cell as nodes, each side of a knot
+        // has its own.
         for (const char* id : {"kepler", "spring-pendulum"}) {
             const System s = systemNamed(id);
             for (const char* rule : {"gauss", "trapezoid", "radau"}) {
@@ -180,8 +183,8 @@ private slots:
             for (int degree = 1; degree <= 4; ++degree)
                 for (const bool isGauss : {true, false}) {
                     const Rule<double> rule = isGauss ? gauss<double>(degree) : lobatto<double>(degree + 1);
-                    const auto pair =
-                        makeIntegrator(s, polynomialPair(degree, {isGauss ? "gauss" : "lobatto", {}, {}}), {0, 0.05});
+                    const auto pair = makeIntegrator(
+                        s, polynomialPair(degree, {isGauss ? "gauss" : "lobatto", {}, {}}), {0, 0.05});
                     double worst = 0;
                     for (int i = 0; i < 50; ++i) {
                         const State start = randomState(random, s);
@@ -197,7 +200,8 @@ private slots:
     void gaussPairsAreGaussCollocationOfHamiltonsEquations_data() {
         QTest::addColumn<QString>("model");
         for (const ModelEntry& e : modelCatalog())
-            if (systemNamed(e.item.id).hasMechanics()) QTest::newRow(e.item.id.c_str()) << QString::fromStdString(e.item.id);
+            if (systemNamed(e.item.id).hasMechanics())
+                QTest::newRow(e.item.id.c_str()) << QString::fromStdString(e.item.id);
     }
     void gaussPairsAreGaussCollocationOfHamiltonsEquations() {
         QFETCH(QString, model);

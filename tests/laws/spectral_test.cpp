@@ -53,9 +53,10 @@ private slots:
     void errorsFallWithTheDegree_data() {
         QTest::addColumn<QString>("rule");
         QTest::addColumn<double>("least");
-        QTest::newRow("Gauss") << "gauss" << 0.9;                      // measured 1.01
-        QTest::newRow("Lobatto") << "lobatto" << 0.9;                  // 0.99
-        QTest::newRow("Clenshaw-Curtis") << "clenshaw-curtis" << 0.2;  // 0.27: the rule is exact to degree s alone
+        QTest::newRow("Gauss") << "gauss" << 0.9;      // measured 1.01
+        QTest::newRow("Lobatto") << "lobatto" << 0.9;  // 0.99
+        QTest::newRow("Clenshaw-Curtis")
+            << "clenshaw-curtis" << 0.2;  // 0.27: the rule is exact to degree s alone
     }
     void errorsFallWithTheDegree() {
         QFETCH(QString, rule);

@@ -1,4 +1,5 @@
-/// What the flow of a Lagrangian keeps, measured for every scheme that claims to keep it, and missed by those that do not.
+/// What the flow of a Lagrangian keeps, measured for every scheme that claims to keep it, and missed by those
+/// that do not.
 #include <QTest>
 
 #include <algorithm>
@@ -23,7 +24,8 @@ Matrix4 stepJacobian(const Case& scheme, const System& system, const State& star
                 State s = start;
                 s.x[j] += sign * k * delta;
                 const State end = after(*scheme.make(system, {0, h}), s, 1).value();
-                for (std::size_t i = 0; i < 4; ++i) M[i][j] += sign * c[static_cast<std::size_t>(k - 1)] * end.x[i] / delta;
+                for (std::size_t i = 0; i < 4; ++i)
+                    M[i][j] += sign * c[static_cast<std::size_t>(k - 1)] * end.x[i] / delta;
             }
     return M;
 }
@@ -59,7 +61,9 @@ struct EnergyRun {
 EnergyRun energyRun(const Case& scheme, const System& system, const State& start, double h, double T) {
     EnergyRun r;
     const auto& m = system.mechanics;
-    auto H = [&](const State& s) { return m.energy(m.model.get(), s.t, s.x.data(), s.x.data() + m.dimension); };
+    auto H = [&](const State& s) {
+        return m.energy(m.model.get(), s.t, s.x.data(), s.x.data() + m.dimension);
+    };
     auto L = [&](const State& s) {
         return system.momenta.empty() ? 0 : system.momenta[0].value(s.x.data(), s.x.data() + m.dimension);
     };
@@ -93,7 +97,8 @@ class StructureTest : public QObject {
 
     void addCases() {
         QTest::addColumn<int>("index");
-        for (std::size_t i = 0; i < cases_.size(); ++i) QTest::addRow("%s", cases_[i].name.c_str()) << static_cast<int>(i);
+        for (std::size_t i = 0; i < cases_.size(); ++i)
+            QTest::addRow("%s", cases_[i].name.c_str()) << static_cast<int>(i);
     }
     const Case& current() const {
         QFETCH(int, index);
@@ -124,8 +129,8 @@ private slots:
         }
     }
     void symplecticEulerDoesNotReturn() {
-        // Its adjoint is the other Euler: going back with a reversed step undoes it only as the adjoint would. Reversing
-        // the momentum instead, as a reversible system allows, it misses by far.
+        // Its adjoint is the other Euler: going back with a reversed step undoes it only as the adjoint
+        // would. Reversing the momentum instead, as a reversible system allows, it misses by far.
         for (const Case& c : cases_) {
             if (c.name != "symplectic-euler") continue;
             for (const bool isKepler : {false, true}) {
@@ -149,7 +154,8 @@ private slots:
     void quadraticInvariantsAreKeptWhereClaimed_data() { addCases(); }
     void quadraticInvariantsAreKeptWhereClaimed() {
         // The oscillator's energy is quadratic.
-        const EnergyRun r = energyRun(current(), systemNamed("harmonic-oscillator"), {0, 0, {1, 0.3}}, 0.5, 500);
+        const EnergyRun r =
+            energyRun(current(), systemNamed("harmonic-oscillator"), {0, 0, {1, 0.3}}, 0.5, 500);
         qInfo("max |H - H(0)| = %.2e", r.largest);
         if (claims(current(), "quadratic invariants"))
             QVERIFY(r.largest < 1e-12);
@@ -180,7 +186,8 @@ private slots:
         QFETCH(double, h);
         QFETCH(double, expected);
         const Discretization pair = polynomialPair(degree, {"gauss", {}, {}});
-        const Case c{"", {}, [&](const System& s, const Clock& clock) { return makeIntegrator(s, pair, clock); }};
+        const Case c{
+            "", {}, [&](const System& s, const Clock& clock) { return makeIntegrator(s, pair, clock); }};
         const EnergyRun r = energyRun(c, kepler_, keplerStart, h, 50);
         qInfo("max |H - H(0)| = %.4e, max |L - L(0)| = %.2e", r.largest, r.momentum);
         QVERIFY(std::abs(r.largest / expected - 1) < 0.05);

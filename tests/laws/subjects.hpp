@@ -1,4 +1,5 @@
-/// The systems of the presets as subjects of laws: where they start, how large and how fast they are, where they go.
+/// The systems of the presets as subjects of laws: where they start, how large and how fast they are, where
+/// they go.
 #pragma once
 
 #include <algorithm>

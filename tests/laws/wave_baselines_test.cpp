@@ -1,4 +1,5 @@
-/// Split-step methods and series for wave functions: orders, errors, norms; with a potential that depends on time.
+/// Split-step methods and series for wave functions: orders, errors, norms; with a potential that depends on
+/// time.
 #include <QTest>
 
 #include "engine/scene/codec.hpp"
@@ -42,8 +43,14 @@ private slots:
     void everySplittingHasItsOrder_data() {
         QTest::addColumn<QString>("id");
         QTest::addColumn<int>("order");
-        for (const auto& [id, order] : {std::pair{"strang", 2}, {"suzuki-4", 4}, {"blanes-moan-s6", 4}, {"blanes-moan-s10", 6},
-                                        {"srkn-6b", 4}, {"srkn-11b", 6}, {"srkn-14a", 6}, {"crank-nicolson", 2}})
+        for (const auto& [id, order] : {std::pair{"strang", 2},
+                                        {"suzuki-4", 4},
+                                        {"blanes-moan-s6", 4},
+                                        {"blanes-moan-s10", 6},
+                                        {"srkn-6b", 4},
+                                        {"srkn-11b", 6},
+                                        {"srkn-14a", 6},
+                                        {"crank-nicolson", 2}})
             QTest::newRow(id) << QString(id) << order;
     }
     void everySplittingHasItsOrder() {
@@ -79,7 +86,8 @@ private slots:
         qInfo("SRKN 11b %.2g, Suzuki %.2g", srkn, suzuki);
         QVERIFY(srkn > 0.7e-6 && srkn < 2e-6);
         QVERIFY(suzuki > 0.8e-6 && suzuki < 1.2e-6);
-        const State series = run("chebyshev-propagation", system, start, 1, 3), once = run("chebyshev-propagation", system, start, 1, 1);
+        const State series = run("chebyshev-propagation", system, start, 1, 3),
+                    once = run("chebyshev-propagation", system, start, 1, 1);
         qInfo("Chebyshev %.2g and %.2g", waveDistance(series, exact), waveDistance(once, exact));
         QVERIFY(waveDistance(series, exact) < 1e-12);  // 8e-14 measured
         QVERIFY(waveDistance(once, exact) < 1e-12);
@@ -90,7 +98,8 @@ private slots:
     }
     void splitStepHasNoLimit() {
         // The limit that its table has on the oscillator is none of the Schroedinger equation.
-        const char* scene = R"~({"extremal":1,"model":{"type":"schrodinger","potential":"50*(1 - cos(x))","modes":128},
+        const char* scene =
+            R"~({"extremal":1,"model":{"type":"schrodinger","potential":"50*(1 - cos(x))","modes":128},
             "initial":{"psi":{"packet":"gaussian"}},"time":{"end":1},"schemes":[{"baseline":"srkn-14a","step":0.1},
             {"baseline":"strang","step":0.1},{"baseline":"crank-nicolson","step":0.1}]})~";
         const ReadScene read = readScene(std::string_view(scene));

@@ -1,4 +1,5 @@
-/// Collocation in time for wave functions: Gauss nodes against the factors, potentials that depend on time, Chebyshev nodes.
+/// Collocation in time for wave functions: Gauss nodes against the factors, potentials that depend on time,
+/// Chebyshev nodes.
 #include <QTest>
 
 #include "engine/integrator/wave_collocation.hpp"
@@ -19,8 +20,11 @@ double normError(const System& system, const State& state) {
 
 std::unique_ptr<Integrator> chebyshev(const System& system, int degree, const char* nodes, double h) {
     return findBaseline("spectral-collocation")
-        ->make(system, {{0, h}, 0, 0,
-                        {"spectral-collocation", {{"degree", static_cast<double>(degree)}, {"nodes", nodes}}, {}}});
+        ->make(system,
+               {{0, h},
+                0,
+                0,
+                {"spectral-collocation", {{"degree", static_cast<double>(degree)}, {"nodes", nodes}}, {}}});
 }
 
 }  // namespace
@@ -82,11 +86,12 @@ private slots:
             const State roots = run(*chebyshev(system, s, "roots", 0.25), start, 1);
             const State extrema = run(*chebyshev(system, s, "extrema", 0.25), start, 1);
             const double atRoots = waveDistance(roots, exact), atExtrema = waveDistance(extrema, exact);
-            qInfo("s = %d: roots %.2g, norm %.2g; extrema %.2g, norm %.2g", s, atRoots, normError(system, roots), atExtrema,
-                  normError(system, extrema));
+            qInfo("s = %d: roots %.2g, norm %.2g; extrema %.2g, norm %.2g", s, atRoots,
+                  normError(system, roots), atExtrema, normError(system, extrema));
             QVERIFY(normError(system, roots) < 1e-11);
             // Not unitary, by about the square of the error.
-            QVERIFY(normError(system, extrema) > 0.05 * atExtrema * atExtrema && normError(system, extrema) < 10 * atExtrema * atExtrema);
+            QVERIFY(normError(system, extrema) > 0.05 * atExtrema * atExtrema &&
+                    normError(system, extrema) < 10 * atExtrema * atExtrema);
             QVERIFY(atRoots < 3e-2 && atExtrema < 3e-2);
         }
     }
@@ -126,11 +131,13 @@ private slots:
         system.exact(start)(1, exact.x);
         for (const char* nodes : {"extrema", "roots"})
             for (const int s : {1, 2, 3, 4}) {
-                const Settings keys{"spectral-collocation", {{"degree", static_cast<double>(s)}, {"nodes", nodes}}, {}};
+                const Settings keys{
+                    "spectral-collocation", {{"degree", static_cast<double>(s)}, {"nodes", nodes}}, {}};
                 const int claimed = claimsOf(*findBaseline("spectral-collocation"), keys).order;
                 std::vector<double> h, e;
                 for (const int n : {200, 280, 400, 560}) {
-                    const double error = waveDistance(run(*chebyshev(system, s, nodes, 1.0 / n), start, n), exact);
+                    const double error =
+                        waveDistance(run(*chebyshev(system, s, nodes, 1.0 / n), start, n), exact);
                     if (error < 1e-11) break;
                     h.push_back(-std::log(n));
                     e.push_back(std::log(error));

@@ -1,5 +1,5 @@
-/// The seed's exact convolution as a choice: its own norm is kept, and it differs from products at the nodes by aliasing
-/// alone.
+/// The seed's exact convolution as a choice: its own norm is kept, and it differs from products at the nodes
+/// by aliasing alone.
 #include <QTest>
 
 #include <Eigen/Eigenvalues>
@@ -17,7 +17,9 @@ namespace extremal::laws::wave_convolution_test {
 namespace {
 
 System systemOf(int modes, const char* product, const Value& potential = "20*exp(cos(x))") {
-    return systemNamed("schrodinger", {{"modes", static_cast<double>(modes)}, {"potential", potential}, {"product", product}});
+    return systemNamed(
+        "schrodinger",
+        {{"modes", static_cast<double>(modes)}, {"potential", potential}, {"product", product}});
 }
 State run(const System& system, const Discretization& pair, const State& start, double T, int n) {
     const auto integrator = makeIntegrator(system, pair, {0, T / n});
@@ -38,7 +40,8 @@ std::vector<Complex> valuesOf(const System& system, const State& state) {
 double apart(const System& a, const State& x, const System& b, const State& y) {
     const auto u = valuesOf(a, x), v = valuesOf(b, y);
     double sum = 0;
-    for (std::size_t j = 0; j < u.size(); ++j) sum += std::norm(u[j] - v[j]) * 2 * std::numbers::pi / static_cast<double>(u.size());
+    for (std::size_t j = 0; j < u.size(); ++j)
+        sum += std::norm(u[j] - v[j]) * 2 * std::numbers::pi / static_cast<double>(u.size());
     return std::sqrt(sum);
 }
 std::string refusal(const System& system, const Discretization& pair) {
@@ -59,7 +62,8 @@ private slots:
         const System system = systemOf(16, "convolution");
         const Hamiltonian& h = *system.wave;
         std::vector<Complex> c(16), psi(16), back(16);
-        for (std::size_t i = 0; i < 16; ++i) c[i] = std::polar(1.0 / (1 + static_cast<double>(i)), static_cast<double>(i));
+        for (std::size_t i = 0; i < 16; ++i)
+            c[i] = std::polar(1.0 / (1 + static_cast<double>(i)), static_cast<double>(i));
         h.toNodes(c.data(), psi.data());
         h.toCoefficients(psi.data(), back.data());
         for (std::size_t i = 0; i < 16; ++i) QVERIFY(std::abs(c[i] - back[i]) < 1e-15);
@@ -70,17 +74,20 @@ private slots:
         systemOf(16, "nodes").wave->toCoefficients(psi.data(), c.data());
         QVERIFY(std::abs(squaredNorm(c.data(), 16) - 2 * std::numbers::pi) < 1e-14);
     }
-    /// H in the run's coordinates is the convolution of the time-independent problem: the same energies, also of a random
-    /// potential, whose coefficients are complex.
+    /// H in the run's coordinates is the convolution of the time-independent problem: the same energies, also
+    /// of a random potential, whose coefficients are complex.
     void energiesAreThoseOfTheGeneralisedProblem() {
         const Value random = Value::Object{{"name", "random"}, {"amplitude", 30.0}, {"correlation", 0.4}};
         for (const Value& potential : {Value("20*exp(cos(x))"), random}) {
             const System system = systemOf(32, "convolution", potential);
             const ConvolutionProblem given = convolutionGalerkin(*systemOf(32, "nodes", potential).wave);
-            const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> expected(given.H, given.W.cast<Complex>().asDiagonal().toDenseMatrix());
+            const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> expected(
+                given.H, given.W.cast<Complex>().asDiagonal().toDenseMatrix());
             const auto& energies = Eigenstates::of(system.wave)->energies();
             double worst = 0;
-            for (std::size_t k = 0; k < 32; ++k) worst = std::max(worst, std::abs(energies[k] - expected.eigenvalues()(static_cast<Eigen::Index>(k))));
+            for (std::size_t k = 0; k < 32; ++k)
+                worst = std::max(
+                    worst, std::abs(energies[k] - expected.eigenvalues()(static_cast<Eigen::Index>(k))));
             qInfo("%.2g", worst);
             QVERIFY(worst < 1e-11);
             QVERIFY(system.wave->lowest() <= energies.front() && energies.back() <= system.wave->highest());
@@ -97,7 +104,8 @@ private slots:
     }
     void differsByAliasingAlone() {
         double before = 10;
-        for (const auto& [modes, most] : {std::pair{16, 2.0}, {24, 0.2}, {32, 1e-2}, {48, 1e-7}, {64, 1e-12}}) {
+        for (const auto& [modes, most] :
+             {std::pair{16, 2.0}, {24, 0.2}, {32, 1e-2}, {48, 1e-7}, {64, 1e-12}}) {
             const System nodes = systemOf(modes, "nodes"), convolution = systemOf(modes, "convolution");
             const double d = apart(nodes, exactAt(nodes, waveStart(nodes, 10, 1.2, 2), 1), convolution,
                                    exactAt(convolution, waveStart(convolution, 10, 1.2, 2), 1));
@@ -122,13 +130,15 @@ private slots:
         qInfo("norm %.2g, energy %.2g", norm, energy);
         QVERIFY(norm < 1e-12);
         QVERIFY(energy < 1e-11);
-        // Seen failing: the printed equation keeps one of the two rows at k = +-N/2, and is not Hermitian. Crank-Nicolson with it.
+        // Seen failing: the printed equation keeps one of the two rows at k = +-N/2, and is not Hermitian.
+        // Crank-Nicolson with it.
         const ConvolutionProblem right = convolutionGalerkin(*system.wave);
         Eigen::MatrixXcd printed = right.H;
         printed.row(8) /= 2;
         const Eigen::VectorXd root = right.W.cwiseSqrt().cwiseInverse();
         printed = root.asDiagonal() * printed * root.asDiagonal();
-        const Eigen::MatrixXcd one = Eigen::MatrixXcd::Identity(16, 16), half = Complex(0, 0.5 / 64) * printed;
+        const Eigen::MatrixXcd one = Eigen::MatrixXcd::Identity(16, 16),
+                               half = Complex(0, 0.5 / 64) * printed;
         Eigen::VectorXcd v = Eigen::Map<const Eigen::VectorXcd>(coefficients(startA(system).x.data()), 16);
         for (int k = 0; k < 64; ++k) v = (one + half).partialPivLu().solve((one - half) * v).eval();
         qInfo("printed: %.2g", std::abs(v.norm() - 1));
@@ -138,7 +148,8 @@ private slots:
         const System system = systemOf(48, "convolution", "20*(1 - cos(x))");
         const State start = waveStart(system, 10, 1.2, 2), exact = exactAt(system, start, 1);
         for (const int s : {1, 2, 4}) {
-            const double order = timeOrder([&](int n) { return waveDistance(run(system, wavePair(s), start, 1, n), exact); }, 1e-11);
+            const double order = timeOrder(
+                [&](int n) { return waveDistance(run(system, wavePair(s), start, 1, n), exact); }, 1e-11);
             qInfo("Gauss %d: %.3f", s, order);
             QVERIFY(std::abs(order - 2 * s) < 0.2);
         }
@@ -159,12 +170,15 @@ private slots:
         QCOMPARE(refusal(system, wavePair(2, "banded")), std::string("/solver/method"));
         for (const char* id : {"strang", "srkn-14a", "spectral-collocation"}) {
             const BaselineEntry* entry = findBaseline(id);
-            QVERIFY_EXCEPTION_THROWN((void)entry->make(system, {{0, 0.01}, 0, 0, defaultsOf(entry->item)}), InvalidScene);
+            QVERIFY_EXCEPTION_THROWN((void)entry->make(system, {{0, 0.01}, 0, 0, defaultsOf(entry->item)}),
+                                     InvalidScene);
         }
         QVERIFY_EXCEPTION_THROWN((void)systemOf(1024, "convolution"), InvalidScene);
         QVERIFY_EXCEPTION_THROWN((void)systemOf(32, "convolution", "cos(x - t)"), InvalidScene);
-        QVERIFY_EXCEPTION_THROWN((void)systemNamed("schrodinger", {{"product", "convolution"}, {"boundary", "dirichlet"}, {"modes", 32.0}}),
-                                 InvalidScene);
+        QVERIFY_EXCEPTION_THROWN(
+            (void)systemNamed("schrodinger",
+                              {{"product", "convolution"}, {"boundary", "dirichlet"}, {"modes", 32.0}}),
+            InvalidScene);
     }
 };
 

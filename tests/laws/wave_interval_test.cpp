@@ -1,5 +1,5 @@
-/// Wave functions between walls: the box by its sines, harmonic levels, revival, norm, reversal, what is refused, and the squared
-/// differentiation matrix that loses the norm.
+/// Wave functions between walls: the box by its sines, harmonic levels, revival, norm, reversal, what is
+/// refused, and the squared differentiation matrix that loses the norm.
 #include <QTest>
 
 #include <numbers>
@@ -37,7 +37,8 @@ Complex boxWave(double x, double t) {
     for (int n = 1; n <= 6; ++n) {
         const double weight = 1.0 / (1 + std::abs(n - 3));
         norm += weight * weight;
-        sum += weight * std::polar(1.0, 0.7 * n - levelOfBox(n) * t / hbar) * std::sin(n * pi * (x - left) / length);
+        sum += weight * std::polar(1.0, 0.7 * n - levelOfBox(n) * t / hbar) *
+               std::sin(n * pi * (x - left) / length);
     }
     return sum * std::sqrt(2 / length / norm);
 }
@@ -65,7 +66,8 @@ State run(const System& system, int degree, const State& start, double T, int n)
 double errorAtNodes(const System& system, const State& state, double t) {
     double worst = 0;
     for (int j = 0; j < system.wave->size(); ++j)
-        worst = std::max(worst, std::abs(atNode(system, state, j) - boxWave(system.wave->x()[static_cast<std::size_t>(j)], t)));
+        worst = std::max(worst, std::abs(atNode(system, state, j) -
+                                         boxWave(system.wave->x()[static_cast<std::size_t>(j)], t)));
     return worst;
 }
 
@@ -96,7 +98,8 @@ private slots:
         QVERIFY((slope.array() - 3 * y.square() + 5 * y.square().square()).abs().maxCoeff() < 1e-12);
         // y^3 - y^5 = T_1/8 - T_3/16 - T_5/16.
         const Eigen::VectorXd a = I.coefficient * c;
-        QVERIFY(std::abs(a(1) - 1.0 / 8) < 1e-14 && std::abs(a(3) + 1.0 / 16) < 1e-14 && std::abs(a(5) + 1.0 / 16) < 1e-14);
+        QVERIFY(std::abs(a(1) - 1.0 / 8) < 1e-14 && std::abs(a(3) + 1.0 / 16) < 1e-14 &&
+                std::abs(a(5) + 1.0 / 16) < 1e-14);
         QVERIFY(std::abs(a(0)) < 1e-14 && a.tail(15).cwiseAbs().maxCoeff() < 1e-14);
     }
 
@@ -114,7 +117,9 @@ private slots:
                                                               {"boundary", "dirichlet"}});
             double worst = 0;
             for (int n = 0; n < 10; ++n)
-                worst = std::max(worst, std::abs(Eigenstates::of(system.wave)->energies()[static_cast<std::size_t>(n)] - n - 0.5));
+                worst = std::max(
+                    worst, std::abs(Eigenstates::of(system.wave)->energies()[static_cast<std::size_t>(n)] -
+                                    n - 0.5));
             qInfo("%d modes: %.2g", modes, worst);
             QVERIFY(worst < before);
             before = worst / 100;
@@ -167,7 +172,8 @@ private slots:
         const double back = waveDistance(end, start);
         // At half the time the mirror image, with the other sign.
         double mirrored = 0;
-        for (int j = 0; j < 40; ++j) mirrored = std::max(mirrored, std::abs(atNode(system, half, j) + atNode(system, start, 39 - j)));
+        for (int j = 0; j < 40; ++j)
+            mirrored = std::max(mirrored, std::abs(atNode(system, half, j) + atNode(system, start, 39 - j)));
         qInfo("back by %.2g, mirrored by %.2g", back, mirrored);
         QVERIFY(back < 1e-10 && mirrored < 1e-10);  // 8e-13 and 4e-13 measured
         // Teeth: a hundredth of the time later it is another wave function.
@@ -186,18 +192,21 @@ private slots:
                 QVERIFY(there->advance(state).outcome == Outcome::converged);
                 worst = std::max(worst, std::abs(normOf(system, state) - normOf(system, start)));
             }
-            const double energy = std::abs(system.energy(0, state.x.data()) / system.energy(0, start.x.data()) - 1);
+            const double energy =
+                std::abs(system.energy(0, state.x.data()) / system.energy(0, start.x.data()) - 1);
             const auto back = makeIntegrator(system, wavePair(s), {state.t, -0.05});
             state.node = 0;
             const auto again = after(*back, state, 2000);
             QVERIFY(again.has_value());
-            qInfo("degree %d: norm %.2g, energy %.2g, there and back %.2g", s, worst, energy, waveDistance(*again, start));
+            qInfo("degree %d: norm %.2g, energy %.2g, there and back %.2g", s, worst, energy,
+                  waveDistance(*again, start));
             // 6e-14, 8e-14 and 2e-12 measured.
             QVERIFY(worst < 5e-13 && energy < 1e-12 && waveDistance(*again, start) < 2e-11);
         }
     }
     void collocationInSpaceLosesTheNorm() {
-        // Teeth: the midpoint rule with -D^2/2 at the nodes, from the same sines, judged by the same mass matrix.
+        // Teeth: the midpoint rule with -D^2/2 at the nodes, from the same sines, judged by the same mass
+        // matrix.
         constexpr int n = 32;
         const System system = between(n);
         const Interval& I = system.wave->interval();
@@ -207,7 +216,8 @@ private slots:
         const Eigen::MatrixXcd map = dense::solve<Complex>(forward, forward.conjugate());
         // A narrow packet near a wall: there the two operators differ most.
         Eigen::VectorXcd u(n);
-        for (int j = 0; j < n; ++j) u(j) = std::exp(-40 * std::pow(I.nodes(j) + 0.8, 2)) * std::polar(1.0, 30 * I.nodes(j));
+        for (int j = 0; j < n; ++j)
+            u(j) = std::exp(-40 * std::pow(I.nodes(j) + 0.8, 2)) * std::polar(1.0, 30 * I.nodes(j));
         u /= (I.factor * u).norm();
         double worst = 0;
         Eigen::VectorXcd c = I.factor * u;
@@ -236,7 +246,9 @@ private slots:
         const double d = 1e-3;
         State now = start;
         exact(0.4, now.x);
-        const double velocity = (8 * (position(0.4 + d) - position(0.4 - d)) - (position(0.4 + 2 * d) - position(0.4 - 2 * d))) / (12 * d);
+        const double velocity =
+            (8 * (position(0.4 + d) - position(0.4 - d)) - (position(0.4 + 2 * d) - position(0.4 - 2 * d))) /
+            (12 * d);
         const double momentum = meanMomentum(*system.wave, coefficients(now.x.data())).x;
         qInfo("m d<x>/dt = %.12g, <p> = %.12g", mass * velocity, momentum);
         QVERIFY(std::abs(mass * velocity - momentum) < 1e-9);  // 4e-11 measured, the differences' own
@@ -244,9 +256,12 @@ private slots:
         // Current and position by the sines: Im(conj psi psi_x) by differences, <x> by a fine midpoint rule.
         const double middle = left + length / 2, e = 1e-3;
         const Complex derivative = (8.0 * (boxWave(middle + e, 0.4) - boxWave(middle - e, 0.4)) -
-                                    (boxWave(middle + 2 * e, 0.4) - boxWave(middle - 2 * e, 0.4))) / (12 * e);
+                                    (boxWave(middle + 2 * e, 0.4) - boxWave(middle - 2 * e, 0.4))) /
+                                   (12 * e);
         const double current = hbar / mass * (std::conj(boxWave(middle, 0.4)) * derivative).imag();
-        QVERIFY(std::abs(currentInTheMiddle(*system.wave, coefficients(now.x.data()), work.data(), slope.data()) - current) < 1e-9);
+        QVERIFY(
+            std::abs(currentInTheMiddle(*system.wave, coefficients(now.x.data()), work.data(), slope.data()) -
+                     current) < 1e-9);
         double mean = 0;
         for (int k = 0; k < 1000; ++k) {
             const double x = left + length * (k + 0.5) / 1000;
@@ -269,11 +284,14 @@ private slots:
         QVERIFY(worst < 1e-13);
         // The coefficients of the view `spectrum` sum up to it.
         double sum = 0;
-        for (int k = 0; k <= 31; ++k) sum += chebyshevCoefficient(*system.wave, coefficients(start.x.data()), k).real() * std::cos(k * std::acos(0.3));
+        for (int k = 0; k <= 31; ++k)
+            sum += chebyshevCoefficient(*system.wave, coefficients(start.x.data()), k).real() *
+                   std::cos(k * std::acos(0.3));
         QVERIFY(std::abs(sum - boxWave(left + 0.65 * length, 0).real()) < 1e-12);
         // A packet on the interval is one packet, not the sum of its copies on a circle.
         Settings given;
-        given.keys.emplace_back("psi", Value::Object{{"packet", "gaussian"}, {"centre", left + 0.2}, {"width", 0.4}});
+        given.keys.emplace_back(
+            "psi", Value::Object{{"packet", "gaussian"}, {"centre", left + 0.2}, {"width", 0.4}});
         given.keys.emplace_back("normalise", true);
         const State packet{0, 0, system.start(given)};
         QVERIFY(std::abs(atNode(system, packet, 29)) < 1e-3 && !system.caution(packet.x.data()).empty());
@@ -302,11 +320,16 @@ private slots:
         const System system = between(32);
         for (const char* id : {"strang", "srkn-14a", "leapfrog", "spectral-collocation"}) {
             const BaselineEntry* entry = findBaseline(id);
-            const std::string text = refusal([&] { entry->make(system, {{0, 0.01}, 0, 0, defaultsOf(entry->item)}); });
-            QVERIFY2(text.starts_with("/baseline") && text.find("dirichlet") != std::string::npos, text.c_str());
+            const std::string text = refusal([&] {
+                entry->make(system, {{0, 0.01}, 0, 0, defaultsOf(entry->item)});
+            });
+            QVERIFY2(text.starts_with("/baseline") && text.find("dirichlet") != std::string::npos,
+                     text.c_str());
         }
         for (const char* solver : {"banded", "krylov"})
-            QVERIFY(refusal([&] { makeIntegrator(system, wavePair(2, solver), {0, 0.01}); }).starts_with("/solver/method"));
+            QVERIFY(refusal([&] {
+                        makeIntegrator(system, wavePair(2, solver), {0, 0.01});
+                    }).starts_with("/solver/method"));
         Discretization three = wavePair(1);
         three.space.keys[2].second = "three-level";
         three.quadrature = {"exact", {}, {}};

@@ -1,5 +1,5 @@
-/// A hundred thousand steps of wave functions, the scene norm-long: what is kept, a solve and in all, and that a solver which
-/// is not exact would be seen.
+/// A hundred thousand steps of wave functions, the scene norm-long: what is kept, a solve and in all, and
+/// that a solver which is not exact would be seen.
 #include <QTest>
 
 #include <cmath>
@@ -20,7 +20,8 @@ struct Kept {
 /// `each` says how many solves a step has.
 Kept keptBy(const SchemeResult& scheme, int each) {
     const Summary& s = scheme.summary;
-    return {s.maxNormError / (each * static_cast<double>(s.steps)), s.maxEnergyError / std::abs(scheme.trajectory["energy"][0])};
+    return {s.maxNormError / (each * static_cast<double>(s.steps)),
+            s.maxEnergyError / std::abs(scheme.trajectory["energy"][0])};
 }
 
 }  // namespace
@@ -35,7 +36,8 @@ private slots:
         for (std::size_t i = 0; i < 4; ++i) {
             const SchemeResult& scheme = *comparison.schemes[i];
             const Kept kept = keptBy(scheme, solves[i]);
-            qInfo("%s: norm %.2g a solve, energy %.2g", scheme.spec.label.c_str(), kept.normEach, kept.energy);
+            qInfo("%s: norm %.2g a solve, energy %.2g", scheme.spec.label.c_str(), kept.normEach,
+                  kept.energy);
             QCOMPARE(scheme.summary.status, RunStatus::done);
             QCOMPARE(scheme.summary.steps, 100000LL);
             QCOMPARE(scheme.trajectory.nodes.back(), 1e5);

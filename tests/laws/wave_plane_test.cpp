@@ -1,4 +1,5 @@
-/// Wave functions on a rectangle, against products of solutions in one dimension, eigenstates, and each other.
+/// Wave functions on a rectangle, against products of solutions in one dimension, eigenstates, and each
+/// other.
 #include <QTest>
 
 #include <numbers>
@@ -17,11 +18,16 @@ constexpr double left = -1, width = 12.566370614359172, bottom = 2, height = 5;
 const Value alongX = Value::Array{left, left + width}, alongY = Value::Array{bottom, bottom + height};
 
 System rectangle(int nx, int ny, const Value& potential, double hbar = 1) {
-    return systemNamed("schrodinger-2d", {{"modes", static_cast<double>(nx)}, {"modes_y", static_cast<double>(ny)},
-                                          {"potential", potential}, {"hbar", hbar}, {"domain", alongX}, {"domain_y", alongY}});
+    return systemNamed("schrodinger-2d", {{"modes", static_cast<double>(nx)},
+                                          {"modes_y", static_cast<double>(ny)},
+                                          {"potential", potential},
+                                          {"hbar", hbar},
+                                          {"domain", alongX},
+                                          {"domain_y", alongY}});
 }
 System line(int n, const Value& domain, const Value& potential) {
-    return systemNamed("schrodinger", {{"modes", static_cast<double>(n)}, {"potential", potential}, {"domain", domain}});
+    return systemNamed("schrodinger",
+                       {{"modes", static_cast<double>(n)}, {"potential", potential}, {"domain", domain}});
 }
 
 double waves(int number, double length) { return 2 * std::numbers::pi * number / length; }
@@ -33,15 +39,25 @@ State startOf(const System& system, Value::Object psi) {
     return {0, 0, system.start(given)};
 }
 State packetOn(const System& system) {
-    return startOf(system, {{"packet", "periodic-gaussian"}, {"kappa", 8.0}, {"centre", 4.0}, {"wave_number", waves(2, width)},
-                            {"kappa_y", 5.0}, {"centre_y", 4.2}, {"wave_number_y", waves(-2, height)}});
+    return startOf(system, {{"packet", "periodic-gaussian"},
+                            {"kappa", 8.0},
+                            {"centre", 4.0},
+                            {"wave_number", waves(2, width)},
+                            {"kappa_y", 5.0},
+                            {"centre_y", 4.2},
+                            {"wave_number_y", waves(-2, height)}});
 }
 State packetAlong(const System& system, double kappa, double centre, double k) {
-    return startOf(system, {{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", centre}, {"wave_number", k}});
+    return startOf(
+        system, {{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", centre}, {"wave_number", k}});
 }
 /// Smooth enough for few modes.
 State widePacket(const System& system) {
-    return startOf(system, {{"packet", "periodic-gaussian"}, {"kappa", 2.0}, {"centre", 4.0}, {"kappa_y", 1.5}, {"centre_y", 4.2}});
+    return startOf(system, {{"packet", "periodic-gaussian"},
+                            {"kappa", 2.0},
+                            {"centre", 4.0},
+                            {"kappa_y", 1.5},
+                            {"centre_y", 4.2}});
 }
 
 /// psi(x, y) = f(x) g(y).
@@ -101,7 +117,8 @@ private slots:
         QVERIFY(std::abs(onNodes - 1) < 1e-14);
         // A plane wave is one coefficient, and its energy hbar^2 k^2/2m: 3 and -2 whole waves.
         const double k = 2 * std::numbers::pi * 3 / width, l = -2 * std::numbers::pi * 2 / height;
-        const State wave = startOf(system, {{"packet", "plane-wave"}, {"wave_number", k}, {"wave_number_y", l}});
+        const State wave =
+            startOf(system, {{"packet", "plane-wave"}, {"wave_number", k}, {"wave_number_y", l}});
         QVERIFY(std::abs(system.energy(0, wave.x.data()) - (k * k + l * l) / 2) < 1e-13);
         h.toNodes(coefficients(wave.x.data()), psi.data());
         for (const std::size_t j : {std::size_t{7}, n / 2 + 5}) {
@@ -135,29 +152,35 @@ private slots:
         QFETCH(QString, id);
         QFETCH(int, steps);
         QFETCH(double, most);
-        const System both = rectangle(64, 48, sum), x = line(64, alongX, potentialX), y = line(48, alongY, potentialY);
-        const State start = packetOn(both), startX = packetAlong(x, 8, 4, waves(2, width)), startY = packetAlong(y, 5, 4.2, waves(-2, height));
+        const System both = rectangle(64, 48, sum), x = line(64, alongX, potentialX),
+                     y = line(48, alongY, potentialY);
+        const State start = packetOn(both), startX = packetAlong(x, 8, 4, waves(2, width)),
+                    startY = packetAlong(y, 5, 4.2, waves(-2, height));
         QVERIFY(waveDistance(start, product(startX, startY)) < 1e-14);
         State endX = startX, endY = startY;
         constexpr double T = 1.5;
         x.exact(startX)(T, endX.x);
         y.exact(startY)(T, endY.x);
         const State expected = product(endX, endY);
-        const State end = id == "gauss 8" ? run(wavePair(8), both, start, T, steps) : run(id.toUtf8().constData(), both, start, T, steps);
+        const State end = id == "gauss 8" ? run(wavePair(8), both, start, T, steps)
+                                          : run(id.toUtf8().constData(), both, start, T, steps);
         const double error = waveDistance(end, expected);
         qInfo("%.2g", error);
         QVERIFY(error < most);
-        // Seen failing: the same potential with x and y exchanged in its second part, or another mass along y alone.
+        // Seen failing: the same potential with x and y exchanged in its second part, or another mass along y
+        // alone.
         if (steps > 2) return;
         const System wrong = rectangle(64, 48, std::string(potentialX) + " + 3*(1 - sin(2*pi*(x - 2)/5))");
         QVERIFY(waveDistance(run(id.toUtf8().constData(), wrong, start, T, steps), expected) > 0.1);
     }
     void potentialsInTimeAreProductsToo() {
         const std::string moving = "6*(1 - cos((x + 1)/2 - 2.5 - 0.4*sin(3*t)))";
-        const System both = rectangle(48, 32, moving + " + t*sin(2*pi*(y - 2)/5)"), x = line(48, alongX, moving),
-                     y = line(32, alongY, "t*sin(2*pi*(x - 2)/5)");
-        const State startX = packetAlong(x, 6, 4, 0), startY = packetAlong(y, 3, 4.2, 0), start = product(startX, startY);
-        const State expected = product(run(wavePair(6), x, startX, 1, 60), run(wavePair(6), y, startY, 1, 60));
+        const System both = rectangle(48, 32, moving + " + t*sin(2*pi*(y - 2)/5)"),
+                     x = line(48, alongX, moving), y = line(32, alongY, "t*sin(2*pi*(x - 2)/5)");
+        const State startX = packetAlong(x, 6, 4, 0), startY = packetAlong(y, 3, 4.2, 0),
+                    start = product(startX, startY);
+        const State expected =
+            product(run(wavePair(6), x, startX, 1, 60), run(wavePair(6), y, startY, 1, 60));
         const double gauss = waveDistance(run(wavePair(4), both, start, 1, 40), expected),
                      splitting = waveDistance(run("srkn-11b", both, start, 1, 120), expected);
         qInfo("Gauss 4: %.2g, srkn-11b: %.2g", gauss, splitting);
@@ -173,9 +196,9 @@ private slots:
         QTest::newRow("blanes-moan-s10") << "blanes-moan-s10" << 6;
         QTest::newRow("srkn-11b") << "srkn-11b" << 6;
     }
-    /// Of Gauss against the eigenstates of 24 x 20 nodes. Of splittings against Chebyshev's series on a finer grid: on the
-    /// coarse one [V, [V, [V, T]]] = 0, on which the tables of Blanes and Moan rely, is true up to aliasing alone, and
-    /// srkn-14a is seen with order 4 from 1e-8 on.
+    /// Of Gauss against the eigenstates of 24 x 20 nodes. Of splittings against Chebyshev's series on a finer
+    /// grid: on the coarse one [V, [V, [V, T]]] = 0, on which the tables of Blanes and Moan rely, is true up
+    /// to aliasing alone, and srkn-14a is seen with order 4 from 1e-8 on.
     void ordersWhereXAndYAreCoupled() {
         QFETCH(QString, id);
         QFETCH(int, order);
@@ -199,7 +222,8 @@ private slots:
     void solversAgree() {
         const System system = rectangle(24, 20, coupled);
         const State start = packetOn(system);
-        const State dense = run(wavePair(3, "dense"), system, start, 1, 20), krylov = run(wavePair(3, "krylov"), system, start, 1, 20);
+        const State dense = run(wavePair(3, "dense"), system, start, 1, 20),
+                    krylov = run(wavePair(3, "krylov"), system, start, 1, 20);
         const double apart = waveDistance(dense, krylov);
         qInfo("%.2g", apart);
         QVERIFY(apart < 1e-12);
@@ -241,17 +265,25 @@ private slots:
         QVERIFY(worstEnergy < 1e-11);
         // Seen failing: solved to 1e-6 only.
         State loose = packetOn(system);
-        const auto careless = makeIntegrator(system, wavePair(2, "krylov", "mean", {{"tolerance", 1e-6}}), {0, 0.02});
+        const auto careless =
+            makeIntegrator(system, wavePair(2, "krylov", "mean", {{"tolerance", 1e-6}}), {0, 0.02});
         for (int k = 0; k < 400; ++k) (void)careless->advance(loose);
         QVERIFY(std::abs(norm(system, loose) - 1) > 1e-9);
     }
     /// A coherent state of the round oscillator goes around: <x> and <y> are those of a classical particle.
     void coherentStateGoesAround() {
         const Value domain = Value::Array{-8.0, 8.0};
-        const System system = systemNamed("schrodinger-2d", {{"modes", 64.0}, {"modes_y", 64.0}, {"domain", domain}, {"domain_y", domain},
-                                                             {"potential", Value::Object{{"name", "harmonic"}}}});
+        const System system =
+            systemNamed("schrodinger-2d", {{"modes", 64.0},
+                                           {"modes_y", 64.0},
+                                           {"domain", domain},
+                                           {"domain_y", domain},
+                                           {"potential", Value::Object{{"name", "harmonic"}}}});
         const double width_ = std::sqrt(0.5);
-        State state = startOf(system, {{"packet", "gaussian"}, {"centre", 2.0}, {"width", width_}, {"width_y", width_},
+        State state = startOf(system, {{"packet", "gaussian"},
+                                       {"centre", 2.0},
+                                       {"width", width_},
+                                       {"width_y", width_},
                                        {"wave_number_y", 1.5}});
         QVERIFY(std::abs(system.energy(0, state.x.data()) - (1 + 2 + 1.5 * 1.5 / 2)) < 1e-12);
         const auto integrator = makeIntegrator(system, wavePair(6), {0, 0.1});
@@ -261,15 +293,16 @@ private slots:
             QVERIFY(integrator->advance(state).outcome == Outcome::converged);
             const NodeMeans at = nodeMeans(*system.wave, coefficients(state.x.data()), work.data());
             const MeanMomentum p = meanMomentum(*system.wave, coefficients(state.x.data()));
-            for (const double d : {at.x - 2 * std::cos(state.t), at.y - 1.5 * std::sin(state.t), p.x + 2 * std::sin(state.t),
-                                   p.y - 1.5 * std::cos(state.t)})
+            for (const double d : {at.x - 2 * std::cos(state.t), at.y - 1.5 * std::sin(state.t),
+                                   p.x + 2 * std::sin(state.t), p.y - 1.5 * std::cos(state.t)})
                 worst = std::max(worst, std::abs(d));
         }
         qInfo("%.2g", worst);
         QVERIFY(worst < 1e-10);
     }
     void whatPassesTheMiddle() {
-        // d/dt of the share right of the middle line is the current through it; that on the far side of the period is nothing here.
+        // d/dt of the share right of the middle line is the current through it; that on the far side of the
+        // period is nothing here.
         const System system = rectangle(256, 64, sum);
         const State start = packetOn(system);
         const Hamiltonian& h = *system.wave;
@@ -281,7 +314,10 @@ private slots:
             for (std::size_t j = 0; j < n; ++j) {
                 const std::size_t i = j % 256;
                 // The line goes through the nodes of its column: half of their cells lie to the right.
-                share += (i > 128 ? 1 : i == 128 ? 0.5 : 0) * std::norm(work[j]) * width * height / static_cast<double>(n);
+                share += (i > 128    ? 1
+                          : i == 128 ? 0.5
+                                     : 0) *
+                         std::norm(work[j]) * width * height / static_cast<double>(n);
             }
             return share;
         };
@@ -294,10 +330,12 @@ private slots:
         end = middle;
         QVERIFY(step->advance(end).outcome == Outcome::converged);
         const double flow = (rightOf(end) - rightOf(before)) / (2 * dt);
-        const double current = currentInTheMiddle(h, coefficients(middle.x.data()), work.data(), slope.data());
+        const double current =
+            currentInTheMiddle(h, coefficients(middle.x.data()), work.data(), slope.data());
         qInfo("%.6g and %.6g", flow, current);
         QVERIFY(std::abs(current) > 0.1);
-        QVERIFY(std::abs(flow - current) < 1e-3 * std::abs(current));  // of the square of the cells: 4e-3 with 96
+        QVERIFY(std::abs(flow - current) <
+                1e-3 * std::abs(current));  // of the square of the cells: 4e-3 with 96
     }
     void tailLooksAlongBothDirections() {
         const System good = rectangle(64, 64, 0.0), poor = rectangle(64, 8, 0.0);
@@ -308,8 +346,12 @@ private slots:
     void eigenstatesOfAFineGridComeFromACoarseOne() {
         const Value domain = Value::Array{-5.6, 5.6};
         const auto oscillator = [&](double modes) {
-            return systemNamed("schrodinger-2d", {{"modes", modes}, {"modes_y", modes}, {"domain", domain}, {"domain_y", domain},
-                                                  {"potential", Value::Object{{"name", "harmonic"}, {"omega_y", 1.1}}}});
+            return systemNamed("schrodinger-2d",
+                               {{"modes", modes},
+                                {"modes_y", modes},
+                                {"domain", domain},
+                                {"domain_y", domain},
+                                {"potential", Value::Object{{"name", "harmonic"}, {"omega_y", 1.1}}}});
         };
         const System fine = oscillator(64);
         const State ground = startOf(fine, {{"packet", "eigenstate"}, {"n", 0.0}});

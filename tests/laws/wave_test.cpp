@@ -1,4 +1,5 @@
-/// The one-step schemes of wave functions: orders, what is kept, reference values, and agreement of the three solvers.
+/// The one-step schemes of wave functions: orders, what is kept, reference values, and agreement of the three
+/// solvers.
 #include <QTest>
 
 #include <fstream>
@@ -28,11 +29,14 @@ template <class Step>
 Norms drift(const System& system, State state, int n, Step&& step) {
     Norms worst;
     const int size = system.wave->size();
-    const double norm = std::sqrt(squaredNorm(coefficients(state.x.data()), size)), E = system.energy(0, state.x.data());
+    const double norm = std::sqrt(squaredNorm(coefficients(state.x.data()), size)),
+                 E = system.energy(0, state.x.data());
     for (int k = 1; k <= n; ++k) {
         if (!step(state)) return {1, 1};
-        worst.norm = std::max(worst.norm, std::abs(std::sqrt(squaredNorm(coefficients(state.x.data()), size)) - norm));
-        if (k % 64 == 0) worst.energy = std::max(worst.energy, std::abs(system.energy(0, state.x.data()) / E - 1));
+        worst.norm =
+            std::max(worst.norm, std::abs(std::sqrt(squaredNorm(coefficients(state.x.data()), size)) - norm));
+        if (k % 64 == 0)
+            worst.energy = std::max(worst.energy, std::abs(system.energy(0, state.x.data()) / E - 1));
     }
     return worst;
 }
@@ -60,7 +64,8 @@ private slots:
         const auto& eight = padeZeros(8);
         QVERIFY(std::abs(eight[0] - std::complex<double>(11.1757720865261704, 1.73522889070557292)) < 4e-15);
         QVERIFY(std::abs(eight[7] - std::complex<double>(5.67796789779526095, -12.7078225972097536)) < 4e-15);
-        QVERIFY(std::abs(padeZeros(64)[0] - std::complex<double>(85.481943292945357, 1.7355178898121834)) < 4e-14);
+        QVERIFY(std::abs(padeZeros(64)[0] - std::complex<double>(85.481943292945357, 1.7355178898121834)) <
+                4e-14);
         // The turn of every degree is exp(-iy) to order 2s: |R - exp| ~ y^(2s+1).
         for (int s = 1; s <= 16; ++s) {
             const auto error = [s](double y) { return std::abs(padeTurn(s, y) - std::polar(1.0, -y)); };
@@ -83,7 +88,8 @@ private slots:
         State start = startA(system);
         for (int i = 0; i < 64; ++i)
             coefficients(start.x.data())[i] = (states->coefficients(0)[static_cast<std::size_t>(i)] +
-                                               states->coefficients(1)[static_cast<std::size_t>(i)]) / std::sqrt(2.0);
+                                               states->coefficients(1)[static_cast<std::size_t>(i)]) /
+                                              std::sqrt(2.0);
         State exact = start;
         system.exact(start)(1, exact.x);
         const auto errorOf = [&](int n) {
@@ -92,7 +98,8 @@ private slots:
         const double order = timeOrder(errorOf, degree < 3 ? 1e-9 : 1e-12);
         QVERIFY(std::isfinite(order));
         qInfo("order %.3f", order);
-        QVERIFY(std::abs(order - 2 * degree) < 0.06 * degree);  // 2.00, 4.00, .. 13.8, 15.6: round-off is near
+        QVERIFY(std::abs(order - 2 * degree) <
+                0.06 * degree);  // 2.00, 4.00, .. 13.8, 15.6: round-off is near
     }
 
     void normAndEnergyStayForAHundredThousandSteps_data() {
@@ -132,14 +139,16 @@ private slots:
         const Hamiltonian& h = *system.wave;
         std::vector<Complex> work(256);
         QVERIFY(std::abs(system.energy(0, start.x.data()) - 49.5471373850640867) < 2e-13);
-        QVERIFY(std::abs(nodeMeans(h, coefficients(start.x.data()), work.data()).cosine - 0.357799236432353332) < 2e-15);
+        QVERIFY(std::abs(nodeMeans(h, coefficients(start.x.data()), work.data()).cosine -
+                         0.357799236432353332) < 2e-15);
         for (const char* solver : {"banded", "dense", "krylov"}) {
             const State end = run(system, wavePair(8, solver), start, 1, 128);
             const auto reference = readReference("schrodinger_N256.txt");
             QCOMPARE(reference.size(), std::size_t{256});
             double worst = 0;
             for (int j = 0; j < 256; ++j)
-                worst = std::max(worst, std::abs(atNode(system, end, j) - reference[static_cast<std::size_t>(j)]));
+                worst = std::max(worst,
+                                 std::abs(atNode(system, end, j) - reference[static_cast<std::size_t>(j)]));
             const double cosine = nodeMeans(h, coefficients(end.x.data()), work.data()).cosine;
             qInfo("%s: psi %.2g", solver, worst);
             QVERIFY(worst < 1e-12);  // 4e-13 measured: the order is not exhausted at this step
@@ -158,7 +167,8 @@ private slots:
         QCOMPARE(reference.size(), std::size_t{512});
         double worst = 0;
         for (int j = 0; j < 512; ++j)
-            worst = std::max(worst, std::abs(atNode(system, end, j) - reference[static_cast<std::size_t>(j)]));
+            worst =
+                std::max(worst, std::abs(atNode(system, end, j) - reference[static_cast<std::size_t>(j)]));
         qInfo("psi %.2g", worst);
         QVERIFY(worst < 1e-12);
     }
@@ -173,8 +183,10 @@ private slots:
         qInfo("cos x off by %.2g, p by %.2g", cosine - 0.933818313189556394, momentum + 1.18094822084357600);
         QVERIFY(std::abs(cosine - 0.933818313189556394) < 1e-12);
         QVERIFY(std::abs(momentum + 1.18094822084357600) < 1e-12);
-        QVERIFY(std::abs(atNode(system, end, 16) - std::complex<double>(0.82760771115210, 0.29547322942032)) < 1e-11);
-        QVERIFY(std::abs(atNode(system, end, 32) - std::complex<double>(-1.85037903288259, 0.82096068952858)) < 1e-11);
+        QVERIFY(std::abs(atNode(system, end, 16) - std::complex<double>(0.82760771115210, 0.29547322942032)) <
+                1e-11);
+        QVERIFY(std::abs(atNode(system, end, 32) -
+                         std::complex<double>(-1.85037903288259, 0.82096068952858)) < 1e-11);
     }
 
     void errorsAreThePredictedOnes() {
@@ -185,7 +197,7 @@ private slots:
         const auto error = [&](int degree, int n, const Value& shift) {
             return waveDistance(run(system, wavePair(degree, "auto", shift), start, 1, n), exact);
         };
-        QVERIFY(std::abs(error(4, 256, 0.0) / 1.57e-8 - 1) < 0.01);   // without a shift
+        QVERIFY(std::abs(error(4, 256, 0.0) / 1.57e-8 - 1) < 0.01);  // without a shift
         QVERIFY(std::abs(error(4, 128, 0.0) / 3.7e-6 - 1) < 0.02);
         QVERIFY(std::abs(error(4, 128, "mean") / 5.9e-7 - 1) < 0.02);
         QVERIFY(std::abs(error(4, 128, 70.0) / 2.8e-7 - 1) < 0.02);
@@ -193,17 +205,20 @@ private slots:
     }
 
     void theThreeSolversAgree() {
-        const System wells = waveSystem(128, "20*exp(cos(x)) - 7*sin(2*x)"), lattice = waveSystem(128, "30*(cos(x) + sin(2*x))");
+        const System wells = waveSystem(128, "20*exp(cos(x)) - 7*sin(2*x)"),
+                     lattice = waveSystem(128, "30*(cos(x) + sin(2*x))");
         for (const int degree : {1, 3, 4}) {
             const State start = startA(lattice);
             const State dense = run(lattice, wavePair(degree, "dense"), start, 1, 50);
             const double banded = waveDistance(run(lattice, wavePair(degree, "banded"), start, 1, 50), dense);
             const double fours = waveDistance(
-                run(lattice, wavePair(degree, "banded", "mean", {{"tolerance", 1e-10}}), start, 1, 50), dense);
+                run(lattice, wavePair(degree, "banded", "mean", {{"tolerance", 1e-10}}), start, 1, 50),
+                dense);
             const double krylov = waveDistance(run(lattice, wavePair(degree, "krylov"), start, 1, 50), dense);
             const double wide = waveDistance(run(wells, wavePair(degree, "krylov"), start, 1, 50),
                                              run(wells, wavePair(degree, "dense"), start, 1, 50));
-            qInfo("degree %d: banded %.2g, fours %.2g, krylov %.2g and %.2g", degree, banded, fours, krylov, wide);
+            qInfo("degree %d: banded %.2g, fours %.2g, krylov %.2g and %.2g", degree, banded, fours, krylov,
+                  wide);
             QVERIFY(banded < 2e-12 && fours < 2e-11 && krylov < 2e-12 && wide < 2e-12);
         }
     }
@@ -211,7 +226,8 @@ private slots:
         for (const int modes : {64, 256, 2048}) {
             const System system = systemA(modes);
             State state = startA(system);
-            const auto integrator = makeIntegrator(system, wavePair(1, "krylov", 0.0, {{"tolerance", 1e-12}}), {0, 1.0 / 64});
+            const auto integrator =
+                makeIntegrator(system, wavePair(1, "krylov", 0.0, {{"tolerance", 1e-12}}), {0, 1.0 / 64});
             int iterations = 0;
             for (int k = 0; k < 64; ++k) iterations += integrator->advance(state).iterations;
             qInfo("N = %d: %.1f iterations a step", modes, iterations / 64.0);

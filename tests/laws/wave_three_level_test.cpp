@@ -1,4 +1,5 @@
-/// The three-level schemes of wave functions: starts and orders, the form they keep, and their stability limit.
+/// The three-level schemes of wave functions: starts and orders, the form they keep, and their stability
+/// limit.
 #include <QTest>
 
 #include "engine/integrator/wave.hpp"
@@ -10,10 +11,11 @@
 namespace extremal::laws::wave_three_level_test {
 namespace {
 
-Discretization threeLevels(const char* start, const Settings& rule = {"exact", {}, {}}, const Value& shift = 0.0,
-                           const char* solver = "auto") {
+Discretization threeLevels(const char* start, const Settings& rule = {"exact", {}, {}},
+                           const Value& shift = 0.0, const char* solver = "auto") {
     Discretization pair;
-    pair.space = {"fourier", {{"degree", 1.0}, {"energy_shift", shift}, {"form", "three-level"}, {"start", start}}, {}};
+    pair.space = {
+        "fourier", {{"degree", 1.0}, {"energy_shift", shift}, {"form", "three-level"}, {"start", start}}, {}};
     pair.quadrature = rule;
     pair.solver = {solver, {}, {}};
     return pair;
@@ -29,7 +31,7 @@ Run run(const System& system, const Discretization& pair, const State& start, do
     const auto integrator = makeIntegrator(system, pair, {0, h});
     const double alpha = threeLevelAlpha(pair.quadrature);
     const double shift = pair.space.find("energy_shift")->isNumber() ? pair.space.number("energy_shift")
-                                                                       : system.energy(0, start.x.data());
+                                                                     : system.energy(0, start.x.data());
     Run result{start};
     std::vector<Complex> image(static_cast<std::size_t>(H.size())), work = image;
     std::vector<double> before;
@@ -37,8 +39,8 @@ Run run(const System& system, const Discretization& pair, const State& start, do
     for (long long k = 0; k < n; ++k) {
         before = result.end.x;
         if (integrator->advance(result.end).outcome != Outcome::converged) return result;
-        const double now = bilinearForm(H, alpha, h, shift, coefficients(before.data()), coefficients(result.end.x.data()),
-                                        image.data(), work.data());
+        const double now = bilinearForm(H, alpha, h, shift, coefficients(before.data()),
+                                        coefficients(result.end.x.data()), image.data(), work.data());
         if (k == 0) J = now;
         result.form = std::max(result.form, std::abs(now - J));
         const double norm = std::sqrt(squaredNorm(coefficients(result.end.x.data()), H.size()));
@@ -67,15 +69,19 @@ class WaveThreeLevelTest : public QObject {
 private slots:
     void theStartDecidesTheOrder() {
         const System system = systemA(64);
-        const double gauss = orderOf(system, threeLevels("gauss")), exact = orderOf(system, threeLevels("exact"));
+        const double gauss = orderOf(system, threeLevels("gauss")),
+                     exact = orderOf(system, threeLevels("exact"));
         const double natural = orderOf(system, threeLevels("variational"));
         const double leapfrog = orderOf(system, threeLevels("gauss", {"trapezoid", {{"panels", 1.0}}, {}}));
         const double middle = orderOf(system, threeLevels("gauss", {"midpoint", {{"panels", 1.0}}, {}}));
-        qInfo("gauss %.3f, exact %.3f, variational %.3f; trapezoid %.3f, midpoint %.3f", gauss, exact, natural, leapfrog, middle);
+        qInfo("gauss %.3f, exact %.3f, variational %.3f; trapezoid %.3f, midpoint %.3f", gauss, exact,
+              natural, leapfrog, middle);
         QVERIFY(std::abs(gauss - 4) < 0.2 && std::abs(exact - 4) < 0.2);
         QVERIFY(std::abs(natural - 2) < 0.2);
         QVERIFY(std::abs(leapfrog - 2) < 0.2 && std::abs(middle - 2) < 0.2);
-        const auto claim = [](const Discretization& pair) { return describe(pair.space, pair.quadrature).claims.order; };
+        const auto claim = [](const Discretization& pair) {
+            return describe(pair.space, pair.quadrature).claims.order;
+        };
         QCOMPARE(claim(threeLevels("gauss")), 4);
         QCOMPARE(claim(threeLevels("variational")), 2);
     }
@@ -93,14 +99,22 @@ private slots:
     void theSolversAndTheGaugeAgree() {
         const System system = systemA(64);
         const State start = startA(system);
-        const State banded = run(system, threeLevels("gauss", {"exact", {}, {}}, "mean", "banded"), start, 1.0 / 1024, 500).end;
-        const State dense = run(system, threeLevels("gauss", {"exact", {}, {}}, "mean", "dense"), start, 1.0 / 1024, 500).end;
-        const State krylov = run(system, threeLevels("gauss", {"exact", {}, {}}, "mean", "krylov"), start, 1.0 / 1024, 500).end;
+        const State banded =
+            run(system, threeLevels("gauss", {"exact", {}, {}}, "mean", "banded"), start, 1.0 / 1024, 500)
+                .end;
+        const State dense =
+            run(system, threeLevels("gauss", {"exact", {}, {}}, "mean", "dense"), start, 1.0 / 1024, 500).end;
+        const State krylov =
+            run(system, threeLevels("gauss", {"exact", {}, {}}, "mean", "krylov"), start, 1.0 / 1024, 500)
+                .end;
         QVERIFY(waveDistance(banded, dense) < 1e-11);
         QVERIFY(waveDistance(krylov, dense) < 1e-11);
-        // Another shift is another scheme of the same order; the wave function is the same, its phase included.
-        const State other = run(system, threeLevels("gauss", {"exact", {}, {}}, 20.0), start, 1.0 / 4096, 2000).end;
-        const State mean = run(system, threeLevels("gauss", {"exact", {}, {}}, "mean"), start, 1.0 / 4096, 2000).end;
+        // Another shift is another scheme of the same order; the wave function is the same, its phase
+        // included.
+        const State other =
+            run(system, threeLevels("gauss", {"exact", {}, {}}, 20.0), start, 1.0 / 4096, 2000).end;
+        const State mean =
+            run(system, threeLevels("gauss", {"exact", {}, {}}, "mean"), start, 1.0 / 4096, 2000).end;
         QVERIFY(waveDistance(other, mean) < 1e-5);
     }
     void theFormStaysAndTheNormIsBounded() {
@@ -123,24 +137,33 @@ private slots:
         QVERIFY(r.norm > 1e50);  // growth exp(sqrt(1.5e-3)) a step, from round-off
         const double leap = 1 / waveFrequency(system, pair.space, startA(system));
         const Settings trapezoid{"trapezoid", {{"panels", 1.0}}, {}};
-        QVERIFY(run(system, threeLevels("gauss", trapezoid), startA(system), 0.999 * leap, 20000).norm < 1e-2);
+        QVERIFY(run(system, threeLevels("gauss", trapezoid), startA(system), 0.999 * leap, 20000).norm <
+                1e-2);
         QVERIFY(run(system, threeLevels("gauss", trapezoid), startA(system), 1.01 * leap, 5000).norm > 1e50);
         // The midpoint rule has no limit.
-        QVERIFY(run(system, threeLevels("gauss", {"midpoint", {{"panels", 1.0}}, {}}), startA(system), 5 * limit, 5000).norm < 10);
+        QVERIFY(run(system, threeLevels("gauss", {"midpoint", {{"panels", 1.0}}, {}}), startA(system),
+                    5 * limit, 5000)
+                    .norm < 10);
     }
     void aSceneBeyondTheLimitIsRefusedWithTheLimit() {
         const System system = systemA(64);
         const Discretization pair = threeLevels("gauss");
         const double limit = std::sqrt(3.0) / waveFrequency(system, pair.space, startA(system));
         const auto read = [&](double part, bool isAllowed) {
-            Value scheme(Value::Object{{"space", Value::Object{{"type", "fourier"}, {"degree", 1.0}, {"form", "three-level"},
-                                                               {"energy_shift", 0.0}}},
-                                       {"step", part * limit}, {"allow_unstable", isAllowed}});
+            Value scheme(Value::Object{
+                {"space",
+                 Value::Object{
+                     {"type", "fourier"}, {"degree", 1.0}, {"form", "three-level"}, {"energy_shift", 0.0}}},
+                {"step", part * limit},
+                {"allow_unstable", isAllowed}});
             Value scene(Value::Object{
                 {"extremal", 1.0},
-                {"model", Value::Object{{"type", "schrodinger"}, {"potential", "50*(1 - cos(x))"}, {"modes", 64.0}}},
-                {"initial", Value::Object{{"psi", Value::Object{{"packet", "periodic-gaussian"}, {"kappa", 20.0},
-                                                                {"centre", 1.2}, {"wave_number", 5.0}}}}},
+                {"model",
+                 Value::Object{{"type", "schrodinger"}, {"potential", "50*(1 - cos(x))"}, {"modes", 64.0}}},
+                {"initial", Value::Object{{"psi", Value::Object{{"packet", "periodic-gaussian"},
+                                                                {"kappa", 20.0},
+                                                                {"centre", 1.2},
+                                                                {"wave_number", 5.0}}}}},
                 {"time", Value::Object{{"end", 0.1}}},
                 {"schemes", Value::Array{scheme}}});
             return readScene(scene);

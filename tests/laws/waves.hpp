@@ -1,6 +1,7 @@
 /// What the laws of wave functions share: the page problems, schemes by degree and solver, readings.
 ///
-/// A: hbar = m = 1, V = 50 (1 - cos x), a packet of width 0.16 in the well, T = 1. S: hbar = 0.01, V = 1 - cos x, T = 2.
+/// A: hbar = m = 1, V = 50 (1 - cos x), a packet of width 0.16 in the well, T = 1. S: hbar = 0.01, V = 1 -
+/// cos x, T = 2.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +16,15 @@
 namespace extremal::laws {
 
 inline System waveSystem(int modes, const Value& potential = "50*(1 - cos(x))", double hbar = 1) {
-    return systemNamed("schrodinger", {{"modes", static_cast<double>(modes)}, {"potential", potential}, {"hbar", hbar}});
+    return systemNamed("schrodinger",
+                       {{"modes", static_cast<double>(modes)}, {"potential", potential}, {"hbar", hbar}});
 }
 
 inline State waveStart(const System& system, double kappa = 20, double centre = 1.2, double waveNumber = 5) {
     Settings given;
-    given.keys.emplace_back("psi", Value::Object{{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", centre},
+    given.keys.emplace_back("psi", Value::Object{{"packet", "periodic-gaussian"},
+                                                 {"kappa", kappa},
+                                                 {"centre", centre},
                                                  {"wave_number", waveNumber}});
     given.keys.emplace_back("normalise", true);
     return {0, 0, system.start(given)};
@@ -34,7 +38,12 @@ inline State startS(const System& system) { return waveStart(system, 50, 1.2, 50
 inline Discretization wavePair(int degree, const std::string& solver = "auto", const Value& shift = "mean",
                                Value::Object limits = {}) {
     Discretization pair;
-    pair.space = {"fourier", {{"degree", static_cast<double>(degree)}, {"energy_shift", shift}, {"form", "one-step"}, {"start", "gauss"}}, {}};
+    pair.space = {"fourier",
+                  {{"degree", static_cast<double>(degree)},
+                   {"energy_shift", shift},
+                   {"form", "one-step"},
+                   {"start", "gauss"}},
+                  {}};
     pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
     pair.solver = {solver, std::move(limits), {}};
     return pair;
@@ -42,8 +51,8 @@ inline Discretization wavePair(int degree, const std::string& solver = "auto", c
 
 inline double waveDistance(const State& a, const State& b) { return distance(a.x, b.x, 0, a.x.size()); }
 
-/// Order in time: the slope of the last four errors, over numbers of steps that grow by a fifth, between `least` and 1e-2.
-/// Not a number where fewer than three are.
+/// Order in time: the slope of the last four errors, over numbers of steps that grow by a fifth, between
+/// `least` and 1e-2. Not a number where fewer than three are.
 template <class ErrorOf>
 double timeOrder(ErrorOf&& errorOf, double least) {
     std::vector<double> h, e;

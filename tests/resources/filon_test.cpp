@@ -1,4 +1,5 @@
-/// The handbook's page of Filon's rules: it says what the program measures, and what it measures is what theory says.
+/// The handbook's page of Filon's rules: it says what the program measures, and what it measures is what
+/// theory says.
 #include <QDir>
 #include <QFile>
 #include <QTest>
@@ -18,9 +19,12 @@ constexpr FilonNodes gaussAndLobatto[] = {FilonNodes::gauss, FilonNodes::lobatto
 QList<QStringList> rowsOf(const QString& text) {
     QList<QStringList> rows;
     for (const QString& line : text.split('\n')) {
-        if (!line.startsWith("| ") || line.startsWith("| ---") || line.startsWith("| rule") || line.startsWith("| hω")) continue;
+        if (!line.startsWith("| ") || line.startsWith("| ---") || line.startsWith("| rule") ||
+            line.startsWith("| hω"))
+            continue;
         QStringList cells = line.mid(2, line.size() - 4).split(" | ");
-        for (QString& cell : cells) cell = cell.section(' ', 0, cell.startsWith("Gauss") || cell.startsWith("Lob") ? -1 : 0);
+        for (QString& cell : cells)
+            cell = cell.section(' ', 0, cell.startsWith("Gauss") || cell.startsWith("Lob") ? -1 : 0);
         rows << cells;
     }
     return rows;
@@ -57,11 +61,13 @@ private slots:
         for (qsizetype row = 0; row < a.size(); ++row) {
             QCOMPARE(a[row].size(), b[row].size());
             for (qsizetype i = 0; i < a[row].size(); ++i)
-                QVERIFY2(isSame(a[row][i], b[row][i], row < 8), qPrintable(a[row].join(", ") + " but now " + b[row].join(", ")));
+                QVERIFY2(isSame(a[row][i], b[row][i], row < 8),
+                         qPrintable(a[row].join(", ") + " but now " + b[row].join(", ")));
         }
         // The words around the numbers as well.
         QVERIFY2(wordsOf(there) == wordsOf(now),
-                 qPrintable("resources/handbook/filon.md is out of date: ninja handbook.filon, or copy " + actual.fileName()));
+                 qPrintable("resources/handbook/filon.md is out of date: ninja handbook.filon, or copy " +
+                            actual.fileName()));
     }
     void theSlopesAreThoseOfTheory() {
         for (const FilonNodes nodes : gaussAndLobatto)
@@ -79,7 +85,8 @@ private slots:
             for (int count = 2; count <= 5; ++count)
                 for (const double z : {1e-9, 1e-2, 1.0, 7.9, 8.1, 1e3, 1e6}) {
                     const double error = filonWeightError(nodes, count, z);
-                    QVERIFY2(error < 1e-15, qPrintable(QString("%1 nodes, z %2: %3").arg(count).arg(z).arg(error)));
+                    QVERIFY2(error < 1e-15,
+                             qPrintable(QString("%1 nodes, z %2: %3").arg(count).arg(z).arg(error)));
                 }
     }
     void theTableHasItsKnownValues() {
@@ -96,19 +103,25 @@ private slots:
         for (std::size_t row = 0; row < filonRows().size(); ++row)
             for (std::size_t c = 0; c < 6; ++c) {
                 const FilonColumn& column = filonColumns()[c];
-                const double error = filonError(column.nodes, column.count, 1, filonRows()[row]), expected = known[row][c];
+                const double error = filonError(column.nodes, column.count, 1, filonRows()[row]),
+                             expected = known[row][c];
                 // To the digits given, but for round-off: measured 7e-16.
                 QVERIFY2(std::abs(error - expected) <= 0.02 * expected + filonFloor,
-                         qPrintable(QString("%1 at %2: %3").arg(QString::fromStdString(column.name)).arg(filonRows()[row]).arg(error)));
+                         qPrintable(QString("%1 at %2: %3")
+                                        .arg(QString::fromStdString(column.name))
+                                        .arg(filonRows()[row])
+                                        .arg(error)));
                 const double wide = wideFilonError(column.nodes, column.count, 1, filonRows()[row]);
                 QVERIFY(std::abs(error - wide) <= filonFloor);
             }
     }
     void aRuleOfTheOtherFamilyIsSeen() {
-        // Teeth: slopes and errors tell the families apart, and a page with one of them in place of the other is not the same.
+        // Teeth: slopes and errors tell the families apart, and a page with one of them in place of the other
+        // is not the same.
         QVERIFY(std::abs(measureSlopes(FilonNodes::gauss, 3).inFrequency + 2) > 0.5);
         QVERIFY(std::abs(measureSlopes(FilonNodes::lobatto, 3).still - 7) > 1);
-        QVERIFY(!isSame("8.24e-7", "8.4e-7", false) && isSame("8.24e-7", "8.25e-7", false) && isSame("<", "4e-16", false));
+        QVERIFY(!isSame("8.24e-7", "8.4e-7", false) && isSame("8.24e-7", "8.25e-7", false) &&
+                isSame("<", "4e-16", false));
         QVERIFY(!isSame("7.02", "6.98", true) && !isSame("<", "3e-15", false));
     }
     void thePictureIsThere() {

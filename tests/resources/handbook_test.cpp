@@ -1,5 +1,5 @@
-/// The handbook keeps up with the program: its pages hang together, its scenes are valid, and what the catalogues
-/// offer is in it.
+/// The handbook keeps up with the program: its pages hang together, its scenes are valid, and what the
+/// catalogues offer is in it.
 #include <QDir>
 #include <QFile>
 #include <QRegularExpression>
@@ -97,7 +97,8 @@ private slots:
     }
 
     void scenesInThePagesAreValid() {
-        static const QRegularExpression block("```json\n(.*?)```", QRegularExpression::DotMatchesEverythingOption);
+        static const QRegularExpression block("```json\n(.*?)```",
+                                              QRegularExpression::DotMatchesEverythingOption);
         int scenes = 0;
         for (const QString& page : pages()) {
             auto matches = block.globalMatch(fileText(folder + page));
@@ -106,7 +107,8 @@ private slots:
                 if (!json.contains("\"extremal\"")) continue;
                 ++scenes;
                 const ReadScene read = readScene(json.toStdString());
-                const std::string what = read.errors.empty() ? "" : read.errors[0].pointer + ": " + read.errors[0].message;
+                const std::string what =
+                    read.errors.empty() ? "" : read.errors[0].pointer + ": " + read.errors[0].message;
                 QVERIFY2(read.errors.empty() && read.warnings.empty(), (page.toStdString() + what).c_str());
             }
         }

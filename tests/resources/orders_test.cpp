@@ -1,5 +1,5 @@
-/// The handbook's page of orders: its rows are those of the program, each measured order is the claimed one, and some
-/// rows, measured again, are what the page says.
+/// The handbook's page of orders: its rows are those of the program, each measured order is the claimed one,
+/// and some rows, measured again, are what the page says.
 #include <QFile>
 #include <QTest>
 
@@ -28,9 +28,7 @@ std::map<QString, QStringList> rowsOfPage() {
     return rows;
 }
 
-QString keyOf(const OrderRow& row) {
-    return QString::fromStdString(row.spaceText + ": " + row.ruleText);
-}
+QString keyOf(const OrderRow& row) { return QString::fromStdString(row.spaceText + ": " + row.ruleText); }
 
 }  // namespace
 
@@ -52,18 +50,21 @@ private slots:
             for (int i = 2; i <= 5; ++i)  // measured: within 0.03
                 QVERIFY2(std::abs(cells[i].toDouble() - claimed) < 0.05, qPrintable(keyOf(row)));
             QCOMPARE(cells[6].toInt(), row.known.curveOrder);
-            QVERIFY2(std::abs(cells[7].toDouble() - row.known.curveOrder) < 0.1, qPrintable(keyOf(row)));  // within 0.06
+            QVERIFY2(std::abs(cells[7].toDouble() - row.known.curveOrder) < 0.1,
+                     qPrintable(keyOf(row)));  // within 0.06
             QCOMPARE(cells[9], row.known.claims.isSymmetric ? "yes" : "no");
         }
     }
     void someRowsMeasuredAgainAreWhatThePageSays_data() {
         QTest::addColumn<int>("index");
         // Of every kind one, those whose orders the rule's own order does not give among them.
-        for (const char* name : {"Polynomials of degree 1: `radau` 1", "Polynomials of degree 2: `gauss` 2",
-                                 "Polynomials of degree 2: `midpoint`, panels: 2", "Polynomials of degree 3: `lobatto` 3",
-                                 "Polynomials of degree 4: `clenshaw-curtis` 4", "Polynomials of degree 5: `clenshaw-curtis` 6",
-                                 "Polynomials of degree 6: `gauss` 6", "Splines of degree 3 with 2 cells: `gauss` 3"}) {
-            const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const OrderRow& r) { return keyOf(r) == name; });
+        for (const char* name :
+             {"Polynomials of degree 1: `radau` 1", "Polynomials of degree 2: `gauss` 2",
+              "Polynomials of degree 2: `midpoint`, panels: 2", "Polynomials of degree 3: `lobatto` 3",
+              "Polynomials of degree 4: `clenshaw-curtis` 4", "Polynomials of degree 5: `clenshaw-curtis` 6",
+              "Polynomials of degree 6: `gauss` 6", "Splines of degree 3 with 2 cells: `gauss` 3"}) {
+            const auto found =
+                std::find_if(rows_.begin(), rows_.end(), [&](const OrderRow& r) { return keyOf(r) == name; });
             QVERIFY2(found != rows_.end(), name);
             QTest::newRow(name) << static_cast<int>(found - rows_.begin());
         }
@@ -73,8 +74,8 @@ private slots:
         OrderRow row = rows_[static_cast<std::size_t>(index)];
         measure(row, orderBudget);
         const QStringList& cells = page_.at(keyOf(row));
-        const std::vector<std::pair<int, double>> measured = {{2, row.kepler.q},   {3, row.kepler.p},
-                                                              {4, row.pendulum.q}, {5, row.pendulum.p},
+        const std::vector<std::pair<int, double>> measured = {{2, row.kepler.q},      {3, row.kepler.p},
+                                                              {4, row.pendulum.q},    {5, row.pendulum.p},
                                                               {7, row.kepler.curveQ}, {8, row.kepler.curveP}};
         for (const auto& [cell, value] : measured) {
             qInfo("%s: page %s, now %.3f", qPrintable(keyOf(row)), qPrintable(cells[cell]), value);

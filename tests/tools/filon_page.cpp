@@ -84,8 +84,8 @@ std::string filonPage() {
                 return formatted("%.2f", measured) + " (" + std::to_string(expected) + ") | ";
             };
             text += std::string("| ") + (isGauss ? "Gauss " : "Lobatto ") + std::to_string(count) + " | " +
-                    cell(s.still, 2 * count + (isGauss ? 1 : -1)) + cell(s.one, count + 1) + cell(s.fast, count + 1) +
-                    cell(s.inFrequency, isGauss ? -1 : -2);
+                    cell(s.still, 2 * count + (isGauss ? 1 : -1)) + cell(s.one, count + 1) +
+                    cell(s.fast, count + 1) + cell(s.inFrequency, isGauss ? -1 : -2);
             text.back() = '\n';
         }
     text += middle;

@@ -104,7 +104,8 @@ double filonWeightError(FilonNodes nodes, int count, double z) {
     const std::vector<QuadComplex> weight = cardinalWeights(wideNodes(nodes, count), z);
     double worst = 0;
     for (std::size_t i = 0; i < weight.size(); ++i)
-        worst = std::max(worst, static_cast<double>(distance({rule.weight[i].real(), rule.weight[i].imag()}, weight[i])));
+        worst = std::max(
+            worst, static_cast<double>(distance({rule.weight[i].real(), rule.weight[i].imag()}, weight[i])));
     return worst;
 }
 
@@ -128,7 +129,9 @@ const std::vector<FilonColumn>& filonColumns() {
         std::vector<FilonColumn> columns;
         for (const FilonNodes nodes : {FilonNodes::gauss, FilonNodes::lobatto})
             for (int count = 3; count <= 5; ++count)
-                columns.push_back({nodes, count, (nodes == FilonNodes::gauss ? "Gauss " : "Lobatto ") + std::to_string(count)});
+                columns.push_back(
+                    {nodes, count,
+                     (nodes == FilonNodes::gauss ? "Gauss " : "Lobatto ") + std::to_string(count)});
         return columns;
     }();
     return all;

@@ -52,7 +52,8 @@ Setting<2> keplerSetting() {
     return {bindMechanics<Quad>(KeplerModel{}), {Quad(2) / 5, 0, 0, 2}, exactKepler};
 }
 
-/// The pendulum's solution at the multiples of 3 / looks: Gauss collocation of degree 14 with 480 steps (good to 1e-32).
+/// The pendulum's solution at the multiples of 3 / looks: Gauss collocation of degree 14 with 480 steps (good
+/// to 1e-32).
 Setting<1> pendulumSetting() {
     constexpr int steps = 40 * looks;
     Setting<1> s{bindMechanics<Quad>(PendulumModel{}), {Quad(1), Quad(7) / 10}, {}};
@@ -64,7 +65,9 @@ Setting<1> pendulumSetting() {
         (void)integrator.advance(Quad(3) * k / steps, &x[0], &x[1], {});
         if ((k + 1) % 40 == 0) solution.push_back(x);
     }
-    s.exact = [solution](const Quad& t) { return solution[static_cast<std::size_t>(std::lround(static_cast<double>(t) * looks / 3))]; };
+    s.exact = [solution](const Quad& t) {
+        return solution[static_cast<std::size_t>(std::lround(static_cast<double>(t) * looks / 3))];
+    };
     return s;
 }
 

@@ -1,9 +1,10 @@
-/// Orders of pairs, measured in quadruple precision on two nonlinear problems, beside what the program claims.
+/// Orders of pairs, measured in quadruple precision on two nonlinear problems, beside what the program
+/// claims.
 ///
-/// Kepler's orbit of eccentricity 0.6 from its perihelion, and the pendulum (m = l = 1, g = 9.81) from (1, 0.7), up to
-/// T = 3. The error at a step size is the largest over the nodes (of q and p each), and for the curve the largest
-/// over several points inside every step of Kepler's orbit. The order is the least-squares slope over the four finest
-/// steps whose errors are above the round-off of quadruple precision.
+/// Kepler's orbit of eccentricity 0.6 from its perihelion, and the pendulum (m = l = 1, g = 9.81) from (1,
+/// 0.7), up to T = 3. The error at a step size is the largest over the nodes (of q and p each), and for the
+/// curve the largest over several points inside every step of Kepler's orbit. The order is the least-squares
+/// slope over the four finest steps whose errors are above the round-off of quadruple precision.
 #pragma once
 
 #include <string>

@@ -32,7 +32,8 @@ std::string rowText(const OrderRow& row) {
     std::string text = "| " + row.ruleText + " | " + std::to_string(known.claims.order) + " | ";
     for (const double value : {row.kepler.q, row.kepler.p, row.pendulum.q, row.pendulum.p})
         text += number(value) + " | ";
-    text += std::to_string(known.curveOrder) + " | " + number(row.kepler.curveQ) + " | " + number(row.kepler.curveP) + " | ";
+    text += std::to_string(known.curveOrder) + " | " + number(row.kepler.curveQ) + " | " +
+            number(row.kepler.curveP) + " | ";
     text += known.claims.isSymmetric ? "yes | " : "no | ";
     text += std::isinf(known.stabilityLimit) ? "every step" : number(known.stabilityLimit, "%.4g");
     return text + " | " + known.knownAs + " |\n";
@@ -80,7 +81,8 @@ std::vector<OrderRow> pairsOfTable() {
             rows.push_back(pairOf(space, "Polynomials of degree " + std::to_string(s), rule, text));
         };
         const auto addNodes = [&](const char* rule, int from, int to) {
-            for (int n = from; n <= to; ++n) add(nodes(rule, n), "`" + std::string(rule) + "` " + std::to_string(n));
+            for (int n = from; n <= to; ++n)
+                add(nodes(rule, n), "`" + std::string(rule) + "` " + std::to_string(n));
         };
         addNodes("gauss", s, s + 1);
         addNodes("lobatto", std::max(2, s), s + 2);
@@ -95,8 +97,8 @@ std::vector<OrderRow> pairsOfTable() {
     for (int s = 1; s <= 4; ++s) {
         const Settings space{"spline", {{"degree", static_cast<double>(s)}, {"cells", 2.0}}, {}};
         auto add = [&](const char* rule, int n) {
-            rows.push_back(pairOf(space, "Splines of degree " + std::to_string(s) + " with 2 cells", nodes(rule, n),
-                                  "`" + std::string(rule) + "` " + std::to_string(n)));
+            rows.push_back(pairOf(space, "Splines of degree " + std::to_string(s) + " with 2 cells",
+                                  nodes(rule, n), "`" + std::string(rule) + "` " + std::to_string(n)));
         };
         add("gauss", s);
         add("gauss", s + 1);
@@ -118,7 +120,8 @@ std::string ordersPage(const std::vector<OrderRow>& rows) {
         if (row.spaceText != section) {
             section = row.spaceText;
             text += "\n## " + section +
-                    "\n\n| rule | claimed | q, Kepler | p, Kepler | q, pendulum | p, pendulum | curve claimed | curve q | curve p | "
+                    "\n\n| rule | claimed | q, Kepler | p, Kepler | q, pendulum | p, pendulum | curve "
+                    "claimed | curve q | curve p | "
                     "symmetric | stable to h ω | known as |\n|" +
                     [] {
                         std::string dashes;

@@ -1,4 +1,5 @@
-/// The test classes of a folder are one program: each registers itself, and the program runs the one that is named.
+/// The test classes of a folder are one program: each registers itself, and the program runs the one that is
+/// named.
 ///
 ///     namespace extremal::laws::order_test {  // the file's own, since files are compiled some at a time
 ///     class OrderTest : public QObject { ... };
@@ -6,7 +7,8 @@
 ///     }
 ///     #include "order_test.moc"
 ///
-/// As tests/laws/order_test.cpp this is run by `test.laws order`. Arguments after the name are those of Qt Test.
+/// As tests/laws/order_test.cpp this is run by `test.laws order`. Arguments after the name are those of Qt
+/// Test.
 #pragma once
 
 #include <QObject>
@@ -26,5 +28,6 @@ std::unique_ptr<QObject> makeTest() {
 
 }  // namespace extremal::tests
 
-#define EXTREMAL_TEST(Class) \
-    static const ::extremal::tests::RegisteredTest registered##Class{__FILE__, ::extremal::tests::makeTest<Class>};
+#define EXTREMAL_TEST(Class)                                                   \
+    static const ::extremal::tests::RegisteredTest registered##Class{__FILE__, \
+                                                                     ::extremal::tests::makeTest<Class>};

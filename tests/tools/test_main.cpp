@@ -39,7 +39,8 @@ std::string nameOf(std::string file) {
 int run(int argc, char** argv) {
     const auto test = argc > 1 ? tests().find(argv[1]) : tests().end();
     if (test == tests().end()) {
-        std::fprintf(stderr, "usage: %s TEST [FUNCTION...] [option of Qt Test...], where TEST is one of\n", argv[0]);
+        std::fprintf(stderr, "usage: %s TEST [FUNCTION...] [option of Qt Test...], where TEST is one of\n",
+                     argv[0]);
         for (const auto& [name, make] : tests()) std::fprintf(stderr, "  %s\n", name.c_str());
         return 2;
     }
@@ -53,7 +54,9 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-RegisteredTest::RegisteredTest(const char* file, std::unique_ptr<QObject> (*make)()) { tests()[nameOf(file)] = make; }
+RegisteredTest::RegisteredTest(const char* file, std::unique_ptr<QObject> (*make)()) {
+    tests()[nameOf(file)] = make;
+}
 
 }  // namespace extremal::tests
 

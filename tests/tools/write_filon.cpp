@@ -18,7 +18,8 @@ double errorAround(const FilonColumn& column, double z) {
     constexpr int places = 60;
     double most = 0;
     for (int i = 0; i <= places; ++i)
-        most = std::max(most, filonError(column.nodes, column.count, 1, z * std::pow(1.15, 2.0 * i / places - 1)));
+        most = std::max(most,
+                        filonError(column.nodes, column.count, 1, z * std::pow(1.15, 2.0 * i / places - 1)));
     return std::max(most, 1e-17);
 }
 
@@ -55,8 +56,9 @@ int main(int count, char** arguments) {
     qputenv("QT_QPA_PLATFORM", "offscreen");
     const QApplication application(count, arguments);
     extremal::loadFonts();
-    const QString wrong = extremal::saveFigure(QString::fromLocal8Bit(arguments[2]), extremal::tools::picture(), {720, 420},
-                                               extremal::Theme::light(), 1, {false, true, false, {}});  // the page has a title
+    const QString wrong =
+        extremal::saveFigure(QString::fromLocal8Bit(arguments[2]), extremal::tools::picture(), {720, 420},
+                             extremal::Theme::light(), 1, {false, true, false, {}});  // the page has a title
     if (!wrong.isEmpty()) {
         std::fprintf(stderr, "%s: %s\n", arguments[2], qPrintable(wrong));
         return 1;

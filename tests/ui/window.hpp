@@ -11,7 +11,11 @@ namespace extremal {
 /// Until the run of the present scene is over.
 inline bool waitForResults(MainWindow& window) {
     return QTest::qWaitFor(
-        [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000);
+        [&] {
+            return window.runControl().state() == RunControl::State::finished &&
+                   !window.runControl().isStale();
+        },
+        20000);
 }
 
 }  // namespace extremal

@@ -25,7 +25,8 @@ protected:
         painter.setPen(palette().color(foregroundRole()));
         const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
         if (shown != text() && toolTip().isEmpty()) setToolTip(text());
-        painter.drawText(rect(), Qt::AlignVCenter | static_cast<int>(alignment() & Qt::AlignHorizontal_Mask), shown);
+        painter.drawText(rect(), Qt::AlignVCenter | static_cast<int>(alignment() & Qt::AlignHorizontal_Mask),
+                         shown);
     }
 };
 

@@ -35,8 +35,8 @@ private:
 /// A label with a role of the style sheet ("caption", "strong", "title", "heading").
 QLabel* makeLabel(const QString& text, const char* role, QWidget* parent = nullptr);
 
-/// A label that gives way when there is little room: the text is shortened with an ellipsis and the whole of it is
-/// in the tooltip.
+/// A label that gives way when there is little room: the text is shortened with an ellipsis and the whole of
+/// it is in the tooltip.
 QLabel* makeElidedLabel(const QString& text, const char* role, QWidget* parent = nullptr);
 
 }  // namespace extremal

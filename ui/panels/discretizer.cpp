@@ -52,7 +52,8 @@ std::vector<SpaceRow> rowsFor(const std::string& space, bool isPeriodic) {
     const bool isLie = space == "lie-polynomial";
     std::vector<SpaceRow> rows;
     for (const int degree : {1, 2, 3, 4, 6, 8})
-        rows.push_back(isLie ? SpaceRow{"lie-polynomial", "Lie", degree} : SpaceRow{"polynomial", "poly", degree});
+        rows.push_back(isLie ? SpaceRow{"lie-polynomial", "Lie", degree}
+                             : SpaceRow{"polynomial", "poly", degree});
     if (!isLie)
         for (const int degree : {2, 3}) rows.push_back({"spline", "spline", degree});
     return rows;
@@ -67,9 +68,12 @@ QString spaceText(const Settings& space) {
         return (space.text("functions") == "linear" ? QObject::tr("%1 elements with straight lines")
                                                     : QObject::tr("%1 elements that know the coefficient"))
             .arg(space.integer("elements"));
-    if (space.text("form") == "three-level") return QObject::tr("lines in time over Fourier modes, in three levels");
-    if (space.type == "fourier") return QObject::tr("polynomials of degree %1 in time over the modes of the model").arg(degree);
-    if (space.type == "lie-polynomial") return QObject::tr("polynomials of degree %1 in the algebra").arg(degree);
+    if (space.text("form") == "three-level")
+        return QObject::tr("lines in time over Fourier modes, in three levels");
+    if (space.type == "fourier")
+        return QObject::tr("polynomials of degree %1 in time over the modes of the model").arg(degree);
+    if (space.type == "lie-polynomial")
+        return QObject::tr("polynomials of degree %1 in the algebra").arg(degree);
     return QObject::tr("polynomials of degree %1").arg(degree);
 }
 
@@ -124,13 +128,18 @@ void DiscretizerCell::nameByOrder(const PairProperties& known) {
 
 QString DiscretizerCell::tooltip(const PairProperties& known) const {
     const QString pair = spaceText(space_) + QStringLiteral(" × ") + ruleTitle(quadrature_.type);
-    if (!known.refusal.empty()) return tr("<b>%1</b><br>No scheme: %2").arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
+    if (!known.refusal.empty())
+        return tr("<b>%1</b><br>No scheme: %2")
+            .arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
     if (isElliptic(space_))
         return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + spaceText(space_) + "<br>" +
-               (known.claims.order > 0 ? tr("order %1, once they resolve the coefficient").arg(known.claims.order)
-                                       : tr("exact at the nodes, however few")) +
+               (known.claims.order > 0
+                    ? tr("order %1, once they resolve the coefficient").arg(known.claims.order)
+                    : tr("exact at the nodes, however few")) +
                "<br><i>" + tr("Click to add it to the comparison.") + "</i>";
-    QString text = "<b>" + (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) + "</b>";
+    QString text = "<b>" +
+                   (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) +
+                   "</b>";
     if (!known.knownAs.empty()) text += "<br>" + pair;
     QStringList badges{tr("order %1").arg(known.claims.order)};
     badges << tr("order %1 between the nodes").arg(known.curveOrder);
@@ -147,7 +156,8 @@ QString DiscretizerCell::tooltip(const PairProperties& known) const {
     if (std::isinf(known.stabilityLimit))
         text += "<br>" + tr("stable at every step on the harmonic oscillator");
     else if (known.stabilityLimit > 0)
-        text += "<br>" + tr("stable on the harmonic oscillator for h ω below %1").arg(shortNumber(known.stabilityLimit, 3));
+        text += "<br>" + tr("stable on the harmonic oscillator for h ω below %1")
+                             .arg(shortNumber(known.stabilityLimit, 3));
     return text + "<br><i>" + tr("Click to add it to the comparison.") + "</i>";
 }
 
@@ -175,7 +185,8 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     painter.drawRoundedRect(box, 4, 4);
     if (!isEnabled()) {
         painter.setPen(QPen(theme_->line, 1));
-        painter.drawLine(QPointF(box.center().x() - 3, box.center().y()), QPointF(box.center().x() + 3, box.center().y()));
+        painter.drawLine(QPointF(box.center().x() - 3, box.center().y()),
+                         QPointF(box.center().x() + 3, box.center().y()));
         return;
     }
     QFont font = theme_->strong();
@@ -238,7 +249,8 @@ void Discretizer::fill(const std::string& space, bool isPeriodic) {
     }
 }
 
-void Discretizer::addCell(QGridLayout& grid, const Settings& space, const Settings& rule, int row, int column) {
+void Discretizer::addCell(QGridLayout& grid, const Settings& space, const Settings& rule, int row,
+                          int column) {
     auto* cell = new DiscretizerCell(space, rule);
     if (theme_) cell->setTheme(*theme_);
     connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
@@ -253,7 +265,8 @@ void Discretizer::fillElements(QGridLayout& grid) {
         grid.addWidget(makeLabel(QString::fromUtf8(functions), "caption"), row, 0);
         int column = 1;
         for (const int elements : {5, 10, 20, 40, 80, 160}) {
-            const Settings space{space_, {{"functions", functions}, {"elements", static_cast<double>(elements)}}, {}};
+            const Settings space{
+                space_, {{"functions", functions}, {"elements", static_cast<double>(elements)}}, {}};
             grid.setColumnStretch(column, 1);
             addCell(grid, space, ruleFor("auto", space), row, column++);
         }

@@ -1,5 +1,5 @@
-/// The discretizer: function spaces as rows, quadratures as columns. A cell says which scheme the pair is and its
-/// order; a click adds it to the comparison. Pairs that make no sense are grey and say why.
+/// The discretizer: function spaces as rows, quadratures as columns. A cell says which scheme the pair is and
+/// its order; a click adds it to the comparison. Pairs that make no sense are grey and say why.
 #pragma once
 
 #include <QAbstractButton>
@@ -59,7 +59,7 @@ private:
 
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;
-    std::string space_;  ///< of the cells
+    std::string space_;       ///< of the cells
     bool isPeriodic_ = true;  ///< wave functions: no walls
     QWidget* grid_ = nullptr;
     const Theme* theme_ = nullptr;

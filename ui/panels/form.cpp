@@ -34,7 +34,8 @@ void Form::addRow(FormField field) {
     QString label = field.label;
     if (label.isEmpty()) {
         label = QString::fromStdString(info.title).toHtmlEscaped();
-        if (!info.symbol.empty() && info.symbol != info.title) label += " " + QString::fromStdString(info.symbol).toHtmlEscaped();
+        if (!info.symbol.empty() && info.symbol != info.title)
+            label += " " + QString::fromStdString(info.symbol).toHtmlEscaped();
     }
     const int row = 2 * static_cast<int>(rows_.size());
     auto* name = new QLabel(label);
@@ -77,7 +78,8 @@ void Form::refresh() {
         row.problem->setVisible(isWrong);
         if (!isWrong) continue;
         QString text = QString::fromStdString(problems.front().message);
-        if (!problems.front().hint.empty()) text += " (" + QString::fromStdString(problems.front().hint) + ")";
+        if (!problems.front().hint.empty())
+            text += " (" + QString::fromStdString(problems.front().hint) + ")";
         row.problem->setText(text);
     }
 }

@@ -1,5 +1,5 @@
-/// A form: one row per parameter, each bound to a place of the scene. A refused value stays in its field, marked,
-/// with the message below it.
+/// A form: one row per parameter, each bound to a place of the scene. A refused value stays in its field,
+/// marked, with the message below it.
 #pragma once
 
 #include <QWidget>

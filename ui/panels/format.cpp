@@ -53,17 +53,20 @@ QString innerText(const SchemeSpec& spec) {
     if (spec.kind == SchemeSpec::Kind::baseline) {
         const BaselineEntry* entry = findBaseline(spec.baseline.type);
         const QString title = QString::fromStdString(entry ? entry->item.title : spec.baseline.type);
-        const QString stages = spec.baseline.find("stages") ? QString(" %1").arg(spec.baseline.integer("stages")) : QString();
+        const QString stages =
+            spec.baseline.find("stages") ? QString(" %1").arg(spec.baseline.integer("stages")) : QString();
         return QStringLiteral("baseline: ") + title + stages;
     }
     if (spec.kind == SchemeSpec::Kind::named)
         return QStringLiteral("scheme ") + QString::fromStdString(spec.named);
     QString text = QString::fromStdString(spec.space.type);
     if (spec.space.find("degree")) text += QString(" %1").arg(spec.space.integer("degree"));
-    if (const int cells = spec.space.integer("cells"); cells > 1) text += QStringLiteral(" (%1 cells)").arg(cells);
+    if (const int cells = spec.space.integer("cells"); cells > 1)
+        text += QStringLiteral(" (%1 cells)").arg(cells);
     text += QStringLiteral(" × ") + ruleTitle(spec.quadrature.type);
     if (spec.quadrature.find("nodes")) text += QString(" %1").arg(spec.quadrature.integer("nodes"));
-    if (const int panels = spec.quadrature.integer("panels"); panels > 1) text += QStringLiteral(" (%1 panels)").arg(panels);
+    if (const int panels = spec.quadrature.integer("panels"); panels > 1)
+        text += QStringLiteral(" (%1 panels)").arg(panels);
     return text;
 }
 

@@ -1,4 +1,5 @@
-/// A text field for a formula: monospaced, as high as its text, with one place that can be underlined as wrong.
+/// A text field for a formula: monospaced, as high as its text, with one place that can be underlined as
+/// wrong.
 #pragma once
 
 #include <QPlainTextEdit>

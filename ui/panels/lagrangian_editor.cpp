@@ -26,7 +26,8 @@ constexpr const char* coordinatesPlace = "/model/coordinates";
 
 /// Characters before a byte of a UTF-8 text, as Qt counts them.
 int characterAt(const std::string& text, std::size_t byte) {
-    return static_cast<int>(QString::fromUtf8(text.data(), static_cast<qsizetype>(std::min(byte, text.size()))).size());
+    return static_cast<int>(
+        QString::fromUtf8(text.data(), static_cast<qsizetype>(std::min(byte, text.size()))).size());
 }
 
 QString joined(const Value* names) {
@@ -39,7 +40,8 @@ QString joined(const Value* names) {
 
 }  // namespace
 
-LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent) : QWidget(parent), workspace_(workspace) {
+LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
+    : QWidget(parent), workspace_(workspace) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(5);
@@ -47,7 +49,8 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent) : QWid
     text_ = new FormulaEdit;
     text_->setObjectName("field.lagrangian");
     text_->setAccessibleName(tr("Lagrangian"));
-    text_->setToolTip(tr("L as a formula: velocities are x_t or dot(x), time is t. Handbook: Typing a Lagrangian."));
+    text_->setToolTip(
+        tr("L as a formula: velocities are x_t or dot(x), time is t. Handbook: Typing a Lagrangian."));
     column->addWidget(text_);
     problem_ = makeLabel({}, "caption");
     problem_->setObjectName("problem.lagrangian");
@@ -71,7 +74,8 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent) : QWid
     coordinates_ = new QLineEdit;
     coordinates_->setObjectName("field.coordinates");
     coordinates_->setAccessibleName(tr("Coordinates"));
-    coordinates_->setToolTip(tr("Names with commas between them. A changed name is changed in the formula too."));
+    coordinates_->setToolTip(
+        tr("Names with commas between them. A changed name is changed in the formula too."));
     auto* add = new QToolButton;
     add->setObjectName("addCoordinate");
     add->setText("+");
@@ -126,7 +130,11 @@ void LagrangianEditor::check() {
             const typed::Examination found = typed::examine(formula, stop);
             if (!found.isComplete) return;
             QMetaObject::invokeMethod(
-                qApp, [self, text = formula.text, found] { if (self) self->take(text, found); }, Qt::QueuedConnection);
+                qApp,
+                [self, text = formula.text, found] {
+                    if (self) self->take(text, found);
+                },
+                Qt::QueuedConnection);
         });
 }
 
@@ -135,7 +143,8 @@ void LagrangianEditor::take(const std::string& text, const typed::Examination& f
     place_ = found.position;
     if (!found.equations.empty()) {
         QString lines;
-        for (const std::string& line : found.equations) lines += "<p style='margin:2px 0'>" + QString::fromStdString(line) + "</p>";
+        for (const std::string& line : found.equations)
+            lines += "<p style='margin:2px 0'>" + QString::fromStdString(line) + "</p>";
         equations_->setText(lines);
     }
     equations_->setVisible(!found.equations.empty());
@@ -169,7 +178,8 @@ void LagrangianEditor::showProblem() {
     if (place_) {
         const QFontMetrics metrics(text_->font());
         const int columns = std::max(16, problem_->width() / metrics.horizontalAdvance('x'));
-        const auto lines = caretLines(text, std::min(*place_, text.size()), static_cast<std::size_t>(columns / 2 - 4), "");
+        const auto lines =
+            caretLines(text, std::min(*place_, text.size()), static_cast<std::size_t>(columns / 2 - 4), "");
         shown = "<pre style='font-family:\"" + text_->font().family() + "\";font-size:12px;margin:0'>" +
                 QString::fromStdString(lines).toHtmlEscaped() + "</pre>" + shown;
     }

@@ -1,8 +1,9 @@
-/// The editor of a typed Lagrangian: the formula, checked while it is typed, its equations of motion, the coordinates
-/// and the parameters.
+/// The editor of a typed Lagrangian: the formula, checked while it is typed, its equations of motion, the
+/// coordinates and the parameters.
 ///
-/// A formula that is sound becomes part of the scene by itself; one that is not stays in the editor, with the place
-/// underlined and a caret below it, while the scene keeps the last sound one. Differentiation runs beside the window.
+/// A formula that is sound becomes part of the scene by itself; one that is not stays in the editor, with the
+/// place underlined and a caret below it, while the scene keeps the last sound one. Differentiation runs
+/// beside the window.
 #pragma once
 
 #include <QTimer>

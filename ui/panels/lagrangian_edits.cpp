@@ -15,7 +15,8 @@ std::string lagrangianOf(const Value& document) {
 
 std::vector<std::string> coordinatesOf(const Value& document) {
     std::vector<std::string> names;
-    if (const Value* coordinates = valueAt(document, "/model/coordinates"); coordinates && coordinates->isArray())
+    if (const Value* coordinates = valueAt(document, "/model/coordinates");
+        coordinates && coordinates->isArray())
         for (const Value& name : coordinates->asArray())
             if (name.isString()) names.push_back(name.asString());
     return names;
@@ -30,7 +31,8 @@ bool isTaken(const Value& document, const std::string& name) {
     const auto coordinates = coordinatesOf(document);
     const auto parameters = parametersOf(document);
     return std::find(coordinates.begin(), coordinates.end(), name) != coordinates.end() ||
-           std::any_of(parameters.begin(), parameters.end(), [&](const Value::Member& m) { return m.first == name; });
+           std::any_of(parameters.begin(), parameters.end(),
+                       [&](const Value::Member& m) { return m.first == name; });
 }
 
 std::string freeName(const Value& document, const std::vector<std::string>& wanted) {
@@ -41,8 +43,8 @@ std::string freeName(const Value& document, const std::vector<std::string>& want
 }
 
 /// Every text below a value in which the name occurs, with the name replaced.
-void renameBelow(const Value& value, const std::string& pointer, const std::string& from, const std::string& to,
-                 std::vector<Edit>& edits) {
+void renameBelow(const Value& value, const std::string& pointer, const std::string& from,
+                 const std::string& to, std::vector<Edit>& edits) {
     if (value.isString()) {
         std::string text = withNameReplaced(value.asString(), from, to);
         if (text != value.asString()) edits.push_back({pointer, std::move(text)});
@@ -50,7 +52,8 @@ void renameBelow(const Value& value, const std::string& pointer, const std::stri
         for (std::size_t i = 0; i < value.asArray().size(); ++i)
             renameBelow(value.asArray()[i], pointer + "/" + std::to_string(i), from, to, edits);
     } else if (value.isObject()) {
-        for (const auto& [key, member] : value.asObject()) renameBelow(member, pointer + "/" + key, from, to, edits);
+        for (const auto& [key, member] : value.asObject())
+            renameBelow(member, pointer + "/" + key, from, to, edits);
     }
 }
 
@@ -61,7 +64,8 @@ Value namesValue(const std::vector<std::string>& names) {
 }
 
 /// The initial data in the order of the new coordinates; new ones start from 0.
-Value initialFor(const Value& document, const std::vector<std::string>& old, const std::vector<std::string>& source) {
+Value initialFor(const Value& document, const std::vector<std::string>& old,
+                 const std::vector<std::string>& source) {
     const Value* initial = valueAt(document, "/initial");
     Value result = initial ? *initial : Value(Value::Object{});
     for (const char* key : {"q", "p", "v"}) {
@@ -89,7 +93,8 @@ typed::Formula formulaIn(const Value& model) {
     return formula;
 }
 
-std::vector<Edit> editsForParameterName(const Value& document, const std::string& from, const std::string& to) {
+std::vector<Edit> editsForParameterName(const Value& document, const std::string& from,
+                                        const std::string& to) {
     std::vector<Edit> edits;
     Value::Object parameters = parametersOf(document);
     for (auto& [name, value] : parameters) {
@@ -133,7 +138,8 @@ std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<s
         edits.push_back({"/model/lagrangian", std::move(text)});
     }
     edits.push_back({"/initial", initialFor(document, old, source)});
-    // Plots and columns named after coordinates that are gone would be errors: the defaults follow the new ones.
+    // Plots and columns named after coordinates that are gone would be errors: the defaults follow the new
+    // ones.
     edits.push_back({"/views", std::nullopt});
     return edits;
 }

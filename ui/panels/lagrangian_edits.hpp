@@ -14,14 +14,17 @@ namespace extremal {
 typed::Formula formulaIn(const Value& model);
 
 /// A parameter under another name, in the formula and in every number that uses it.
-std::vector<Edit> editsForParameterName(const Value& document, const std::string& from, const std::string& to);
+std::vector<Edit> editsForParameterName(const Value& document, const std::string& from,
+                                        const std::string& to);
 /// One more parameter, of value 1 and with a free name; `name` gets it.
 std::vector<Edit> editsForNewParameter(const Value& document, std::string& name);
 std::vector<Edit> editsForParameterRemoval(const Value& document, const std::string& name);
 
-/// Other coordinates: initial data follow by name; where just one name differs it is renamed in the formula too.
+/// Other coordinates: initial data follow by name; where just one name differs it is renamed in the formula
+/// too.
 std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<std::string>& names);
-/// One more coordinate with a free name, at rest at 0, with a kinetic term so that the Lagrangian stays regular.
+/// One more coordinate with a free name, at rest at 0, with a kinetic term so that the Lagrangian stays
+/// regular.
 std::vector<Edit> editsForNewCoordinate(const Value& document);
 
 }  // namespace extremal

@@ -44,7 +44,8 @@ int ParameterTable::Range::position(double value) const {
     return static_cast<int>(std::lround((value - low) / (high - low) * sliderSteps));
 }
 
-ParameterTable::ParameterTable(Workspace& workspace, QWidget* parent) : QWidget(parent), workspace_(workspace) {
+ParameterTable::ParameterTable(Workspace& workspace, QWidget* parent)
+    : QWidget(parent), workspace_(workspace) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(4);
@@ -91,7 +92,8 @@ void ParameterTable::addRow(const std::string& name) {
     info.title = name;
     info.fallback = 1.0;
     info.description = "Value of the constant.";
-    Row row{name, new QLineEdit(title), new ValueEdit(info), new QSlider(Qt::Horizontal), new QToolButton, {}, false};
+    Row row{name, new QLineEdit(title), new ValueEdit(info), new QSlider(Qt::Horizontal), new QToolButton, {},
+            false};
     row.nameEdit->setObjectName("name." + title);
     row.nameEdit->setAccessibleName(tr("Name of %1").arg(title));
     row.nameEdit->setToolTip(tr("Another name here is used in the formula and in all numbers too."));
@@ -134,8 +136,8 @@ void ParameterTable::addRow(const std::string& name) {
 void ParameterTable::slide(const std::string& name, int position) {
     const Row* row = rowOf(name);
     if (!row) return;
-    workspace_.edit({{placeOf(name), row->range.at(position)}}, tr("Change %1").arg(QString::fromStdString(name)),
-                    QString::fromStdString(placeOf(name)));
+    workspace_.edit({{placeOf(name), row->range.at(position)}},
+                    tr("Change %1").arg(QString::fromStdString(name)), QString::fromStdString(placeOf(name)));
 }
 
 void ParameterTable::rename(const std::string& from, QLineEdit& edit) {
@@ -154,7 +156,8 @@ void ParameterTable::rename(const std::string& from, QLineEdit& edit) {
     }
     edit.setProperty("invalid", true);
     repolish(edit);
-    problem_->setText(tr("the name \"%1\" %2").arg(QString::fromStdString(to), QString::fromStdString(trouble)));
+    problem_->setText(
+        tr("the name \"%1\" %2").arg(QString::fromStdString(to), QString::fromStdString(trouble)));
     problem_->show();
 }
 
@@ -173,8 +176,9 @@ void ParameterTable::refresh() {
     const Value* lagrangian = valueAt(workspace_.document(), "/model/lagrangian");
     if (!parameters || !parameters->isObject() || !lagrangian || !lagrangian->isString()) return;
     const Value::Object& shown = parameters->asObject();
-    const bool isSame = std::equal(rows_.begin(), rows_.end(), shown.begin(), shown.end(),
-                                   [](const Row& row, const Value::Member& m) { return row.name == m.first; });
+    const bool isSame =
+        std::equal(rows_.begin(), rows_.end(), shown.begin(), shown.end(),
+                   [](const Row& row, const Value::Member& m) { return row.name == m.first; });
     if (!isSame) rebuild(shown);
     problem_->hide();
     const auto evaluated = workspace_.scene().model.find("parameters");
@@ -194,7 +198,8 @@ void ParameterTable::refresh() {
         const Value* value = isNumber ? written : evaluated->find(row.name);
         const QSignalBlocker block(row.slider);
         if (value && value->isNumber()) {
-            if (!row.hasRange || !row.range.contains(value->asNumber())) row.range = Range::around(value->asNumber());
+            if (!row.hasRange || !row.range.contains(value->asNumber()))
+                row.range = Range::around(value->asNumber());
             row.hasRange = true;
             row.slider->setValue(row.range.position(value->asNumber()));
         }

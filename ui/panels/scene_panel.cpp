@@ -26,7 +26,8 @@ bool isTyped(const ModelEntry& entry) {
 
 std::vector<FormField> parameterFields(const ModelEntry& entry) {
     std::vector<FormField> fields;
-    for (const FieldInfo& info : entry.item.parameters) fields.push_back({info, "/model/" + info.key, {}, {}});
+    for (const FieldInfo& info : entry.item.parameters)
+        fields.push_back({info, "/model/" + info.key, {}, {}});
     return fields;
 }
 
@@ -40,24 +41,33 @@ std::vector<FormField> initialFields(const Workspace& workspace, const System& s
     const auto add = [&](const char* key, const QString& letter, bool isMomentum) {
         for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
             const Coordinate& c = system.coordinates[i];
-            const QString symbol = QString::fromStdString(c.symbol.empty() ? c.name : c.symbol).toHtmlEscaped();
+            const QString symbol =
+                QString::fromStdString(c.symbol.empty() ? c.name : c.symbol).toHtmlEscaped();
             const std::string unit = isMomentum ? c.momentumUnit : c.unit;
-            FieldInfo info = numberField(std::string(key) + "." + c.name, c.title + (isMomentum ? " momentum" : ""),
-                                         unit, 0, "Value at the start.");
+            FieldInfo info =
+                numberField(std::string(key) + "." + c.name, c.title + (isMomentum ? " momentum" : ""), unit,
+                            0, "Value at the start.");
             const QString label =
                 letter.isEmpty() ? symbol + "(0)" : QString("%1<sub>%2</sub>(0)").arg(letter, symbol);
-            fields.push_back({std::move(info), "/initial/" + std::string(key) + "/" + std::to_string(i), label, {}});
+            fields.push_back(
+                {std::move(info), "/initial/" + std::string(key) + "/" + std::to_string(i), label, {}});
         }
     };
     add("q", {}, false);
     if (workspace.scene().initial.second == Initial::Second::position) {
         for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
             const Coordinate& c = system.coordinates[i];
-            const QString symbol = QString::fromStdString(c.symbol.empty() ? c.name : c.symbol).toHtmlEscaped();
-            FieldInfo info = numberField("q1." + c.name, c.title, c.unit, 0, "Value a time t1 after the start.");
-            fields.push_back({std::move(info), "/initial/q1/" + std::to_string(i), QString("%1(t<sub>1</sub>)").arg(symbol), {}});
+            const QString symbol =
+                QString::fromStdString(c.symbol.empty() ? c.name : c.symbol).toHtmlEscaped();
+            FieldInfo info =
+                numberField("q1." + c.name, c.title, c.unit, 0, "Value a time t1 after the start.");
+            fields.push_back({std::move(info),
+                              "/initial/q1/" + std::to_string(i),
+                              QString("%1(t<sub>1</sub>)").arg(symbol),
+                              {}});
         }
-        FieldInfo at = numberField("at", "time of the second position", system.timeUnit, 0.1, "Time from the start to the second position.");
+        FieldInfo at = numberField("at", "time of the second position", system.timeUnit, 0.1,
+                                   "Time from the start to the second position.");
         fields.push_back({std::move(at), "/initial/at", QStringLiteral("t<sub>1</sub>"), {}});
         return fields;
     }
@@ -82,7 +92,8 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     model_->setAccessibleName(tr("Model"));
     for (const ModelEntry& entry : modelCatalog()) {
         model_->addItem(QString::fromStdString(entry.item.title), QString::fromStdString(entry.item.id));
-        model_->setItemData(model_->count() - 1, QString::fromStdString(entry.item.description), Qt::ToolTipRole);
+        model_->setItemData(model_->count() - 1, QString::fromStdString(entry.item.description),
+                            Qt::ToolTipRole);
     }
     model_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     connect(model_, &QComboBox::activated, this, &ScenePanel::changeModel);
@@ -107,8 +118,9 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
             workspace_.edit(edits, tr("Reset parameters"));
         }
     });
-    menu()->addAction(tr("Reset initial data"), this,
-                      [this] { workspace_.edit({{"/initial", std::nullopt}}, tr("Reset initial data")); });
+    menu()->addAction(tr("Reset initial data"), this, [this] {
+        workspace_.edit({{"/initial", std::nullopt}}, tr("Reset initial data"));
+    });
     menu()->addAction(tr("Start from two positions"), this, &ScenePanel::startFromTwoPositions);
     menu()->addAction(tr("Start from a momentum"), this, &ScenePanel::startFromMomentum);
     connect(&workspace_, &Workspace::sceneChanged, this, &ScenePanel::rebuild);
@@ -135,7 +147,8 @@ void ScenePanel::rebuild() {
     for (QWidget* part : std::initializer_list<QWidget*>{initialTitle_, initial_, timeTitle_, time_})
         part->setVisible(!system.elliptic);  // solved at once, from nothing but its boundary values
     initial_->setFields(initialFields(workspace_, system));
-    time_->setFields({{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
+    time_->setFields(
+        {{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
 }
 
 /// The second position is where the first scheme with a step goes in that step.
@@ -151,7 +164,8 @@ void ScenePanel::startFromTwoPositions() {
         if (integrator->advance(state).outcome != Outcome::converged) continue;
         const auto positions = [&](const State& s) {
             Value::Array values;
-            for (int i = 0; i < system.dimension(); ++i) values.emplace_back(s.x[static_cast<std::size_t>(i)]);
+            for (int i = 0; i < system.dimension(); ++i)
+                values.emplace_back(s.x[static_cast<std::size_t>(i)]);
             return values;
         };
         Value initial{Value::Object{}};

@@ -1,4 +1,5 @@
-/// The scene's card: the model, its parameters, the initial data and the end of time, as forms from descriptors.
+/// The scene's card: the model, its parameters, the initial data and the end of time, as forms from
+/// descriptors.
 #pragma once
 
 #include "ui/panels/card.hpp"

@@ -55,7 +55,9 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     showSpec();
 }
 
-const SchemeSpec& SchemeCard::spec() const { return workspace_.scene().schemes[static_cast<std::size_t>(index_)]; }
+const SchemeSpec& SchemeCard::spec() const {
+    return workspace_.scene().schemes[static_cast<std::size_t>(index_)];
+}
 
 void SchemeCard::makeHeader() {
     auto* row = new QHBoxLayout;
@@ -63,7 +65,8 @@ void SchemeCard::makeHeader() {
     line_ = new LineSample;
     line_->setObjectName("toggle");
     connect(line_, &QAbstractButton::clicked, this, [this] {
-        workspace_.edit(editsForToggle(workspace_.scene(), index_), tr("Switch %1").arg(QString::fromStdString(spec().label)));
+        workspace_.edit(editsForToggle(workspace_.scene(), index_),
+                        tr("Switch %1").arg(QString::fromStdString(spec().label)));
     });
     name_ = makeElidedLabel({}, "strong");
     nameEdit_ = new QLineEdit;
@@ -96,12 +99,14 @@ void SchemeCard::makeMenu(QToolButton& dots) {
     menu->addAction(tr("Rename"), this, [this] { editName(); });
     menu->addAction(tr("On or off"), line_, [this] { line_->click(); });
     menu->addAction(tr("Duplicate"), this, [this] {
-        workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index_), tr("Duplicate scheme"));
+        workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index_),
+                        tr("Duplicate scheme"));
     });
     menu->addAction(tr("Move up"), this, [this] { emit moveRequested(index_, -1); });
     menu->addAction(tr("Move down"), this, [this] { emit moveRequested(index_, 1); });
     menu->addSeparator();
-    menu->addAction(tr("Remove"), this, [this] { workspace_.edit(editsForRemoval(index_), tr("Remove scheme")); });
+    menu->addAction(tr("Remove"), this,
+                    [this] { workspace_.edit(editsForRemoval(index_), tr("Remove scheme")); });
 }
 
 void SchemeCard::makeFigures() {
@@ -169,7 +174,8 @@ void SchemeCard::showCaution() {
     remedy_->setVisible(caution && !caution->remedy.isNull());
     if (!caution) return;
     QString text = QString::fromStdString(caution->message);
-    if (caution->remedy.isNull() && !caution->hint.empty()) text += " (" + QString::fromStdString(caution->hint) + ")";
+    if (caution->remedy.isNull() && !caution->hint.empty())
+        text += " (" + QString::fromStdString(caution->hint) + ")";
     caution_->setText(tr("Warning: %1").arg(text));
     remedy_->setText(tr("Take %1").arg(QString::fromStdString(caution->hint)));
 }
@@ -203,16 +209,19 @@ void SchemeCard::showFailure(const Summary& summary) {
 void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
     static const Summary nothing;
     const Summary& summary = result ? result->summary : nothing;
-    const bool isRunning = result && (summary.status == RunStatus::running || summary.status == RunStatus::waiting);
+    const bool isRunning =
+        result && (summary.status == RunStatus::running || summary.status == RunStatus::waiting);
     figures_->setVisible(result != nullptr);
     progress_->setVisible(isRunning && !isStale);
     if (result) progress_->setValue(static_cast<int>(1000 * result->fraction));
     if (result && !summary.about.empty())
-        parts_->setText(schemeText(result->spec) + QStringLiteral(" · ") + QString::fromStdString(summary.about));
+        parts_->setText(schemeText(result->spec) + QStringLiteral(" · ") +
+                        QString::fromStdString(summary.about));
     cost_.value->setText(summary.cpuSeconds > 0 ? shortTime(summary.cpuSeconds) : QStringLiteral("–"));
     error_.value->setText(shortNumber(summary.maxError));
     QString order = summary.orderClaimed > 0 ? QString::number(summary.orderClaimed) : QStringLiteral("–");
-    QString orderTip = summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claim");
+    QString orderTip =
+        summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claim");
     if (std::isfinite(summary.orderMeasured)) {
         const bool agrees = std::abs(summary.orderMeasured - summary.orderClaimed) < 0.3;
         order = QString::number(summary.orderMeasured, 'f', 1);
@@ -246,8 +255,9 @@ void SchemeCard::finishName() {
     name_->show();
     const std::string text = nameEdit_->text().trimmed().toStdString();
     if (text.empty() || text == spec().label) return;
-    workspace_.edit({{"/schemes/" + std::to_string(index_) + "/label", uniqueLabel(workspace_.scene(), text)}},
-                    tr("Rename scheme"));
+    workspace_.edit(
+        {{"/schemes/" + std::to_string(index_) + "/label", uniqueLabel(workspace_.scene(), text)}},
+        tr("Rename scheme"));
 }
 
 void SchemeCard::setEditing(bool isOpen) {

@@ -1,5 +1,5 @@
-/// A scheme of the comparison: its line, name, step, what it cost and how wrong it was. After a failure the card is
-/// amber and says what happened, when, and what to try.
+/// A scheme of the comparison: its line, name, step, what it cost and how wrong it was. After a failure the
+/// card is amber and says what happened, when, and what to try.
 #pragma once
 
 #include <QFrame>

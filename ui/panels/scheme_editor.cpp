@@ -23,12 +23,14 @@ namespace extremal {
 
 namespace {
 
-void addFields(std::vector<FormField>& fields, const std::vector<FieldInfo>& infos, const std::string& place) {
+void addFields(std::vector<FormField>& fields, const std::vector<FieldInfo>& infos,
+               const std::string& place) {
     for (const FieldInfo& info : infos) fields.push_back({info, place + "/" + info.key, {}, {}});
 }
 
 const CatalogItem* itemNamed(const std::vector<CatalogItem>& items, const std::string& id) {
-    const auto found = std::find_if(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == id; });
+    const auto found =
+        std::find_if(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == id; });
     return found == items.end() ? nullptr : &*found;
 }
 
@@ -61,7 +63,9 @@ std::vector<CatalogItem> baselineItems(const Scene& scene) {
     return items;
 }
 
-void choose(QComboBox& box, const std::string& id) { box.setCurrentIndex(box.findData(QString::fromStdString(id))); }
+void choose(QComboBox& box, const std::string& id) {
+    box.setCurrentIndex(box.findData(QString::fromStdString(id)));
+}
 
 std::string chosen(const QComboBox& box) { return box.currentData().toString().toStdString(); }
 
@@ -84,7 +88,8 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
             const std::string rule = isNewlyFast ? "auto" : fittingRule(spec().quadrature.type, space);
             return change(newPair(scene, space, ruleFor(rule, space)));
         }
-        change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_)) : newNamed(scene, chosen(*first_)));
+        change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_))
+                                                         : newNamed(scene, chosen(*first_)));
     });
     rule_ = addChoice(tr("rule"), "rule");
     ruleRow_ = rule_->parentWidget();
@@ -142,7 +147,8 @@ void SchemeEditor::rebuild() {
     const SchemeSpec& s = spec();
     kind_->setCurrentIndex(static_cast<int>(s.kind));
     if (auto* kinds = qobject_cast<QStandardItemModel*>(kind_->model()))  // a model may have no baselines
-        kinds->item(static_cast<int>(SchemeSpec::Kind::baseline))->setEnabled(!baselineItems(workspace_.scene()).empty());
+        kinds->item(static_cast<int>(SchemeSpec::Kind::baseline))
+            ->setEnabled(!baselineItems(workspace_.scene()).empty());
     ruleRow_->setVisible(s.kind == SchemeSpec::Kind::pair);
     std::vector<FormField> fields;
     if (s.kind == SchemeSpec::Kind::pair) {
@@ -153,7 +159,8 @@ void SchemeEditor::rebuild() {
             if (fittingRule(item.id, s.space) == item.id)
                 rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
         choose(*rule_, s.quadrature.type);
-        if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type)) addFields(fields, space->parameters, place() + "/space");
+        if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type))
+            addFields(fields, space->parameters, place() + "/space");
         if (const CatalogItem* rule = itemNamed(quadratureCatalog(), s.quadrature.type))
             addFields(fields, rule->parameters, place() + "/quadrature");
     } else if (s.kind == SchemeSpec::Kind::baseline) {
@@ -166,15 +173,22 @@ void SchemeEditor::rebuild() {
         choose(*first_, s.named);
     }
     if (s.tolerance)
-        fields.push_back({numberField("tolerance", "tolerance", "", 1e-9, "Wanted local error of the adaptive code."), place() + "/tolerance", {}, {}});
+        fields.push_back(
+            {numberField("tolerance", "tolerance", "", 1e-9, "Wanted local error of the adaptive code."),
+             place() + "/tolerance",
+             {},
+             {}});
     else {
         FieldInfo step = numberField("step", "step", "", 0.01, "Time step.");
         step.symbol = "h";
         fields.push_back({step, place() + "/step", {}, {}});
     }
     if (s.kind != SchemeSpec::Kind::baseline)
-        fields.push_back({choiceField("method", "solver", {"auto", "newton", "fixed-point"}, "How the equations of a step are solved."),
-                          place() + "/solver/method", {}, {}});
+        fields.push_back({choiceField("method", "solver", {"auto", "newton", "fixed-point"},
+                                      "How the equations of a step are solved."),
+                          place() + "/solver/method",
+                          {},
+                          {}});
     addComposition(fields);
     form_->setFields(std::move(fields));
 }
@@ -204,7 +218,8 @@ void SchemeEditor::changeKind(int kind) {
         return change(newPair(scene, space, ruleFor("gauss", space)));
     }
     const auto firstOf = [](const std::vector<CatalogItem>& items, const char* wish) {
-        const bool hasWish = std::any_of(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == wish; });
+        const bool hasWish =
+            std::any_of(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == wish; });
         return hasWish || items.empty() ? std::string(wish) : items.front().id;
     };
     if (kind == 1) return change(newBaseline(scene, firstOf(baselineItems(scene), "stormer-verlet")));

@@ -1,5 +1,5 @@
-/// The form of one scheme, unfolded inside its card: what it is, its parameters, its step, its solver. All from
-/// descriptors.
+/// The form of one scheme, unfolded inside its card: what it is, its parameters, its step, its solver. All
+/// from descriptors.
 #pragma once
 
 #include <QWidget>

@@ -75,14 +75,16 @@ void SchemeList::fillAddMenu() {
         const SchemeEntry& entry = *fitting;
         if (entry.maxDegree == 0) {
             const std::string id = entry.item.id;
-            named->addAction(QString::fromStdString(entry.item.title), this, [=, this] { add(newNamed(workspace_.scene(), id)); });
+            named->addAction(QString::fromStdString(entry.item.title), this,
+                             [=, this] { add(newNamed(workspace_.scene(), id)); });
             continue;
         }
         QMenu* sub = named->addMenu(QString::fromStdString(entry.item.title));
         const std::string stem = entry.item.id.substr(0, entry.item.id.rfind('-'));
         for (int s = entry.minDegree; s <= entry.maxDegree; ++s) {
             const std::string id = stem + "-" + std::to_string(s);
-            sub->addAction(QString::fromStdString(id), this, [=, this] { add(newNamed(workspace_.scene(), id)); });
+            sub->addAction(QString::fromStdString(id), this,
+                           [=, this] { add(newNamed(workspace_.scene(), id)); });
         }
     }
     QMenu* baselines = addMenu_->addMenu(tr("Baseline"));
@@ -109,7 +111,8 @@ void SchemeList::openAddMenu() {
 }
 
 SchemeCard* SchemeList::card(int index) const {
-    return index >= 0 && index < static_cast<int>(cards_.size()) ? cards_[static_cast<std::size_t>(index)] : nullptr;
+    return index >= 0 && index < static_cast<int>(cards_.size()) ? cards_[static_cast<std::size_t>(index)]
+                                                                 : nullptr;
 }
 
 void SchemeList::setTheme(const Theme& theme) {
@@ -166,7 +169,8 @@ void SchemeList::renameSelected() {
 void SchemeList::duplicateSelected() {
     const int index = workspace_.selectedScheme();
     if (!card(index)) return;
-    if (workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index), tr("Duplicate scheme")))
+    if (workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index),
+                        tr("Duplicate scheme")))
         workspace_.selectScheme(index + 1);
 }
 

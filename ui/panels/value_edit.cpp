@@ -39,11 +39,11 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
         for (const std::string& choice : info.choices) choice_->addItem(QString::fromStdString(choice));
         choice_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         choice_->setMinimumContentsLength(6);
-        connect(choice_, &QComboBox::activated, this,
-                [this](int i) {
-                    const bool isInteger = info_.type == FieldType::integer;
-                    emit edited(isInteger ? Value(choice_->itemText(i).toInt()) : Value(choice_->itemText(i).toStdString()));
-                });
+        connect(choice_, &QComboBox::activated, this, [this](int i) {
+            const bool isInteger = info_.type == FieldType::integer;
+            emit edited(isInteger ? Value(choice_->itemText(i).toInt())
+                                  : Value(choice_->itemText(i).toStdString()));
+        });
     } else if (info.type == FieldType::integer) {
         input = spin_ = new QSpinBox;
         spin_->setRange(asInt(info.min, -1000000000), asInt(info.max, 1000000000));
@@ -55,13 +55,15 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
         input = text_;
     }
     QString tip = QString::fromStdString(info.description);
-    if (info.type == FieldType::number) tip += tr("\nA number, or an expression in the model's parameters. Up and Down change it.");
+    if (info.type == FieldType::number)
+        tip += tr("\nA number, or an expression in the model's parameters. Up and Down change it.");
     if (info.type == FieldType::numbers) {
         QStringList names;
         for (const std::string& component : info.components) names << QString::fromStdString(component);
         tip += tr("\nNumbers or expressions, separated by commas: %1.").arg(names.join(", "));
     }
-    if (info.type == FieldType::constants) tip += tr("\nNames and numbers, separated by commas: a = 1, b = 2.");
+    if (info.type == FieldType::constants)
+        tip += tr("\nNames and numbers, separated by commas: a = 1, b = 2.");
     input->setToolTip(tip.trimmed());
     input->setAccessibleName(QString::fromStdString(info.title));
     input->setObjectName("field." + QString::fromStdString(info.key));

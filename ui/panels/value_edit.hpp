@@ -1,5 +1,5 @@
-/// An input for one parameter, made from its descriptor: a text field for numbers and expressions, a spin box for
-/// integers, a box for yes or no, a list for choices.
+/// An input for one parameter, made from its descriptor: a text field for numbers and expressions, a spin box
+/// for integers, a box for yes or no, a list for choices.
 #pragma once
 
 #include <QWidget>

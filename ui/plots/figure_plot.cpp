@@ -52,8 +52,10 @@ void makeScalesEqual(ViewState& view, QSize pixels) {
     const auto widen = [&](PlotAxis axis, PlotRange r, double length) {
         const double middle = (r.low + r.high) / 2, half = unit * length / 2;
         if (r.high - r.low >= 2 * half * (1 - 1e-9)) return;
-        if (view.isUserChosen(axis)) view.choose(axis, {middle - half, middle + half});
-        else view.setFitted(axis, {middle - half, middle + half});
+        if (view.isUserChosen(axis))
+            view.choose(axis, {middle - half, middle + half});
+        else
+            view.setFitted(axis, {middle - half, middle + half});
     };
     widen(PlotAxis::x, x, pixels.width());
     widen(PlotAxis::y, y, pixels.height());
@@ -66,13 +68,15 @@ void makeRoomForMarks(FigurePlot::Shared& s, int height) {
     const double share = std::min(0.33, 22 * count / height);
     const PlotRange r = toPlotRange(s.figure.y.range);
     const double stretch = 1 / (1 - share);
-    const double high = s.figure.y.isLog ? r.low * std::pow(r.high / r.low, stretch) : r.low + (r.high - r.low) * stretch;
+    const double high =
+        s.figure.y.isLog ? r.low * std::pow(r.high / r.low, stretch) : r.low + (r.high - r.low) * stretch;
     s.view.setFitted(PlotAxis::y, {r.low, high});
 }
 
 }  // namespace
 
-FigurePlot::FigurePlot(QCustomPlot& plot, const Theme& theme) : shared_(new Shared{plot, theme, {}, {}, {}, {}, {}}) {
+FigurePlot::FigurePlot(QCustomPlot& plot, const Theme& theme)
+    : shared_(new Shared{plot, theme, {}, {}, {}, {}, {}}) {
     plot.setInteractions(QCP::iNone);
     plot.setPlottingHint(QCP::phFastPolylines, true);
     plot.setPlottingHint(QCP::phCacheLabels, true);
@@ -108,8 +112,10 @@ void FigurePlot::setStale(bool isStale) { shared_->isStale = isStale; }
 void FigurePlot::setHighlighted(const QString& label) { shared_->highlighted = label; }
 void FigurePlot::setPrintDensity(double pointsPerPixel) { shared_->density = pointsPerPixel; }
 void FigurePlot::setHidden(const QString& label, bool isHidden) {
-    if (isHidden) shared_->hidden.insert(label);
-    else shared_->hidden.remove(label);
+    if (isHidden)
+        shared_->hidden.insert(label);
+    else
+        shared_->hidden.remove(label);
 }
 
 const Figure& FigurePlot::figure() const { return shared_->figure; }
@@ -145,7 +151,8 @@ void FigurePlot::prepare(QSize size) {
         const auto set = [](QCPAxis& axis, PlotRange r) { axis.setRange(r.low, r.high); };
         set(x, s.view.range(PlotAxis::x));
         set(y, s.view.range(PlotAxis::y));
-        const int xRoom = roomFor(width, false, s.figure.x.isLog), yRoom = roomFor(height, true, s.figure.y.isLog);
+        const int xRoom = roomFor(width, false, s.figure.x.isLog),
+                  yRoom = roomFor(height, true, s.figure.y.isLog);
         const auto ticker = [](const Axis& axis, int room, double perPixel) -> QSharedPointer<QCPAxisTicker> {
             constexpr double roomOfName = 22;
             if (!axis.ticks.empty()) return namedTicker(axis.ticks, roomOfName * perPixel);
@@ -161,7 +168,8 @@ void FigurePlot::prepare(QSize size) {
     };
     apply(size.width() - 80, size.height() - 50);  // a guess, only to measure the margins
     const QRect rect = s.plot.axisRect()->rect();
-    if (s.figure.hasEqualScales && rect.width() > 0 && rect.height() > 0) makeScalesEqual(s.view, rect.size());
+    if (s.figure.hasEqualScales && rect.width() > 0 && rect.height() > 0)
+        makeScalesEqual(s.view, rect.size());
     makeRoomForMarks(s, rect.height());
     apply(rect.width(), rect.height());
     s.plot.setViewport(before);
@@ -171,7 +179,8 @@ namespace {
 
 double distance(QPointF a, QPointF b) { return std::hypot(a.x() - b.x(), a.y() - b.y()); }
 
-/// Rows whose x lies within reach of a pixel; all rows of a curve, thinned to what a move of the pointer can afford.
+/// Rows whose x lies within reach of a pixel; all rows of a curve, thinned to what a move of the pointer can
+/// afford.
 struct Rows {
     std::size_t from, to, step;
 };
@@ -180,8 +189,10 @@ Rows rowsNear(const Series& s, const PixelMap& map, double pixel, double reach) 
     if (s.isCurve || s.hasMarkers) return {0, s.x.size(), std::max<std::size_t>(1, s.x.size() / 50000)};
     const auto low = std::lower_bound(s.x.begin(), s.x.end(), map.xAt(pixel - reach));
     const auto high = std::upper_bound(low, s.x.end(), map.xAt(pixel + reach));
-    const auto from = static_cast<std::size_t>(low - s.x.begin()), to = static_cast<std::size_t>(high - s.x.begin());
-    return {from > 0 ? from - 1 : 0, std::min(to + 1, s.x.size()), std::max<std::size_t>(1, (to - from) / 20000)};
+    const auto from = static_cast<std::size_t>(low - s.x.begin()),
+               to = static_cast<std::size_t>(high - s.x.begin());
+    return {from > 0 ? from - 1 : 0, std::min(to + 1, s.x.size()),
+            std::max<std::size_t>(1, (to - from) / 20000)};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// A figure in a QCustomPlot: axes, ticks, series, marks, cursors. Used by the renderer (without a screen) and by the
-/// widget (on it), so that both look the same.
+/// A figure in a QCustomPlot: axes, ticks, series, marks, cursors. Used by the renderer (without a screen)
+/// and by the widget (on it), so that both look the same.
 ///
 /// The plot belongs to the caller and must outlive this object. Nothing is drawn before prepare().
 #pragma once
@@ -23,12 +23,12 @@ namespace extremal {
 /// Times marked by vertical lines (on curves by dots), and what the pointer is over.
 struct PlotCursors {
     std::optional<double> time, pinned;
-    QString hoverText;       ///< empty: nothing is under the pointer
-    QPointF hoverPoint;      ///< pixels
+    QString hoverText;   ///< empty: nothing is under the pointer
+    QPointF hoverPoint;  ///< pixels
     QColor hoverColor;
     std::optional<QRectF> hoverCell;  ///< of a map: outlined in place of the point
-    std::optional<QRectF> box;  ///< the zoom box being drawn
-    bool hasFocus = false;      ///< reached with the keyboard
+    std::optional<QRectF> box;        ///< the zoom box being drawn
+    bool hasFocus = false;            ///< reached with the keyboard
 };
 
 class FigurePlot {
@@ -40,9 +40,9 @@ public:
 
     void setTheme(const Theme& theme);
     void setFigure(const Figure& figure);
-    void setStale(bool isStale);                        ///< curves dimmed: a newer run is on its way
+    void setStale(bool isStale);  ///< curves dimmed: a newer run is on its way
     void setHidden(const QString& label, bool isHidden);
-    void setHighlighted(const QString& label);          ///< drawn thicker and on top; empty: none
+    void setHighlighted(const QString& label);  ///< drawn thicker and on top; empty: none
     void setPrintDensity(double pointsPerPixel);
 
     const Figure& figure() const;

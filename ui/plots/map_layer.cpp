@@ -28,7 +28,8 @@ void fillFault(QCPPainter& painter, const QRectF& rect, const Theme& theme, bool
 
 /// Decades with a word, every n-th where there is little room.
 std::vector<int> decadesOf(const HeatMap& heat, double height, double each) {
-    const int low = static_cast<int>(std::lround(std::log10(heat.low))), high = static_cast<int>(std::lround(std::log10(heat.high)));
+    const int low = static_cast<int>(std::lround(std::log10(heat.low))),
+              high = static_cast<int>(std::lround(std::log10(heat.high)));
     const int fitting = std::max(1, static_cast<int>(height / each));
     const int apart = std::max(1, (high - low + fitting - 1) / fitting);
     std::vector<int> all;
@@ -41,21 +42,26 @@ std::vector<int> decadesOf(const HeatMap& heat, double height, double each) {
 int scaleWidth(const Figure& figure, const Theme& theme) {
     if (!figure.heat || figure.heat->scale.empty()) return 0;
     const QFontMetricsF metrics(scaleFont(theme));
-    return static_cast<int>(barLeft + barWidth + tickLength + 3 + metrics.horizontalAdvance(powerOfTen(-10)) + metrics.height() + 5);
+    return static_cast<int>(barLeft + barWidth + tickLength + 3 + metrics.horizontalAdvance(powerOfTen(-10)) +
+                            metrics.height() + 5);
 }
 
 void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared) {
     const HeatMap& heat = *shared.figure.heat;
     const QPointF corner = map(heat.left, heat.top), opposite = map(heat.right, heat.bottom);
-    const auto edge = [](double from, double to, int i, int count) { return std::round(from + (to - from) * i / count); };
+    const auto edge = [](double from, double to, int i, int count) {
+        return std::round(from + (to - from) * i / count);
+    };
     const double decades = std::log10(heat.high / heat.low);
     painter.setAntialiasing(false);
     painter.setOpacity(shared.isStale ? 0.4 : 1);
     for (int column = 0; column < heat.columns; ++column)
         for (int row = 0; row < heat.rows; ++row) {
             const auto i = static_cast<std::size_t>(column * heat.rows + row);
-            const QRectF cell(QPointF(edge(corner.x(), opposite.x(), column, heat.columns), edge(opposite.y(), corner.y(), row + 1, heat.rows)),
-                              QPointF(edge(corner.x(), opposite.x(), column + 1, heat.columns), edge(opposite.y(), corner.y(), row, heat.rows)));
+            const QRectF cell(QPointF(edge(corner.x(), opposite.x(), column, heat.columns),
+                                      edge(opposite.y(), corner.y(), row + 1, heat.rows)),
+                              QPointF(edge(corner.x(), opposite.x(), column + 1, heat.columns),
+                                      edge(opposite.y(), corner.y(), row, heat.rows)));
             if (!map.rect.intersects(cell)) continue;
             const double value = heat.values[i];
             if (std::isfinite(value))
@@ -84,7 +90,8 @@ void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Sh
         if (!hasFault(isPlain)) continue;
         fillFault(painter, QRectF(left, bottom - barWidth, barWidth, barWidth), theme, isPlain);
         painter.setPen(theme.muted);
-        painter.drawText(QPointF(left + barWidth + 4, bottom - 1), isPlain ? QStringLiteral("blow-up") : QStringLiteral("failed"));
+        painter.drawText(QPointF(left + barWidth + 4, bottom - 1),
+                         isPlain ? QStringLiteral("blow-up") : QStringLiteral("failed"));
         bottom -= line + 3;
     }
     const double top = map.rect.top();

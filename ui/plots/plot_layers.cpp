@@ -12,23 +12,29 @@
 namespace extremal {
 
 PixelMap FigurePlot::Shared::map() const {
-    return {view.range(PlotAxis::x), view.range(PlotAxis::y), figure.x.isLog, figure.y.isLog, QRectF(plot.axisRect()->rect())};
+    return {view.range(PlotAxis::x), view.range(PlotAxis::y), figure.x.isLog, figure.y.isLog,
+            QRectF(plot.axisRect()->rect())};
 }
 
 QColor FigurePlot::Shared::colorOf(int style) const {
     const QColor c = theme.series(style).color;
     if (!isStale || style < 0) return c;
     const auto mix = [](int a, int b) { return (35 * a + 65 * b) / 100; };  // opaque: overlaps must not show
-    return {mix(c.red(), theme.panel.red()), mix(c.green(), theme.panel.green()), mix(c.blue(), theme.panel.blue())};
+    return {mix(c.red(), theme.panel.red()), mix(c.green(), theme.panel.green()),
+            mix(c.blue(), theme.panel.blue())};
 }
 
-CurvesLayer::CurvesLayer(const FigurePlot::Shared& shared) : QCPLayerable(&shared.plot, "main"), shared_(shared) {}
-MarksLayer::MarksLayer(const FigurePlot::Shared& shared) : QCPLayerable(&shared.plot, "legend"), shared_(shared) {}
-CursorLayer::CursorLayer(const FigurePlot::Shared& shared) : QCPLayerable(&shared.plot, "cursor"), shared_(shared) {}
+CurvesLayer::CurvesLayer(const FigurePlot::Shared& shared)
+    : QCPLayerable(&shared.plot, "main"), shared_(shared) {}
+MarksLayer::MarksLayer(const FigurePlot::Shared& shared)
+    : QCPLayerable(&shared.plot, "legend"), shared_(shared) {}
+CursorLayer::CursorLayer(const FigurePlot::Shared& shared)
+    : QCPLayerable(&shared.plot, "cursor"), shared_(shared) {}
 
 namespace {
 
-/// A polyline in short pieces: one long path takes quadratic time in the stroker. The dash goes on across pieces.
+/// A polyline in short pieces: one long path takes quadratic time in the stroker. The dash goes on across
+/// pieces.
 void drawPieces(QCPPainter& painter, QPen pen, const QPolygonF& line) {
     if (line.size() == 1) {
         pen.setStyle(Qt::SolidLine);
@@ -59,8 +65,8 @@ QFont small(const Theme& theme, QFont::Weight weight = QFont::Normal) {
 }
 
 /// A rounded box with lines of text; returns its rectangle.
-QRectF drawPill(QCPPainter& painter, QPointF topLeft, const QString& text, const QFont& font, const QColor& ground,
-                const QColor& line, const QColor& color) {
+QRectF drawPill(QCPPainter& painter, QPointF topLeft, const QString& text, const QFont& font,
+                const QColor& ground, const QColor& line, const QColor& color) {
     const QSizeF size = QFontMetricsF(font).size(0, text);
     const QRectF box(topLeft.x(), topLeft.y(), std::ceil(size.width()) + 12, std::ceil(size.height()) + 4);
     painter.setPen(QPen(line, 1));
@@ -88,8 +94,10 @@ void CurvesLayer::draw(QCPPainter* painter) {
     const Series* highlighted = nullptr;
     for (const Series& s : shared_.figure.series) {
         if (!shared_.isShown(s)) continue;
-        if (QString::fromStdString(s.label) == shared_.highlighted) highlighted = &s;
-        else drawSeries(*painter, map, s);
+        if (QString::fromStdString(s.label) == shared_.highlighted)
+            highlighted = &s;
+        else
+            drawSeries(*painter, map, s);
     }
     if (highlighted) drawSeries(*painter, map, *highlighted);
     drawKey(*painter, map);
@@ -119,7 +127,8 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
     constexpr double sample = 22, gap = 5, edge = 5;
     const QFont font = small(shared_.theme);
     const QFontMetricsF metrics(font);
-    double topRight = map.rect.top() + 4, topLeft = topRight, bottomRight = map.rect.bottom() - 4, bottomLeft = bottomRight;
+    double topRight = map.rect.top() + 4, topLeft = topRight, bottomRight = map.rect.bottom() - 4,
+           bottomLeft = bottomRight;
     for (const Series& s : shared_.figure.series) {
         const bool isTitled = s.style == exactStyle && shared_.figure.series.size() == 1;
         if (s.style >= 0 || isTitled || map.rect.width() < 100) continue;
@@ -130,12 +139,15 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
         const QSizeF size(width, metrics.height() + 4);
         const double left = map.rect.left() + 4, right = map.rect.right() - 4 - width;
         std::array<double*, 4> edges{&topRight, &topLeft, &bottomRight, &bottomLeft};
-        std::array<QRectF, 4> boxes{QRectF(QPointF(right, topRight), size), QRectF(QPointF(left, topLeft), size),
+        std::array<QRectF, 4> boxes{QRectF(QPointF(right, topRight), size),
+                                    QRectF(QPointF(left, topLeft), size),
                                     QRectF(QPointF(right, bottomRight - size.height()), size),
                                     QRectF(QPointF(left, bottomLeft - size.height()), size)};
         std::size_t corner = 0;
         for (std::size_t i = 1; i < 4; ++i)
-            if ((i != 1 || shared_.figure.failures.empty()) && hiddenBy(boxes[i], map) < hiddenBy(boxes[corner], map) - 1) corner = i;
+            if ((i != 1 || shared_.figure.failures.empty()) &&
+                hiddenBy(boxes[i], map) < hiddenBy(boxes[corner], map) - 1)
+                corner = i;
         const QRectF box = boxes[corner];
         *edges[corner] = corner < 2 ? box.bottom() + 2 : box.top() - 2;
         QColor ground = shared_.theme.panel;
@@ -147,11 +159,12 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
         QPen pen(shared_.colorOf(s.style), 1.1, Qt::SolidLine, Qt::FlatCap);
         if (const auto dash = shared_.theme.series(s.style).dash; !dash.isEmpty()) pen.setDashPattern(dash);
         painter.setPen(pen);
-        painter.drawLine(QPointF(box.left() + edge, box.center().y()), QPointF(box.left() + edge + sample, box.center().y()));
+        painter.drawLine(QPointF(box.left() + edge, box.center().y()),
+                         QPointF(box.left() + edge + sample, box.center().y()));
         painter.setFont(font);
         painter.setPen(shared_.theme.muted);
-        painter.drawText(QRectF(box.left() + edge + sample + gap, box.top(), width, box.height()), Qt::AlignVCenter | Qt::AlignLeft,
-                         text);
+        painter.drawText(QRectF(box.left() + edge + sample + gap, box.top(), width, box.height()),
+                         Qt::AlignVCenter | Qt::AlignLeft, text);
     }
 }
 
@@ -161,7 +174,8 @@ void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
     if (!heat || heat->columns <= 0 || heat->rows <= 0) return;
     if (!heat->scale.empty()) return drawMapCells(painter, map, shared_);
     QImage image(heat->columns, heat->rows, QImage::Format_RGB32);
-    const QColor ground = shared_.theme.panel, accent = shared_.theme.accent, other = shared_.theme.series(1).color;
+    const QColor ground = shared_.theme.panel, accent = shared_.theme.accent,
+                 other = shared_.theme.series(1).color;
     for (int column = 0; column < heat->columns; ++column)
         for (int row = 0; row < heat->rows; ++row) {
             const auto i = static_cast<std::size_t>(column * heat->rows + row);
@@ -170,8 +184,9 @@ void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
             if (std::isfinite(value) && heat->high > heat->low) {
                 // Fields of both signs fade to the ground at zero.
                 const bool isSigned = heat->low < 0;
-                const double part = isSigned ? std::min(1.0, std::abs(value) / heat->high)
-                                             : std::clamp((value - heat->low) / (heat->high - heat->low), 0.0, 1.0);
+                const double part =
+                    isSigned ? std::min(1.0, std::abs(value) / heat->high)
+                             : std::clamp((value - heat->low) / (heat->high - heat->low), 0.0, 1.0);
                 std::array<double, 3> full{accent.redF(), accent.greenF(), accent.blueF()};
                 if (isSigned && value < 0) full = {other.redF(), other.greenF(), other.blueF()};
                 if (!heat->hues.empty()) full = phaseColour(heat->hues[i]);
@@ -179,7 +194,8 @@ void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
                 const auto mix = [&](double from, double to) {
                     return static_cast<int>(std::lround(255 * (from + strength * (to - from))));
                 };
-                pixel = qRgb(mix(ground.redF(), full[0]), mix(ground.greenF(), full[1]), mix(ground.blueF(), full[2]));
+                pixel = qRgb(mix(ground.redF(), full[0]), mix(ground.greenF(), full[1]),
+                             mix(ground.blueF(), full[2]));
             }
             image.setPixel(column, heat->rows - 1 - row, pixel);
         }
@@ -208,7 +224,8 @@ void CurvesLayer::drawFloor(QCPPainter& painter, const PixelMap& map) const {
 
 void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
     for (const Guide& guide : shared_.figure.guides) {
-        const QPen pen(guide.isStrong ? shared_.theme.muted : shared_.theme.line, 1, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
+        const QPen pen(guide.isStrong ? shared_.theme.muted : shared_.theme.line, 1, Qt::SolidLine,
+                       Qt::FlatCap, Qt::BevelJoin);
         for (const QPolygonF& line : visiblePolylines(guide.x, guide.y, map, true, shared_.density))
             drawPieces(painter, pen, line);
     }
@@ -216,19 +233,22 @@ void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
     painter.setPen(shared_.theme.muted);
     for (const Label& label : shared_.figure.labels) {
         const QPointF at = map(label.x, label.y);
-        painter.drawText(QRectF(at.x() - 40, at.y() - 12, 80, 24), Qt::AlignCenter, QString::fromStdString(label.text));
+        painter.drawText(QRectF(at.x() - 40, at.y() - 12, 80, 24), Qt::AlignCenter,
+                         QString::fromStdString(label.text));
     }
 }
 
 void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const {
     const SeriesStyle style = shared_.theme.series(series.style);
     const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
-    const QColor color = series.isPale ? shared_.theme.pale(shared_.colorOf(series.style), paleLine) : shared_.colorOf(series.style);
+    const QColor color = series.isPale ? shared_.theme.pale(shared_.colorOf(series.style), paleLine)
+                                       : shared_.colorOf(series.style);
     if (series.hasLine) {
         const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
         if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
-        for (const QPolygonF& line : visiblePolylines(series.x, series.y, map, series.isCurve, shared_.density))
+        for (const QPolygonF& line :
+             visiblePolylines(series.x, series.y, map, series.isCurve, shared_.density))
             drawPieces(painter, pen, line);
     }
     if (series.isCells) drawCells(painter, map, series);
@@ -241,7 +261,8 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
         for (std::size_t i = 0; i < series.x.size(); ++i) {
             const QPointF p = map(series.x[i], series.y[i]);
             const bool isKnown = std::isfinite(p.x()) && std::isfinite(p.y());
-            if (isKnown && map.rect.adjusted(-6, -6, 6, 6).contains(p)) painter.drawEllipse(p, radius, radius);
+            if (isKnown && map.rect.adjusted(-6, -6, 6, 6).contains(p))
+                painter.drawEllipse(p, radius, radius);
         }
         painter.setBrush(Qt::NoBrush);
     }
@@ -253,8 +274,10 @@ void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Seri
     if (series.isHollow) color = shared_.theme.pale(color, 40);
     const double side = std::abs(map(1, 0).x() - map(0, 0).x()), gap = side > 5 ? 0.5 : 0;
     for (std::size_t i = 0; i < series.x.size(); ++i) {
-        const QRectF cell = QRectF(map(series.x[i] - 0.5, series.y[i] + 0.5), map(series.x[i] + 0.5, series.y[i] - 0.5));
-        if (map.rect.intersects(cell)) painter.fillRect(cell.adjusted(gap, gap, -gap, -gap).intersected(map.rect), color);
+        const QRectF cell =
+            QRectF(map(series.x[i] - 0.5, series.y[i] + 0.5), map(series.x[i] + 0.5, series.y[i] - 0.5));
+        if (map.rect.intersects(cell))
+            painter.fillRect(cell.adjusted(gap, gap, -gap, -gap).intersected(map.rect), color);
     }
 }
 
@@ -308,7 +331,9 @@ void MarksLayer::drawFailures(QCPPainter& painter, const PixelMap& map) const {
         const QString text = QFontMetricsF(font).elidedText(full, Qt::ElideRight, room);
         const double width = QFontMetricsF(font).horizontalAdvance(text) + 12;
         const double x = right >= left || width <= right ? cross.x() + 9 : cross.x() - 9 - width;
-        top = drawPill(painter, {x, top}, text, font, theme.warningGround, theme.warningLine, theme.warning).bottom() + 4;
+        top = drawPill(painter, {x, top}, text, font, theme.warningGround, theme.warningLine, theme.warning)
+                  .bottom() +
+              4;
         if (top > map.rect.bottom() - 20) return;
     }
 }
@@ -341,10 +366,12 @@ void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t,
         painter.setPen(QPen(theme.muted, 1, isPinned ? Qt::DashLine : Qt::SolidLine));
         painter.drawLine(QPointF(x, map.rect.top()), QPointF(x, map.rect.bottom()));
         if (!isPinned && shared_.cursors.pinned) {
-            const QString text = QStringLiteral("Δt = ") + QString::fromStdString(shortNumber(t - *shared_.cursors.pinned, 4));
+            const QString text =
+                QStringLiteral("Δt = ") + QString::fromStdString(shortNumber(t - *shared_.cursors.pinned, 4));
             const double width = QFontMetricsF(small(theme)).horizontalAdvance(text) + 12;
             const double left = x + 4 + width > map.rect.right() ? x - 4 - width : x + 4;
-            drawPill(painter, {left, map.rect.bottom() - 20}, text, small(theme), theme.panel, theme.line, theme.text);
+            drawPill(painter, {left, map.rect.bottom() - 20}, text, small(theme), theme.panel, theme.line,
+                     theme.text);
         }
     }
     for (const Series& s : shared_.figure.series) {
@@ -353,7 +380,8 @@ void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t,
         if (!value) continue;
         const QPointF p = map(value->first, value->second);
         // A rectangle "contains" what is no number.
-        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !map.rect.adjusted(-1, -1, 1, 1).contains(p)) continue;
+        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !map.rect.adjusted(-1, -1, 1, 1).contains(p))
+            continue;
         painter.setPen(QPen(isPinned ? shared_.colorOf(s.style) : theme.panel, 1.2));
         painter.setBrush(isPinned ? theme.panel : shared_.colorOf(s.style));
         painter.drawEllipse(p, 3.6, 3.6);
@@ -367,7 +395,8 @@ void CursorLayer::drawHover(QCPPainter& painter) const {
     painter.setBrush(c.hoverColor);
     if (c.hoverCell) {
         painter.setBrush(Qt::NoBrush);
-        for (const auto& [color, width] : {std::pair{shared_.theme.panel, 3.5}, std::pair{shared_.theme.text, 1.5}}) {
+        for (const auto& [color, width] :
+             {std::pair{shared_.theme.panel, 3.5}, std::pair{shared_.theme.text, 1.5}}) {
             painter.setPen(QPen(color, width));
             painter.drawRect(*c.hoverCell);
         }
@@ -378,10 +407,11 @@ void CursorLayer::drawHover(QCPPainter& painter) const {
     const QRectF rect(shared_.plot.axisRect()->rect());
     const QSizeF size = QFontMetricsF(font).size(0, c.hoverText);
     const double width = size.width() + 12, height = size.height() + 4;
-    const double x = std::clamp(c.hoverPoint.x() + 9, rect.left(), std::max(rect.left(), rect.right() - width));
+    const double x =
+        std::clamp(c.hoverPoint.x() + 9, rect.left(), std::max(rect.left(), rect.right() - width));
     const double above = c.hoverPoint.y() - height - 8;
-    drawPill(painter, {x, above < rect.top() ? c.hoverPoint.y() + 9 : above}, c.hoverText, font, shared_.theme.panel,
-             shared_.theme.line, shared_.theme.text);
+    drawPill(painter, {x, above < rect.top() ? c.hoverPoint.y() + 9 : above}, c.hoverText, font,
+             shared_.theme.panel, shared_.theme.line, shared_.theme.text);
 }
 
 }  // namespace extremal

@@ -1,5 +1,5 @@
-/// The things a FigurePlot puts on the layers of its QCustomPlot. Only for the sources of ui/plots: it includes
-/// QCustomPlot.
+/// The things a FigurePlot puts on the layers of its QCustomPlot. Only for the sources of ui/plots: it
+/// includes QCustomPlot.
 #pragma once
 
 #include <qcustomplot.h>
@@ -24,7 +24,8 @@ struct FigurePlot::Shared {
     QColor colorOf(int style) const;
 };
 
-/// Floor, doubtful band, guides and labels below the curves, curves, then marks of failures and the message above them.
+/// Floor, doubtful band, guides and labels below the curves, curves, then marks of failures and the message
+/// above them.
 class CurvesLayer : public QCPLayerable {
 public:
     explicit CurvesLayer(const FigurePlot::Shared& shared);
@@ -53,7 +54,8 @@ protected:
     void applyDefaultAntialiasingHint(QCPPainter* painter) const override { painter->setAntialiasing(true); }
     QRect clipRect() const override {
         const QRect rect = shared_.plot.axisRect()->rect().adjusted(-8, -8, 8, 8);
-        return shared_.figure.heat ? rect.adjusted(0, 0, shared_.plot.axisRect()->margins().right(), 0) : rect;
+        return shared_.figure.heat ? rect.adjusted(0, 0, shared_.plot.axisRect()->margins().right(), 0)
+                                   : rect;
     }
     void draw(QCPPainter* painter) override;
 

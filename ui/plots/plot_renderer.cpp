@@ -31,7 +31,8 @@ constexpr double padding = 12;
 
 double drawHeader(QPainter& painter, const QRectF& rect, const Figure& figure, const Theme& theme) {
     const QFontMetricsF titleMetrics(theme.title());
-    const QString title = titleMetrics.elidedText(QString::fromStdString(figure.title), Qt::ElideRight, rect.width());
+    const QString title =
+        titleMetrics.elidedText(QString::fromStdString(figure.title), Qt::ElideRight, rect.width());
     const double base = rect.top() + titleMetrics.ascent();
     painter.setFont(theme.title());
     painter.setPen(theme.text);
@@ -41,8 +42,9 @@ double drawHeader(QPainter& painter, const QRectF& rect, const Figure& figure, c
     if (!figure.subtitle.empty() && room > 40) {
         painter.setFont(theme.caption());
         painter.setPen(theme.muted);
-        painter.drawText(QPointF(left, base), QFontMetricsF(theme.caption())
-                                                  .elidedText(QString::fromStdString(figure.subtitle), Qt::ElideRight, room));
+        painter.drawText(QPointF(left, base),
+                         QFontMetricsF(theme.caption())
+                             .elidedText(QString::fromStdString(figure.subtitle), Qt::ElideRight, room));
     }
     return std::ceil(titleMetrics.height());
 }
@@ -56,7 +58,8 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     double x = rect.left(), y = rect.top();
     for (const Series& s : figure.series) {
         if (s.isCells || s.style < 0) continue;  // named by the title, and in the plot itself
-        const QString label = metrics.elidedText(QString::fromStdString(seriesName(s)), Qt::ElideRight, rect.width() - sample - gap);
+        const QString label = metrics.elidedText(QString::fromStdString(seriesName(s)), Qt::ElideRight,
+                                                 rect.width() - sample - gap);
         const double width = sample + gap + metrics.horizontalAdvance(label);
         if (x > rect.left() && x + width > rect.right()) {
             x = rect.left();
@@ -64,7 +67,8 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         if (painter) {
             const SeriesStyle style = theme.series(s.style);
-            QPen pen(s.isPale ? theme.pale(style.color, paleLine) : style.color, 1.8, Qt::SolidLine, Qt::FlatCap);
+            QPen pen(s.isPale ? theme.pale(style.color, paleLine) : style.color, 1.8, Qt::SolidLine,
+                     Qt::FlatCap);
             if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
             const double middle = y + metrics.height() / 2;
             if (s.hasLine) {
@@ -83,13 +87,13 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         x += width + space;
     }
-    const bool isNamed =
-        std::any_of(figure.series.begin(), figure.series.end(),
-                    [](const Series& s) { return !s.isCells && s.style >= 0; });
+    const bool isNamed = std::any_of(figure.series.begin(), figure.series.end(),
+                                     [](const Series& s) { return !s.isCells && s.style >= 0; });
     return isNamed ? y + rowHeight - rect.top() : 0;
 }
 
-void FigurePainter::draw(const Figure& figure, const QRectF& rect, const Theme& theme, const PlotOptions& options) {
+void FigurePainter::draw(const Figure& figure, const QRectF& rect, const Theme& theme,
+                         const PlotOptions& options) {
     QCPPainter& painter = impl_->painter;
     painter.save();
     painter.translate(rect.topLeft());
@@ -104,7 +108,8 @@ void FigurePainter::draw(const Figure& figure, const QRectF& rect, const Theme& 
     }
     area.adjust(padding, padding, -padding, -4);
     if (options.hasHeader) area.setTop(area.top() + drawHeader(painter, area, figure, theme) + 4);
-    if (options.hasLegend && area.height() > 150) area.setTop(area.top() + drawLegend(&painter, area, figure, theme) + 2);
+    if (options.hasLegend && area.height() > 150)
+        area.setTop(area.top() + drawLegend(&painter, area, figure, theme) + 2);
 
     const QSize size(static_cast<int>(area.width()) + 8, static_cast<int>(area.height()));
     if (size.width() > 40 && size.height() > 40) {
@@ -121,8 +126,10 @@ void FigurePainter::draw(const Figure& figure, const QRectF& rect, const Theme& 
     painter.restore();
 }
 
-QImage renderFigure(const Figure& figure, QSize size, const Theme& theme, double scale, const PlotOptions& options) {
-    QImage image(QSize(static_cast<int>(std::lround(size.width() * scale)), static_cast<int>(std::lround(size.height() * scale))),
+QImage renderFigure(const Figure& figure, QSize size, const Theme& theme, double scale,
+                    const PlotOptions& options) {
+    QImage image(QSize(static_cast<int>(std::lround(size.width() * scale)),
+                       static_cast<int>(std::lround(size.height() * scale))),
                  QImage::Format_ARGB32_Premultiplied);
     image.fill(options.isCard ? theme.window : theme.panel);
     FigurePainter painter(image, false);
@@ -133,10 +140,11 @@ QImage renderFigure(const Figure& figure, QSize size, const Theme& theme, double
 
 QString saveFigure(const QString& file, const Figure& figure, QSize size, const Theme& theme, double scale,
                    const PlotOptions& options) {
-    return savePage(file, size, scale, QString::fromStdString(figure.title), [&](FigurePainter& painter, QRectF page) {
-        painter.painter().fillRect(page, options.isCard ? theme.window : theme.panel);
-        painter.draw(figure, page, theme, options);
-    });
+    return savePage(file, size, scale, QString::fromStdString(figure.title),
+                    [&](FigurePainter& painter, QRectF page) {
+                        painter.painter().fillRect(page, options.isCard ? theme.window : theme.panel);
+                        painter.draw(figure, page, theme, options);
+                    });
 }
 
 }  // namespace extremal

@@ -1,5 +1,6 @@
-/// Figures without a window: into a painter, an image, a PDF or an SVG, of any size, in any theme. The same bytes for
-/// the same figure, every time. Needs a QApplication, but no display (the offscreen platform will do).
+/// Figures without a window: into a painter, an image, a PDF or an SVG, of any size, in any theme. The same
+/// bytes for the same figure, every time. Needs a QApplication, but no display (the offscreen platform will
+/// do).
 ///
 /// Sizes are in device-independent pixels (96 to the inch).
 #pragma once
@@ -21,10 +22,10 @@ class QPainter;
 namespace extremal {
 
 struct PlotOptions {
-    bool hasHeader = true;          ///< title and subtitle above the plot
-    bool hasLegend = true;          ///< line samples and names of the schemes
-    bool isCard = false;            ///< rounded corners and a hairline around, for plots beside each other
-    std::optional<double> cursor;   ///< a time, marked
+    bool hasHeader = true;         ///< title and subtitle above the plot
+    bool hasLegend = true;         ///< line samples and names of the schemes
+    bool isCard = false;           ///< rounded corners and a hairline around, for plots beside each other
+    std::optional<double> cursor;  ///< a time, marked
 };
 
 /// A painter that can draw figures, for pages made of several things. Draw anything else with painter().
@@ -41,19 +42,20 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// The legend alone: line samples and names in one or more rows; returns the height used. With a null painter it only
-/// measures.
+/// The legend alone: line samples and names in one or more rows; returns the height used. With a null painter
+/// it only measures.
 double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, const Theme& theme);
 
-QImage renderFigure(const Figure& figure, QSize size, const Theme& theme, double scale = 1, const PlotOptions& options = {});
+QImage renderFigure(const Figure& figure, QSize size, const Theme& theme, double scale = 1,
+                    const PlotOptions& options = {});
 
-/// A page whose content is drawn by a function, as the kind of file that the ending of its name says (.png, .pdf,
-/// .svg). Returns what went wrong, empty if nothing did; the file appears whole or not at all.
+/// A page whose content is drawn by a function, as the kind of file that the ending of its name says (.png,
+/// .pdf, .svg). Returns what went wrong, empty if nothing did; the file appears whole or not at all.
 using DrawPage = std::function<void(FigurePainter&, QRectF)>;
 QString savePage(const QString& file, QSize size, double scale, const QString& title, const DrawPage& draw);
 
 /// One figure as such a file.
-QString saveFigure(const QString& file, const Figure& figure, QSize size, const Theme& theme, double scale = 1,
-                   const PlotOptions& options = {});
+QString saveFigure(const QString& file, const Figure& figure, QSize size, const Theme& theme,
+                   double scale = 1, const PlotOptions& options = {});
 
 }  // namespace extremal

@@ -49,15 +49,17 @@ struct PlotWidget::Impl {
     std::optional<HeatCell> cellAt(QPointF pixel) const {
         const PixelMap map = content->pixelMap();
         if (!map.rect.contains(pixel)) return {};
-        return extremal::cellAt(content->figure(), valueAtPixel(map, PlotAxis::x, pixel), valueAtPixel(map, PlotAxis::y, pixel));
+        return extremal::cellAt(content->figure(), valueAtPixel(map, PlotAxis::x, pixel),
+                                valueAtPixel(map, PlotAxis::y, pixel));
     }
     QRectF rectOf(const HeatCell& cell) const {
         const HeatMap& heat = *content->figure().heat;
         const PixelMap map = content->pixelMap();
         const QPointF corner = map(heat.left, heat.bottom), opposite = map(heat.right, heat.top);
-        const double width = (opposite.x() - corner.x()) / heat.columns, height = (opposite.y() - corner.y()) / heat.rows;
-        return QRectF(corner.x() + width * static_cast<double>(cell.column), corner.y() + height * static_cast<double>(cell.row), width,
-                      height)
+        const double width = (opposite.x() - corner.x()) / heat.columns,
+                     height = (opposite.y() - corner.y()) / heat.rows;
+        return QRectF(corner.x() + width * static_cast<double>(cell.column),
+                      corner.y() + height * static_cast<double>(cell.row), width, height)
             .normalized();
     }
     bool isTime() const { return content->figure().x.isTime; }
@@ -78,7 +80,8 @@ PlotWidget::PlotWidget(const Theme& theme, QWidget* parent) : QWidget(parent), i
     impl_->plot->setFocusPolicy(Qt::NoFocus);
     impl_->content = std::make_unique<FigurePlot>(*impl_->plot, impl_->theme);
     layout->addWidget(impl_->plot);
-    connect(impl_->plot, &QCustomPlot::beforeReplot, this, [this] { impl_->content->prepare(impl_->plot->size()); });
+    connect(impl_->plot, &QCustomPlot::beforeReplot, this,
+            [this] { impl_->content->prepare(impl_->plot->size()); });
     impl_->chip = new QPushButton(tr("auto"), this);
     impl_->chip->setToolTip(tr("Fit the view to the data again, and keep it fitted (double click)"));
     impl_->chip->setAccessibleName(tr("Fit the view"));
@@ -189,7 +192,8 @@ bool PlotWidget::save(const QString& path, double scale, QString* error) {
     QString problem;
     if (path.endsWith(".csv", Qt::CaseInsensitive)) {
         QSaveFile file(path);
-        if (!file.open(QIODevice::WriteOnly) || file.write(QByteArray::fromStdString(figureCsv(figure(), false))) < 0 || !file.commit())
+        if (!file.open(QIODevice::WriteOnly) ||
+            file.write(QByteArray::fromStdString(figureCsv(figure(), false))) < 0 || !file.commit())
             problem = file.errorString();
     } else {
         problem = saveFigure(path, figure(), size().expandedTo(QSize(480, 320)), Theme::light(), scale);
@@ -199,9 +203,9 @@ bool PlotWidget::save(const QString& path, double scale, QString* error) {
 }
 
 void PlotWidget::saveDialog() {
-    const QString path = QFileDialog::getSaveFileName(
-        this, tr("Save plot"), QString::fromStdString(figure().view) + ".png",
-        tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg);;Data (*.csv)"));
+    const QString path =
+        QFileDialog::getSaveFileName(this, tr("Save plot"), QString::fromStdString(figure().view) + ".png",
+                                     tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg);;Data (*.csv)"));
     QString error;
     if (!path.isEmpty() && !save(path, 2, &error)) emit saveFailed(tr("%1: %2").arg(path, error));
 }
@@ -271,8 +275,12 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             }
             if (s.drag == Impl::Drag::pan) {
                 const auto [onX, onY] = s.axesAt(s.press);
-                if (onX) view.pan(PlotAxis::x, valueAtPixel(map, PlotAxis::x, s.last), valueAtPixel(map, PlotAxis::x, at));
-                if (onY) view.pan(PlotAxis::y, valueAtPixel(map, PlotAxis::y, s.last), valueAtPixel(map, PlotAxis::y, at));
+                if (onX)
+                    view.pan(PlotAxis::x, valueAtPixel(map, PlotAxis::x, s.last),
+                             valueAtPixel(map, PlotAxis::x, at));
+                if (onY)
+                    view.pan(PlotAxis::y, valueAtPixel(map, PlotAxis::y, s.last),
+                             valueAtPixel(map, PlotAxis::y, at));
                 s.last = at;
                 afterZoom();
             } else if (s.drag == Impl::Drag::box) {
@@ -327,15 +335,20 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             } else if (was == Impl::Drag::maybe) {
                 if (const auto cell = s.cellAt(mouse->position()))
                     emit cellChosen(cell->x, cell->y);
-                else if (const auto hit = s.content->hit(mouse->position(), hoverReach); hit && figure().series[hit->series].style >= 0)
+                else if (const auto hit = s.content->hit(mouse->position(), hoverReach);
+                         hit && figure().series[hit->series].style >= 0)
                     emit pointClicked(figure().series[hit->series].style);
                 if (s.isTime() && map.rect.contains(mouse->position()))
                     emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));
             }
             return true;
         }
-        case QEvent::MouseButtonDblClick: fit(); return true;
-        case QEvent::Leave: clearHover(); return false;
+        case QEvent::MouseButtonDblClick:
+            fit();
+            return true;
+        case QEvent::Leave:
+            clearHover();
+            return false;
         case QEvent::ContextMenu: {
             auto* context = static_cast<QContextMenuEvent*>(event);
             const double t = valueAtPixel(s.content->pixelMap(), PlotAxis::x, context->pos());
@@ -347,11 +360,13 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             if (s.isTime()) {
                 menu.addAction(tr("Pin a second cursor here"), this, [this, t] { emit pinRequested(t); });
                 if (s.content->cursors().pinned)
-                    menu.addAction(tr("Remove the second cursor"), this, [this] { emit pinRequested(std::nullopt); });
+                    menu.addAction(tr("Remove the second cursor"), this,
+                                   [this] { emit pinRequested(std::nullopt); });
                 menu.addSeparator();
             }
             if (const auto cell = s.cellAt(context->pos())) {
-                menu.addAction(tr("Load this case"), this, [this, at = *cell] { emit cellChosen(at.x, at.y); });
+                menu.addAction(tr("Load this case"), this,
+                               [this, at = *cell] { emit cellChosen(at.x, at.y); });
                 menu.addSeparator();
             }
             menu.addAction(tr("Copy picture"), this, &PlotWidget::copyImage);
@@ -366,7 +381,8 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             menu.exec(context->globalPos());
             return true;
         }
-        default: return QWidget::eventFilter(watched, event);
+        default:
+            return QWidget::eventFilter(watched, event);
     }
 }
 

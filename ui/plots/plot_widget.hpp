@@ -1,9 +1,9 @@
 /// A figure on the screen, to look into: the same drawing as in snapshots, with zoom, cursors and saving.
 ///
-/// Wheel: zoom at the pointer, on an axis only that axis; drag: pan; Ctrl+drag: zoom into a box; double click: fit;
-/// Backspace: previous view; right click: menu; a click on
-/// a cell of a map, or Return over it, chooses its case. Once the user has zoomed, new data do not move the view; the "auto" chip
-/// gives that back. The cursor is a time, shared with other plots through PlotGroup.
+/// Wheel: zoom at the pointer, on an axis only that axis; drag: pan; Ctrl+drag: zoom into a box; double
+/// click: fit; Backspace: previous view; right click: menu; a click on a cell of a map, or Return over it,
+/// chooses its case. Once the user has zoomed, new data do not move the view; the "auto" chip gives that
+/// back. The cursor is a time, shared with other plots through PlotGroup.
 #pragma once
 
 #include <QWidget>

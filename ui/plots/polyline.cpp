@@ -34,8 +34,10 @@ bool clip(const QRectF& rect, QPointF a, QPointF b, double& from, double& to) {
             continue;
         }
         const double r = q / p;
-        if (p < 0) from = std::max(from, r);
-        else to = std::min(to, r);
+        if (p < 0)
+            from = std::max(from, r);
+        else
+            to = std::min(to, r);
         if (from > to) return false;
     }
     return true;
@@ -125,7 +127,8 @@ std::vector<QPolygonF> clipped(std::span<const double> x, std::span<const double
         previous = p;
         hasPrevious = true;
     }
-    if (hasPrevious && !isOpen && pieces.empty() && piece.isEmpty() && outer.contains(previous)) add(previous);
+    if (hasPrevious && !isOpen && pieces.empty() && piece.isEmpty() && outer.contains(previous))
+        add(previous);
     end();
     return pieces;
 }
@@ -138,16 +141,14 @@ QPointF PixelMap::operator()(double xValue, double yValue) const {
             std::clamp(rect.bottom() - fy * rect.height(), -farAway, farAway)};
 }
 
-double PixelMap::xAt(double pixel) const {
-    return valueAt((pixel - rect.left()) / rect.width(), x, isXLog);
-}
+double PixelMap::xAt(double pixel) const { return valueAt((pixel - rect.left()) / rect.width(), x, isXLog); }
 
 double PixelMap::yAt(double pixel) const {
     return valueAt((rect.bottom() - pixel) / rect.height(), y, isYLog);
 }
 
-std::vector<QPolygonF> visiblePolylines(std::span<const double> x, std::span<const double> y, const PixelMap& map,
-                                        bool isCurve, double density) {
+std::vector<QPolygonF> visiblePolylines(std::span<const double> x, std::span<const double> y,
+                                        const PixelMap& map, bool isCurve, double density) {
     ColumnThinner thinner(density);
     std::vector<QPolygonF> pieces = clipped(x, y, map, isCurve ? nullptr : &thinner);
     if (!isCurve) return pieces;

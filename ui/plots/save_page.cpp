@@ -13,7 +13,8 @@ namespace extremal {
 namespace {
 
 QByteArray pngBytes(QSize size, double scale, const DrawPage& draw) {
-    QImage image(QSize(static_cast<int>(std::lround(size.width() * scale)), static_cast<int>(std::lround(size.height() * scale))),
+    QImage image(QSize(static_cast<int>(std::lround(size.width() * scale)),
+                       static_cast<int>(std::lround(size.height() * scale))),
                  QImage::Format_RGB32);
     image.fill(Qt::white);
     image.setDotsPerMeterX(static_cast<int>(std::lround(96 * scale / 0.0254)));
@@ -37,7 +38,8 @@ QByteArray pdfBytes(QSize size, const QString& title, const DrawPage& draw) {
         writer.setTitle(title);
         writer.setCreator(QStringLiteral("Extremal"));
         writer.setResolution(96 * finer);
-        writer.setPageSize(QPageSize(QSizeF(size) * 72.0 / 96.0, QPageSize::Point, {}, QPageSize::ExactMatch));
+        writer.setPageSize(
+            QPageSize(QSizeF(size) * 72.0 / 96.0, QPageSize::Point, {}, QPageSize::ExactMatch));
         writer.setPageMargins(QMarginsF(0, 0, 0, 0));
         FigurePainter painter(writer, true);
         painter.painter().scale(finer, finer);
@@ -78,10 +80,14 @@ QByteArray svgBytes(QSize size, const QString& title, const DrawPage& draw) {
 QString savePage(const QString& file, QSize size, double scale, const QString& title, const DrawPage& draw) {
     const QString kind = QFileInfo(file).suffix().toLower();
     QByteArray bytes;
-    if (kind == QLatin1String("png")) bytes = pngBytes(size, scale, draw);
-    else if (kind == QLatin1String("pdf")) bytes = pdfBytes(size, title, draw);
-    else if (kind == QLatin1String("svg")) bytes = svgBytes(size, title, draw);
-    else return QStringLiteral("%1: pictures are written as .png, .pdf or .svg, got \".%2\"").arg(file, kind);
+    if (kind == QLatin1String("png"))
+        bytes = pngBytes(size, scale, draw);
+    else if (kind == QLatin1String("pdf"))
+        bytes = pdfBytes(size, title, draw);
+    else if (kind == QLatin1String("svg"))
+        bytes = svgBytes(size, title, draw);
+    else
+        return QStringLiteral("%1: pictures are written as .png, .pdf or .svg, got \".%2\"").arg(file, kind);
     QSaveFile target(file);
     if (!target.open(QIODevice::WriteOnly) || target.write(bytes) != bytes.size() || !target.commit())
         return QStringLiteral("%1: %2").arg(file, target.errorString());

@@ -72,8 +72,8 @@ class LogTicker : public QCPAxisTicker {
 public:
     explicit LogTicker(int room) : room_(std::max(1, room)) {}
 
-    void generate(const QCPRange& range, const QLocale&, QChar, int, QVector<double>& ticks, QVector<double>* subTicks,
-                  QVector<QString>* labels) override {
+    void generate(const QCPRange& range, const QLocale&, QChar, int, QVector<double>& ticks,
+                  QVector<double>* subTicks, QVector<QString>* labels) override {
         ticks.clear();
         if (subTicks) subTicks->clear();
         if (labels) labels->clear();
@@ -95,7 +95,8 @@ public:
         } else {
             QVector<double> even;
             QVector<QString> evenLabels;
-            LinearTicker(std::min(room_, 4)).generate(range, QLocale::c(), QLatin1Char('g'), 6, even, nullptr, &evenLabels);
+            LinearTicker(std::min(room_, 4))
+                .generate(range, QLocale::c(), QLatin1Char('g'), 6, even, nullptr, &evenLabels);
             for (qsizetype i = 0; i < even.size(); ++i)
                 if (even[i] >= range.lower && even[i] <= range.upper) add(even[i], evenLabels[i]);
         }
@@ -109,11 +110,14 @@ private:
             step = candidate;
             if ((high - low) / candidate <= room_) break;
         }
-        const int first = static_cast<int>(std::ceil(low - 1e-9)), last = static_cast<int>(std::floor(high + 1e-9));
+        const int first = static_cast<int>(std::ceil(low - 1e-9)),
+                  last = static_cast<int>(std::floor(high + 1e-9));
         for (int e = first - 1; e <= last; ++e) {
             const bool isShown = e >= first;
-            if (isShown && ((e % step) + step) % step == 0) add(std::pow(10.0, e), powerOfTen(e));
-            else if (isShown && subTicks && step <= 3) subTicks->push_back(std::pow(10.0, e));
+            if (isShown && ((e % step) + step) % step == 0)
+                add(std::pow(10.0, e), powerOfTen(e));
+            else if (isShown && subTicks && step <= 3)
+                subTicks->push_back(std::pow(10.0, e));
             if (step != 1 || !subTicks || high - low > 0.6 * room_) continue;
             for (int m = 2; m <= 9; ++m) {
                 const double value = m * std::pow(10.0, e);
@@ -126,10 +130,15 @@ private:
 
 }  // namespace
 
-QSharedPointer<QCPAxisTicker> linearTicker(int room) { return QSharedPointer<QCPAxisTicker>(new LinearTicker(room)); }
-QSharedPointer<QCPAxisTicker> logTicker(int room) { return QSharedPointer<QCPAxisTicker>(new LogTicker(room)); }
+QSharedPointer<QCPAxisTicker> linearTicker(int room) {
+    return QSharedPointer<QCPAxisTicker>(new LinearTicker(room));
+}
+QSharedPointer<QCPAxisTicker> logTicker(int room) {
+    return QSharedPointer<QCPAxisTicker>(new LogTicker(room));
+}
 
-QSharedPointer<QCPAxisTicker> namedTicker(const std::vector<std::pair<double, std::string>>& names, double least) {
+QSharedPointer<QCPAxisTicker> namedTicker(const std::vector<std::pair<double, std::string>>& names,
+                                          double least) {
     auto ticker = QSharedPointer<QCPAxisTickerText>::create();
     double last = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [place, name] : names) {

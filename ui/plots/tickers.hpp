@@ -17,14 +17,16 @@ namespace extremal {
 QSharedPointer<QCPAxisTicker> linearTicker(int room);
 QSharedPointer<QCPAxisTicker> logTicker(int room);
 
-/// Words at their places, in place of numbers; one that is nearer than `least` to the last one shown is left out.
-QSharedPointer<QCPAxisTicker> namedTicker(const std::vector<std::pair<double, std::string>>& names, double least);
+/// Words at their places, in place of numbers; one that is nearer than `least` to the last one shown is left
+/// out.
+QSharedPointer<QCPAxisTicker> namedTicker(const std::vector<std::pair<double, std::string>>& names,
+                                          double least);
 
 /// "10⁻²".
 QString powerOfTen(int exponent);
 
-/// A tick's value when the ticks are `step` apart: no more decimals than the step needs, "2.5×10⁻⁷" where plain
-/// digits would be long.
+/// A tick's value when the ticks are `step` apart: no more decimals than the step needs, "2.5×10⁻⁷" where
+/// plain digits would be long.
 QString tickText(double value, double step);
 
 }  // namespace extremal

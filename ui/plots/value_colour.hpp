@@ -1,5 +1,6 @@
-/// The colours of a scale of values, the same in both themes: lightness grows evenly as the eye sees it (in Oklab), from
-/// violet over blue and green to yellow, so that equal steps look equal, without colours as well.
+/// The colours of a scale of values, the same in both themes: lightness grows evenly as the eye sees it (in
+/// Oklab), from violet over blue and green to yellow, so that equal steps look equal, without colours as
+/// well.
 #pragma once
 
 #include <QColor>
@@ -20,7 +21,8 @@ inline QColor valueColour(double part) {
     const double a = chroma * std::cos(hue), b = chroma * std::sin(hue);
     // Oklab to linear sRGB (Ottosson 2020).
     const auto cube = [](double x) { return x * x * x; };
-    const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b), m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b),
+    const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b),
+                 m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b),
                  s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
     const std::array<double, 3> linear{4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
                                        -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
@@ -30,7 +32,8 @@ inline QColor valueColour(double part) {
         const double x = std::clamp(linear[i], 0.0, 1.0);
         shown[i] = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
     }
-    return QColor::fromRgbF(static_cast<float>(shown[0]), static_cast<float>(shown[1]), static_cast<float>(shown[2]));
+    return QColor::fromRgbF(static_cast<float>(shown[0]), static_cast<float>(shown[1]),
+                            static_cast<float>(shown[2]));
 }
 
 }  // namespace extremal

@@ -11,10 +11,13 @@ constexpr std::size_t longestHistory = 64;
 
 }  // namespace
 
-double ViewState::toAxis(PlotAxis axis, double value) const { return isLog(axis) ? std::log10(value) : value; }
+double ViewState::toAxis(PlotAxis axis, double value) const {
+    return isLog(axis) ? std::log10(value) : value;
+}
 
 void ViewState::setFitted(PlotAxis axis, PlotRange range) {
-    if (isDrawable(toAxis(axis, range.low), toAxis(axis, range.high), isLog(axis))) fitted_[index(axis)] = range;
+    if (isDrawable(toAxis(axis, range.low), toAxis(axis, range.high), isLog(axis)))
+        fitted_[index(axis)] = range;
 }
 
 PlotRange ViewState::range(PlotAxis axis) const {
@@ -29,7 +32,8 @@ void ViewState::remember() {
 
 void ViewState::chooseInAxisSpace(PlotAxis axis, double low, double high) {
     if (!isDrawable(low, high, isLog(axis))) return;
-    current_.chosen[index(axis)] = isLog(axis) ? PlotRange{std::pow(10, low), std::pow(10, high)} : PlotRange{low, high};
+    current_.chosen[index(axis)] =
+        isLog(axis) ? PlotRange{std::pow(10, low), std::pow(10, high)} : PlotRange{low, high};
     current_.isChosen[index(axis)] = true;
 }
 

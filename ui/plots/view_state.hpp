@@ -1,7 +1,8 @@
 /// What part of a plot is visible: ranges fitted to the data, ranges the user chose, and the way back.
 ///
-/// Once the user has zoomed or panned an axis, new data do not move it; fit() gives it back. All changes work in axis
-/// space, the logarithm on logarithmic axes. Ranges stay finite, increasing and wide enough to be drawn.
+/// Once the user has zoomed or panned an axis, new data do not move it; fit() gives it back. All changes work
+/// in axis space, the logarithm on logarithmic axes. Ranges stay finite, increasing and wide enough to be
+/// drawn.
 #pragma once
 
 #include <array>
@@ -29,7 +30,8 @@ public:
 
     /// Remembers the present view for back(). Call once before a gesture (a drag, a turn of the wheel).
     void remember();
-    void zoom(PlotAxis axis, double factor, double anchor);  ///< factor < 1 goes closer; the anchor stays in its place
+    void zoom(PlotAxis axis, double factor,
+              double anchor);  ///< factor < 1 goes closer; the anchor stays in its place
     void pan(PlotAxis axis, double fromValue, double toValue);  ///< what was at `from` is now at `to`
     void choose(PlotAxis axis, PlotRange range);
     void fit(PlotAxis axis) { current_.isChosen[index(axis)] = false; }

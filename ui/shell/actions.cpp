@@ -14,8 +14,8 @@ namespace extremal {
 
 Actions::Actions(QWidget& window) : QObject(&window), window_(window) {}
 
-QAction* Actions::add(const QString& id, const QString& menu, const QString& text, const QList<QKeySequence>& keys,
-                      std::function<void()> act, const QString& tip) {
+QAction* Actions::add(const QString& id, const QString& menu, const QString& text,
+                      const QList<QKeySequence>& keys, std::function<void()> act, const QString& tip) {
     auto* action = new QAction(text, &window_);
     action->setObjectName(id);
     action->setShortcuts(keys);
@@ -81,7 +81,8 @@ bool KeyGuard::eventFilter(QObject* watched, QEvent* event) {
         const auto* key = static_cast<const QKeyEvent*>(event);
         const auto* widget = qobject_cast<const QWidget*>(watched);
         const bool isPlain = !(key->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
-        const bool keeps = widget && widget == QApplication::focusWidget() && !widget->property("sharesKeys").toBool();
+        const bool keeps =
+            widget && widget == QApplication::focusWidget() && !widget->property("sharesKeys").toBool();
         if (isPlain && keeps && needsKey(widget, key->key())) {
             event->accept();
             return true;

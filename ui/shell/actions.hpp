@@ -1,4 +1,5 @@
-/// The registry of everything the window can do: the menus, the command palette and the key list come from it.
+/// The registry of everything the window can do: the menus, the command palette and the key list come from
+/// it.
 #pragma once
 
 #include <QAction>
@@ -17,8 +18,8 @@ class Actions : public QObject {
 public:
     explicit Actions(QWidget& window);
 
-    /// Adds an action to a menu ("File", "Edit", ...); menus stand in the order of their first action. The action
-    /// belongs to the window, so that its keys work everywhere in it.
+    /// Adds an action to a menu ("File", "Edit", ...); menus stand in the order of their first action. The
+    /// action belongs to the window, so that its keys work everywhere in it.
     QAction* add(const QString& id, const QString& menu, const QString& text, const QList<QKeySequence>& keys,
                  std::function<void()> act, const QString& tip = {});
     /// A line between the actions of a menu.
@@ -44,8 +45,8 @@ private:
     QStringList menus_;
 };
 
-/// Keeps single keys for the widget that has the focus where it needs them: text fields get letters, buttons get
-/// Space, lists get arrows. Install on the application.
+/// Keeps single keys for the widget that has the focus where it needs them: text fields get letters, buttons
+/// get Space, lists get arrows. Install on the application.
 class KeyGuard : public QObject {
     Q_OBJECT
 public:

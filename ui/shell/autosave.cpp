@@ -56,8 +56,11 @@ void Autosave::writeNow() {
     const bool isWritten = file.open(QIODevice::WriteOnly) &&
                            file.write(text.data(), static_cast<qint64>(text.size())) >= 0 && file.commit();
     if (!isWritten)
-        notices_.post({Notice::Kind::warning, "autosave", tr("The unsaved scene could not be kept: %1").arg(file.errorString()),
-                       tr("save it yourself with Ctrl+S"), {}});
+        notices_.post({Notice::Kind::warning,
+                       "autosave",
+                       tr("The unsaved scene could not be kept: %1").arg(file.errorString()),
+                       tr("save it yourself with Ctrl+S"),
+                       {}});
 }
 
 void Autosave::recover(const QString& path) {
@@ -66,8 +69,11 @@ void Autosave::recover(const QString& path) {
         try {
             if (workspace_.adopt(parseJson(file.readAll().toStdString()))) file.remove();
         } catch (const InvalidScene&) {
-            notices_.post({Notice::Kind::error, "recovery", tr("The kept scene is damaged: %1").arg(path),
-                           tr("open it in an editor"), {}});
+            notices_.post({Notice::Kind::error,
+                           "recovery",
+                           tr("The kept scene is damaged: %1").arg(path),
+                           tr("open it in an editor"),
+                           {}});
         }
     }
 }
@@ -81,7 +87,8 @@ void Autosave::offerRecovery() {
         if (!lock.tryLock(0)) continue;  // another window is using it
         lock.unlock();
         const QString path = info.absoluteFilePath();
-        notices_.post({Notice::Kind::information, "recovery",
+        notices_.post({Notice::Kind::information,
+                       "recovery",
                        tr("An unsaved scene of %1 was kept when the program ended unexpectedly.")
                            .arg(info.lastModified().toString("d MMMM, HH:mm")),
                        {},

@@ -10,7 +10,8 @@
 
 namespace extremal {
 
-Banners::Banners(Notices& notices, QWidget* parent) : QWidget(parent), notices_(notices), layout_(new QVBoxLayout(this)) {
+Banners::Banners(Notices& notices, QWidget* parent)
+    : QWidget(parent), notices_(notices), layout_(new QVBoxLayout(this)) {
     layout_->setContentsMargins(0, 0, 0, 0);
     layout_->setSpacing(6);
     connect(&notices_, &Notices::changed, this, &Banners::rebuild);
@@ -27,8 +28,9 @@ void Banners::rebuild() {
         banner->setProperty("banner", notice.kind == Notice::Kind::error ? "error" : "warning");
         auto* row = new QHBoxLayout(banner);
         row->setContentsMargins(12, 6, 8, 6);
-        auto* text = makeLabel(notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint, "",
-                               banner);
+        auto* text = makeLabel(
+            notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint, "",
+            banner);
         text->setWordWrap(true);
         text->setTextInteractionFlags(Qt::TextSelectableByMouse);
         row->addWidget(text, 1);

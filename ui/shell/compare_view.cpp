@@ -25,7 +25,8 @@
 namespace extremal {
 namespace {
 
-/// Views of the same plot: their part and curve may differ, which follow the parameters, but for keys that choose its axes.
+/// Views of the same plot: their part and curve may differ, which follow the parameters, but for keys that
+/// choose its axes.
 bool isSameCard(const View& a, const View& b) {
     return a.id == b.id && a.x == b.x && a.y == b.y && a.at == b.at && a.scheme == b.scheme &&
            (a.id == mapView || a.keys == b.keys);
@@ -33,8 +34,14 @@ bool isSameCard(const View& a, const View& b) {
 
 }  // namespace
 
-CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme, QWidget* parent)
-    : QWidget(parent), workspace_(workspace), run_(run), playback_(playback), theme_(&theme), group_(new PlotGroup(this)) {
+CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme,
+                         QWidget* parent)
+    : QWidget(parent),
+      workspace_(workspace),
+      run_(run),
+      playback_(playback),
+      theme_(&theme),
+      group_(new PlotGroup(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     auto* scroll = new QScrollArea;
@@ -88,9 +95,12 @@ void CompareView::rebuild() {
     if (!workspace_.hasScene()) return;
     std::vector<View> views{{"work-precision", "", ""}};
     for (View& v : plotViews(workspace_.scene()))
-        if (v.id != "work-precision") views.push_back(std::move(v));
-        else views.front() = std::move(v);
-    const bool isSameCards = std::equal(views.begin(), views.end(), shownViews_.begin(), shownViews_.end(), isSameCard);
+        if (v.id != "work-precision")
+            views.push_back(std::move(v));
+        else
+            views.front() = std::move(v);
+    const bool isSameCards =
+        std::equal(views.begin(), views.end(), shownViews_.begin(), shownViews_.end(), isSameCard);
     shownViews_ = views;
     if (isSameCards) {
         for (std::size_t i = 0; i < views.size(); ++i) slots_[i].view = views[i];
@@ -116,18 +126,21 @@ void CompareView::rebuild() {
         menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
         menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
         group_->add(plot);
-        connect(plot, &PlotWidget::cellChosen, this, [this, view](double value, double step) { loadCase(view, value, step); });
+        connect(plot, &PlotWidget::cellChosen, this,
+                [this, view](double value, double step) { loadCase(view, value, step); });
     }
     columns_ = 0;
     arrange();
     refresh();
 }
 
-/// What the scene keeps of a plot; offered where it can be. The edits come after the menu has closed, as they may replace it.
+/// What the scene keeps of a plot; offered where it can be. The edits come after the menu has closed, as they
+/// may replace it.
 void CompareView::addSceneActions(QMenu& menu, std::size_t slot) {
     QAction* all = menu.addAction(tr("Show all data"), this, [this, slot] { slots_[slot].plot->showAll(); });
-    QAction* keep = menu.addAction(tr("Keep this part in the scene"), this,
-                                   [this, slot] { keepPart(workspace_, slots_[slot].view, *slots_[slot].plot); });
+    QAction* keep = menu.addAction(tr("Keep this part in the scene"), this, [this, slot] {
+        keepPart(workspace_, slots_[slot].view, *slots_[slot].plot);
+    });
     QAction* forget = menu.addAction(tr("Keep all data in the scene"), this, [this, slot] {
         View after = slots_[slot].view;
         after.xRange = after.yRange = {};
@@ -215,12 +228,15 @@ void CompareView::refresh() {
 
 void CompareView::loadCase(const View& view, double value, double step) {
     const std::vector<Edit> edits = editsForCase(workspace_.scene(), view, value, step);
-    const QString text = tr("%1 = %2 and the step %3 of %4")
-                             .arg(QString::fromStdString(view.keys.text("parameter")), QString::fromStdString(formatNumber(value)),
-                                  QString::fromStdString(formatNumber(step)), QString::fromStdString(view.scheme));
+    const QString text =
+        tr("%1 = %2 and the step %3 of %4")
+            .arg(QString::fromStdString(view.keys.text("parameter")),
+                 QString::fromStdString(formatNumber(value)), QString::fromStdString(formatNumber(step)),
+                 QString::fromStdString(view.scheme));
     if (edits.empty() || !workspace_.edit(edits, tr("Load a case of a map"))) return;
     const auto& schemes = workspace_.scene().schemes;
-    const auto own = std::find_if(schemes.begin(), schemes.end(), [&](const SchemeSpec& s) { return s.label == view.scheme; });
+    const auto own = std::find_if(schemes.begin(), schemes.end(),
+                                  [&](const SchemeSpec& s) { return s.label == view.scheme; });
     workspace_.selectScheme(static_cast<int>(own - schemes.begin()));
     emit caseLoaded(text);
 }
@@ -230,9 +246,11 @@ void CompareView::alignMargins() {
     for (const int parity : {0, 1}) {
         int widest = 0;
         for (std::size_t i = 1; i < slots_.size(); ++i)
-            if (columns_ == 1 || static_cast<int>(i % 2) == parity) widest = std::max(widest, slots_[i].plot->leftMargin());
+            if (columns_ == 1 || static_cast<int>(i % 2) == parity)
+                widest = std::max(widest, slots_[i].plot->leftMargin());
         for (std::size_t i = 1; i < slots_.size(); ++i)
-            if (columns_ == 1 || static_cast<int>(i % 2) == parity) slots_[i].plot->setLeftMargin(std::min(widest, 90));
+            if (columns_ == 1 || static_cast<int>(i % 2) == parity)
+                slots_[i].plot->setLeftMargin(std::min(widest, 90));
     }
 }
 

@@ -1,4 +1,5 @@
-/// The Compare page: the stage, speed against accuracy, and the linked plots of the scene's views, each in a card.
+/// The Compare page: the stage, speed against accuracy, and the linked plots of the scene's views, each in a
+/// card.
 #pragma once
 
 #include <QWidget>
@@ -25,7 +26,8 @@ class Workspace;
 class CompareView : public QWidget {
     Q_OBJECT
 public:
-    CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme, QWidget* parent = nullptr);
+    CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme,
+                QWidget* parent = nullptr);
     void setTheme(const Theme& theme);
     void fitAll();
     /// The plot that was last clicked, else the first one; null if there is none.
@@ -46,10 +48,10 @@ private:
         Card* card;
         PlotWidget* plot;
     };
-    void rebuild();   ///< another set of views
+    void rebuild();  ///< another set of views
     void addSceneActions(QMenu& menu, std::size_t slot);
-    void arrange();   ///< the same cards, another width
-    void refresh();   ///< new results
+    void arrange();  ///< the same cards, another width
+    void refresh();  ///< new results
     void alignMargins();
     void loadCase(const View& view, double value, double step);
 

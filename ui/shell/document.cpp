@@ -44,7 +44,8 @@ void apply(Value& root, const Edit& edit) {
     }
     Value* place = &root;
     for (std::size_t i = 0; i + 1 < tokens->size() && place; ++i)
-        place = edit.value ? childToWrite(*place, (*tokens)[i]) : const_cast<Value*>(child(*place, (*tokens)[i]));
+        place =
+            edit.value ? childToWrite(*place, (*tokens)[i]) : const_cast<Value*>(child(*place, (*tokens)[i]));
     if (!place) return;
     if (!edit.value) return removeChild(*place, tokens->back());
     if (Value* target = childToWrite(*place, tokens->back())) *target = *edit.value;

@@ -21,8 +21,8 @@ struct Edit {
 /// What stands at a place, or null.
 const Value* valueAt(const Value& root, std::string_view pointer);
 
-/// The tree with the edits made, from the first to the last. Objects on the way are created; an edit whose place
-/// cannot exist (an index beyond the end, a member of a number) changes nothing.
+/// The tree with the edits made, from the first to the last. Objects on the way are created; an edit whose
+/// place cannot exist (an index beyond the end, a member of a number) changes nothing.
 Value withEdits(Value root, const std::vector<Edit>& edits);
 
 }  // namespace extremal

@@ -10,7 +10,8 @@
 namespace extremal {
 namespace {
 
-/// Where H is a full matrix there are few ways, and their makers know; a trial costs little with at most 512 modes.
+/// Where H is a full matrix there are few ways, and their makers know; a trial costs little with at most 512
+/// modes.
 bool isForBoundary(const BaselineEntry& e, const System& system) {
     if (!hasFullMatrix(system)) return true;
     Settings settings{e.item.id, {}, {}};
@@ -49,7 +50,8 @@ std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene) {
     const System system = makeSystem(scene);
     std::vector<const SchemeEntry*> entries;
     for (const SchemeEntry& e : schemeCatalog())
-        if (const Discretization pair = e.make(e.minDegree); isPairFor(pair, system) && isForBoundary(pair, system))
+        if (const Discretization pair = e.make(e.minDegree);
+            isPairFor(pair, system) && isForBoundary(pair, system))
             entries.push_back(&e);
     return entries;
 }

@@ -16,7 +16,8 @@ std::vector<CatalogItem> fittingSpaces(const Scene& scene);
 std::vector<const BaselineEntry*> fittingBaselines(const Scene& scene);
 std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene);
 
-/// The id of the space that pairs are made of: polynomial for models with coordinates, lie-polynomial for bodies.
+/// The id of the space that pairs are made of: polynomial for models with coordinates, lie-polynomial for
+/// bodies.
 std::string pairSpace(const Scene& scene);
 
 }  // namespace extremal

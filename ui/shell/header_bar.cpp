@@ -44,7 +44,8 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     wanted_->setMinimumWidth(70);
     wanted_->setMaximumWidth(190);
     wanted_->setAccessibleName(tr("Wanted error"));
-    wanted_->setToolTip(tr("The largest error you accept: names the cheapest scheme measured so far that reaches it"));
+    wanted_->setToolTip(
+        tr("The largest error you accept: names the cheapest scheme measured so far that reaches it"));
     choice_ = makeElidedLabel({}, "strong", this);
     row->addWidget(wantedLabel);
     row->addWidget(wanted_, 1);
@@ -79,8 +80,9 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
 void HeaderBar::showScene() {
     const QString title = QString::fromStdString(workspace_.scene().title);
     title_->setText(!workspace_.hasScene() ? tr("Extremal") : title.isEmpty() ? tr("Untitled scene") : title);
-    file_->setText(workspace_.hasScene() ? workspace_.fileName() + (workspace_.isDirty() ? tr(" (edited)") : QString())
-                                         : QString());
+    file_->setText(workspace_.hasScene()
+                       ? workspace_.fileName() + (workspace_.isDirty() ? tr(" (edited)") : QString())
+                       : QString());
 }
 
 void HeaderBar::showState() {
@@ -97,16 +99,19 @@ void HeaderBar::showChoice() {
         for (const auto& s : results->schemes) {
             const Summary& m = s->summary;
             if (m.status != RunStatus::done || !std::isfinite(m.maxError)) continue;
-            if (m.maxError <= wanted && (!cheapest || m.cpuSeconds < cheapest->summary.cpuSeconds)) cheapest = s.get();
+            if (m.maxError <= wanted && (!cheapest || m.cpuSeconds < cheapest->summary.cpuSeconds))
+                cheapest = s.get();
             if (!nearest || m.maxError < nearest->summary.maxError) nearest = s.get();
         }
     QString text = start;
     if (cheapest)
-        text += QStringLiteral("  →  %1, %2, %3").arg(QString::fromStdString(cheapest->summary.label), stepText(cheapest->spec),
-                                                      shortTime(cheapest->summary.cpuSeconds));
+        text += QStringLiteral("  →  %1, %2, %3")
+                    .arg(QString::fromStdString(cheapest->summary.label), stepText(cheapest->spec),
+                         shortTime(cheapest->summary.cpuSeconds));
     else if (nearest)
-        text += tr("  →  none here; nearest %1 with %2")
-                    .arg(QString::fromStdString(nearest->summary.label), shortNumber(nearest->summary.maxError));
+        text +=
+            tr("  →  none here; nearest %1 with %2")
+                .arg(QString::fromStdString(nearest->summary.label), shortNumber(nearest->summary.maxError));
     choice_->setText(text);
 }
 

@@ -38,7 +38,8 @@ HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
     };
     add(QStringLiteral("index"));
     static const QRegularExpression link(QStringLiteral(R"(\]\(([\w-]+)\.md\))"));
-    for (const QRegularExpressionMatch& match : link.globalMatch(pageText(QStringLiteral("index")))) add(match.captured(1));
+    for (const QRegularExpressionMatch& match : link.globalMatch(pageText(QStringLiteral("index"))))
+        add(match.captured(1));
     connect(pages_, &QListWidget::currentItemChanged, this, [this](QListWidgetItem* now) {
         if (now) showMarkdown(*text_, pageText(now->data(Qt::UserRole).toString()));
     });

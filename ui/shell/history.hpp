@@ -1,4 +1,5 @@
-/// Undo and redo: the previous documents. Edits of the same place in quick succession (a dragged slider) merge.
+/// Undo and redo: the previous documents. Edits of the same place in quick succession (a dragged slider)
+/// merge.
 #pragma once
 
 #include <QElapsedTimer>

@@ -123,11 +123,15 @@ void MainWindow::makePages() {
     centreColumn->addWidget(values_);
     connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
     connect(compare_, &CompareView::caseLoaded, this, [this](const QString& text) {
-        notices_->post({Notice::Kind::information, "case", tr("Loaded from the map: %1.").arg(text),
-                        tr("the dot in each map is the scene; Ctrl+Z goes back"), {{tr("Undo"), [this] { workspace_->undo(); }}}});
+        notices_->post({Notice::Kind::information,
+                        "case",
+                        tr("Loaded from the map: %1.").arg(text),
+                        tr("the dot in each map is the scene; Ctrl+Z goes back"),
+                        {{tr("Undo"), [this] { workspace_->undo(); }}}});
     });
     connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
-        notices_->post({Notice::Kind::error, "save", tr("The plot could not be saved: %1").arg(reason), {}, {}});
+        notices_->post(
+            {Notice::Kind::error, "save", tr("The plot could not be saved: %1").arg(reason), {}, {}});
     });
 
     schemes_ = new SchemeList(*workspace_, *run_, theme_);
@@ -146,7 +150,8 @@ void MainWindow::makePages() {
     workRow->addWidget(splitter_);
 
     startPage_ = new StartPage(theme_);
-    connect(startPage_, &StartPage::presetChosen, this, [this](const QString& name) { open("preset:" + name); });
+    connect(startPage_, &StartPage::presetChosen, this,
+            [this](const QString& name) { open("preset:" + name); });
     connect(startPage_, &StartPage::openRequested, this, &MainWindow::openDialog);
     stack_ = new QStackedWidget;
     stack_->addWidget(startPage_);
@@ -223,15 +228,21 @@ void MainWindow::showStatus() {
             done += s->summary.status == RunStatus::done;
             cpu += s->summary.cpuSeconds;
         }
-        parts << tr("%1 of %2 done").arg(done).arg(results->schemes.size()) << tr("%1 CPU").arg(shortTime(cpu));
+        parts << tr("%1 of %2 done").arg(done).arg(results->schemes.size())
+              << tr("%1 CPU").arg(shortTime(cpu));
         parts << tr("%n cores", nullptr, static_cast<int>(std::thread::hardware_concurrency()));
         if (results->reference.type != "none")
             parts << tr("reference: %1").arg(QString::fromStdString(results->reference.description));
     }
     switch (run_->state()) {
-        case RunControl::State::running: parts << tr("running, %1 %").arg(std::lround(100 * run_->fraction())); break;
-        case RunControl::State::offered: parts << tr("waiting for Run: this takes a while"); break;
-        default: break;
+        case RunControl::State::running:
+            parts << tr("running, %1 %").arg(std::lround(100 * run_->fraction()));
+            break;
+        case RunControl::State::offered:
+            parts << tr("waiting for Run: this takes a while");
+            break;
+        default:
+            break;
     }
     status_->setText(parts.join(QStringLiteral("   ·   ")));
 }
@@ -267,7 +278,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
-    if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile()) event->acceptProposedAction();
+    if (event->mimeData()->hasUrls() && event->mimeData()->urls().first().isLocalFile())
+        event->acceptProposedAction();
 }
 
 void MainWindow::dropEvent(QDropEvent* event) {

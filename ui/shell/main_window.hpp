@@ -1,4 +1,5 @@
-/// The main window: it only arranges. State lives in Workspace, RunControl and Playback; panels and pages show it.
+/// The main window: it only arranges. State lives in Workspace, RunControl and Playback; panels and pages
+/// show it.
 #pragma once
 
 #include <QMainWindow>
@@ -31,7 +32,8 @@ class Workspace;
 class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
-    /// `isRemembered`: layout, theme and unsaved scenes are kept between starts; not for tests and screenshots.
+    /// `isRemembered`: layout, theme and unsaved scenes are kept between starts; not for tests and
+    /// screenshots.
     explicit MainWindow(const Theme& theme, bool isRemembered = true);
     ~MainWindow() override;
 
@@ -87,8 +89,8 @@ private:
     Timeline* timeline_;
     ValuesTable* values_;
     HelpWindow* help_ = nullptr;
-    QStackedWidget* stack_;   ///< start page or work page
-    QStackedWidget* pages_;   ///< Compare, Notes
+    QStackedWidget* stack_;  ///< start page or work page
+    QStackedWidget* pages_;  ///< Compare, Notes
     QTabBar* tabs_;
     QSplitter* splitter_;
     QTextBrowser* notes_;

@@ -6,7 +6,8 @@
 namespace extremal {
 
 void Notices::post(Notice notice) {
-    const auto same = std::find_if(all_.begin(), all_.end(), [&](const Notice& n) { return n.key == notice.key; });
+    const auto same =
+        std::find_if(all_.begin(), all_.end(), [&](const Notice& n) { return n.key == notice.key; });
     const bool isRepeated = same != all_.end() && same->text == notice.text;
     if (!isRepeated) addToLog(notice.hint.isEmpty() ? notice.text : notice.text + " (" + notice.hint + ")");
     if (same != all_.end())

@@ -14,7 +14,8 @@
 namespace extremal {
 namespace {
 
-/// The letters of the pattern appear in this order; better where they follow each other and start words. -1: no match.
+/// The letters of the pattern appear in this order; better where they follow each other and start words. -1:
+/// no match.
 int score(const QString& text, const QString& pattern) {
     int points = 0, at = 0, last = -2;
     for (const QChar c : pattern) {
@@ -64,14 +65,16 @@ void PaletteDialog::filter(const QString& text) {
         const QString name = QString(all[i]->text()).remove('&');
         const QString keys = all[i]->shortcut().toString(QKeySequence::NativeText);
         if (const int points = score(name, text); points >= 0)
-            found.push_back({points, keys.isEmpty() ? name : name + QStringLiteral("    ") + keys, i, all[i]->isEnabled()});
+            found.push_back({points, keys.isEmpty() ? name : name + QStringLiteral("    ") + keys, i,
+                             all[i]->isEnabled()});
     }
     for (const Preset& p : presets()) {
         const QString name = QString::fromUtf8(p.id.data(), static_cast<qsizetype>(p.id.size()));
         if (const int points = score(name, text); points >= 0)
             found.push_back({points, tr("Open preset: %1").arg(name), name, true});
     }
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.points > b.points; });
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Found& a, const Found& b) { return a.points > b.points; });
     for (const Found& f : found) {
         auto* item = new QListWidgetItem(f.text, list_);
         item->setData(Qt::UserRole, f.data);

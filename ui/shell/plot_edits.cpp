@@ -51,7 +51,8 @@ ViewRange roundedRange(PlotRange range, bool isLog) {
     const auto rounded = [&](double value) {
         const double size = isLog ? value : range.high - range.low;
         const double unit = std::pow(10, std::floor(std::log10(size)) - (isLog ? 3 : 4));
-        // Through a whole number of an inverse power: the nearest double to the decimal number, so that it is saved as that.
+        // Through a whole number of an inverse power: the nearest double to the decimal number, so that it is
+        // saved as that.
         return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit;
     };
     return {{rounded(range.low), {}}, {rounded(range.high), {}}};
@@ -59,8 +60,10 @@ ViewRange roundedRange(PlotRange range, bool isLog) {
 
 void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot) {
     View after = view;
-    if (plot.isUserZoomed(PlotAxis::x)) after.xRange = roundedRange(plot.visibleRange(PlotAxis::x), plot.figure().x.isLog);
-    if (plot.isUserZoomed(PlotAxis::y)) after.yRange = roundedRange(plot.visibleRange(PlotAxis::y), plot.figure().y.isLog);
+    if (plot.isUserZoomed(PlotAxis::x))
+        after.xRange = roundedRange(plot.visibleRange(PlotAxis::x), plot.figure().x.isLog);
+    if (plot.isUserZoomed(PlotAxis::y))
+        after.yRange = roundedRange(plot.visibleRange(PlotAxis::y), plot.figure().y.isLog);
     workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Keep the part a plot shows"));
 }
 
@@ -68,8 +71,8 @@ namespace {
 
 using ViewSource = std::function<View()>;
 
-/// Entries of a menu of which one is chosen; choosing another changes the view, and takes away the part that was kept and a curve
-/// whose variable goes.
+/// Entries of a menu of which one is chosen; choosing another changes the view, and takes away the part that
+/// was kept and a curve whose variable goes.
 class Choices {
 public:
     Choices(QMenu& menu, Workspace& workspace, ViewSource view)
@@ -87,7 +90,8 @@ public:
             change(after);
             const System system = makeSystem(workspace.scene());
             if (axesOf(before, system).variable != axesOf(after, system).variable) after.curve = {};
-            workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
+            workspace.edit(editsForPlot(workspace.scene(), before, after),
+                           QObject::tr("Choose what a plot shows"));
         };
         // After the menu has closed: the card is made anew, and its menu with it.
         QObject::connect(action, &QAction::triggered, &workspace_,
@@ -101,8 +105,8 @@ private:
     ViewSource view_;
 };
 
-void fillNames(QMenu& menu, Workspace& workspace, const std::vector<std::string>& names, std::string View::*member, const QString& none,
-               const ViewSource& view) {
+void fillNames(QMenu& menu, Workspace& workspace, const std::vector<std::string>& names,
+               std::string View::*member, const QString& none, const ViewSource& view) {
     menu.clear();
     Choices choices(menu, workspace, view);
     const std::string now = view().*member;
@@ -130,13 +134,15 @@ void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const 
         QMenu* sub = menu.addMenu(title);
         sub->setToolTip(QString::fromStdString(field.description));
         Choices choices(*sub, workspace, view);
-        const std::string given = view().keys.text(field.key), now = given.empty() ? field.choices.front() : given;
+        const std::string given = view().keys.text(field.key),
+                          now = given.empty() ? field.choices.front() : given;
         for (const std::string& choice : field.choices)
-            choices.add(QString::fromStdString(choice), choice == now, [key = field.key, choice](View& after) {
-                std::erase_if(after.keys.keys, [&](const Value::Member& m) { return m.first == key; });
-                after.keys.keys.emplace_back(key, choice);
-                after.xRange = after.yRange = {};
-            });
+            choices.add(
+                QString::fromStdString(choice), choice == now, [key = field.key, choice](View& after) {
+                    std::erase_if(after.keys.keys, [&](const Value::Member& m) { return m.first == key; });
+                    after.keys.keys.emplace_back(key, choice);
+                    after.xRange = after.yRange = {};
+                });
     }
 }
 
@@ -145,7 +151,8 @@ void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const Vi
     const ViewKeys keys = keysOf(id, &system);
     const QString usual = QObject::tr("as usual");
     using Names = std::function<std::vector<std::string>(const Scene&)>;
-    const auto add = [&](const QString& title, std::string View::*member, const QString& none, const Names& names) {
+    const auto add = [&](const QString& title, std::string View::*member, const QString& none,
+                         const Names& names) {
         QMenu* sub = menu.addMenu(title);
         QObject::connect(sub, &QMenu::aboutToShow, &workspace, [sub, &workspace, view, member, none, names] {
             fillNames(*sub, workspace, names(workspace.scene()), member, none, view);
@@ -156,19 +163,24 @@ void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const Vi
         add(QObject::tr("Along x"), &View::x, usual, columns);
         add(QObject::tr("Along y"), &View::y, usual, columns);
     }
-    if (keys.hasZeros) add(QObject::tr("Where zero"), &View::at, usual, [](const Scene& scene) { return zerosFor(makeSystem(scene)); });
+    if (keys.hasZeros)
+        add(QObject::tr("Where zero"), &View::at, usual,
+            [](const Scene& scene) { return zerosFor(makeSystem(scene)); });
     if (keys.hasScheme) add(QObject::tr("Of the scheme"), &View::scheme, QObject::tr("the first"), labelsOf);
     if (keys.hasNode)
         menu.addAction(QObject::tr("Node..."), &menu, [&workspace, view, &menu] {
             const View before = view();
             const int last = lastNodeOf(workspace.scene());
             bool isChosen = false;
-            const int node = QInputDialog::getInt(menu.parentWidget(), QObject::tr("Node"), QObject::tr("Node, 1 to %1 from left to right").arg(last),
-                                                  before.node ? static_cast<int>(before.node->value) : (last + 1) / 2, 1, last, 1, &isChosen);
+            const int node = QInputDialog::getInt(
+                menu.parentWidget(), QObject::tr("Node"),
+                QObject::tr("Node, 1 to %1 from left to right").arg(last),
+                before.node ? static_cast<int>(before.node->value) : (last + 1) / 2, 1, last, 1, &isChosen);
             if (!isChosen) return;
             View after = before;
             after.node = Number{static_cast<double>(node), {}};
-            workspace.edit(editsForPlot(workspace.scene(), before, after), QObject::tr("Choose what a plot shows"));
+            workspace.edit(editsForPlot(workspace.scene(), before, after),
+                           QObject::tr("Choose what a plot shows"));
         });
 }
 
@@ -179,7 +191,9 @@ void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {
     auto* layout = new QVBoxLayout(&dialog);
     const System system = makeSystem(workspace.scene());
     const QString variable = QString::fromStdString(axesOf(view, system).variable);
-    layout->addWidget(makeLabel(QObject::tr("An expression in %1 and the model's parameters; empty: no curve.").arg(variable), "caption"));
+    layout->addWidget(makeLabel(
+        QObject::tr("An expression in %1 and the model's parameters; empty: no curve.").arg(variable),
+        "caption"));
     auto* input = new QLineEdit(QString::fromStdString(view.curve.expression));
     input->setAccessibleName(QObject::tr("Curve"));
     input->setPlaceholderText(QStringLiteral("0.5*cos(2*pi*%1)").arg(variable));
@@ -195,9 +209,11 @@ void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {
     QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, [&] {
         View after = view;
         after.curve = {input->text().trimmed().toStdString(), {}};
-        if (workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Compare with a curve"))) return dialog.accept();
+        if (workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Compare with a curve")))
+            return dialog.accept();
         const auto problems = workspace.problemsAt("/views");
-        problem->setText(problems.empty() ? QObject::tr("This is refused.") : QString::fromStdString(problems.front().message));
+        problem->setText(problems.empty() ? QObject::tr("This is refused.")
+                                          : QString::fromStdString(problems.front().message));
         problem->show();
         workspace.dropDraft("/views");
     });

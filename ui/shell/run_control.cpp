@@ -30,7 +30,8 @@ double mapStepsOf(const Scene& scene) {
     for (const View& view : scene.views) {
         if (view.id != mapView || view.keys.keys.empty()) continue;
         const MapGrid grid = mapGridOf(scene, view);
-        for (const double step : grid.steps) steps += static_cast<double>(grid.values.size()) * grid.duration / step;
+        for (const double step : grid.steps)
+            steps += static_cast<double>(grid.values.size()) * grid.duration / step;
     }
     return steps;
 }
@@ -42,8 +43,8 @@ double sizeOf(const Settings& model) {
 }
 
 bool isSameMethod(const SchemeSpec& a, const SchemeSpec& b) {
-    return a.kind == b.kind && a.space == b.space && a.quadrature == b.quadrature && a.baseline == b.baseline &&
-           a.named == b.named && a.solver == b.solver;
+    return a.kind == b.kind && a.space == b.space && a.quadrature == b.quadrature &&
+           a.baseline == b.baseline && a.named == b.named && a.solver == b.solver;
 }
 
 /// Before anything is measured: about a microsecond for an explicit step, several for an implicit one.
@@ -81,7 +82,9 @@ double CostModel::predict(const Scene& scene) const {
         const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
             return k.model.type == scene.model.type && isSameMethod(k.spec, spec);
         });
-        seconds += steps * size * (found == known_.end() ? guessPerStep(spec) : found->secondsPerStep / sizeOf(found->model));
+        seconds +=
+            steps * size *
+            (found == known_.end() ? guessPerStep(spec) : found->secondsPerStep / sizeOf(found->model));
     }
     return seconds;
 }
@@ -139,9 +142,13 @@ void RunControl::sceneChanged() {
 }
 
 void RunControl::offer(double seconds) {
-    const QString time = seconds < 120 ? tr("%1 s").arg(seconds, 0, 'f', 0) : tr("%1 min").arg(seconds / 60, 0, 'f', 0);
-    notices_.post({Notice::Kind::information, "offer", tr("This run will take about %1.").arg(time),
-                   tr("press Run, or take larger steps"), {{tr("Run"), [this] { start(); }}}});
+    const QString time =
+        seconds < 120 ? tr("%1 s").arg(seconds, 0, 'f', 0) : tr("%1 min").arg(seconds / 60, 0, 'f', 0);
+    notices_.post({Notice::Kind::information,
+                   "offer",
+                   tr("This run will take about %1.").arg(time),
+                   tr("press Run, or take larger steps"),
+                   {{tr("Run"), [this] { start(); }}}});
     setState(State::offered);
 }
 
@@ -164,9 +171,12 @@ void RunControl::start() {
     } catch (const InvalidScene& error) {
         run_.reset();
         const Problem& first = error.problems().front();
-        notices_.post({Notice::Kind::error, "run",
-                       QString::fromStdString(first.pointer.empty() ? first.message : first.pointer + ": " + first.message),
-                       QString::fromStdString(first.hint), {}});
+        notices_.post({Notice::Kind::error,
+                       "run",
+                       QString::fromStdString(first.pointer.empty() ? first.message
+                                                                    : first.pointer + ": " + first.message),
+                       QString::fromStdString(first.hint),
+                       {}});
         setState(State::idle);
         return;
     }
@@ -197,9 +207,12 @@ void RunControl::poll() {
         cost_.learn(*latest);
         notices_.dismiss("reference");
         for (const Problem& p : latest->reference.problems)
-            notices_.post({Notice::Kind::warning, "reference",
-                           tr("There is no reference, so no errors: %1").arg(QString::fromStdString(p.message)),
-                           QString::fromStdString(p.hint), {}});
+            notices_.post(
+                {Notice::Kind::warning,
+                 "reference",
+                 tr("There is no reference, so no errors: %1").arg(QString::fromStdString(p.message)),
+                 QString::fromStdString(p.hint),
+                 {}});
         run_.reset();
         setState(State::finished);
     }

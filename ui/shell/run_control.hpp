@@ -16,7 +16,8 @@ namespace extremal {
 class Notices;
 class Workspace;
 
-/// Expected seconds of a scene, from what its schemes cost per step so far; schemes not seen yet use an estimate.
+/// Expected seconds of a scene, from what its schemes cost per step so far; schemes not seen yet use an
+/// estimate.
 class CostModel {
 public:
     void learn(const Comparison& comparison);

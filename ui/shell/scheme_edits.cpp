@@ -40,7 +40,8 @@ void setKey(Settings& settings, const std::string& key, Value value) {
 }
 
 const CatalogItem* itemOf(const std::vector<CatalogItem>& items, std::string_view id) {
-    const auto found = std::find_if(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == id; });
+    const auto found =
+        std::find_if(items.begin(), items.end(), [&](const CatalogItem& i) { return i.id == id; });
     return found == items.end() ? nullptr : &*found;
 }
 
@@ -94,7 +95,8 @@ Value newPair(const Scene& scene, const Settings& space, const Settings& quadrat
     scheme.set("space", settingsTree(space));
     // Panels that follow the cells of the space are left to do so when these are edited.
     Settings rule = quadrature;
-    if (rule.integer("panels") == ruleFor(rule.type, space).integer("panels")) setKey(rule, "panels", Value());
+    if (rule.integer("panels") == ruleFor(rule.type, space).integer("panels"))
+        setKey(rule, "panels", Value());
     scheme.set("quadrature", settingsTree(rule));
     return scheme;
 }
@@ -106,7 +108,8 @@ Value newBaseline(const Scene& scene, const std::string& id) {
     if (entry && entry->isAdaptive)
         scheme.set("tolerance", 1e-9);
     else
-        scheme.set("step", sensibleStep(scene, entry && entry->item.claims ? entry->item.claims->order : 2, 0));
+        scheme.set("step",
+                   sensibleStep(scene, entry && entry->item.claims ? entry->item.claims->order : 2, 0));
     scheme.set("baseline", id);
     return scheme;
 }
@@ -116,7 +119,8 @@ Value newNamed(const Scene& scene, const std::string& id) {
     const auto pair = namedScheme(id);
     const PairProperties known = pair ? describe(pair->space, pair->quadrature) : PairProperties{};
     scheme.set("label", uniqueLabel(scene, id));
-    if (!pair || !isElliptic(pair->space)) scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
+    if (!pair || !isElliptic(pair->space))
+        scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
     scheme.set("scheme", id);
     return scheme;
 }
@@ -182,14 +186,16 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         const bool fits = pair ? isPairFor(*pair, system) : baseline && appliesTo(*baseline, system);
         if (!fits && !pair) continue;
         Value scheme = fits ? document.find("schemes")->asArray()[i] : Value();
-        if (!fits && (isElliptic(pair->space) || system.elliptic) && !schemes.empty()) continue;  // one stands for all
+        if (!fits && (isElliptic(pair->space) || system.elliptic) && !schemes.empty())
+            continue;  // one stands for all
         if (!fits) {
             const std::string space = pairSpace(next);
             const int degree = isElliptic(pair->space) ? 2 : std::min(pair->space.integer("degree"), 8);
             const Settings fitting = spaceOf(space, degree);
             scheme = newPair(next, fitting, ruleFor(pair->quadrature.type, fitting));
         }
-        if (spec.step.value > 0 && scheme.find("step")) scheme.set("step", roundStep(spec.step.value * scale * 1.0001));
+        if (spec.step.value > 0 && scheme.find("step"))
+            scheme.set("step", roundStep(spec.step.value * scale * 1.0001));
         scheme.set("enabled", spec.isEnabled);
         next.schemes.emplace_back();
         next.schemes.back().label = scheme.find("label")->asString();
@@ -200,8 +206,8 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         schemes.push_back(newPair(next, space, ruleFor("gauss", space)));
     }
     edits.push_back({"/schemes", std::move(schemes)});
-    const bool isOfOldModel =
-        scene.reference.kind == ReferenceSpec::Kind::exact || scene.reference.kind == ReferenceSpec::Kind::file;
+    const bool isOfOldModel = scene.reference.kind == ReferenceSpec::Kind::exact ||
+                              scene.reference.kind == ReferenceSpec::Kind::file;
     if (isOfOldModel) edits.push_back({"/reference", std::nullopt});
     return edits;
 }
@@ -225,8 +231,8 @@ int findPair(const Scene& scene, const Settings& space, const Settings& quadratu
                 return static_cast<int>(i);
             continue;
         }
-        if (s.type == space.type && s.integer("degree") == space.integer("degree") && q.type == quadrature.type &&
-            q.integer("nodes") == quadrature.integer("nodes") &&
+        if (s.type == space.type && s.integer("degree") == space.integer("degree") &&
+            q.type == quadrature.type && q.integer("nodes") == quadrature.integer("nodes") &&
             std::max(1, q.integer("panels")) == std::max(1, quadrature.integer("panels")))
             return static_cast<int>(i);
     }
@@ -241,8 +247,9 @@ std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool i
     if (isShown) views.emplace_back(id);
     std::vector<Edit> edits{{"/views", Value(std::move(views))}};
     const ViewEntry* entry = findView(id);
-    const bool isMissing = isShown && entry && !entry->observable.empty() &&
-                           std::find(scene.observe.begin(), scene.observe.end(), entry->observable) == scene.observe.end();
+    const bool isMissing =
+        isShown && entry && !entry->observable.empty() &&
+        std::find(scene.observe.begin(), scene.observe.end(), entry->observable) == scene.observe.end();
     if (!isMissing) return edits;
     Value::Array observe(scene.observe.begin(), scene.observe.end());
     observe.emplace_back(entry->observable);

@@ -1,4 +1,5 @@
-/// What the window does with schemes, as edits of the document: add, duplicate, remove, move, switch on and off.
+/// What the window does with schemes, as edits of the document: add, duplicate, remove, move, switch on and
+/// off.
 #pragma once
 
 #include <string>
@@ -10,7 +11,8 @@
 
 namespace extremal {
 
-/// A step to begin with: that of a similar scheme of the scene, else the model's example, scaled by the order.
+/// A step to begin with: that of a similar scheme of the scene, else the model's example, scaled by the
+/// order.
 double sensibleStep(const Scene& scene, int order, double stabilityLimit);
 
 /// A label no other scheme has: the wish, or the wish with "(2)", "(3)", ...
@@ -28,8 +30,8 @@ std::vector<Edit> editsForMove(const Value& document, int index, int by);
 std::vector<Edit> editsForToggle(const Scene& scene, int index);
 /// The model with the values it starts from, where they are not its defaults.
 Value exampleModel(const ModelEntry& entry);
-/// Another model: its example data and views, and a step that suits it for every scheme. Schemes that the model has no
-/// use for turn into pairs of the same order, or go.
+/// Another model: its example data and views, and a step that suits it for every scheme. Schemes that the
+/// model has no use for turn into pairs of the same order, or go.
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 
 /// A case of a view "parameter-map" of one scheme: the parameter, and the step of this scheme.
@@ -44,8 +46,8 @@ std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool i
 
 /// A space of the catalogue with its defaults and this degree.
 Settings spaceOf(const std::string& id, int degree);
-/// The rule, if a space of this kind goes with it, else the usual one of the space: Filon rules and "auto" are for
-/// oscillatory spaces, which seldom go with a plain rule of few nodes.
+/// The rule, if a space of this kind goes with it, else the usual one of the space: Filon rules and "auto"
+/// are for oscillatory spaces, which seldom go with a plain rule of few nodes.
 std::string fittingRule(const std::string& rule, const Settings& space);
 /// A rule of the catalogue as it fits the space.
 Settings ruleFor(const std::string& id, const Settings& space);

@@ -23,7 +23,8 @@ Theme rememberedTheme() {
 }
 
 int takePicture(QApplication& application, const QString& file, const std::string& scene) {
-    const Theme theme = qEnvironmentVariable("EXTREMAL_SHOT_THEME") == "dark" ? Theme::dark() : Theme::light();
+    const Theme theme =
+        qEnvironmentVariable("EXTREMAL_SHOT_THEME") == "dark" ? Theme::dark() : Theme::light();
     applyTheme(application, theme);
     MainWindow window(theme, false);
     const QStringList size = qEnvironmentVariable("EXTREMAL_SHOT_SIZE", "1600x1000").split('x');

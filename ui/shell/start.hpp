@@ -9,8 +9,8 @@ namespace extremal {
 ///
 /// For pictures made by scripts, environment variables ask for one shot instead of a session:
 ///     EXTREMAL_SHOT=FILE.png [EXTREMAL_SHOT_SIZE=1600x1000] [EXTREMAL_SHOT_THEME=dark] extremal SCENE
-/// runs the scene to its end, moves the time to 62 % of it, grabs the window and ends. A display is needed, a virtual
-/// one will do.
+/// runs the scene to its end, moves the time to 62 % of it, grabs the window and ends. A display is needed, a
+/// virtual one will do.
 int runWindow(int& argc, char** argv, const std::string& scene);
 
 }  // namespace extremal

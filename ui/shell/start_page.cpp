@@ -60,7 +60,8 @@ struct StartPage::Entry {
     Comparison result;
 };
 
-StartPage::StartPage(const Theme& theme, QWidget* parent) : QWidget(parent), theme_(&theme), timer_(new QTimer(this)) {
+StartPage::StartPage(const Theme& theme, QWidget* parent)
+    : QWidget(parent), theme_(&theme), timer_(new QTimer(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     auto* scroll = new QScrollArea;
@@ -75,9 +76,10 @@ StartPage::StartPage(const Theme& theme, QWidget* parent) : QWidget(parent), the
     auto* words = new QVBoxLayout;
     words->setSpacing(3);
     words->addWidget(makeLabel(tr("Choose a comparison"), "heading"));
-    words->addWidget(makeLabel(tr("Pick a function space and a quadrature rule: the stationarity of the discrete action is the "
-                                  "integrator. Each card is a finished comparison; change anything in it."),
-                               "caption"));
+    words->addWidget(makeLabel(
+        tr("Pick a function space and a quadrature rule: the stationarity of the discrete action is the "
+           "integrator. Each card is a finished comparison; change anything in it."),
+        "caption"));
     head->addLayout(words, 1);
     auto* open = new QPushButton(tr("Open a scene..."));
     connect(open, &QPushButton::clicked, this, &StartPage::openRequested);
@@ -93,14 +95,16 @@ StartPage::StartPage(const Theme& theme, QWidget* parent) : QWidget(parent), the
     // The headline first, then the others by name.
     std::vector<const Preset*> order;
     for (const Preset& p : presets()) order.push_back(&p);
-    std::stable_partition(order.begin(), order.end(), [](const Preset* p) { return p->id == "spring-pendulum"; });
+    std::stable_partition(order.begin(), order.end(),
+                          [](const Preset* p) { return p->id == "spring-pendulum"; });
     for (const Preset* p : order) {
         ReadScene read = readScene(p->json);
         if (!read.errors.empty()) continue;
         const QString id = QString::fromUtf8(p->id.data(), static_cast<qsizetype>(p->id.size()));
         auto entry = std::make_unique<Entry>();
         entry->scene = std::move(read.scene);
-        entry->card = new PresetCard(QString::fromStdString(entry->scene.title), [this, id] { emit presetChosen(id); }, inside_);
+        entry->card = new PresetCard(
+            QString::fromStdString(entry->scene.title), [this, id] { emit presetChosen(id); }, inside_);
         entry->picture = new QLabel(entry->card);
         entry->picture->setFixedHeight(pictureSize.height());
         entry->picture->setAlignment(Qt::AlignCenter);

@@ -1,4 +1,5 @@
-/// The start page: a gallery of the presets, each with a picture rendered by the program itself and its lesson.
+/// The start page: a gallery of the presets, each with a picture rendered by the program itself and its
+/// lesson.
 #pragma once
 
 #include <QWidget>

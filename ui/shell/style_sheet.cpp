@@ -1,5 +1,5 @@
-/// The one style sheet. It is a template: @name stands for a colour of the theme, @Npx for N pixels times the font
-/// scale, @mode for the variant of an icon.
+/// The one style sheet. It is a template: @name stands for a colour of the theme, @Npx for N pixels times the
+/// font scale, @mode for the variant of an icon.
 #include "ui/shell/theme.hpp"
 
 #include <QRegularExpression>
@@ -149,11 +149,23 @@ QTableCornerButton::section { background: @panel; border: none; }
 
 QString Theme::styleSheet() const {
     const QHash<QString, QString> names = {
-        {"window", window.name()}, {"panel", panel.name()}, {"field", field.name()}, {"text", text.name()},
-        {"muted", muted.name()}, {"grid", grid.name()}, {"line", line.name()}, {"accent", accent.name()},
-        {"onAccent", onAccent.name()}, {"selection", selection.name()}, {"warning", warning.name()},
-        {"warningGround", warningGround.name()}, {"warningLine", warningLine.name()}, {"error", error.name()},
-        {"errorGround", errorGround.name()}, {"errorLine", errorLine.name()}, {"good", good.name()},
+        {"window", window.name()},
+        {"panel", panel.name()},
+        {"field", field.name()},
+        {"text", text.name()},
+        {"muted", muted.name()},
+        {"grid", grid.name()},
+        {"line", line.name()},
+        {"accent", accent.name()},
+        {"onAccent", onAccent.name()},
+        {"selection", selection.name()},
+        {"warning", warning.name()},
+        {"warningGround", warningGround.name()},
+        {"warningLine", warningLine.name()},
+        {"error", error.name()},
+        {"errorGround", errorGround.name()},
+        {"errorLine", errorLine.name()},
+        {"good", good.name()},
         {"cardLine", isDark ? grid.name() : QStringLiteral("#dfe3e8")},
         {"control", isDark ? QStringLiteral("#66717f") : QStringLiteral("#8a939e")},
         {"accentHover", isDark ? accent.lighter(112).name() : accent.darker(112).name()},
@@ -168,7 +180,8 @@ QString Theme::styleSheet() const {
         result += source.mid(done, match.capturedStart() - done);
         done = match.capturedEnd();
         if (match.hasCaptured(1))
-            result += QString::number(std::lround(match.captured(1).toInt() * fontScale)) + QStringLiteral("px");
+            result +=
+                QString::number(std::lround(match.captured(1).toInt() * fontScale)) + QStringLiteral("px");
         else if (names.contains(match.captured(2)))
             result += names.value(match.captured(2));
         else

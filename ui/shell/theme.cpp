@@ -10,7 +10,8 @@
 
 #include "engine/figure/figure.hpp"
 
-// The resources live in a static library: the linker keeps them only if somebody asks. Must be outside namespaces.
+// The resources live in a static library: the linker keeps them only if somebody asks. Must be outside
+// namespaces.
 static void initResources() { Q_INIT_RESOURCE(resources); }
 
 namespace extremal {
@@ -64,19 +65,20 @@ Theme Theme::dark() {
 
 QColor Theme::pale(const QColor& color, int percent) const {
     const auto mix = [percent](int a, int b) { return (percent * a + (100 - percent) * b) / 100; };
-    return {mix(color.red(), panel.red()), mix(color.green(), panel.green()), mix(color.blue(), panel.blue())};
+    return {mix(color.red(), panel.red()), mix(color.green(), panel.green()),
+            mix(color.blue(), panel.blue())};
 }
 
 SeriesStyle Theme::series(int style) const {
     static const std::array<QList<qreal>, 8> dashes = {{
-        {},                        // solid
-        {7, 2.5},                  // long
-        {7, 2.2, 1.6, 2.2},        // dash dot
-        {2.6, 2},                  // short
-        {1.2, 1.8},                // dots
-        {12, 2.5},                 // very long
-        {7, 2, 1.6, 2, 1.6, 2},    // dash dot dot
-        {7, 2, 2.6, 2},            // long short
+        {},                      // solid
+        {7, 2.5},                // long
+        {7, 2.2, 1.6, 2.2},      // dash dot
+        {2.6, 2},                // short
+        {1.2, 1.8},              // dots
+        {12, 2.5},               // very long
+        {7, 2, 1.6, 2, 1.6, 2},  // dash dot dot
+        {7, 2, 2.6, 2},          // long short
     }};
     if (style == formulaStyle) return {muted, {4.5, 3.5}};
     if (style == exactStyle) return {text, {}};
@@ -139,7 +141,8 @@ QString loadFonts() {
         initResources();
         QString name;
         for (const char* file : {"Regular", "Medium", "SemiBold"}) {
-            const int id = QFontDatabase::addApplicationFont(QStringLiteral(":/fonts/Inter-%1.otf").arg(file));
+            const int id =
+                QFontDatabase::addApplicationFont(QStringLiteral(":/fonts/Inter-%1.otf").arg(file));
             const QStringList families = QFontDatabase::applicationFontFamilies(id);
             if (name.isEmpty() && !families.isEmpty()) name = families.front();
         }
@@ -164,7 +167,9 @@ void repolish(QWidget& widget) {
 
 double contrast(const QColor& a, const QColor& b) {
     const auto luminance = [](const QColor& c) {
-        const auto linear = [](double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); };
+        const auto linear = [](double s) {
+            return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+        };
         return 0.2126 * linear(c.redF()) + 0.7152 * linear(c.greenF()) + 0.0722 * linear(c.blueF());
     };
     const double la = luminance(a), lb = luminance(b);

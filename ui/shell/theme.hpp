@@ -1,16 +1,15 @@
 /// The look of the program as one value: colours, fonts, series styles, and the style sheet made from them.
 ///
-/// Everything that draws takes a `const Theme&`: the window, the plots, the stage and the exports. Two values exist,
-/// Theme::light() and Theme::dark(). Lengths are in device-independent pixels (12 px is 9 pt), so that pictures do not
-/// depend on the resolution of a screen. All text colours reach a contrast of 4.5 : 1 on the grounds they are used on,
-/// all series colours 3 : 1.
+/// Everything that draws takes a `const Theme&`: the window, the plots, the stage and the exports. Two values
+/// exist, Theme::light() and Theme::dark(). Lengths are in device-independent pixels (12 px is 9 pt), so that
+/// pictures do not depend on the resolution of a screen. All text colours reach a contrast of 4.5 : 1 on the
+/// grounds they are used on, all series colours 3 : 1.
 ///
 /// The style sheet knows these dynamic properties; nothing else needs a style of its own:
-///     QFrame   card = true               panel ground, hairline, rounded corners;  selected = true: accent line
-///     QFrame   banner = "warning"|"error"
-///     QLabel   role = "heading" | "title" | "strong" | "caption"      (no role: body text)
-///     QPushButton kind = "primary" | "flat" | "chip"                  (no kind: outlined)
-///     QWidget  ground = "window" | "panel"                            plain grounds
+///     QFrame   card = true               panel ground, hairline, rounded corners;  selected = true: accent
+///     line QFrame   banner = "warning"|"error" QLabel   role = "heading" | "title" | "strong" | "caption"
+///     (no role: body text) QPushButton kind = "primary" | "flat" | "chip"                  (no kind:
+///     outlined) QWidget  ground = "window" | "panel"                            plain grounds
 /// After changing a property of a visible widget call repolish(widget).
 #pragma once
 
@@ -29,7 +28,8 @@ namespace extremal {
 /// The share of its colour that a second curve of a scheme has, in percent.
 inline constexpr int paleLine = 50;
 
-/// How a scheme is drawn everywhere. The dash is in units of the pen's width, as QPen wants it; empty is solid.
+/// How a scheme is drawn everywhere. The dash is in units of the pen's width, as QPen wants it; empty is
+/// solid.
 struct SeriesStyle {
     QColor color;
     QList<qreal> dash;
@@ -37,7 +37,7 @@ struct SeriesStyle {
 
 struct Theme {
     bool isDark = false;
-    QColor window, panel, field;         ///< grounds: behind the cards, of cards and plots, of inputs
+    QColor window, panel, field;  ///< grounds: behind the cards, of cards and plots, of inputs
     QColor text, muted;
     QColor grid, line;                   ///< grid of plots; hairlines of cards and axes
     QColor accent, onAccent, selection;  ///< selection: ground of chosen rows and text
@@ -45,23 +45,23 @@ struct Theme {
     QColor error, errorGround, errorLine;
     QColor good;
     std::array<QColor, 8> seriesColors;
-    double fontScale = 1;                ///< the user's setting
+    double fontScale = 1;  ///< the user's setting
 
     static Theme light();
     static Theme dark();
 
-    /// Colour and dash of the scheme with this place in the scene (0, 1, ...). Eight colours, each with its own dash;
-    /// from the ninth scheme on the colours return with other dashes.
+    /// Colour and dash of the scheme with this place in the scene (0, 1, ...). Eight colours, each with its
+    /// own dash; from the ninth scheme on the colours return with other dashes.
     SeriesStyle series(int style) const;  ///< of a scheme, or of a curve that is none's
 
     /// Between a colour and the ground of plots: so many percent of the colour.
     QColor pale(const QColor& color, int percent) const;
 
-    QFont body() const;      ///< 12 px
-    QFont strong() const;    ///< 12 px semi-bold: values, axis titles
-    QFont caption() const;   ///< 11 px: muted notes, tick labels
-    QFont title() const;     ///< 13 px semi-bold: of cards
-    QFont heading() const;   ///< 14 px semi-bold: of the window
+    QFont body() const;     ///< 12 px
+    QFont strong() const;   ///< 12 px semi-bold: values, axis titles
+    QFont caption() const;  ///< 11 px: muted notes, tick labels
+    QFont title() const;    ///< 13 px semi-bold: of cards
+    QFont heading() const;  ///< 14 px semi-bold: of the window
 
     QPalette palette() const;
     QString styleSheet() const;

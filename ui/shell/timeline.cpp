@@ -42,7 +42,8 @@ Timeline::Timeline(Playback& playback, QWidget* parent) : QWidget(parent), playb
         if (isShowing_) return;
         playback_.setTime(playback_.start() + (playback_.end() - playback_.start()) * value / resolution);
     });
-    connect(speed_, &QComboBox::currentIndexChanged, this, [this] { playback_.setSpeed(speed_->currentData().toDouble()); });
+    connect(speed_, &QComboBox::currentIndexChanged, this,
+            [this] { playback_.setSpeed(speed_->currentData().toDouble()); });
     connect(&playback_, &Playback::timeChanged, this, &Timeline::showTime);
     connect(&playback_, &Playback::rangeChanged, this, &Timeline::showTime);
     connect(&playback_, &Playback::playingChanged, this,
@@ -61,8 +62,10 @@ void Timeline::showTime() {
     const double f = length > 0 ? (playback_.time() - playback_.start()) / length : 0;
     slider_->setValue(static_cast<int>(std::lround(f * resolution)));
     isShowing_ = false;
-    const int decimals = length > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(length / 10))), 0, 6) : 2;
-    QString text = QStringLiteral("t = %1 / %2").arg(playback_.time(), 0, 'f', decimals).arg(playback_.end(), 0, 'g', 6);
+    const int decimals =
+        length > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(length / 10))), 0, 6) : 2;
+    QString text =
+        QStringLiteral("t = %1 / %2").arg(playback_.time(), 0, 'f', decimals).arg(playback_.end(), 0, 'g', 6);
     if (playback_.computedEnd() < playback_.end() - 1e-9 * std::abs(length))
         text += tr(", computed to %1").arg(playback_.computedEnd(), 0, 'g', 4);
     label_->setText(unit_.isEmpty() ? text : text + ' ' + unit_);

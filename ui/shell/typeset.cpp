@@ -56,7 +56,8 @@ void typesetTable(QTextTable& table, const QPalette& palette) {
             if (row > 0) continue;
             QTextCursor text = cell.firstCursorPosition();
             // The reader leaves an empty paragraph here when the table follows code.
-            if (text.block().length() == 1 && text.block() != cell.lastCursorPosition().block()) text.deleteChar();
+            if (text.block().length() == 1 && text.block() != cell.lastCursorPosition().block())
+                text.deleteChar();
             text.setPosition(cell.lastCursorPosition().position(), QTextCursor::KeepAnchor);
             QTextCharFormat bold;
             bold.setFontWeight(QFont::DemiBold);
@@ -67,7 +68,8 @@ void typesetTable(QTextTable& table, const QPalette& palette) {
 }  // namespace
 
 void showMarkdown(QTextBrowser& browser, const QString& markdown) {
-    // Apart from the browser, which would lay out the text anew after every change; without a history of them.
+    // Apart from the browser, which would lay out the text anew after every change; without a history of
+    // them.
     auto* page = new QTextDocument(&browser);
     QTextDocument& document = *page;
     document.setUndoRedoEnabled(false);

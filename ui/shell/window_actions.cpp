@@ -46,16 +46,18 @@ void MainWindow::makeActions() {
         help_->open("keys");
     });
     actions_->add("about", tr("Help"), tr("About Extremal"), {QKeySequence(Qt::CTRL | Qt::Key_F1)}, [this] {
-        QMessageBox::about(this, tr("About Extremal"),
-                           tr("<b>Extremal</b><br>Generalized Galerkin variational integrators: pick a function space and a "
-                              "quadrature rule; the stationarity of the discrete action is the integrator.<br><br>"
-                              "GPL-3.0-or-later. With Qt, QCustomPlot, Eigen and Boost."));
+        QMessageBox::about(
+            this, tr("About Extremal"),
+            tr("<b>Extremal</b><br>Generalized Galerkin variational integrators: pick a function space and a "
+               "quadrature rule; the stationarity of the discrete action is the integrator.<br><br>"
+               "GPL-3.0-or-later. With Qt, QCustomPlot, Eigen and Boost."));
     });
 }
 
 void MainWindow::addFileActions() {
     const QString menu = tr("File");
-    actions_->add("gallery", menu, tr("New from the gallery"), {QKeySequence::New}, [this] { stack_->setCurrentIndex(0); });
+    actions_->add("gallery", menu, tr("New from the gallery"), {QKeySequence::New},
+                  [this] { stack_->setCurrentIndex(0); });
     actions_->add("open", menu, tr("Open..."), {QKeySequence::Open}, [this] { openDialog(); });
     actions_->add("save", menu, tr("Save"), {QKeySequence::Save}, [this] { save(false); });
     actions_->add("saveAs", menu, tr("Save as..."), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S)},
@@ -64,8 +66,8 @@ void MainWindow::addFileActions() {
     actions_->add("exportPlot", menu, tr("Export plot..."), {QKeySequence(Qt::CTRL | Qt::Key_E)}, [this] {
         if (PlotWidget* plot = compare_->currentPlot()) plot->saveDialog();
     });
-    actions_->add("exportAll", menu, tr("Export everything..."), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E)},
-                  [this] { exportDialog(); });
+    actions_->add("exportAll", menu, tr("Export everything..."),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, [this] { exportDialog(); });
     actions_->addSeparator(menu);
     actions_->add("quit", menu, tr("Quit"), {QKeySequence(Qt::CTRL | Qt::Key_Q)}, [this] { close(); });
 }
@@ -73,20 +75,27 @@ void MainWindow::addFileActions() {
 void MainWindow::addEditActions() {
     const QString menu = tr("Edit");
     actions_->add("undo", menu, tr("Undo"), {QKeySequence::Undo}, [this] { workspace_->undo(); });
-    actions_->add("redo", menu, tr("Redo"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)}, [this] { workspace_->redo(); });
+    actions_->add("redo", menu, tr("Redo"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_Z)},
+                  [this] { workspace_->redo(); });
     actions_->addSeparator(menu);
-    actions_->add("add", menu, tr("Add scheme"), {QKeySequence(Qt::CTRL | Qt::Key_Plus)}, [this] { schemes_->openAddMenu(); });
-    actions_->add("editScheme", menu, tr("Edit scheme"), {QKeySequence(Qt::Key_F3)}, [this] { schemes_->editSelected(); });
-    actions_->add("rename", menu, tr("Rename scheme"), {QKeySequence(Qt::Key_F2)}, [this] { schemes_->renameSelected(); });
+    actions_->add("add", menu, tr("Add scheme"), {QKeySequence(Qt::CTRL | Qt::Key_Plus)},
+                  [this] { schemes_->openAddMenu(); });
+    actions_->add("editScheme", menu, tr("Edit scheme"), {QKeySequence(Qt::Key_F3)},
+                  [this] { schemes_->editSelected(); });
+    actions_->add("rename", menu, tr("Rename scheme"), {QKeySequence(Qt::Key_F2)},
+                  [this] { schemes_->renameSelected(); });
     actions_->add("duplicate", menu, tr("Duplicate scheme"), {QKeySequence(Qt::CTRL | Qt::Key_D)},
                   [this] { schemes_->duplicateSelected(); });
-    actions_->add("remove", menu, tr("Remove scheme"), {QKeySequence(Qt::Key_Delete)}, [this] { schemes_->removeSelected(); });
-    actions_->add("up", menu, tr("Move scheme up"), {QKeySequence(Qt::CTRL | Qt::Key_Up)}, [this] { schemes_->moveSelected(-1); });
+    actions_->add("remove", menu, tr("Remove scheme"), {QKeySequence(Qt::Key_Delete)},
+                  [this] { schemes_->removeSelected(); });
+    actions_->add("up", menu, tr("Move scheme up"), {QKeySequence(Qt::CTRL | Qt::Key_Up)},
+                  [this] { schemes_->moveSelected(-1); });
     actions_->add("down", menu, tr("Move scheme down"), {QKeySequence(Qt::CTRL | Qt::Key_Down)},
                   [this] { schemes_->moveSelected(1); });
     for (int i = 0; i < 9; ++i)
-        actions_->add(QStringLiteral("toggle%1").arg(i + 1), menu, tr("Switch scheme %1 on or off").arg(i + 1),
-                      {QKeySequence(Qt::Key_1 + i)}, [this, i] { schemes_->toggle(i); });
+        actions_->add(QStringLiteral("toggle%1").arg(i + 1), menu,
+                      tr("Switch scheme %1 on or off").arg(i + 1), {QKeySequence(Qt::Key_1 + i)},
+                      [this, i] { schemes_->toggle(i); });
 }
 
 /// The plots of the catalogue, checked where the scene has them.
@@ -101,13 +110,15 @@ void MainWindow::fillPlots(QMenu& menu) {
         const ObservableEntry* needed = findObservable(entry.observable);
         if (needed && !appliesTo(*needed, system)) continue;
         if (id == mapView && !canBeMapped(scene, system)) continue;
-        const bool isShown = std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == id; });
+        const bool isShown =
+            std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == id; });
         QAction* action = menu.addAction(QString::fromStdString(entry.item.title));
         action->setCheckable(true);
         action->setChecked(isShown);
         action->setToolTip(QString::fromStdString(entry.item.description));
         connect(action, &QAction::triggered, this, [this, id, isShown] {
-            workspace_->edit(editsForView(workspace_->scene(), id, !isShown), isShown ? tr("Hide a plot") : tr("Show a plot"));
+            workspace_->edit(editsForView(workspace_->scene(), id, !isShown),
+                             isShown ? tr("Hide a plot") : tr("Show a plot"));
         });
     }
     menu.setToolTipsVisible(true);
@@ -115,7 +126,8 @@ void MainWindow::fillPlots(QMenu& menu) {
 
 void MainWindow::addViewActions() {
     const QString menu = tr("View");
-    actions_->add("palette", menu, tr("Find an action..."), {QKeySequence(Qt::CTRL | Qt::Key_K)}, [this] { showPalette(); });
+    actions_->add("palette", menu, tr("Find an action..."), {QKeySequence(Qt::CTRL | Qt::Key_K)},
+                  [this] { showPalette(); });
     actions_->add("fit", menu, tr("Fit all"), {QKeySequence(Qt::Key_A)}, [this] { compare_->fitAll(); });
     actions_->add("values", menu, tr("Values at the cursor"), {QKeySequence(Qt::Key_V)}, [this] {
         values_->setVisible(values_->isHidden());
@@ -124,9 +136,8 @@ void MainWindow::addViewActions() {
     auto* plots = new QMenu(tr("Plots"), this);
     connect(plots, &QMenu::aboutToShow, this, [this, plots] { fillPlots(*plots); });
     actions_->addSubmenu(menu, plots);
-    actions_->add("plots", menu, tr("Choose plots..."), {QKeySequence(Qt::Key_P)}, [this, plots] {
-        plots->popup(compare_->mapToGlobal(QPoint(24, 24)));
-    });
+    actions_->add("plots", menu, tr("Choose plots..."), {QKeySequence(Qt::Key_P)},
+                  [this, plots] { plots->popup(compare_->mapToGlobal(QPoint(24, 24))); });
     actions_->add("theme", menu, tr("Light or dark"), {QKeySequence(Qt::CTRL | Qt::Key_T)}, [this] {
         Theme theme = theme_.isDark ? Theme::light() : Theme::dark();
         theme.fontScale = theme_.fontScale;
@@ -137,8 +148,10 @@ void MainWindow::addViewActions() {
         theme.fontScale = std::clamp(theme_.fontScale * factor, 0.7, 2.0);
         setTheme(theme);
     };
-    actions_->add("larger", menu, tr("Larger text"), {QKeySequence(Qt::CTRL | Qt::Key_BracketRight)}, [scaleBy] { scaleBy(1.1); });
-    actions_->add("smaller", menu, tr("Smaller text"), {QKeySequence(Qt::CTRL | Qt::Key_BracketLeft)}, [scaleBy] { scaleBy(1 / 1.1); });
+    actions_->add("larger", menu, tr("Larger text"), {QKeySequence(Qt::CTRL | Qt::Key_BracketRight)},
+                  [scaleBy] { scaleBy(1.1); });
+    actions_->add("smaller", menu, tr("Smaller text"), {QKeySequence(Qt::CTRL | Qt::Key_BracketLeft)},
+                  [scaleBy] { scaleBy(1 / 1.1); });
     actions_->add("resetLayout", menu, tr("Reset layout"), {QKeySequence(Qt::CTRL | Qt::Key_0)}, [this] {
         Theme theme = theme_.isDark ? Theme::dark() : Theme::light();
         setTheme(theme);
@@ -162,15 +175,19 @@ void MainWindow::addRunActions() {
     actions_->add("stepBack", menu, tr("One row back"), {QKeySequence(Qt::Key_Left)}, move(-1));
     actions_->add("pageForward", menu, tr("50 rows forward"), {QKeySequence(Qt::Key_PageDown)}, move(50));
     actions_->add("pageBack", menu, tr("50 rows back"), {QKeySequence(Qt::Key_PageUp)}, move(-50));
-    actions_->add("home", menu, tr("To the start"), {QKeySequence(Qt::Key_Home)}, [this] { playback_->setTime(playback_->start()); });
-    actions_->add("end", menu, tr("To the end"), {QKeySequence(Qt::Key_End)}, [this] { playback_->setTime(playback_->end()); });
+    actions_->add("home", menu, tr("To the start"), {QKeySequence(Qt::Key_Home)},
+                  [this] { playback_->setTime(playback_->start()); });
+    actions_->add("end", menu, tr("To the end"), {QKeySequence(Qt::Key_End)},
+                  [this] { playback_->setTime(playback_->end()); });
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
-    actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] { run_->stop(); });
+    actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)},
+                  [this] { run_->stop(); });
 }
 
 void MainWindow::openDialog() {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scenes (*.json);;All files (*)"));
+    const QString path =
+        QFileDialog::getOpenFileName(this, tr("Open scene"), {}, tr("Scenes (*.json);;All files (*)"));
     if (!path.isEmpty()) open(path);
 }
 
@@ -205,22 +222,31 @@ bool MainWindow::exportEverything(const QString& folder) {
     }
     for (std::size_t i = 0; problem.isEmpty() && i < compare_->plots().size(); ++i) {
         const PlotWidget* plot = compare_->plots()[i];
-        const QString name = QStringLiteral("%1/%2-%3").arg(folder).arg(i + 1).arg(QString::fromStdString(plot->figure().view));
+        const QString name = QStringLiteral("%1/%2-%3")
+                                 .arg(folder)
+                                 .arg(i + 1)
+                                 .arg(QString::fromStdString(plot->figure().view));
         for (const char* ending : {".png", ".svg"})
             if (problem.isEmpty()) const_cast<PlotWidget*>(plot)->save(name + ending, 2, &problem);
     }
-    if (problem.isEmpty() && !compare_->stage()->picture(2).save(folder + "/stage.png")) problem = tr("stage.png cannot be written");
+    if (problem.isEmpty() && !compare_->stage()->picture(2).save(folder + "/stage.png"))
+        problem = tr("stage.png cannot be written");
     if (problem.isEmpty())
         notices_->addToLog(tr("Exported everything to %1").arg(folder));
     else
-        notices_->post({Notice::Kind::error, "export", tr("The export failed: %1").arg(problem), tr("choose another folder"), {}});
+        notices_->post({Notice::Kind::error,
+                        "export",
+                        tr("The export failed: %1").arg(problem),
+                        tr("choose another folder"),
+                        {}});
     return problem.isEmpty();
 }
 
 void MainWindow::showPalette() {
     auto* dialog = new PaletteDialog(*actions_, this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &PaletteDialog::presetChosen, this, [this](const QString& name) { open("preset:" + name); });
+    connect(dialog, &PaletteDialog::presetChosen, this,
+            [this](const QString& name) { open("preset:" + name); });
     dialog->open();
 }
 

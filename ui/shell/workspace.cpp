@@ -48,7 +48,8 @@ bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const 
     };
     std::vector<Edit> all;
     for (const auto& [pointer, value] : drafts_)
-        if (std::none_of(edits.begin(), edits.end(), [&](const Edit& e) { return isAtOrBelow(pointer, e.pointer); }))
+        if (std::none_of(edits.begin(), edits.end(),
+                         [&](const Edit& e) { return isAtOrBelow(pointer, e.pointer); }))
             all.push_back({pointer, value});
     const bool hasOtherDrafts = !all.empty();
     all.insert(all.end(), edits.begin(), edits.end());
@@ -97,7 +98,8 @@ void Workspace::setDocument(Value document, Scene scene, std::vector<Problem> wa
     scene_ = std::move(scene);
     warnings_ = std::move(warnings);
     hasScene_ = true;
-    if (selected_ >= static_cast<int>(scene_.schemes.size())) selectScheme(static_cast<int>(scene_.schemes.size()) - 1);
+    if (selected_ >= static_cast<int>(scene_.schemes.size()))
+        selectScheme(static_cast<int>(scene_.schemes.size()) - 1);
 }
 
 void Workspace::restore(const Value& document) {
@@ -126,8 +128,11 @@ void Workspace::report(const QString& name, const std::vector<Problem>& problems
         notices_.addToLog(name + ": " + where + QString::fromStdString(p.message));
     }
     if (problems.size() > 3) lines << tr("and %1 more (see the log)").arg(problems.size() - 3);
-    notices_.post({Notice::Kind::error, "open", tr("%1 cannot be used: %2").arg(name, lines.join("; ")),
-                   hints.join("; "), {}});
+    notices_.post({Notice::Kind::error,
+                   "open",
+                   tr("%1 cannot be used: %2").arg(name, lines.join("; ")),
+                   hints.join("; "),
+                   {}});
 }
 
 bool Workspace::open(const QString& name) {
@@ -190,13 +195,16 @@ bool Workspace::save() { return !path_.isEmpty() && saveAs(path_); }
 bool Workspace::saveAs(const QString& path) {
     const std::string text = writeScene(scene_);
     QSaveFile file(path);
-    const bool isWritten = file.open(QIODevice::WriteOnly) &&
-                           file.write(text.data(), static_cast<qint64>(text.size())) ==
-                               static_cast<qint64>(text.size()) &&
-                           file.commit();
+    const bool isWritten =
+        file.open(QIODevice::WriteOnly) &&
+        file.write(text.data(), static_cast<qint64>(text.size())) == static_cast<qint64>(text.size()) &&
+        file.commit();
     if (!isWritten) {
-        notices_.post({Notice::Kind::error, "save", tr("%1 was not saved: %2").arg(path, file.errorString()),
-                       tr("choose another folder with Save As (Ctrl+Shift+S)"), {}});
+        notices_.post({Notice::Kind::error,
+                       "save",
+                       tr("%1 was not saved: %2").arg(path, file.errorString()),
+                       tr("choose another folder with Save As (Ctrl+Shift+S)"),
+                       {}});
         return false;
     }
     notices_.dismiss("save");

@@ -1,8 +1,9 @@
 /// The scene being worked on: a value, its history, its file.
 ///
-/// The document is always valid and complete: an edit goes through readScene(), and one that is refused leaves the
-/// document alone and is kept as a draft with its problem, for the form to show in place. A later edit takes the
-/// drafts along, so that two fields that are only valid together can be changed one after the other.
+/// The document is always valid and complete: an edit goes through readScene(), and one that is refused
+/// leaves the document alone and is kept as a draft with its problem, for the form to show in place. A later
+/// edit takes the drafts along, so that two fields that are only valid together can be changed one after the
+/// other.
 #pragma once
 
 #include <QObject>
@@ -48,21 +49,21 @@ public:
     bool open(const QString& name);
     /// Takes a whole document, as for a new scene or a recovered one; it counts as unsaved.
     bool adopt(const Value& document, const QString& path = {});
-    bool save();                      ///< false, with a notice, if it cannot be written or has no file yet
+    bool save();  ///< false, with a notice, if it cannot be written or has no file yet
     bool saveAs(const QString& path);
-    QString path() const { return path_; }       ///< empty: not saved yet
-    QString origin() const { return origin_; }   ///< SCENE as on the command line: a path or "preset:NAME"
-    QString fileName() const;                    ///< for titles: "spring-pendulum.json"
+    QString path() const { return path_; }      ///< empty: not saved yet
+    QString origin() const { return origin_; }  ///< SCENE as on the command line: a path or "preset:NAME"
+    QString fileName() const;                   ///< for titles: "spring-pendulum.json"
     bool isDirty() const { return hasScene_ && !(document_ == saved_); }
 
     int selectedScheme() const { return selected_; }  ///< -1: none
     void selectScheme(int index);
 
 signals:
-    void sceneChanged();      ///< document() is another value
+    void sceneChanged();  ///< document() is another value
     void draftsChanged();
-    void fileChanged();       ///< path or dirty state
-    void opened();            ///< another scene altogether
+    void fileChanged();  ///< path or dirty state
+    void opened();       ///< another scene altogether
     void selectionChanged();
 
 private:

@@ -139,7 +139,8 @@ struct Renderer::Impl {
         if (batch.fillCount == 0) return;
         gl.BindVertexArray(fillArray);
         gl.UseProgram(fillProgram);
-        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(batch.fillFirst), static_cast<GLsizei>(batch.fillCount));
+        gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(batch.fillFirst),
+                      static_cast<GLsizei>(batch.fillCount));
     }
 
     /// The corners of all triangles, in a buffer of their own.
@@ -147,11 +148,12 @@ struct Renderer::Impl {
         if (list.fills.empty()) return;
         gl.BindVertexArray(fillArray);
         gl.BindBuffer(GL_ARRAY_BUFFER, fillBuffer);
-        gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.fills.size() * sizeof(FillCorner)), list.fills.data(),
-                      GL_STREAM_DRAW);
+        gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(list.fills.size() * sizeof(FillCorner)),
+                      list.fills.data(), GL_STREAM_DRAW);
         const auto attribute = [&](GLuint location, GLint size, std::size_t offset) {
             gl.EnableVertexAttribArray(location);
-            gl.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(sizeof(FillCorner)),
+            gl.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE,
+                                   static_cast<GLsizei>(sizeof(FillCorner)),
                                    reinterpret_cast<const void*>(offset));
         };
         attribute(0, 3, offsetof(FillCorner, r));

@@ -42,9 +42,9 @@ struct StageLayer {
     Rgb colour;
     std::vector<Shape> shapes;      ///< of role body
     std::vector<TrailPoint> trail;  ///< oldest first
-    Point insetTracer{};                 ///< its point in the inset, if there is one
+    Point insetTracer{};            ///< its point in the inset, if there is one
     std::vector<TrailPoint> insetTrail;
-    bool hasEnded = false;          ///< the scheme failed before t: its last state, drawn faintly
+    bool hasEnded = false;  ///< the scheme failed before t: its last state, drawn faintly
 };
 
 /// The small picture in the corner (Inset of the system).

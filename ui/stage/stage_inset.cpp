@@ -9,7 +9,9 @@ constexpr double captionHeight = 18;  // of the title below the ball
 
 }  // namespace
 
-double InsetPlace::pixels(double width, double height) { return std::clamp(std::min(0.13 * width, 0.28 * height), 20.0, 110.0); }
+double InsetPlace::pixels(double width, double height) {
+    return std::clamp(std::min(0.13 * width, 0.28 * height), 20.0, 110.0);
+}
 
 double InsetPlace::corner(double width, double height) { return 2.9 * pixels(width, height); }
 

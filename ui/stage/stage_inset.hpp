@@ -1,8 +1,8 @@
 /// The small picture in the corner of the stage, put into the large one.
 ///
-/// Every point of it is mapped by one turnless similarity, r -> C + s r, into the coordinates of the large picture, so that
-/// the same strokes draw both; s and C follow from the camera such that it stays in its corner at its size, and turns with
-/// the camera.
+/// Every point of it is mapped by one turnless similarity, r -> C + s r, into the coordinates of the large
+/// picture, so that the same strokes draw both; s and C follow from the camera such that it stays in its
+/// corner at its size, and turns with the camera.
 #pragma once
 
 #include "ui/stage/camera.hpp"
@@ -22,7 +22,8 @@ public:
     Shape map(Shape shape) const;
     std::vector<TrailPoint> map(std::vector<TrailPoint> trail) const;
 
-    /// Pixels: the ball's radius, and what the corner takes of the width, or of the height of pictures that are tall.
+    /// Pixels: the ball's radius, and what the corner takes of the width, or of the height of pictures that
+    /// are tall.
     static double pixels(double width, double height);
     static double corner(double width, double height);
 

@@ -69,19 +69,23 @@ void paintLegend(QPainter& painter, const QRectF& area, const StageFrame& frame,
     }
 }
 
-void paintWord(QPainter& painter, const QRectF& area, const Camera& camera, const Word& word, const QColor& colour) {
+void paintWord(QPainter& painter, const QRectF& area, const Camera& camera, const Word& word,
+               const QColor& colour) {
     const Point seen = camera.project(word.centre);
     const QPointF at(area.center().x() + seen[0], area.center().y() - seen[1]);
     if (!area.adjusted(8, 8, -8, -8).contains(at)) return;
     painter.setPen(colour);
-    painter.drawText(QRectF(at - QPointF(60, 12), QSizeF(120, 24)), Qt::AlignCenter, QString::fromStdString(word.text));
+    painter.drawText(QRectF(at - QPointF(60, 12), QSizeF(120, 24)), Qt::AlignCenter,
+                     QString::fromStdString(word.text));
 }
 
 /// Names of axes: space's, and those of the first scheme's body.
-void paintWords(QPainter& painter, const QRectF& area, const Camera& camera, const StageFrame& frame, const Theme& theme) {
+void paintWords(QPainter& painter, const QRectF& area, const Camera& camera, const StageFrame& frame,
+                const Theme& theme) {
     painter.setFont(theme.caption());
     for (const Shape& shape : frame.scenery)
-        if (const auto* word = std::get_if<Word>(&shape)) paintWord(painter, area, camera, *word, theme.muted);
+        if (const auto* word = std::get_if<Word>(&shape))
+            paintWord(painter, area, camera, *word, theme.muted);
     if (frame.layers.empty()) return;
     const StageLayer& first = frame.layers.front();
     const QColor colour = QColor::fromRgbF(first.colour.r, first.colour.g, first.colour.b);
@@ -90,7 +94,8 @@ void paintWords(QPainter& painter, const QRectF& area, const Camera& camera, con
 }
 
 /// The inset's title below it, and the names of its axes.
-void paintInsetWords(QPainter& painter, const QRectF& area, const Camera& camera, const StageFrame& frame, const Theme& theme) {
+void paintInsetWords(QPainter& painter, const QRectF& area, const Camera& camera, const StageFrame& frame,
+                     const Theme& theme) {
     const InsetPlace place(frame, camera, area.width(), area.height());
     const Point seen = camera.project(place.centre());
     painter.setFont(theme.caption());
@@ -103,8 +108,9 @@ void paintInsetWords(QPainter& painter, const QRectF& area, const Camera& camera
         }
     const double below = InsetPlace::corner(area.width(), area.height()) / 2;
     painter.setPen(theme.muted);
-    painter.drawText(QRectF(area.center().x() + seen[0] - below, area.center().y() - seen[1] + below - 6, 2 * below, 18),
-                     Qt::AlignCenter, QString::fromStdString(frame.inset->title));
+    painter.drawText(
+        QRectF(area.center().x() + seen[0] - below, area.center().y() - seen[1] + below - 6, 2 * below, 18),
+        Qt::AlignCenter, QString::fromStdString(frame.inset->title));
 }
 
 }  // namespace
@@ -151,7 +157,8 @@ void paintOverlay(QPainter& painter, const QRectF& area, const StageFrame& frame
     const QString now = timeText(frame.t, player);
     painter.setPen(theme.text);
     painter.drawText(QPointF(area.left() + 12, baseline), now);
-    const QString trail = withUnit(QStringLiteral("trail %1").arg(QString::fromStdString(formatNumber(player.trailSpan(), 3))), player);
+    const QString trail = withUnit(
+        QStringLiteral("trail %1").arg(QString::fromStdString(formatNumber(player.trailSpan(), 3))), player);
     const double x = area.left() + 12 + metrics.horizontalAdvance(now) + 16;
     if (player.trailSpan() > 0 && x + metrics.horizontalAdvance(trail) < area.right()) {
         painter.setPen(theme.muted);

@@ -32,7 +32,8 @@ void addExtent(const Shape& shape, std::vector<Point>& points) {
     if (const auto* spring = std::get_if<Spring>(&shape)) points.insert(points.end(), {spring->a, spring->b});
     if (const auto* disc = std::get_if<Disc>(&shape)) points.push_back(disc->centre);
     if (const auto* solid = std::get_if<Solid>(&shape))
-        for (std::size_t c = 0; c < solid->corners.size(); c += solid->isSmooth ? 5 : 1)  // some of many close ones
+        for (std::size_t c = 0; c < solid->corners.size();
+             c += solid->isSmooth ? 5 : 1)  // some of many close ones
             points.push_back(solid->corners[c]);
     if (const auto* curtain = std::get_if<Curtain>(&shape))
         points.insert(points.end(), curtain->top.begin(), curtain->top.end());
@@ -151,7 +152,8 @@ void StagePlayer::prepareInset() {
         const auto grow = [reach](Point& p) {
             for (double& c : p) c *= reach;
         };
-        if (auto* curve = std::get_if<Curve>(&shape)) std::for_each(curve->points.begin(), curve->points.end(), grow);
+        if (auto* curve = std::get_if<Curve>(&shape))
+            std::for_each(curve->points.begin(), curve->points.end(), grow);
         if (auto* word = std::get_if<Word>(&shape)) grow(word->centre);
         if (auto* segment = std::get_if<Segment>(&shape)) {
             grow(segment->a);
@@ -214,7 +216,8 @@ Point StagePlayer::tracer(const std::vector<double>& x, bool isInset) const {
 
 StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
     // A field over a rectangle takes the same room at all times.
-    const std::size_t stride = system_.field.y.empty() ? (track.t.size() + maxBoundsRows - 1) / maxBoundsRows : track.t.size();
+    const std::size_t stride =
+        system_.field.y.empty() ? (track.t.size() + maxBoundsRows - 1) / maxBoundsRows : track.t.size();
     std::vector<Point> points;
     std::vector<double> x;
     Drawing drawing;
@@ -237,8 +240,8 @@ StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
 }
 
 /// Long enough to see where the motion comes from: the time in which the tracer, at its mean speed,
-/// covers `lengths` times the size of the picture; two digits. A motion to and fro on a line has no trail to show:
-/// 0.
+/// covers `lengths` times the size of the picture; two digits. A motion to and fro on a line has no trail to
+/// show: 0.
 double StagePlayer::findTrailSpan(const Trace& trace, double lengths) const {
     const auto healthy =
         std::find_if(tracks_.begin(), tracks_.end(), [](const Track& k) { return !k.hasFailed; });
@@ -353,12 +356,12 @@ std::string StagePlayer::failureNote(const Track& track, const std::string& labe
     std::string cause(name(summary.cause));
     std::replace(cause.begin(), cause.end(), '-', ' ');
     const double when = std::isfinite(summary.failedAt) ? summary.failedAt : track.t.back();
-    return label + (cause.empty() ? " ended" : ": " + cause) +
-           " at t = " + formatNumber(when, 3) + (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
+    return label + (cause.empty() ? " ended" : ": " + cause) + " at t = " + formatNumber(when, 3) +
+           (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
 }
 
-/// What is seen from a corner fits the picture closer than the box of what is there. An inset takes a part of the right,
-/// or of the bottom of what is tall.
+/// What is seen from a corner fits the picture closer than the box of what is there. An inset takes a part of
+/// the right, or of the bottom of what is tall.
 Camera StagePlayer::fittedCamera(double width, double height, double margin) const {
     // The picture of a field over a rectangle needs no room around it.
     if (!system_.field.y.empty()) margin = std::min(margin, 10.0);

@@ -48,7 +48,7 @@ private:
         std::shared_ptr<const SchemeResult> result;
         std::span<const double> t;
         std::vector<std::span<const double>> state;  ///< one per state column
-        std::vector<double> frameTimes;  ///< of fields, whose rows are frames: t is a view of it
+        std::vector<double> frameTimes;              ///< of fields, whose rows are frames: t is a view of it
         bool hasFailed = false;
     };
 

@@ -179,9 +179,11 @@ void drawCurve(Pen& pen, const Curve& curve, const Rgb& colour) {
         pen.stroke(curve.points[k - 1], curve.points[k], curve.width, colour, curve.strength, curve.strength);
 }
 
-/// The colour of a point as its hue, or as the grey of the scenery, and how much of it there is as its opacity.
+/// The colour of a point as its hue, or as the grey of the scenery, and how much of it there is as its
+/// opacity.
 void drawRaster(Pen& pen, const Raster& raster, const Rgb& grey, double strength) {
-    const auto columns = static_cast<std::size_t>(raster.columns), rows = static_cast<std::size_t>(raster.rows);
+    const auto columns = static_cast<std::size_t>(raster.columns),
+               rows = static_cast<std::size_t>(raster.rows);
     const auto tint = [&](std::size_t k) -> Pen::Tinted {
         Rgb colour = grey;
         if (!raster.hues.empty()) {
@@ -192,7 +194,8 @@ void drawRaster(Pen& pen, const Raster& raster, const Rgb& grey, double strength
     };
     const auto place = [&](std::size_t i, std::size_t j) -> Point {
         return {raster.corner[0] + raster.width * static_cast<double>(i) / static_cast<double>(columns - 1),
-                raster.corner[1] + raster.height * static_cast<double>(j) / static_cast<double>(rows - 1), raster.corner[2]};
+                raster.corner[1] + raster.height * static_cast<double>(j) / static_cast<double>(rows - 1),
+                raster.corner[2]};
     };
     for (std::size_t j = 0; j + 1 < rows; ++j)
         for (std::size_t i = 0; i + 1 < columns; ++i) {
@@ -209,7 +212,8 @@ void drawRaster(Pen& pen, const Raster& raster, const Rgb& grey, double strength
 void drawScenery(Pen& pen, const StageFrame& frame) {
     pen.open(false, 1);
     for (const Shape& shape : frame.scenery)
-        if (const auto* raster = std::get_if<Raster>(&shape)) drawRaster(pen, *raster, frame.style.scenery, 1);
+        if (const auto* raster = std::get_if<Raster>(&shape))
+            drawRaster(pen, *raster, frame.style.scenery, 1);
     pen.open(true, 1);
     for (const Shape& shape : frame.scenery) {
         if (const auto* curve = std::get_if<Curve>(&shape)) drawCurve(pen, *curve, frame.style.scenery);
@@ -281,10 +285,10 @@ void drawBodies(Pen& pen, const StageLayer& layer, bool isFirst) {
     }
 }
 
-
-/// Faces towards the viewer are tinted by how they stand to the light, their edges drawn; hidden edges shine through. Of
-/// several schemes only the first is tinted: where they differ, their edges tell.
-void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength, double width, bool isFilled) {
+/// Faces towards the viewer are tinted by how they stand to the light, their edges drawn; hidden edges shine
+/// through. Of several schemes only the first is tinted: where they differ, their edges tell.
+void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength, double width,
+               bool isFilled) {
     const auto axes = pen.camera().axes();
     constexpr Point light = {-0.36, 0.72, 0.6};  // right, up, towards
     struct Sides {
@@ -302,14 +306,16 @@ void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength,
         }
         const double length = std::sqrt(dot(normal, normal));
         if (!(length > 0)) continue;
-        const Point seen = {dot(axes[0], normal) / length, dot(axes[1], normal) / length, dot(axes[2], normal) / length};
+        const Point seen = {dot(axes[0], normal) / length, dot(axes[1], normal) / length,
+                            dot(axes[2], normal) / length};
         const bool isFront = seen[2] > 0;
         for (std::size_t i = 0; i < face.size(); ++i) {
             const int a = face[i], b = face[(i + 1) % face.size()];
             Sides& sides = edges[{std::min(a, b), std::max(a, b)}];
             (isFront ? sides.isFront : sides.isBack) = true;
         }
-        if (isFront && isFilled) pen.fill(corners, colour, strength * (0.14 + 0.34 * std::max(0.0, dot(light, seen))));
+        if (isFront && isFilled)
+            pen.fill(corners, colour, strength * (0.14 + 0.34 * std::max(0.0, dot(light, seen))));
     }
     for (const bool wantsSeen : {false, true})
         for (const auto& [edge, sides] : edges) {
@@ -317,13 +323,14 @@ void drawSolid(Pen& pen, const Solid& solid, const Rgb& colour, double strength,
             if (isSeen != wantsSeen || (solid.isSmooth && !isOutline)) continue;
             const double alpha = strength * (isSeen ? 1 : 0.22);
             pen.stroke(solid.corners[static_cast<std::size_t>(edge.first)],
-                       solid.corners[static_cast<std::size_t>(edge.second)], isSeen ? width : 0.7 * width, colour, alpha,
-                       alpha);
+                       solid.corners[static_cast<std::size_t>(edge.second)], isSeen ? width : 0.7 * width,
+                       colour, alpha, alpha);
         }
 }
 
 /// The area in the colours of the curve, of the first scheme alone; the curve in the colour of its scheme.
-void drawCurtain(Pen& pen, const Curtain& curtain, const Rgb& colour, double strength, double width, bool isFilled) {
+void drawCurtain(Pen& pen, const Curtain& curtain, const Rgb& colour, double strength, double width,
+                 bool isFilled) {
     const std::size_t n = curtain.top.size(), every = std::max<std::size_t>(1, n / 800);
     for (std::size_t j = 0; isFilled && j + every < n; j += every) {
         const Point &a = curtain.top[j], &b = curtain.top[j + every];

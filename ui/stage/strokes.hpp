@@ -1,8 +1,9 @@
 /// A StageFrame turned into what the renderer draws: round-ended strokes in batches.
 ///
-/// Nearly everything on the stage is a stroke: a rod, a piece of a spring or trail, a hatch line, and a disc, which
-/// is a stroke of length zero. Faces of solids are filled triangles. Widths are in pixels of the picture, ends in model units relative to the
-/// camera's centre (subtracted in double precision, so that zooming far in stays exact).
+/// Nearly everything on the stage is a stroke: a rod, a piece of a spring or trail, a hatch line, and a disc,
+/// which is a stroke of length zero. Faces of solids are filled triangles. Widths are in pixels of the
+/// picture, ends in model units relative to the camera's centre (subtracted in double precision, so that
+/// zooming far in stays exact).
 #pragma once
 
 #include <vector>

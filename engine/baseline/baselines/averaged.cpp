@@ -1,11 +1,13 @@
-/// The pendulum averaged over the oscillation of its spring, whose adiabatic invariant stays: the slow swing alone.
+/// The pendulum averaged over the oscillation of its spring, whose adiabatic invariant stays: the slow swing
+/// alone.
 #include "engine/baseline/reduced.hpp"
 
 namespace extremal::baselines {
 
 BaselineEntry averaged() {
     return reducedBaseline("averaged", "averaged pendulum",
-                           "The pendulum averaged over the oscillation of its spring, whose adiabatic invariant stays: the slow swing alone.");
+                           "The pendulum averaged over the oscillation of its spring, whose adiabatic "
+                           "invariant stays: the slow swing alone.");
 }
 
 }  // namespace extremal::baselines

@@ -4,9 +4,10 @@
 namespace extremal::baselines {
 
 BaselineEntry blanes_moan_s6() {
-    return splittingBaseline("blanes-moan-s6", "Blanes-Moan S6",
-                             "Optimised splitting of order 4 with six kicks: errors far below Yoshida's for the same work.",
-                             blanesMoanS6());
+    return splittingBaseline(
+        "blanes-moan-s6", "Blanes-Moan S6",
+        "Optimised splitting of order 4 with six kicks: errors far below Yoshida's for the same work.",
+        blanesMoanS6());
 }
 
 }  // namespace extremal::baselines

@@ -1,6 +1,6 @@
-/// The extrapolation code of Boost.odeint: modified midpoint rules of 2, 6, 10, ... substeps extrapolated to substeps of
-/// length zero, with step and number of rules chosen by work per unit of time, and its own interpolant.
-/// Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9.
+/// The extrapolation code of Boost.odeint: modified midpoint rules of 2, 6, 10, ... substeps extrapolated to
+/// substeps of length zero, with step and number of rules chosen by work per unit of time, and its own
+/// interpolant. Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9.
 #include <boost/numeric/odeint/stepper/bulirsch_stoer_dense_out.hpp>
 
 #include <algorithm>
@@ -61,8 +61,11 @@ private:
 
 BaselineEntry bulirsch_stoer() {
     BaselineEntry e;
-    e.item = {"bulirsch-stoer", "Bulirsch-Stoer",
-              "Boost.odeint's extrapolation of midpoint rules: long steps of high, variable order.", {}, Claims{},
+    e.item = {"bulirsch-stoer",
+              "Bulirsch-Stoer",
+              "Boost.odeint's extrapolation of midpoint rules: long steps of high, variable order.",
+              {},
+              Claims{},
               "smooth forces"};
     e.isAdaptive = true;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

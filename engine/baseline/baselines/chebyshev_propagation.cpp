@@ -1,8 +1,9 @@
-/// Chebyshev propagation: exp(-i dt H/hbar) as a Chebyshev series over the whole spectrum of H, cut where its coefficients
-/// reach round-off (Tal-Ezer and Kosloff, J. Chem. Phys. 81 (1984) 3967):
+/// Chebyshev propagation: exp(-i dt H/hbar) as a Chebyshev series over the whole spectrum of H, cut where its
+/// coefficients reach round-off (Tal-Ezer and Kosloff, J. Chem. Phys. 81 (1984) 3967):
 ///     exp(-i dt H/hbar) = e^{-i dt Em/hbar} sum_k (2 - delta_k0) (-i)^k J_k(R) T_k((H - Em)/W),
-/// Em and W the middle and half the width of the spectrum, R = dt W/hbar. About R + 30 products with H a step, however
-/// little of the spectrum the wave function uses. Not unitary, but its norm is off by no more than its error.
+/// Em and W the middle and half the width of the spectrum, R = dt W/hbar. About R + 30 products with H a
+/// step, however little of the spectrum the wave function uses. Not unitary, but its norm is off by no more
+/// than its error.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,7 +17,8 @@
 namespace extremal::baselines {
 namespace {
 
-/// J_0(R) .. up to where they stay below 1e-17, by Miller's recurrence from far above: J_0 + 2 (J_2 + J_4 + ..) = 1.
+/// J_0(R) .. up to where they stay below 1e-17, by Miller's recurrence from far above: J_0 + 2 (J_2 + J_4 +
+/// ..) = 1.
 std::vector<double> besselJ(double R) {
     R = std::max(R, 1e-8);
     const int top = static_cast<int>(R + 30 * std::cbrt(R + 1)) + 40;
@@ -66,7 +68,8 @@ private:
                 report.outcome = Outcome::stopped;
                 return;
             }
-            shared()->apply(shared()->potential().data(), k == 1 ? before_.data() : now_.data(), next_.data(), work_.data());
+            shared()->apply(shared()->potential().data(), k == 1 ? before_.data() : now_.data(), next_.data(),
+                            work_.data());
             ++report.evaluations;
             power *= Complex(0, -1);
             const Complex weight = 2 * series_[k] * power;
@@ -98,18 +101,24 @@ private:
 
 BaselineEntry chebyshev_propagation() {
     BaselineEntry e;
-    e.item = {"chebyshev-propagation", "Chebyshev propagation",
-              "The exponential of H as a Chebyshev series over its whole spectrum, to round-off at any step.", {},
-              Claims{0, true, false, {"norm", "energy"}}, "a wave function"};
+    e.item = {"chebyshev-propagation",
+              "Chebyshev propagation",
+              "The exponential of H as a Chebyshev series over its whole spectrum, to round-off at any step.",
+              {},
+              Claims{0, true, false, {"norm", "energy"}},
+              "a wave function"};
     e.applies = [](const System& system) { return system.hasWave(); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         if (system.wave->isTimeDependent())
-            throw InvalidScene("/baseline", "chebyshev-propagation needs a potential that does not depend on t", "strang");
-        const double R = options.clock.step * (system.wave->highest() - system.wave->lowest()) / (2 * system.wave->hbar());
+            throw InvalidScene("/baseline",
+                               "chebyshev-propagation needs a potential that does not depend on t", "strang");
+        const double R =
+            options.clock.step * (system.wave->highest() - system.wave->lowest()) / (2 * system.wave->hbar());
         if (R > 1e6)
-            throw InvalidScene("/step", "needs " + formatNumber(R, 2) + " products with H for each step, the limit is 1e6",
-                               "a smaller step, or fewer modes");
+            throw InvalidScene(
+                "/step", "needs " + formatNumber(R, 2) + " products with H for each step, the limit is 1e6",
+                "a smaller step, or fewer modes");
         return std::make_unique<ChebyshevWave>(system.wave, options.clock);
     };
     return e;

@@ -1,5 +1,5 @@
-/// The Crank-Nicolson scheme for wave functions, (1 + i dt H/2 hbar) psi_1 = (1 - i dt H/2 hbar) psi_0: what most use, with
-/// energies counted as they stand. It is the Gauss scheme of degree 1 without an energy shift.
+/// The Crank-Nicolson scheme for wave functions, (1 + i dt H/2 hbar) psi_1 = (1 - i dt H/2 hbar) psi_0: what
+/// most use, with energies counted as they stand. It is the Gauss scheme of degree 1 without an energy shift.
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
@@ -9,8 +9,12 @@ namespace extremal::baselines {
 
 BaselineEntry crank_nicolson() {
     BaselineEntry e;
-    e.item = {"crank-nicolson", "Crank-Nicolson", "The implicit midpoint rule for wave functions: order 2, unitary; one solve a step.",
-              {}, Claims{2, true, true, {"norm", "energy"}}, "a wave function"};
+    e.item = {"crank-nicolson",
+              "Crank-Nicolson",
+              "The implicit midpoint rule for wave functions: order 2, unitary; one solve a step.",
+              {},
+              Claims{2, true, true, {"norm", "energy"}},
+              "a wave function"};
     e.applies = [](const System& system) { return system.hasWave(); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) {

@@ -1,5 +1,5 @@
-/// Dormand-Prince 5(4) of Boost.odeint under error control, on attitude quaternion and momentum in the body, with or
-/// without bringing the quaternion back to length 1 after each step.
+/// Dormand-Prince 5(4) of Boost.odeint under error control, on attitude quaternion and momentum in the body,
+/// with or without bringing the quaternion back to length 1 after each step.
 #include "engine/baseline/adaptive.hpp"
 #include "engine/baseline/body_method.hpp"
 
@@ -23,7 +23,8 @@ struct QuaternionEquation {
         if (!body.isFree()) {
             const so3::Matrix<double> R = so3::matrix(so3::normalised(q));
             std::array<double, 6> f{};
-                body.potential(body.model.get(), R.data(), body.dimension == 6 ? y + 7 : nullptr, nullptr, f.data(), nullptr);
+            body.potential(body.model.get(), R.data(), body.dimension == 6 ? y + 7 : nullptr, nullptr,
+                           f.data(), nullptr);
             dPi += Vector(f[0], f[1], f[2]);
             if (body.dimension == 6) Eigen::Map<Vector>(dy + 10) = R * Vector(f[3], f[4], f[5]);
         } else if (body.dimension == 6) {
@@ -89,9 +90,12 @@ private:
 
 BaselineEntry dopri5_quaternion() {
     BaselineEntry e;
-    e.item = {"dopri5-quaternion", "Dormand-Prince 5(4) on quaternions",
-              "Boost.odeint's pair of order 5 under error control, for rigid bodies.", {projectionField()},
-              Claims{5, false, false, {}}, "a rigid body"};
+    e.item = {"dopri5-quaternion",
+              "Dormand-Prince 5(4) on quaternions",
+              "Boost.odeint's pair of order 5 under error control, for rigid bodies.",
+              {projectionField()},
+              Claims{5, false, false, {}},
+              "a rigid body"};
     e.isAdaptive = true;
     e.applies = [](const System& system) { return system.hasBody(); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

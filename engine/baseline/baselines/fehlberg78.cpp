@@ -6,8 +6,12 @@ namespace extremal::baselines {
 BaselineEntry fehlberg78() {
     using Stepper = boost::numeric::odeint::runge_kutta_fehlberg78<std::vector<double>>;
     BaselineEntry e;
-    e.item = {"fehlberg78", "Fehlberg 7(8)", "Boost.odeint's explicit Runge-Kutta pair of order 8 under error control.", {},
-              Claims{8, false, false, {}}, "smooth forces"};
+    e.item = {"fehlberg78",
+              "Fehlberg 7(8)",
+              "Boost.odeint's explicit Runge-Kutta pair of order 8 under error control.",
+              {},
+              Claims{8, false, false, {}},
+              "smooth forces"};
     e.isAdaptive = true;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Adaptive<Stepper>>(system.mechanics, options);

@@ -1,16 +1,16 @@
-/// Gauss collocation with s stages on Hamilton's equations, by fixed-point iteration (Hairer, Lubich, Wanner 2006, II.1.3
-/// and VIII.6).
+/// Gauss collocation with s stages on Hamilton's equations, by fixed-point iteration (Hairer, Lubich, Wanner
+/// 2006, II.1.3 and VIII.6).
 ///
 /// With nodes c_i, weights b_i and a_ij the integral over [0, c_i] of the cardinal polynomial l_j:
 ///     K_i = f(t + c_i h, x_0 + h sum_j a_ij K_j),   x_1 = x_0 + h sum_i b_i K_i.
 /// For separable systems it is an iteration for the forces alone, which contracts with h^2 instead of h:
 ///     F_i = f(t + c_i h, q_0 + c_i h v_0 + h^2 sum_j (a a)_ij F_j / m),
 ///     q_1 = q_0 + h v_0 + h^2 sum_i b_i (1 - c_i) F_i / m,   p_1 = p_0 + h sum_i b_i F_i.
-/// Starting values continue the polynomial through the previous step's F or K. The update is compensated: what rounding
-/// takes away is added to the next step.
+/// Starting values continue the polynomial through the previous step's F or K. The update is compensated:
+/// what rounding takes away is added to the next step.
 ///
-/// Written on the Hamiltonian side, independently of the Galerkin step, whose pair (degree s, Gauss(s)) it must equal to
-/// round-off. Arrays: node i, coordinate k at (i, k).
+/// Written on the Hamiltonian side, independently of the Galerkin step, whose pair (degree s, Gauss(s)) it
+/// must equal to round-off. Arrays: node i, coordinate k at (i, k).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,9 +58,11 @@ public:
         aa_ = a_ * a_;
         const int d = this->d();
         for (Nodes* n : {&Kq_, &Kp_, &newKq_, &newKp_, &Q_, &P_}) *n = Nodes::Zero(s_, d);
-        for (Vector* v : {&q_, &p_, &dq_, &dp_, &endQ_, &endP_, &lostQ_, &lostP_, &inverseMass_, &changeQ_, &changeP_})
+        for (Vector* v :
+             {&q_, &p_, &dq_, &dp_, &endQ_, &endP_, &lostQ_, &lostP_, &inverseMass_, &changeQ_, &changeP_})
             *v = Vector::Zero(d);
-        if (mechanics.isSeparable) inverseMass_ = Eigen::Map<const Vector>(mechanics.masses, d).cwiseInverse();
+        if (mechanics.isSeparable)
+            inverseMass_ = Eigen::Map<const Vector>(mechanics.masses, d).cwiseInverse();
     }
 
     /// The collocation polynomial.
@@ -70,7 +72,8 @@ public:
             double q = this->q0_(k), p = this->p0_(k);
             for (int i = 0; i < s_; ++i) {
                 const double w = h * cardinalIntegral(rule_, static_cast<std::size_t>(i), tau);
-                q += w * (isSeparable() ? inverseMass_(k) * (this->p0_(k) + h * a_.row(i).dot(Kp_.col(k))) : Kq_(i, k));
+                q += w * (isSeparable() ? inverseMass_(k) * (this->p0_(k) + h * a_.row(i).dot(Kp_.col(k)))
+                                        : Kq_(i, k));
                 p += w * Kp_(i, k);
             }
             x[static_cast<std::size_t>(k)] = q;
@@ -105,11 +108,20 @@ private:
             result = iterate(t);
         }
         switch (result) {
-            case Attempt::solved: break;
-            case Attempt::failed: this->report_.outcome = Outcome::diverged; return;
-            case Attempt::stopped: this->report_.outcome = Outcome::stopped; return;
-            case Attempt::notFinite: this->report_.outcome = Outcome::notFinite; return;
-            case Attempt::singular: this->report_.outcome = Outcome::singular; return;
+            case Attempt::solved:
+                break;
+            case Attempt::failed:
+                this->report_.outcome = Outcome::diverged;
+                return;
+            case Attempt::stopped:
+                this->report_.outcome = Outcome::stopped;
+                return;
+            case Attempt::notFinite:
+                this->report_.outcome = Outcome::notFinite;
+                return;
+            case Attempt::singular:
+                this->report_.outcome = Outcome::singular;
+                return;
         }
         finish();
     }
@@ -129,8 +141,8 @@ private:
             const double size = change();
             this->report_.residual = size;
             if (!(size < infinity)) return Attempt::notFinite;
-            // At round-off; or so close that what is left to come, by the contraction seen, is below it; or no longer
-            // shrinking (over two iterations, as oscillations make it shrink by turns).
+            // At round-off; or so close that what is left to come, by the contraction seen, is below it; or
+            // no longer shrinking (over two iterations, as oscillations make it shrink by turns).
             const double rate = size / before;
             if (size <= epsilon || (rate > 0 && rate < 0.5 && size * rate / (1 - rate) < 0.1 * epsilon) ||
                 (size < 1e4 * epsilon && size >= earlier)) {
@@ -179,7 +191,8 @@ private:
         return true;
     }
 
-    /// What the last evaluation changed, each coordinate against its own increments and the round-off of its value.
+    /// What the last evaluation changed, each coordinate against its own increments and the round-off of its
+    /// value.
     double change() const {
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
         const double h = std::abs(this->h());
@@ -187,7 +200,8 @@ private:
         const auto look = [&](const auto& now, const auto& then, double value) {
             const double size = h * (now - then).cwiseAbs().maxCoeff(), scale = h * now.cwiseAbs().maxCoeff();
             const double roundOff = epsilon * std::abs(value);
-            if (!(size < std::numeric_limits<double>::infinity())) worst = std::numeric_limits<double>::infinity();
+            if (!(size < std::numeric_limits<double>::infinity()))
+                worst = std::numeric_limits<double>::infinity();
             if (size > 0.01 * roundOff) worst = std::max(worst, size / std::max(scale, roundOff));
         };
         for (int k = 0; k < this->d(); ++k) {
@@ -244,12 +258,17 @@ BaselineEntry gauss_collocation() {
     const FieldInfo stages =
         integerField("stages", "s", 1, 16, usual, "Collocation points; the order is twice their number.");
     BaselineEntry e;
-    e.item = {"gauss-collocation", "Gauss collocation",
-              "Collocation at Gauss points of Hamilton's equations by fixed-point iteration.", {stages}, claims(usual), ""};
+    e.item = {"gauss-collocation",
+              "Gauss collocation",
+              "Collocation at Gauss points of Hamilton's equations by fixed-point iteration.",
+              {stages},
+              claims(usual),
+              ""};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.claims = [](const Settings& settings) { return claims(settings.integer("stages")); };
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<GaussCollocation>(system.mechanics, options.clock, options.settings.integer("stages"));
+        return makeFlowMethod<GaussCollocation>(system.mechanics, options.clock,
+                                                options.settings.integer("stages"));
     };
     return e;
 }

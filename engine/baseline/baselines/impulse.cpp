@@ -1,8 +1,9 @@
-/// Impulse method with the exact oscillator: half a step of the slow forces, the fast oscillation exactly, half a step of the
-/// slow forces (order 2; Garcia-Archilla, Sanz-Serna and Skeel 1999; Deuflhard 1979). Higher orders are symmetric
-/// compositions of it: Suzuki's 5 stages (order 4), Kahan and Li's 9 (order 6) and 17 stages (order 8) (Hairer, Lubich and
-/// Wanner, Geometric Numerical Integration, II.4, V.3.2). The orders hold for steps that resolve the oscillation; beyond,
-/// the fast energy is kept well only away from step * frequency = j pi.
+/// Impulse method with the exact oscillator: half a step of the slow forces, the fast oscillation exactly,
+/// half a step of the slow forces (order 2; Garcia-Archilla, Sanz-Serna and Skeel 1999; Deuflhard 1979).
+/// Higher orders are symmetric compositions of it: Suzuki's 5 stages (order 4), Kahan and Li's 9 (order 6)
+/// and 17 stages (order 8) (Hairer, Lubich and Wanner, Geometric Numerical Integration, II.4, V.3.2). The
+/// orders hold for steps that resolve the oscillation; beyond, the fast energy is kept well only away from
+/// step * frequency = j pi.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -22,9 +23,9 @@ std::vector<double> stagesOf(int order) {
         return {0.39216144400731413927925056, 0.33259913678935943859974864, -0.70624617255763935980996482,
                 0.08221359629355080023149045, 0.79854399093482996339895035};
     if (order == 8)
-        return {0.13020248308889008087881763,  0.56116298177510838456196441, -0.38947496264484728640807860,
-                0.15884190655515560089621075,  -0.39590389413323757733623154, 0.18453964097831570709183254,
-                0.25837438768632204729397911,  0.29501172360931029887096624, -0.60550853383003451169892108};
+        return {0.13020248308889008087881763, 0.56116298177510838456196441,  -0.38947496264484728640807860,
+                0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254,
+                0.25837438768632204729397911, 0.29501172360931029887096624,  -0.60550853383003451169892108};
     return {1};
 }
 
@@ -38,9 +39,11 @@ public:
         for (const double share : stages) {
             // The outermost halves of neighbouring stages are one flow.
             parts_.push_back(fast_.slowFlows[0]((before + share) / 2 * clock.step));
-            for (std::size_t k = 1; k <= last; ++k) parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
+            for (std::size_t k = 1; k <= last; ++k)
+                parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
             parts_.push_back(fast_.fastFlow(share * clock.step));
-            for (std::size_t k = last; k > 0; --k) parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
+            for (std::size_t k = last; k > 0; --k)
+                parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
             before = share;
         }
         parts_.push_back(fast_.slowFlows[0](before / 2 * clock.step));
@@ -67,7 +70,8 @@ public:
         std::copy((isLate ? trial_ : start_).begin(), (isLate ? trial_ : start_).end(), x.begin());
         for (const auto& slow : fast_.slowFlows) slow(time / 2)(x.data());
         fast_.fastFlow(time)(x.data());
-        for (auto slow = fast_.slowFlows.rbegin(); slow != fast_.slowFlows.rend(); ++slow) (*slow)(time / 2)(x.data());
+        for (auto slow = fast_.slowFlows.rbegin(); slow != fast_.slowFlows.rend(); ++slow)
+            (*slow)(time / 2)(x.data());
     }
 
 private:
@@ -82,10 +86,17 @@ private:
 
 BaselineEntry impulse() {
     BaselineEntry e;
-    e.item = {"impulse", "impulse method", "The fast oscillation exactly between impulses of the slow forces; orders 2, 4, 6, 8.",
-              {integerChoice("order", {"2", "4", "6", "8"}, 2, "Order, by composition: 1, 5, 9 or 17 stages.")}, Claims{2, true, true, {"momentum"}}, "a fast oscillation of its own, with its flow"};
+    e.item = {
+        "impulse",
+        "impulse method",
+        "The fast oscillation exactly between impulses of the slow forces; orders 2, 4, 6, 8.",
+        {integerChoice("order", {"2", "4", "6", "8"}, 2, "Order, by composition: 1, 5, 9 or 17 stages.")},
+        Claims{2, true, true, {"momentum"}},
+        "a fast oscillation of its own, with its flow"};
     e.applies = [](const System& system) { return system.fast.fastFlow && !system.fast.slowFlows.empty(); };
-    e.claims = [](const Settings& settings) { return Claims{settings.integer("order"), true, true, {"momentum"}}; };
+    e.claims = [](const Settings& settings) {
+        return Claims{settings.integer("order"), true, true, {"momentum"}};
+    };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Impulse>(system, options.clock, options.settings.integer("order"));
     };

@@ -1,5 +1,5 @@
-/// Leapfrog for wave functions, psi^{l+1} = psi^{l-1} - (2 i dt/hbar) H psi^l: explicit, stable for |E| dt <= hbar. The three-level
-/// scheme of the trapezoidal rule, started with one step of Gauss degree 2.
+/// Leapfrog for wave functions, psi^{l+1} = psi^{l-1} - (2 i dt/hbar) H psi^l: explicit, stable for |E| dt <=
+/// hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2.
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/integrator/wave_three_level.hpp"
@@ -8,17 +8,23 @@ namespace extremal::baselines {
 
 BaselineEntry leapfrog() {
     BaselineEntry e;
-    e.item = {"leapfrog", "leapfrog", "Three levels, explicit: one product with H a step; stable for |E| dt up to ħ.", {},
-              Claims{2, true, true, {"bilinear form"}}, "a wave function"};
+    e.item = {"leapfrog",
+              "leapfrog",
+              "Three levels, explicit: one product with H a step; stable for |E| dt up to ħ.",
+              {},
+              Claims{2, true, true, {"bilinear form"}},
+              "a wave function"};
     e.applies = [](const System& system) { return system.hasWave(); };
     e.stabilityLimit = 1;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         if (system.wave->isTimeDependent())
             throw InvalidScene("/baseline", "leapfrog needs a potential that does not depend on t", "strang");
-        requirePeriodic(system, "/baseline", "leapfrog", "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
+        requirePeriodic(system, "/baseline", "leapfrog",
+                        "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
         const Settings space{"fourier", {{"degree", 2.0}}, {}};
-        return makeThreeLevelWave(system.wave, options.clock, 0,
-                                  {0, WaveStart::gauss, planWave(system, space, {}, options.clock.step).solver, 1e-14, 600});
+        return makeThreeLevelWave(
+            system.wave, options.clock, 0,
+            {0, WaveStart::gauss, planWave(system, space, {}, options.clock.step).solver, 1e-14, 600});
     };
     return e;
 }

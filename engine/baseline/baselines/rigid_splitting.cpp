@@ -1,7 +1,7 @@
-/// Splitting of a rigid body into rotations about its axes: exp of H_i = Pi_i^2 / (2 I_i) turns it about axis i by
-/// t Pi_i / I_i. The Strang composition 1(h/2) 2(h/2) 3(h) 2(h/2) 1(h/2), between half kicks of a potential, is of order 2;
-/// Suzuki's five of them are of order 4, Kahan and Li's nine of order 6 (Hairer, Lubich and Wanner 2006, V.3.2 and
-/// VII.5.3).
+/// Splitting of a rigid body into rotations about its axes: exp of H_i = Pi_i^2 / (2 I_i) turns it about axis
+/// i by t Pi_i / I_i. The Strang composition 1(h/2) 2(h/2) 3(h) 2(h/2) 1(h/2), between half kicks of a
+/// potential, is of order 2; Suzuki's five of them are of order 4, Kahan and Li's nine of order 6 (Hairer,
+/// Lubich and Wanner 2006, V.3.2 and VII.5.3).
 #include <cmath>
 #include <vector>
 
@@ -72,13 +72,19 @@ private:
 }  // namespace
 
 BaselineEntry rigid_splitting() {
-    FieldInfo order = integerField("order", "", 2, 6, 2, "Strang (2), Suzuki's composition of it (4), or Kahan and Li's (6).");
+    FieldInfo order = integerField("order", "", 2, 6, 2,
+                                   "Strang (2), Suzuki's composition of it (4), or Kahan and Li's (6).");
     order.choices = {"2", "4", "6"};
     BaselineEntry e;
-    e.item = {"rigid-splitting", "rigid splitting",
-              "Explicit splitting of a rigid body into rotations about its axes; kicks for a potential.", {order},
-              Claims{2, true, true, {"momentum"}}, "a rigid body"};
-    e.claims = [](const Settings& settings) { return Claims{settings.integer("order"), true, true, {"momentum"}}; };
+    e.item = {"rigid-splitting",
+              "rigid splitting",
+              "Explicit splitting of a rigid body into rotations about its axes; kicks for a potential.",
+              {order},
+              Claims{2, true, true, {"momentum"}},
+              "a rigid body"};
+    e.claims = [](const Settings& settings) {
+        return Claims{settings.integer("order"), true, true, {"momentum"}};
+    };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.applies = [](const System& system) { return system.hasBody(); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

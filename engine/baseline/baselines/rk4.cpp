@@ -42,8 +42,12 @@ private:
 
 BaselineEntry rk4() {
     BaselineEntry e;
-    e.item = {"rk4", "RK4", "Classical Runge-Kutta of order 4: explicit, not symplectic, energy drifts.", {},
-              Claims{4, false, false, {}}, ""};
+    e.item = {"rk4",
+              "RK4",
+              "Classical Runge-Kutta of order 4: explicit, not symplectic, energy drifts.",
+              {},
+              Claims{4, false, false, {}},
+              ""};
     e.stabilityLimit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<Rk4>(system.mechanics, options.clock);

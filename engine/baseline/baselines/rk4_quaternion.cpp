@@ -1,5 +1,5 @@
-/// The classical Runge-Kutta method of order 4 on attitude quaternion and momentum in the body, with or without bringing
-/// the quaternion back to length 1 after each step.
+/// The classical Runge-Kutta method of order 4 on attitude quaternion and momentum in the body, with or
+/// without bringing the quaternion back to length 1 after each step.
 #include <limits>
 
 #include "engine/baseline/body_method.hpp"
@@ -14,7 +14,8 @@ public:
 
 private:
     static Motion sum(const Motion& m, double s, const Motion& d) {
-        return {m.q + s * d.q, m.momentum + s * d.momentum, m.position + s * d.position, m.linear + s * d.linear};
+        return {m.q + s * d.q, m.momentum + s * d.momentum, m.position + s * d.position,
+                m.linear + s * d.linear};
     }
     /// q' = q (0, omega) / 2, Pi' = Pi x omega + torque, x' = p / m, p' = R force.
     Motion rate(const Motion& m) {
@@ -32,7 +33,8 @@ private:
         return d;
     }
     void step(Motion& m, double h) override {
-        const Motion k1 = rate(m), k2 = rate(sum(m, h / 2, k1)), k3 = rate(sum(m, h / 2, k2)), k4 = rate(sum(m, h, k3));
+        const Motion k1 = rate(m), k2 = rate(sum(m, h / 2, k1)), k3 = rate(sum(m, h / 2, k2)),
+                     k4 = rate(sum(m, h, k3));
         m = sum(sum(sum(sum(m, h / 6, k1), h / 3, k2), h / 3, k3), h / 6, k4);
         if (isProjected_) m.q = so3::normalised(m.q);
     }
@@ -43,9 +45,12 @@ private:
 
 BaselineEntry rk4_quaternion() {
     BaselineEntry e;
-    e.item = {"rk4-quaternion", "RK4 on quaternions",
-              "Classical Runge-Kutta of order 4 for rigid bodies: energy and momentum drift.", {projectionField()},
-              Claims{4, false, false, {}}, "a rigid body"};
+    e.item = {"rk4-quaternion",
+              "RK4 on quaternions",
+              "Classical Runge-Kutta of order 4 for rigid bodies: energy and momentum drift.",
+              {projectionField()},
+              Claims{4, false, false, {}},
+              "a rigid body"};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.applies = [](const System& system) { return system.hasBody(); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

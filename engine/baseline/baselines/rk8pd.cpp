@@ -36,8 +36,8 @@ public:
         Watch watch{*this, {}, Outcome::converged};
         const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
         Vector y = before(), error(size());
-        gsl_odeiv2_step_apply(shorter.get(), startTime(), tau * (endTime() - startTime()), y.data(), error.data(), nullptr,
-                              nullptr, &system);
+        gsl_odeiv2_step_apply(shorter.get(), startTime(), tau * (endTime() - startTime()), y.data(),
+                              error.data(), nullptr, nullptr, &system);
         std::copy(y.begin(), y.end(), x.begin());
     }
 
@@ -59,8 +59,8 @@ private:
         const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
         const double start = t;
         const unsigned long refused = evolve_->failed_steps;
-        const int status =
-            gsl_odeiv2_evolve_apply(evolve_.get(), control_.get(), step_.get(), &system, &t, end(), &h_, x.data());
+        const int status = gsl_odeiv2_evolve_apply(evolve_.get(), control_.get(), step_.get(), &system, &t,
+                                                   end(), &h_, x.data());
         report = watch.report;
         report.rejected = static_cast<int>(evolve_->failed_steps - refused);
         if (watch.trouble != Outcome::converged) return watch.trouble;
@@ -87,9 +87,12 @@ private:
 
 BaselineEntry rk8pd() {
     BaselineEntry e;
-    e.item = {"rk8pd", "Prince-Dormand 8(9)",
-              "The GNU Scientific Library's explicit Runge-Kutta pair of order 8 under error control.", {},
-              Claims{8, false, false, {}}, "smooth forces"};
+    e.item = {"rk8pd",
+              "Prince-Dormand 8(9)",
+              "The GNU Scientific Library's explicit Runge-Kutta pair of order 8 under error control.",
+              {},
+              Claims{8, false, false, {}},
+              "smooth forces"};
     e.isAdaptive = true;
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {

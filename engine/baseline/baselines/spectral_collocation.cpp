@@ -1,6 +1,7 @@
-/// Spectral collocation in time, for wave functions: a polynomial of degree s through the start that satisfies the equation at
-/// Chebyshev nodes of the step, s of them: the extrema without the start, or the roots. Not from an action: at the extrema the
-/// norm is off by about the square of the error; the roots are symmetric, which keeps it.
+/// Spectral collocation in time, for wave functions: a polynomial of degree s through the start that
+/// satisfies the equation at Chebyshev nodes of the step, s of them: the extrema without the start, or the
+/// roots. Not from an action: at the extrema the norm is off by about the square of the error; the roots are
+/// symmetric, which keeps it.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,13 +27,18 @@ Rule<double> nodesOf(int s, bool isExtrema) {
 }  // namespace
 
 BaselineEntry spectral_collocation() {
-    const FieldInfo degree = integerField("degree", "s", 1, 64, 8, "Degree of the polynomial in time on one step.");
-    const FieldInfo nodes = choiceField("nodes", "nodes", {"extrema", "roots"},
-                                        "Chebyshev extrema without the start of the step, or Chebyshev roots.");
+    const FieldInfo degree =
+        integerField("degree", "s", 1, 64, 8, "Degree of the polynomial in time on one step.");
+    const FieldInfo nodes =
+        choiceField("nodes", "nodes", {"extrema", "roots"},
+                    "Chebyshev extrema without the start of the step, or Chebyshev roots.");
     BaselineEntry e;
-    e.item = {"spectral-collocation", "spectral collocation",
-              "Wave functions by collocation in time at Chebyshev nodes: spectral, but from no action.", {degree, nodes},
-              Claims{8, false, false, {}}, "a wave function"};
+    e.item = {"spectral-collocation",
+              "spectral collocation",
+              "Wave functions by collocation in time at Chebyshev nodes: spectral, but from no action.",
+              {degree, nodes},
+              Claims{8, false, false, {}},
+              "a wave function"};
     e.applies = [](const System& system) { return system.hasWave(); };
     e.claims = [](const Settings& settings) {
         const int s = settings.integer("degree");
@@ -44,9 +50,11 @@ BaselineEntry spectral_collocation() {
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         requireSplit(system, "/baseline", "spectral-collocation",
-                        "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
-        return makeCollocationWave(system.wave, options.clock, std::nan(""),
-                                   nodesOf(options.settings.integer("degree"), options.settings.text("nodes") != "roots"), 1e-13, 600);
+                     "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
+        return makeCollocationWave(
+            system.wave, options.clock, std::nan(""),
+            nodesOf(options.settings.integer("degree"), options.settings.text("nodes") != "roots"), 1e-13,
+            600);
     };
     return e;
 }

@@ -5,8 +5,7 @@ namespace extremal::baselines {
 
 BaselineEntry srkn_11b() {
     return splittingBaseline("srkn-11b", "Blanes-Moan SRKN 11b",
-                             "Symplectic Runge-Kutta-Nyström of order 6 with eleven kicks.",
-                             srkn11b());
+                             "Symplectic Runge-Kutta-Nyström of order 6 with eleven kicks.", srkn11b());
 }
 
 }  // namespace extremal::baselines

@@ -5,8 +5,7 @@ namespace extremal::baselines {
 
 BaselineEntry srkn_6b() {
     return splittingBaseline("srkn-6b", "Blanes-Moan SRKN 6b",
-                             "Symplectic Runge-Kutta-Nyström of order 4 with six kicks.",
-                             srkn6b());
+                             "Symplectic Runge-Kutta-Nyström of order 4 with six kicks.", srkn6b());
 }
 
 }  // namespace extremal::baselines

@@ -1,5 +1,6 @@
-/// CVODE of SUNDIALS: backward differentiation formulas of order 1 to 5 with variable step, Newton's method with a dense
-/// Jacobian by differences. For stiff problems with damping; in oscillations it wastes its stability on small steps.
+/// CVODE of SUNDIALS: backward differentiation formulas of order 1 to 5 with variable step, Newton's method
+/// with a dense Jacobian by differences. For stiff problems with damping; in oscillations it wastes its
+/// stability on small steps.
 #include <algorithm>
 #include <memory>
 
@@ -49,7 +50,8 @@ public:
         : AdaptiveMethod(mechanics, options),
           context_(makeContext()),
           x_(N_VNew_Serial(static_cast<sunindextype>(size()), context_)),
-          jacobian_(SUNDenseMatrix(static_cast<sunindextype>(size()), static_cast<sunindextype>(size()), context_)),
+          jacobian_(
+              SUNDenseMatrix(static_cast<sunindextype>(size()), static_cast<sunindextype>(size()), context_)),
           solver_(SUNLinSol_Dense(x_, jacobian_, context_)),
           memory_(CVodeCreate(CV_BDF, context_)) {
         CVodeSetErrFile(memory_, nullptr);
@@ -81,9 +83,11 @@ private:
         const Counters after = counters();
         report.rejected = static_cast<int>(after.refused - before.refused);
         report.iterations = static_cast<int>(after.iterations - before.iterations);
-        report.linearSolves = report.iterations + static_cast<int>(after.factorisations - before.factorisations);
+        report.linearSolves =
+            report.iterations + static_cast<int>(after.factorisations - before.factorisations);
         if (trouble_ != Outcome::converged) return trouble_;
-        if (status < 0 || !(t > start)) return status == CV_CONV_FAILURE ? Outcome::diverged : Outcome::stepBudget;
+        if (status < 0 || !(t > start))
+            return status == CV_CONV_FAILURE ? Outcome::diverged : Outcome::stepBudget;
         std::copy_n(N_VGetArrayPointer(x_), size(), x.begin());
         return Outcome::converged;
     }
@@ -126,8 +130,11 @@ private:
 
 BaselineEntry stiff() {
     BaselineEntry e;
-    e.item = {"stiff", "CVODE (BDF)",
-              "SUNDIALS CVODE: implicit multistep formulas of variable order and step for stiff problems.", {}, Claims{},
+    e.item = {"stiff",
+              "CVODE (BDF)",
+              "SUNDIALS CVODE: implicit multistep formulas of variable order and step for stiff problems.",
+              {},
+              Claims{},
               "smooth forces"};
     e.isAdaptive = true;
     e.make = []([[maybe_unused]] const System& system,

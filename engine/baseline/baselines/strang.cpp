@@ -4,7 +4,9 @@
 namespace extremal::baselines {
 
 BaselineEntry strang() {
-    return waveSplittingBaseline("strang", "Strang splitting", "Split-step of order 2: half a kick, a drift, half a kick; one kick a step.", extremal::strang());
+    return waveSplittingBaseline("strang", "Strang splitting",
+                                 "Split-step of order 2: half a kick, a drift, half a kick; one kick a step.",
+                                 extremal::strang());
 }
 
 }  // namespace extremal::baselines

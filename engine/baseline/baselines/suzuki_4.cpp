@@ -4,7 +4,10 @@
 namespace extremal::baselines {
 
 BaselineEntry suzuki_4() {
-    return waveSplittingBaseline("suzuki-4", "Suzuki 4", "Split-step of order 4: five Strang steps, one of them backwards; five kicks a step.", extremal::suzuki4());
+    return waveSplittingBaseline(
+        "suzuki-4", "Suzuki 4",
+        "Split-step of order 4: five Strang steps, one of them backwards; five kicks a step.",
+        extremal::suzuki4());
 }
 
 }  // namespace extremal::baselines

@@ -11,8 +11,16 @@ Figure makeAdiabaticInvariant(const FigureContext& context) {
 }  // namespace
 
 ViewEntry adiabatic_invariant() {
-    return {{"adiabatic-invariant", "Adiabatic invariant", "fast energy over its frequency against time; nearly constant over very long times",
-             {}, {}, {}}, "adiabatic-invariant", makeAdiabaticInvariant, nullptr, againstTime};
+    return {{"adiabatic-invariant",
+             "Adiabatic invariant",
+             "fast energy over its frequency against time; nearly constant over very long times",
+             {},
+             {},
+             {}},
+            "adiabatic-invariant",
+            makeAdiabaticInvariant,
+            nullptr,
+            againstTime};
 }
 
 }  // namespace extremal::views

@@ -4,8 +4,14 @@
 namespace extremal::views {
 
 ViewEntry body_momentum() {
-    ViewEntry e{{"body-momentum", "Body momentum", "components of the angular momentum in body axes against time, a plot each; rigid bodies", {}, {}, {}},
-                "", [](const FigureContext& context) { return momentumComponent(context, "body"); }};
+    ViewEntry e{{"body-momentum",
+                 "Body momentum",
+                 "components of the angular momentum in body axes against time, a plot each; rigid bodies",
+                 {},
+                 {},
+                 {}},
+                "",
+                [](const FigureContext& context) { return momentumComponent(context, "body"); }};
     e.columns = [](const System& system) { return momentumColumns(system, "body"); };
     e.scales = againstTime;
     return e;

@@ -1,5 +1,5 @@
-/// A field over time and space as a heat map; wave functions with their phase as the colour, those over a rectangle as their
-/// density along x.
+/// A field over time and space as a heat map; wave functions with their phase as the colour, those over a
+/// rectangle as their density along x.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -22,7 +22,8 @@ std::vector<double> resampled(const Eigen::MatrixXd& to, const std::vector<doubl
 std::vector<double> marginal(const wave::Grid& grid, const std::vector<double>& values) {
     const auto columns = static_cast<std::size_t>(grid.nx), n = values.size() / 2;
     std::vector<double> sums(columns);
-    for (std::size_t j = 0; j < n; ++j) sums[j % columns] += values[j] * values[j] + values[n + j] * values[n + j];
+    for (std::size_t j = 0; j < n; ++j)
+        sums[j % columns] += values[j] * values[j] + values[n + j] * values[n + j];
     for (double& sum : sums) sum = std::sqrt(sum * grid.y.length / grid.ny);
     return sums;
 }
@@ -50,7 +51,8 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
     const double last = frames.back().t, seconds = end - start;
     for (int column = 0; column < heat.columns; ++column) {
         const double t = start + seconds * (column + 0.5) / heat.columns;
-        auto after = std::lower_bound(frames.begin(), frames.end(), t, [](const Frame& f, double at) { return f.t < at; });
+        auto after = std::lower_bound(frames.begin(), frames.end(), t,
+                                      [](const Frame& f, double at) { return f.t < at; });
         if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
         const bool isThere = t <= last + seconds / heat.columns;
         const std::vector<double> made = isUneven  ? resampled(to, *after->values)
@@ -92,7 +94,12 @@ Figure makeCarpet(const FigureContext& context) {
 }  // namespace
 
 ViewEntry carpet() {
-    return {{"carpet", "Carpet", "a field over time and space; of wave functions modulus and phase", {}, {}, {}}, "", makeCarpet, nullptr, againstTime};
+    return {
+        {"carpet", "Carpet", "a field over time and space; of wave functions modulus and phase", {}, {}, {}},
+        "",
+        makeCarpet,
+        nullptr,
+        againstTime};
 }
 
 }  // namespace extremal::views

@@ -52,7 +52,9 @@ ViewEntry curve_error() {
              {},
              {}},
             "error",
-            makeCurveError, nullptr, logAgainstTime};
+            makeCurveError,
+            nullptr,
+            logAgainstTime};
 }
 
 }  // namespace extremal::views

@@ -20,8 +20,7 @@ Figure makeDiscreteLagrangian(const FigureContext& context) {
     const std::string time = columnInfo(context, "t").unit,
                       energy = context.system ? context.system->energyUnit : "";
     figure.x = logAxis(axisTitle("h", time));
-    figure.y =
-        logAxis(axisTitle("|ΔL_d|", energy.empty() || time.empty() ? "" : energy + " " + time));
+    figure.y = logAxis(axisTitle("|ΔL_d|", energy.empty() || time.empty() ? "" : energy + " " + time));
     std::string slopes;
     int known = 0;
     for (const auto& scheme : context.comparison.schemes) {
@@ -34,8 +33,8 @@ Figure makeDiscreteLagrangian(const FigureContext& context) {
         s.x = d.h;
         s.y = d.defect;
         figure.series.push_back(std::move(s));
-        slopes += (slopes.empty() ? "" : ", ") + (d.order > 0 ? twoDecimals(d.order) : std::string("?")) + " of " +
-                  std::to_string(scheme->summary.orderClaimed + 1);
+        slopes += (slopes.empty() ? "" : ", ") + (d.order > 0 ? twoDecimals(d.order) : std::string("?")) +
+                  " of " + std::to_string(scheme->summary.orderClaimed + 1);
         known += d.order > 0 ? 1 : 0;
     }
     if (known > 0) figure.subtitle = "slope " + slopes;
@@ -59,7 +58,9 @@ ViewEntry discrete_lagrangian() {
              {},
              {}},
             "",
-            makeDiscreteLagrangian, nullptr, logScales};
+            makeDiscreteLagrangian,
+            nullptr,
+            logScales};
 }
 
 }  // namespace extremal::views

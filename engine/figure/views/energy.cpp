@@ -20,7 +20,8 @@ Figure makeEnergy(const FigureContext& context) {
         const auto error = scheme->trajectory["energy_error"];
         if (error.size() < 8) continue;
         ++known;
-        bounded += scheme->summary.status != RunStatus::failed && isBounded(error, 1e3 * figure.floor.value_or(0));
+        bounded +=
+            scheme->summary.status != RunStatus::failed && isBounded(error, 1e3 * figure.floor.value_or(0));
     }
     const bool isForced = context.system && context.system->mechanics.isTimeDependent;
     if (known > 0) figure.subtitle = "bounded: " + std::to_string(bounded) + " of " + std::to_string(known);
@@ -30,15 +31,25 @@ Figure makeEnergy(const FigureContext& context) {
         for (const Series& s : figure.series)
             if (s.style >= 0) largest.emplace_back(maxMagnitude(s.y) / scale, s.label);
     if (!largest.empty()) figure.subtitle = "relative, at most: " + leastToMost(largest);
-    finishFigure(figure, context, "Energy error " + againstText(context.view) + ", " + (known ? figure.subtitle : "not measured"));
+    finishFigure(
+        figure, context,
+        "Energy error " + againstText(context.view) + ", " + (known ? figure.subtitle : "not measured"));
     return figure;
 }
 
 }  // namespace
 
 ViewEntry energy() {
-    return {{"energy", "Energy error", "|H(t) − H(0)| of every scheme against time or steps, logarithmic", {againstField()}, {}, {}},
-            "energy", makeEnergy, nullptr, logAgainstTime};
+    return {{"energy",
+             "Energy error",
+             "|H(t) − H(0)| of every scheme against time or steps, logarithmic",
+             {againstField()},
+             {},
+             {}},
+            "energy",
+            makeEnergy,
+            nullptr,
+            logAgainstTime};
 }
 
 }  // namespace extremal::views

@@ -1,4 +1,5 @@
-/// Distance to the reference on a logarithmic axis, with the floor below which the reference itself is no better.
+/// Distance to the reference on a logarithmic axis, with the floor below which the reference itself is no
+/// better.
 #include <cmath>
 
 #include "engine/figure/against.hpp"
@@ -16,8 +17,10 @@ std::string symbolOf(const FigureContext& context) {
 std::string referenceText(const ReferenceInfo& reference) {
     if (reference.type == "none") return "no reference";
     if (reference.type == "exact") return "reference: exact";
-    std::string text = "reference: " + (reference.description.empty() ? reference.type : reference.description);
-    if (std::isfinite(reference.estimatedError)) text += ", good to " + shortNumber(reference.estimatedError, 1);
+    std::string text =
+        "reference: " + (reference.description.empty() ? reference.type : reference.description);
+    if (std::isfinite(reference.estimatedError))
+        text += ", good to " + shortNumber(reference.estimatedError, 1);
     return text;
 }
 
@@ -36,15 +39,24 @@ Figure makeError(const FigureContext& context) {
         figure.doubtfulBelow = 10 * reference.estimatedError;
     }
     if (reference.type == "none") figure.message = "Without a reference there is no error to show";
-    finishFigure(figure, context, "Distance to the reference " + againstText(context.view) + " (" + figure.subtitle + ")");
+    finishFigure(figure, context,
+                 "Distance to the reference " + againstText(context.view) + " (" + figure.subtitle + ")");
     return figure;
 }
 
 }  // namespace
 
 ViewEntry error() {
-    return {{"error", "Error", "distance to the reference solution against time or steps, logarithmic", {againstField()}, {}, {}},
-            "error", makeError, nullptr, logAgainstTime};
+    return {{"error",
+             "Error",
+             "distance to the reference solution against time or steps, logarithmic",
+             {againstField()},
+             {},
+             {}},
+            "error",
+            makeError,
+            nullptr,
+            logAgainstTime};
 }
 
 }  // namespace extremal::views

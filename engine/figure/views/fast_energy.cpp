@@ -11,8 +11,17 @@ Figure makeFastEnergy(const FigureContext& context) {
 }  // namespace
 
 ViewEntry fast_energy() {
-    return {{"fast-energy", "Fast energy", "energy of the fast oscillation against time; for models that know a fast oscillation of their own",
-             {}, {}, {}}, "fast-energy", makeFastEnergy, nullptr, againstTime};
+    return {
+        {"fast-energy",
+         "Fast energy",
+         "energy of the fast oscillation against time; for models that know a fast oscillation of their own",
+         {},
+         {},
+         {}},
+        "fast-energy",
+        makeFastEnergy,
+        nullptr,
+        againstTime};
 }
 
 }  // namespace extremal::views

@@ -1,5 +1,5 @@
-/// The potential and the lowest energies of a wave function's operator, each line over the part of space that a classical
-/// particle of that energy could reach; and the energy of the start.
+/// The potential and the lowest energies of a wave function's operator, each line over the part of space that
+/// a classical particle of that energy could reach; and the energy of the start.
 #include <algorithm>
 
 #include "engine/figure/build.hpp"
@@ -34,7 +34,8 @@ Series levelOf(const Hamiltonian& h, std::size_t k, double E) {
         s.y.push_back(h.potential()[j] <= E ? E : Summary::unknown);
     }
     s.x.push_back(end);
-    s.y.push_back((h.isPeriodic() ? h.potential().front() : h.potential().back()) <= E ? E : Summary::unknown);
+    s.y.push_back((h.isPeriodic() ? h.potential().front() : h.potential().back()) <= E ? E
+                                                                                       : Summary::unknown);
     return s;
 }
 
@@ -57,10 +58,12 @@ Figure makeLevels(const FigureContext& context) {
         const auto [low, high] = std::minmax_element(V.begin(), V.end());
         // The wells and a little more, at least eight levels.
         std::size_t count = 0;
-        while (count < std::min(mostLevels, energies.size() / 2) && (count < 8 || energies[count] < *high)) ++count;
+        while (count < std::min(mostLevels, energies.size() / 2) && (count < 8 || energies[count] < *high))
+            ++count;
         figure.series.push_back(potentialOf(*h));
         for (std::size_t k = 0; k < count; ++k) figure.series.push_back(levelOf(*h, k, energies[k]));
-        const double top = std::max(energies[count - 1], std::min(*high, 1.3 * energies[count - 1] - 0.3 * *low));
+        const double top =
+            std::max(energies[count - 1], std::min(*high, 1.3 * energies[count - 1] - 0.3 * *low));
         const double margin = 0.05 * (top - *low);
         figure.y.range = {std::min(*low, energies[0]) - margin, top + margin};
         figure.subtitle = "E0 = " + shortNumber(energies[0], 10) + ", E1 = " + shortNumber(energies[1], 10);
@@ -72,7 +75,12 @@ Figure makeLevels(const FigureContext& context) {
 }  // namespace
 
 ViewEntry levels() {
-    return {{"levels", "Energy levels", "the potential and the lowest energies of a wave function", {}, {}, {}}, "", makeLevels, nullptr, againstPlace};
+    return {
+        {"levels", "Energy levels", "the potential and the lowest energies of a wave function", {}, {}, {}},
+        "",
+        makeLevels,
+        nullptr,
+        againstPlace};
 }
 
 }  // namespace extremal::views

@@ -22,24 +22,35 @@ Figure makeMomentum(const FigureContext& context) {
     int conserved = 0;
     for (const Series& s : figure.series) conserved += maxMagnitude(s.y) <= 1e-10 * (scale > 0 ? scale : 1);
     if (!figure.series.empty())
-        figure.subtitle = "conserved: " + std::to_string(conserved) + " of " + std::to_string(figure.series.size());
-    const bool isExact = !figure.series.empty() && std::all_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
-        return s.y.size() > 1 && maxMagnitude(s.y) == 0;
-    });
+        figure.subtitle =
+            "conserved: " + std::to_string(conserved) + " of " + std::to_string(figure.series.size());
+    const bool isExact = !figure.series.empty() &&
+                         std::all_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
+                             return s.y.size() > 1 && maxMagnitude(s.y) == 0;
+                         });
     if (isExact) figure.message = "Kept to the last bit by every scheme";
-    if (context.system && context.system->momenta.empty()) figure.message = "This model has no conserved momentum";
+    if (context.system && context.system->momenta.empty())
+        figure.message = "This model has no conserved momentum";
     if (figure.message.empty()) addChance(figure, context);
-    finishFigure(figure, context, "Momentum error " + againstText(context.view) + ", " +
-                                      (figure.subtitle.empty() ? std::string("not measured") : figure.subtitle));
+    finishFigure(figure, context,
+                 "Momentum error " + againstText(context.view) + ", " +
+                     (figure.subtitle.empty() ? std::string("not measured") : figure.subtitle));
     return figure;
 }
 
 }  // namespace
 
 ViewEntry momentum() {
-    return {{"momentum", "Momentum error", "norm of the change of the conserved momenta against time or steps, logarithmic",
-             {againstField()}, {}, {}},
-            "momentum", makeMomentum, nullptr, logAgainstTime};
+    return {{"momentum",
+             "Momentum error",
+             "norm of the change of the conserved momenta against time or steps, logarithmic",
+             {againstField()},
+             {},
+             {}},
+            "momentum",
+            makeMomentum,
+            nullptr,
+            logAgainstTime};
 }
 
 }  // namespace extremal::views

@@ -1,5 +1,5 @@
-/// How large an error is over a grid of a parameter of the model and the step, as colours: one scheme a picture, one scale for
-/// all of them. Cases that failed or blew up have none.
+/// How large an error is over a grid of a parameter of the model and the step, as colours: one scheme a
+/// picture, one scale for all of them. Cases that failed or blew up have none.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -9,8 +9,8 @@
 namespace extremal::views {
 namespace {
 
-/// Powers of ten that hold the values of all schemes but for the two percent at either end: what is about to blow up must
-/// not take the scale from the others.
+/// Powers of ten that hold the values of all schemes but for the two percent at either end: what is about to
+/// blow up must not take the scale from the others.
 std::pair<double, double> decadesOf(const std::vector<const ParameterMap*>& maps) {
     std::vector<double> all;
     for (const ParameterMap* map : maps)
@@ -18,7 +18,8 @@ std::pair<double, double> decadesOf(const std::vector<const ParameterMap*>& maps
             if (cell.isDone() && cell.value > 0) all.push_back(std::log10(cell.value));
     if (all.empty()) return {-1, 0};
     const auto at = [&](double part) {
-        const auto place = all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(all.size() - 1));
+        const auto place =
+            all.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(all.size() - 1));
         std::nth_element(all.begin(), place, all.end());
         return *place;
     };
@@ -28,7 +29,8 @@ std::pair<double, double> decadesOf(const std::vector<const ParameterMap*>& maps
 
 /// The edges of cells around values in equal ratios.
 std::pair<double, double> edgesOf(const std::vector<double>& values) {
-    const double half = std::pow(values.back() / values.front(), 0.5 / static_cast<double>(values.size() - 1));
+    const double half =
+        std::pow(values.back() / values.front(), 0.5 / static_cast<double>(values.size() - 1));
     return {values.front() / half, values.back() * half};
 }
 
@@ -55,7 +57,9 @@ HeatMap heatOfMap(const ParameterMap& map, std::pair<double, double> decades, st
 }
 
 /// "|H - H(0)|"; a norm is its own size.
-std::string sizeText(const std::string& symbol) { return symbol.starts_with('|') ? symbol : "|" + symbol + "|"; }
+std::string sizeText(const std::string& symbol) {
+    return symbol.starts_with('|') ? symbol : "|" + symbol + "|";
+}
 
 /// Where the scene itself stands.
 Series sceneIn(const ParameterMap& map, const FigureContext& context) {
@@ -94,21 +98,26 @@ Figure makeParameterMap(const FigureContext& context) {
     figure.y = logAxis(axisTitle("h", context.system->timeUnit));
     std::string scale = grid.column;
     for (const ObservedColumn& c : observableColumns(scene, *context.system))
-        if (c.name == grid.column) scale = axisTitle("max " + sizeText(c.symbol.empty() ? c.name : c.symbol), c.unit);
+        if (c.name == grid.column)
+            scale = axisTitle("max " + sizeText(c.symbol.empty() ? c.name : c.symbol), c.unit);
     figure.title = shown->scheme;
     figure.heat = heatOfMap(*shown, decadesOf(alike), scale);
     figure.x.range = {figure.heat->left, figure.heat->right};
     figure.y.range = {figure.heat->bottom, figure.heat->top};
-    const auto known = std::count_if(shown->cells.begin(), shown->cells.end(), [](const MapCell& c) { return c.isDone(); });
-    const auto waiting =
-        std::count_if(shown->cells.begin(), shown->cells.end(), [](const MapCell& c) { return c.end == MapCell::End::waiting; });
+    const auto known =
+        std::count_if(shown->cells.begin(), shown->cells.end(), [](const MapCell& c) { return c.isDone(); });
+    const auto waiting = std::count_if(shown->cells.begin(), shown->cells.end(),
+                                       [](const MapCell& c) { return c.end == MapCell::End::waiting; });
     const auto all = static_cast<std::ptrdiff_t>(shown->cells.size());
     const std::string unit = context.system->timeUnit.empty() ? "" : " " + context.system->timeUnit;
     figure.subtitle = scale.substr(0, scale.find("  [")) + " to " + context.system->independent + " = " +
                       shortNumber(scene.start.value + grid.duration, 4) + unit;
-    if (known + waiting < all) figure.subtitle += " · " + std::to_string(all - known - waiting) + " of " + std::to_string(all) + " fail";
+    if (known + waiting < all)
+        figure.subtitle +=
+            " · " + std::to_string(all - known - waiting) + " of " + std::to_string(all) + " fail";
     figure.series.push_back(sceneIn(*shown, context));
-    finishFigure(figure, context, shown->scheme + ": " + figure.subtitle + ", over " + grid.parameter + " and the step");
+    finishFigure(figure, context,
+                 shown->scheme + ": " + figure.subtitle + ", over " + grid.parameter + " and the step");
     figure.failures.clear();
     return figure;
 }
@@ -118,7 +127,8 @@ Figure makeParameterMap(const FigureContext& context) {
 ViewEntry parameter_map() {
     return {{"parameter-map",
              "Parameter map",
-             "the largest error of each scheme over a grid of a parameter of the model, as its stiffness, and the step",
+             "the largest error of each scheme over a grid of a parameter of the model, as its stiffness, "
+             "and the step",
              mapFields(),
              {},
              {}},

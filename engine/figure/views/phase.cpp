@@ -27,12 +27,19 @@ Figure makePhase(const FigureContext& context) {
 }  // namespace
 
 ViewEntry phase() {
-    ViewEntry e{{"phase", "Phase portrait", "momentum over coordinate, or any two state columns",
+    ViewEntry e{{"phase",
+                 "Phase portrait",
+                 "momentum over coordinate, or any two state columns",
                  {textField("x", "x", "", "state column to the right, by default the model's choice"),
-                  textField("y", "y", "", "state column upwards, by default the model's choice")}, {}, {}},
-                "", makePhase};
+                  textField("y", "y", "", "state column upwards, by default the model's choice")},
+                 {},
+                 {}},
+                "",
+                makePhase};
     e.scales.across = Across::column;
-    e.xColumn = [](const View& view, const System& system) { return view.x.empty() ? system.phaseX : view.x; };
+    e.xColumn = [](const View& view, const System& system) {
+        return view.x.empty() ? system.phaseX : view.x;
+    };
     return e;
 }
 

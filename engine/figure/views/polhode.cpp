@@ -1,7 +1,8 @@
-/// The polhode: the momentum in the body on its sphere, with the curves of constant energy on which a free body moves.
+/// The polhode: the momentum in the body on its sphere, with the curves of constant energy on which a free
+/// body moves.
 ///
-/// The sphere |Pi| = |Pi(0)| is seen in parallel projection from a side where the start is in front; what is behind is left
-/// out.
+/// The sphere |Pi| = |Pi(0)| is seen in parallel projection from a side where the start is in front; what is
+/// behind is left out.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +27,8 @@ struct Eye {
     Three towards, right, up;
 
     explicit Eye(const Three& start) {
-        towards = {std::copysign(0.62, start[0]), std::copysign(0.48, start[1]), std::copysign(0.62, start[2])};
+        towards = {std::copysign(0.62, start[0]), std::copysign(0.48, start[1]),
+                   std::copysign(0.62, start[2])};
         towards = scaled(towards, 1 / std::sqrt(dot(towards, towards)));
         const Three third{0, 0, std::copysign(1.0, start[2])};
         up = {third[0] - dot(third, towards) * towards[0], third[1] - dot(third, towards) * towards[1],
@@ -69,7 +71,8 @@ void addAxes(Figure& figure, const Eye& eye) {
         n[i] = std::copysign(1.0, eye.towards[i]);
         const std::string sign = n[i] > 0 ? "" : "−";
         // Beyond the end of the mark as it is seen, however much it points at the viewer.
-        const double x = dot(eye.right, n), y = dot(eye.up, n), away = 1.06 + 0.09 / std::max(std::hypot(x, y), 1e-3);
+        const double x = dot(eye.right, n), y = dot(eye.up, n),
+                     away = 1.06 + 0.09 / std::max(std::hypot(x, y), 1e-3);
         figure.labels.push_back({away * x, away * y, sign + names[i]});
         Guide axis;
         for (const double s : {1.0, 1.06}) {
@@ -142,8 +145,16 @@ Figure makePolhode(const FigureContext& context) {
 }  // namespace
 
 ViewEntry polhode() {
-    return {{"polhode", "Polhode", "the momentum in the body on its sphere, with curves of equal energy; rigid bodies", {}, {}, {}},
-            "", makePolhode, nullptr, noScales};
+    return {{"polhode",
+             "Polhode",
+             "the momentum in the body on its sphere, with curves of equal energy; rigid bodies",
+             {},
+             {},
+             {}},
+            "",
+            makePolhode,
+            nullptr,
+            noScales};
 }
 
 }  // namespace extremal::views

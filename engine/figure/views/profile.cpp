@@ -1,5 +1,5 @@
-/// A field over space at the last time of each scheme; of wave functions the modulus, or the real and imaginary parts. Over a
-/// rectangle that of one scheme, as colours.
+/// A field over space at the last time of each scheme; of wave functions the modulus, or the real and
+/// imaginary parts. Over a rectangle that of one scheme, as colours.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -68,7 +68,8 @@ HeatMap heatOver(const Hamiltonian& h, const std::vector<double>& values, Part p
         for (int row = 0; row < grid.ny; ++row) {
             const auto j = static_cast<std::size_t>(column + row * grid.nx);
             heat.values.push_back(valueOf(part, values[j], values[n + j]));
-            if (part == Part::modulus) heat.hues.push_back(std::atan2(values[n + j], values[j]) / (2 * std::numbers::pi));
+            if (part == Part::modulus)
+                heat.hues.push_back(std::atan2(values[n + j], values[j]) / (2 * std::numbers::pi));
         }
     heat.high = maxMagnitude(heat.values);
     heat.low = part == Part::modulus ? 0 : -heat.high;
@@ -81,21 +82,24 @@ Figure makePlaneProfile(const FigureContext& context) {
     figure.y.title = "y";
     figure.hasEqualScales = true;
     const Shown shown = shownParts(context.view).front();
-    if (const SchemeResult* scheme = schemeOf(context, [](const SchemeResult& s) { return !s.frames.empty(); })) {
+    if (const SchemeResult* scheme =
+            schemeOf(context, [](const SchemeResult& s) { return !s.frames.empty(); })) {
         const Frame& last = scheme->frames.back();
         figure.title = "Profile of " + scheme->spec.label;
         figure.heat = heatOver(*context.system->wave, *last.values, shown.part);
         figure.x.range = {figure.heat->left, figure.heat->right};
         figure.y.range = {figure.heat->bottom, figure.heat->top};
-        figure.subtitle = std::string(shown.symbol) + (shown.part == Part::modulus ? ", the colour is its phase" : "") +
-                          " · at most " + shortNumber(figure.heat->high) + " · at t = " + shortNumber(last.t, 4);
+        figure.subtitle = std::string(shown.symbol) +
+                          (shown.part == Part::modulus ? ", the colour is its phase" : "") + " · at most " +
+                          shortNumber(figure.heat->high) + " · at t = " + shortNumber(last.t, 4);
     }
     finishFigure(figure, context, "Profile over the plane");
     return figure;
 }
 
 Figure makeProfile(const FigureContext& context) {
-    if (context.system && context.system->hasWave() && context.system->wave->isPlane()) return makePlaneProfile(context);
+    if (context.system && context.system->hasWave() && context.system->wave->isPlane())
+        return makePlaneProfile(context);
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";
     const bool isWave = context.system && context.system->hasWave();
@@ -108,7 +112,8 @@ Figure makeProfile(const FigureContext& context) {
         const auto& values = *scheme->frames.back().values;
         const std::size_t n = field.x.size();
         const bool isUneven = isWave && !context.system->wave->isPeriodic();
-        const EvenSamples even = isUneven ? evenSamples(*context.system->wave, values.data(), 400) : EvenSamples{};
+        const EvenSamples even =
+            isUneven ? evenSamples(*context.system->wave, values.data(), 400) : EvenSamples{};
         const double* const re = isUneven ? even.re.data() : values.data();
         const double* const im = isUneven ? even.im.data() : values.data() + n;
         for (const Shown& shown : parts) {
@@ -116,7 +121,8 @@ Figure makeProfile(const FigureContext& context) {
             if (isUneven) s.x = even.x;
             if (parts.size() > 1) s.part = shown.symbol;
             s.isPale = &shown != &parts.front();
-            for (std::size_t j = 0; j < s.x.size(); ++j) s.y.push_back(isWave ? valueOf(shown.part, re[j], im[j]) : re[j]);
+            for (std::size_t j = 0; j < s.x.size(); ++j)
+                s.y.push_back(isWave ? valueOf(shown.part, re[j], im[j]) : re[j]);
             height = std::max(height, maxMagnitude(s.y));
             figure.series.push_back(std::move(s));
         }
@@ -135,10 +141,18 @@ Figure makeProfile(const FigureContext& context) {
 
 ViewEntry profile() {
     FieldInfo part = choiceField("part", "part", {"modulus", "real", "imaginary", "both"},
-                                 "Of wave functions: the modulus, the real part, the imaginary part, or both parts (over a rectangle the real one).");
-    return {{"profile", "Profile", "a field over space at the end; of wave functions modulus or parts, and the potential",
-             {std::move(part)}, {}, {}},
-            "", makeProfile, nullptr, againstPlace};
+                                 "Of wave functions: the modulus, the real part, the imaginary part, or both "
+                                 "parts (over a rectangle the real one).");
+    return {{"profile",
+             "Profile",
+             "a field over space at the end; of wave functions modulus or parts, and the potential",
+             {std::move(part)},
+             {},
+             {}},
+            "",
+            makeProfile,
+            nullptr,
+            againstPlace};
 }
 
 }  // namespace extremal::views

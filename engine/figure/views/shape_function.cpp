@@ -16,13 +16,15 @@ Figure makeShapeFunction(const FigureContext& context) {
     double left = 1, right = 0;
     for (const auto& scheme : context.comparison.schemes) {
         const auto pair = pairOf(scheme->spec);
-        if (!context.system || !context.system->elliptic || !pair || pair->space.type != "elliptic-elements") continue;
+        if (!context.system || !context.system->elliptic || !pair || pair->space.type != "elliptic-elements")
+            continue;
         const int elements = static_cast<int>(std::lround(1 / scheme->spec.step.value));
         const int node = context.view.node ? static_cast<int>(context.view.node->value) : elements / 2;
         if (node < 1 || node >= elements) continue;
         const bool isLinear = pair->space.text("functions") == "linear";
-        EllipticHat hat = ellipticHat(*context.system->elliptic,
-                                      isLinear ? EllipticElements::linear : EllipticElements::multiscale, elements, node);
+        EllipticHat hat =
+            ellipticHat(*context.system->elliptic,
+                        isLinear ? EllipticElements::linear : EllipticElements::multiscale, elements, node);
         left = std::min(left, hat.x.front());
         right = std::max(right, hat.x.back());
         if (figure.subtitle.empty())
@@ -36,7 +38,8 @@ Figure makeShapeFunction(const FigureContext& context) {
         figure.series.push_back(std::move(s));
     }
     if (right > left) figure.x.range = {left, right};
-    if (context.system && !context.system->elliptic) figure.message = "Only schemes of the elliptic problem have shape functions";
+    if (context.system && !context.system->elliptic)
+        figure.message = "Only schemes of the elliptic problem have shape functions";
     finishFigure(figure, context, "Shape function " + figure.subtitle);
     figure.failures.clear();
     return figure;
@@ -45,10 +48,17 @@ Figure makeShapeFunction(const FigureContext& context) {
 }  // namespace
 
 ViewEntry shape_function() {
-    return {{"shape-function", "Shape function", "the function of a node that each scheme of the elliptic problem is made of",
-             {integerField("node", "i", 1, 1e5, nullptr, "node inside, from left to right; by default the one in the middle")},
-             {}, {}},
-            "", makeShapeFunction, nullptr, againstPlace};
+    return {{"shape-function",
+             "Shape function",
+             "the function of a node that each scheme of the elliptic problem is made of",
+             {integerField("node", "i", 1, 1e5, nullptr,
+                           "node inside, from left to right; by default the one in the middle")},
+             {},
+             {}},
+            "",
+            makeShapeFunction,
+            nullptr,
+            againstPlace};
 }
 
 }  // namespace extremal::views

@@ -11,8 +11,16 @@ Figure makeSlowEnergy(const FigureContext& context) {
 }  // namespace
 
 ViewEntry slow_energy() {
-    return {{"slow-energy", "Slow energy", "energy without that of the fast oscillation against time",
-             {}, {}, {}}, "slow-energy", makeSlowEnergy, nullptr, againstTime};
+    return {{"slow-energy",
+             "Slow energy",
+             "energy without that of the fast oscillation against time",
+             {},
+             {},
+             {}},
+            "slow-energy",
+            makeSlowEnergy,
+            nullptr,
+            againstTime};
 }
 
 }  // namespace extremal::views

@@ -54,7 +54,8 @@ std::string supportText(const KktPattern& p) {
 Figure makeSparsity(const FigureContext& context) {
     Figure figure = startFigure(context, "KKT matrix");
     figure.hasEqualScales = true;
-    const SchemeResult* scheme = schemeOf(context, [](const SchemeResult& s) { return s.pattern != nullptr; });
+    const SchemeResult* scheme =
+        schemeOf(context, [](const SchemeResult& s) { return s.pattern != nullptr; });
     if (!scheme || !scheme->pattern->failure.empty()) {
         figure.message = scheme ? "Nothing to show: " + scheme->pattern->failure
                          : context.comparison.isFinished
@@ -84,14 +85,17 @@ Figure makeSparsity(const FigureContext& context) {
 }  // namespace
 
 ViewEntry sparsity() {
-    return {{"sparsity",
-             "KKT matrix",
-             "entries that are not zero in the full equations of a pair over some elements",
-             {textField("scheme", "scheme", "", "label of a pair; left out: one picture for each, up to four")},
-             {},
-             {}},
-            "",
-            makeSparsity, nullptr, noScales};
+    return {
+        {"sparsity",
+         "KKT matrix",
+         "entries that are not zero in the full equations of a pair over some elements",
+         {textField("scheme", "scheme", "", "label of a pair; left out: one picture for each, up to four")},
+         {},
+         {}},
+        "",
+        makeSparsity,
+        nullptr,
+        noScales};
 }
 
 }  // namespace extremal::views

@@ -1,5 +1,6 @@
-/// The size of each Fourier coefficient of the wave function at the end, between walls of each Chebyshev coefficient, on a
-/// logarithmic axis: is N enough? Over a rectangle the largest with each wave number along x, and with each along y.
+/// The size of each Fourier coefficient of the wave function at the end, between walls of each Chebyshev
+/// coefficient, on a logarithmic axis: is N enough? Over a rectangle the largest with each wave number along
+/// x, and with each along y.
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +21,8 @@ std::vector<Complex> coefficientsOf(const SchemeResult& scheme, const Hamiltonia
 }
 
 /// The largest coefficient with each wave number along x, or along y.
-Series largestAlong(const SchemeResult& scheme, const Hamiltonian& h, const std::vector<Complex>& c, bool isAlongY) {
+Series largestAlong(const SchemeResult& scheme, const Hamiltonian& h, const std::vector<Complex>& c,
+                    bool isAlongY) {
     const int modes = isAlongY ? h.grid().ny : h.grid().nx;
     Series s;
     s.label = scheme.spec.label;
@@ -67,7 +69,8 @@ Figure makeSpectrum(const FigureContext& context) {
                 continue;
             }
             const std::vector<Complex> c = coefficientsOf(*scheme, h);
-            for (const bool isAlongY : {false, true}) figure.series.push_back(largestAlong(*scheme, h, c, isAlongY));
+            for (const bool isAlongY : {false, true})
+                figure.series.push_back(largestAlong(*scheme, h, c, isAlongY));
             figure.subtitle = "the largest along x; along y pale";
         }
     figure.floor = 0x1p-52;
@@ -89,8 +92,16 @@ Figure makeSpectrum(const FigureContext& context) {
 }  // namespace
 
 ViewEntry spectrum() {
-    return {{"spectrum", "Spectrum", "size of the Fourier or Chebyshev coefficients of the wave function at the end, logarithmic", {}, {}, {}},
-            "", makeSpectrum, nullptr, {true, false, true}};
+    return {{"spectrum",
+             "Spectrum",
+             "size of the Fourier or Chebyshev coefficients of the wave function at the end, logarithmic",
+             {},
+             {},
+             {}},
+            "",
+            makeSpectrum,
+            nullptr,
+            {true, false, true}};
 }
 
 }  // namespace extremal::views

@@ -4,7 +4,11 @@
 namespace extremal::views {
 
 ViewEntry stage() {
-    return {{"stage", "Stage", "the moving picture of all schemes at one time", {}, {}, {}}, "", nullptr, nullptr, noScales};
+    return {{"stage", "Stage", "the moving picture of all schemes at one time", {}, {}, {}},
+            "",
+            nullptr,
+            nullptr,
+            noScales};
 }
 
 }  // namespace extremal::views

@@ -28,7 +28,11 @@ Figure makeStep(const FigureContext& context) {
 }  // namespace
 
 ViewEntry step() {
-    return {{"step", "Step size", "the time step of every scheme against time, logarithmic", {}, {}, {}}, "", makeStep, nullptr, logAgainstTime};
+    return {{"step", "Step size", "the time step of every scheme against time, logarithmic", {}, {}, {}},
+            "",
+            makeStep,
+            nullptr,
+            logAgainstTime};
 }
 
 }  // namespace extremal::views

@@ -24,8 +24,9 @@ std::string xOf(const View& view, const System& system) {
 
 Figure makeTrajectory(const FigureContext& context) {
     const bool isOrbit = context.system && isOrbitIn(context.view, *context.system);
-    const std::string x = context.system ? xOf(context.view, *context.system)
-                                         : context.view.x.empty() ? std::string("t") : context.view.x;
+    const std::string x = context.system           ? xOf(context.view, *context.system)
+                          : context.view.x.empty() ? std::string("t")
+                                                   : context.view.x;
     std::string y = isOrbit ? context.system->trajectoryY : context.view.y;
     if (y.empty() && context.system) y = context.system->trajectoryY;
     if (y.empty()) y = firstCoordinate(context);
@@ -53,11 +54,16 @@ std::vector<std::string> timePlots(const System& system) {
 }  // namespace
 
 ViewEntry trajectory() {
-    ViewEntry e{{"trajectory", "Trajectory", "the orbit in its plane, or a coordinate against time",
+    ViewEntry e{{"trajectory",
+                 "Trajectory",
+                 "the orbit in its plane, or a coordinate against time",
                  {textField("x", "x", "", "column to the right, by default the time"),
                   textField("y", "y", "", "column upwards, by default the first coordinate")},
-                 {}, {}},
-                "", makeTrajectory, timePlots};
+                 {},
+                 {}},
+                "",
+                makeTrajectory,
+                timePlots};
     e.scales.across = Across::column;
     e.xColumn = xOf;
     return e;

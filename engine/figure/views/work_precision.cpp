@@ -19,7 +19,8 @@ Metric metricOf(const FigureContext& context) {
                 return {&Summary::maxError, axisTitle("max " + context.system->error.columns.front().symbol,
                                                       columnInfo(context, "error").unit)};
             const std::string q = context.system && context.system->dimension() == 1
-                                      ? context.system->coordinates.front().symbol : "q";
+                                      ? context.system->coordinates.front().symbol
+                                      : "q";
             return {&Summary::maxError, axisTitle("max error in " + q, columnInfo(context, "error").unit)};
         }
     const std::string unit = context.system ? context.system->energyUnit : columnInfo(context, "energy").unit;
@@ -45,15 +46,24 @@ Figure makeWorkPrecision(const FigureContext& context) {
     }
     figure.subtitle = "lower left is better";
     finishFigure(figure, context, "Largest error against CPU time");
-    figure.failures.clear();  // a scheme without an error has no place here; its card and the other plots tell
+    figure.failures
+        .clear();  // a scheme without an error has no place here; its card and the other plots tell
     return figure;
 }
 
 }  // namespace
 
 ViewEntry work_precision() {
-    return {{"work-precision", "Speed against accuracy", "largest error over CPU time, one point per scheme", {}, {}, {}},
-            "", makeWorkPrecision, nullptr, logScales};
+    return {{"work-precision",
+             "Speed against accuracy",
+             "largest error over CPU time, one point per scheme",
+             {},
+             {},
+             {}},
+            "",
+            makeWorkPrecision,
+            nullptr,
+            logScales};
 }
 
 }  // namespace extremal::views

@@ -5,8 +5,12 @@ namespace extremal::schemes {
 
 SchemeEntry elliptic_linear() {
     SchemeEntry e;
-    e.item = {"elliptic-linear", "linear elements", "Hat functions: they see the mean of the coefficient until the mesh resolves it.", {},
-              Claims{2, false, false, {}}, "the elliptic problem"};
+    e.item = {"elliptic-linear",
+              "linear elements",
+              "Hat functions: they see the mean of the coefficient until the mesh resolves it.",
+              {},
+              Claims{2, false, false, {}},
+              "the elliptic problem"};
     e.source = "Leok 2004, sec. 6.1";
     e.make = [](int) {
         Discretization pair;

@@ -5,8 +5,13 @@ namespace extremal::schemes {
 
 SchemeEntry elliptic_multiscale() {
     SchemeEntry e;
-    e.item = {"elliptic-multiscale", "multiscale elements", "Functions that solve the problem without a source: exact at the nodes, however coarse the mesh.", {},
-              Claims{0, false, false, {}}, "the elliptic problem"};
+    e.item = {
+        "elliptic-multiscale",
+        "multiscale elements",
+        "Functions that solve the problem without a source: exact at the nodes, however coarse the mesh.",
+        {},
+        Claims{0, false, false, {}},
+        "the elliptic problem"};
     e.source = "Leok 2004, sec. 6.1";
     e.make = [](int) {
         Discretization pair;

@@ -5,7 +5,12 @@ namespace extremal::schemes {
 
 SchemeEntry galerkin_gauss() {
     SchemeEntry e;
-    e.item = {"galerkin-gauss-<s>", "Galerkin Gauss", "Degree s with Gauss(s): Gauss collocation, order 2s, stable for every step.", {}, Claims{2, true, true, {"momentum", "quadratic invariants"}}, ""};
+    e.item = {"galerkin-gauss-<s>",
+              "Galerkin Gauss",
+              "Degree s with Gauss(s): Gauss collocation, order 2s, stable for every step.",
+              {},
+              Claims{2, true, true, {"momentum", "quadratic invariants"}},
+              ""};
     e.source = "Leok 2004, sec. 2.1";
     e.minDegree = 1;
     e.maxDegree = 24;

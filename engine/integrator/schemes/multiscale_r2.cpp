@@ -5,8 +5,12 @@ namespace extremal::schemes {
 
 SchemeEntry multiscale_r2() {
     SchemeEntry e;
-    e.item = {"multiscale-r2", "multiscale R2", "Slow degree 6, fast 4, two harmonics with amplitudes of degree 3 and 1.", {},
-              Claims{0, true, true, {"momentum"}}, "a fast frequency of its own"};
+    e.item = {"multiscale-r2",
+              "multiscale R2",
+              "Slow degree 6, fast 4, two harmonics with amplitudes of degree 3 and 1.",
+              {},
+              Claims{0, true, true, {"momentum"}},
+              "a fast frequency of its own"};
     e.source = "Leok 2004, sec. 6.2, with additive fast parts";
     e.make = [](int) { return multiscalePair(6, 4, {3, 1}); };
     return e;

@@ -5,13 +5,20 @@ namespace extremal::schemes {
 
 SchemeEntry product_form() {
     SchemeEntry e;
-    e.item = {"product-form", "product form", "The printed multiscale space, a polynomial times an oscillation: an experiment that fails.", {},
-              Claims{0, false, true, {}}, "a fast frequency of its own"};
+    e.item = {"product-form",
+              "product form",
+              "The printed multiscale space, a polynomial times an oscillation: an experiment that fails.",
+              {},
+              Claims{0, false, true, {}},
+              "a fast frequency of its own"};
     e.source = "Leok 2004, sec. 6.2, as printed";
     e.make = [](int) {
         Discretization pair;
         pair.space = {"oscillatory-product",
-                      {{"omega", "model"}, {"degree", 4.0}, {"frequency", "fixed"}, {"fast", Value(Value::Object{{"degree", 2.0}})}},
+                      {{"omega", "model"},
+                       {"degree", 4.0},
+                       {"frequency", "fixed"},
+                       {"fast", Value(Value::Object{{"degree", 2.0}})}},
                       {}};
         pair.quadrature = {"auto", {}, {}};
         return pair;

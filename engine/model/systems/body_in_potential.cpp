@@ -1,5 +1,5 @@
-/// Rigid body on SO(3) about a fixed point: L = 1/2 eta . I eta - U(R), U typed by the user in R11..R33. SI units, unless
-/// the numbers are meant otherwise.
+/// Rigid body on SO(3) about a fixed point: L = 1/2 eta . I eta - U(R), U typed by the user in R11..R33. SI
+/// units, unless the numbers are meant otherwise.
 #include <algorithm>
 #include <utility>
 
@@ -37,7 +37,9 @@ System makeBodyInPotential(const Settings& settings) {
         s.exact = [I = std::array<double, 3>{inertia[0], inertia[1], inertia[2]}](const State& initial) {
             return freeBodyMotion(I, initial);
         };
-    s.draw = [shape = shapeOf(s.body, settings)](const double* x, Drawing& drawing) { drawBodyInPotential(shape, x, drawing); };
+    s.draw = [shape = shapeOf(s.body, settings)](const double* x, Drawing& drawing) {
+        drawBodyInPotential(shape, x, drawing);
+    };
     return s;
 }
 
@@ -55,10 +57,15 @@ std::vector<FieldInfo> bodyInPotentialFields() {
 
 ModelEntry body_in_potential() {
     ModelEntry e;
-    e.item = {"body-in-potential", "body in a potential",
-              "A body that turns about a fixed point in a potential of its attitude, typed as a formula.", bodyInPotentialFields(), {}, ""};
+    e.item = {"body-in-potential",
+              "body in a potential",
+              "A body that turns about a fixed point in a potential of its attitude, typed as a formula.",
+              bodyInPotentialFields(),
+              {},
+              ""};
     e.initial = bodyInitialFields(false);
-    e.exampleInitial = {{"attitude", Value::Array{1.0, 0.0, 0.0, 0.0}}, {"momentum", Value::Array{0.4, 0.2, 1.0}}};
+    e.exampleInitial = {{"attitude", Value::Array{1.0, 0.0, 0.0, 0.0}},
+                        {"momentum", Value::Array{0.4, 0.2, 1.0}}};
     e.exampleEnd = 30;
     e.exampleStep = 0.1;
     e.make = makeBodyInPotential;

@@ -1,5 +1,6 @@
 /// Double pendulum: two point masses on massless rods, angles theta1, theta2 both from the downward vertical,
-///     L = (m1 + m2)/2 l1^2 theta1_t^2 + m2/2 l2^2 theta2_t^2 + m2 l1 l2 theta1_t theta2_t cos(theta1 - theta2)
+///     L = (m1 + m2)/2 l1^2 theta1_t^2 + m2/2 l2^2 theta2_t^2 + m2 l1 l2 theta1_t theta2_t cos(theta1 -
+///     theta2)
 ///         + (m1 + m2) g l1 cos theta1 + m2 g l2 cos theta2.
 /// Not separable; chaotic at large energy, so that no two schemes agree for long there. No exact solution.
 #include <array>
@@ -49,12 +50,14 @@ System makeDoublePendulum(const Settings& settings) {
     const auto model = withParameters(settings, doublePendulumFields());
     System s;
     s.id = "double-pendulum";
-    s.coordinates = {{"theta1", "upper angle", "θ₁", "rad", "kg m²/s"}, {"theta2", "lower angle", "θ₂", "rad", "kg m²/s"}};
+    s.coordinates = {{"theta1", "upper angle", "θ₁", "rad", "kg m²/s"},
+                     {"theta2", "lower angle", "θ₂", "rad", "kg m²/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
     s.mechanics = bindMechanics<double>(model);
     if (model.g == 0)
-        s.momenta = {{"total", "p_θ₁ + p_θ₂", "kg m²/s", [](const double*, const double* p) { return p[0] + p[1]; }}};
+        s.momenta = {
+            {"total", "p_θ₁ + p_θ₂", "kg m²/s", [](const double*, const double* p) { return p[0] + p[1]; }}};
     s.draw = [l1 = model.l1, l2 = model.l2](const double* x, Drawing& drawing) {
         const Point elbow{l1 * std::sin(x[0]), -l1 * std::cos(x[0]), 0};
         const Point end{elbow[0] + l2 * std::sin(x[1]), elbow[1] - l2 * std::cos(x[1]), 0};
@@ -76,9 +79,12 @@ System makeDoublePendulum(const Settings& settings) {
 
 ModelEntry double_pendulum() {
     ModelEntry e;
-    e.item = {"double-pendulum", "double pendulum",
+    e.item = {"double-pendulum",
+              "double pendulum",
               "A pendulum hanging from a pendulum: regular when it swings low, chaotic when it swings high.",
-              infos(doublePendulumFields()), {}, ""};
+              infos(doublePendulumFields()),
+              {},
+              ""};
     e.exampleQ = {2, 2.5};
     e.exampleP = {0, 0};
     e.exampleEnd = 20;

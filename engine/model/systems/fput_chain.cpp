@@ -1,9 +1,11 @@
-/// Fermi-Pasta-Ulam-Tsingou chain with alternating springs (Hairer, Lubich and Wanner, Geometric Numerical Integration,
-/// sec. I.5): 2n equal masses between fixed walls, displacements q_1..q_2n, joined by soft and stiff springs in turn,
+/// Fermi-Pasta-Ulam-Tsingou chain with alternating springs (Hairer, Lubich and Wanner, Geometric Numerical
+/// Integration, sec. I.5): 2n equal masses between fixed walls, displacements q_1..q_2n, joined by soft and
+/// stiff springs in turn,
 ///     L = m/2 sum_i q_i_t^2 - sum_soft (k_soft/2 r^2 + alpha/3 r^3 + beta/4 r^4) - sum_stiff k_stiff/2 r^2,
-/// r the extension of a spring; springs 0, 2, .., 2n counted from the wall are soft, 1, 3, .., 2n - 1 stiff. Dimensionless.
-/// The book's potential, r^4 for soft and omega^2/4 r^2 for stiff springs with omega = 50, is beta = 4, k_stiff = 1250.
-/// The stiff springs exchange their oscillatory energies over times of order omega. No exact solution.
+/// r the extension of a spring; springs 0, 2, .., 2n counted from the wall are soft, 1, 3, .., 2n - 1 stiff.
+/// Dimensionless. The book's potential, r^4 for soft and omega^2/4 r^2 for stiff springs with omega = 50, is
+/// beta = 4, k_stiff = 1250. The stiff springs exchange their oscillatory energies over times of order omega.
+/// No exact solution.
 #include <cmath>
 #include <string>
 
@@ -20,7 +22,8 @@ struct FputChain {
     int dimension() const { return 2 * static_cast<int>(n); }
     double mass(int) const { return m; }
 
-    /// Calls f(i, r, isStiff) for spring i, between masses i - 1 and i (-1 and 2n are the walls), with extension r.
+    /// Calls f(i, r, isStiff) for spring i, between masses i - 1 and i (-1 and 2n are the walls), with
+    /// extension r.
     template <class F>
     void eachSpring(const double* q, F f) const {
         const int d = dimension();
@@ -67,7 +70,8 @@ struct FputChain {
 };
 
 FieldInfo halfCount() {
-    FieldInfo f = positive("n", "stiff springs", "", 3, "Number of stiff springs: half the number of masses.");
+    FieldInfo f =
+        positive("n", "stiff springs", "", 3, "Number of stiff springs: half the number of masses.");
     f.type = FieldType::integer;
     f.min = 1;
     f.isMinExcluded = false;
@@ -85,11 +89,15 @@ const std::vector<Field<FputChain>>& fputChainFields() {
     static const std::vector<Field<FputChain>> all = {
         {&FputChain::n, halfCount()},
         {&FputChain::m, positive("m", "mass", "", 1, "Mass of every particle.")},
-        {&FputChain::kSoft, notNegative("k_soft", "soft stiffness", "", 0, "Linear stiffness of the soft springs.")},
-        {&FputChain::kStiff, positive("k_stiff", "stiff stiffness", "", 1250,
-                                      "Stiffness of the stiff springs; their frequency is sqrt(2 k_stiff/m).")},
-        {&FputChain::alpha, signedNumber("alpha", "cubic coefficient", 0, "Soft springs: alpha/3 r^3 in the potential.")},
-        {&FputChain::beta, signedNumber("beta", "quartic coefficient", 4, "Soft springs: beta/4 r^4 in the potential.")},
+        {&FputChain::kSoft,
+         notNegative("k_soft", "soft stiffness", "", 0, "Linear stiffness of the soft springs.")},
+        {&FputChain::kStiff,
+         positive("k_stiff", "stiff stiffness", "", 1250,
+                  "Stiffness of the stiff springs; their frequency is sqrt(2 k_stiff/m).")},
+        {&FputChain::alpha,
+         signedNumber("alpha", "cubic coefficient", 0, "Soft springs: alpha/3 r^3 in the potential.")},
+        {&FputChain::beta,
+         signedNumber("beta", "quartic coefficient", 4, "Soft springs: beta/4 r^4 in the potential.")},
     };
     return all;
 }
@@ -99,7 +107,8 @@ void drawFputChain(int d, const double* x, Drawing& drawing) {
     const auto place = [&](int i) { return Point{i + 1.0 + (i >= 0 && i < d ? x[i] : 0), 0, 0}; };
     drawing.shapes.push_back(Segment{{0, -0.6, 0}, {0, 0.6, 0}, 3, ShapeRole::scenery});
     drawing.shapes.push_back(Segment{{d + 1.0, -0.6, 0}, {d + 1.0, 0.6, 0}, 3, ShapeRole::scenery});
-    for (int i = 0; i <= d; ++i) drawing.shapes.push_back(Spring{place(i - 1), place(i), i % 2 == 1 ? 14 : 5});
+    for (int i = 0; i <= d; ++i)
+        drawing.shapes.push_back(Spring{place(i - 1), place(i), i % 2 == 1 ? 14 : 5});
     for (int i = 0; i < d; ++i) drawing.shapes.push_back(Disc{place(i), 8});
     drawing.tracer = place(0);
 }
@@ -109,10 +118,13 @@ System makeFputChain(const Settings& settings) {
     System s;
     s.id = "fput-chain";
     for (int i = 1; i <= model.dimension(); ++i)
-        s.coordinates.push_back({std::to_string(i), "displacement " + std::to_string(i), "q_" + std::to_string(i), "", ""});
+        s.coordinates.push_back(
+            {std::to_string(i), "displacement " + std::to_string(i), "q_" + std::to_string(i), "", ""});
     s.mechanics = bindRuntime(model);
     // Every displacement has a slow part as well.
-    s.fast = {std::sqrt(2 * model.kStiff / model.m), {}, [model](double, const double* x) { return model.oscillation(x); },
+    s.fast = {std::sqrt(2 * model.kStiff / model.m),
+              {},
+              [model](double, const double* x) { return model.oscillation(x); },
               [model](double, const double* x) {
                   return model.oscillation(x) / std::sqrt(2 * model.kStiff / model.m);
               }};
@@ -128,11 +140,15 @@ System makeFputChain(const Settings& settings) {
 
 ModelEntry fput_chain() {
     ModelEntry e;
-    e.item = {"fput-chain", "Fermi-Pasta-Ulam-Tsingou chain",
-              "Masses joined by soft nonlinear and stiff linear springs in turn: fast oscillation, slow exchange of energy.",
-              infos(fputChainFields()), {}, ""};
-    // The book's data: the first soft variable and the first stiff spring are excited, x = (q_2 + q_1)/sqrt 2 = 1 and
-    // x = (q_2 - q_1)/sqrt 2 = 1/omega, each with velocity 1.
+    e.item = {"fput-chain",
+              "Fermi-Pasta-Ulam-Tsingou chain",
+              "Masses joined by soft nonlinear and stiff linear springs in turn: fast oscillation, slow "
+              "exchange of energy.",
+              infos(fputChainFields()),
+              {},
+              ""};
+    // The book's data: the first soft variable and the first stiff spring are excited, x = (q_2 + q_1)/sqrt 2
+    // = 1 and x = (q_2 - q_1)/sqrt 2 = 1/omega, each with velocity 1.
     const double r = std::sqrt(0.5), omega = 50;
     e.exampleQ = {(1 - 1 / omega) * r, (1 + 1 / omega) * r, 0, 0, 0, 0};
     e.exampleP = {0, 2 * r, 0, 0, 0, 0};

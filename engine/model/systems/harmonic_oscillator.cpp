@@ -1,5 +1,5 @@
-/// Harmonic oscillator: L = m x_t^2 / 2 - k x^2 / 2. Exact solution: a rotation of (sqrt(m k) x, p) by w = sqrt(k/m).
-/// Schemes super-converge on it: stability shows here, orders are measured on nonlinear systems.
+/// Harmonic oscillator: L = m x_t^2 / 2 - k x^2 / 2. Exact solution: a rotation of (sqrt(m k) x, p) by w =
+/// sqrt(k/m). Schemes super-converge on it: stability shows here, orders are measured on nonlinear systems.
 #include <array>
 #include <cmath>
 
@@ -71,8 +71,12 @@ System makeHarmonicOscillator(const Settings& settings) {
 
 ModelEntry harmonic_oscillator() {
     ModelEntry e;
-    e.item = {"harmonic-oscillator", "harmonic oscillator", "A mass on a linear spring; exactly solvable.",
-              infos(harmonicOscillatorFields()), {}, ""};
+    e.item = {"harmonic-oscillator",
+              "harmonic oscillator",
+              "A mass on a linear spring; exactly solvable.",
+              infos(harmonicOscillatorFields()),
+              {},
+              ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 20;

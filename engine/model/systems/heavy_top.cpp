@@ -1,7 +1,8 @@
 /// Heavy top on SO(3): L = 1/2 eta . I eta - weight * centre . R^T e_3, turning about a fixed point.
 ///
-/// I: moments of inertia about the fixed point; `weight` * `centre`: weight times the body vector from the fixed point to
-/// the centre of mass. The vertical momentum e_3 . pi is kept, and with it the Casimir Pi . R^T e_3.
+/// I: moments of inertia about the fixed point; `weight` * `centre`: weight times the body vector from the
+/// fixed point to the centre of mass. The vertical momentum e_3 . pi is kept, and with it the Casimir Pi .
+/// R^T e_3.
 #include <cmath>
 #include <memory>
 
@@ -19,8 +20,10 @@ struct Top {
     std::array<double, 3> centre{0, 0, 1};
 };
 
-/// U = w chi . gamma, gamma = R^T e_3; the torque is -w chi x gamma and turns with gamma, gamma' = gamma x zeta.
-void potential(const void* model, const double* R, const double*, double* value, double* force, double* slope) {
+/// U = w chi . gamma, gamma = R^T e_3; the torque is -w chi x gamma and turns with gamma, gamma' = gamma x
+/// zeta.
+void potential(const void* model, const double* R, const double*, double* value, double* force,
+               double* slope) {
     const Top& top = *static_cast<const Top*>(model);
     const Vector gamma(R[2], R[5], R[8]);
     const Vector arm = Vector(top.centre[0], top.centre[1], top.centre[2]) * top.weight;
@@ -88,8 +91,12 @@ ModelEntry heavy_top() {
     FieldInfo centre = numbers("centre", "centre of mass", "m", {"1", "2", "3"}, Value::Array{0.0, 0.0, 1.0},
                                "From the fixed point to the centre of mass, in body axes.");
     centre.symbol = "χ";
-    e.item = {"heavy-top", "heavy top", "A body that turns about a fixed point under its weight.",
-              {inertiaField({1, 1, 0.5}), weightField(), centre, shapeField()}, {}, ""};
+    e.item = {"heavy-top",
+              "heavy top",
+              "A body that turns about a fixed point under its weight.",
+              {inertiaField({1, 1, 0.5}), weightField(), centre, shapeField()},
+              {},
+              ""};
     e.initial = bodyInitialFields(false);
     e.exampleInitial = {{"attitude", Value::Array{Value("cos(0.2)"), Value("sin(0.2)"), 0.0, 0.0}},
                         {"momentum", Value::Array{0.0, 0.0, 2.0}}};

@@ -1,7 +1,7 @@
 /// Hénon-Heiles system: a star in the plane of a galaxy (Hénon and Heiles 1964),
 ///     L = (x_t^2 + y_t^2) / 2 - (x^2 + y^2) / 2 - lambda (x^2 y - y^3 / 3).
-/// Dimensionless. Bounded below the escape energy 1/(6 lambda^2), where the potential has three saddles at the corners of
-/// a triangle; regular at low energy, mostly chaotic close to escape. No exact solution.
+/// Dimensionless. Bounded below the escape energy 1/(6 lambda^2), where the potential has three saddles at
+/// the corners of a triangle; regular at low energy, mostly chaotic close to escape. No exact solution.
 #include <array>
 #include <cmath>
 
@@ -43,7 +43,8 @@ System makeHenonHeiles(const Settings& settings) {
     s.coordinates = {{"x", "position x", "x", "", ""}, {"y", "position y", "y", "", ""}};
     s.mechanics = bindMechanics<double>(model);
     if (model.lambda == 0)
-        s.momenta = {{"z", "L", "", [](const double* q, const double* p) { return q[0] * p[1] - q[1] * p[0]; }}};
+        s.momenta = {
+            {"z", "L", "", [](const double* q, const double* p) { return q[0] * p[1] - q[1] * p[0]; }}};
     s.draw = [lambda = model.lambda](const double* x, Drawing& drawing) {
         if (lambda > 0) {  // the lines V = escape energy: a triangle through the saddles
             const double r = 1 / lambda, c = r * std::sqrt(0.75);
@@ -66,8 +67,12 @@ System makeHenonHeiles(const Settings& settings) {
 
 ModelEntry henon_heiles() {
     ModelEntry e;
-    e.item = {"henon-heiles", "Hénon-Heiles system",
-              "A star in a galaxy: between order and chaos in a potential with three exits.", infos(henonHeilesFields()), {}, ""};
+    e.item = {"henon-heiles",
+              "Hénon-Heiles system",
+              "A star in a galaxy: between order and chaos in a potential with three exits.",
+              infos(henonHeilesFields()),
+              {},
+              ""};
     e.exampleQ = {0, 0.1};
     e.exampleP = {0.5, 0};
     e.exampleEnd = 200;

@@ -1,7 +1,7 @@
 /// Kepler problem in the plane: L = (x_t^2 + y_t^2) / 2 + mu / r. Dimensionless.
 ///
-/// Exact solution of elliptic and hyperbolic orbits by Kepler's equation, in the basis of the perihelion; radial and
-/// parabolic orbits have none here (the reference is then computed).
+/// Exact solution of elliptic and hyperbolic orbits by Kepler's equation, in the basis of the perihelion;
+/// radial and parabolic orbits have none here (the reference is then computed).
 #include <array>
 #include <cmath>
 #include <span>
@@ -32,7 +32,8 @@ struct Kepler {
         using std::sqrt;
         const T r2 = q[0] * q[0] + q[1] * q[1], w = T(-mu) / (r2 * sqrt(r2));
         if constexpr (std::is_same_v<T, double>) {
-            // As one store: the caller reads f as a vector, and two narrow stores would make it wait for the cache.
+            // As one store: the caller reads f as a vector, and two narrow stores would make it wait for the
+            // cache.
             Eigen::Map<Eigen::Array2d>{f} = w * Eigen::Map<const Eigen::Array2d>{q};
         } else {
             f[0] = w * q[0];
@@ -48,14 +49,15 @@ const std::vector<Field<Kepler>>& keplerFields() {
     return all;
 }
 
-/// An orbit that is no circle-degenerate line: semi-major axis a > 0 (|a| for hyperbolas), eccentricity e, mean motion n,
-/// unit vectors P (to the perihelion) and Q (90 degrees further along the motion).
+/// An orbit that is no circle-degenerate line: semi-major axis a > 0 (|a| for hyperbolas), eccentricity e,
+/// mean motion n, unit vectors P (to the perihelion) and Q (90 degrees further along the motion).
 struct Orbit {
     bool isElliptic = true;
     double a = 1, e = 0, b = 1, n = 1, start = 0, meanAnomaly = 0;
     double px = 1, py = 0, qx = 0, qy = 1;
 
-    /// Position and velocity where cos, sin (hyperbolas: cosh, sinh) of the anomaly are c and s, and dE/dM = r.
+    /// Position and velocity where cos, sin (hyperbolas: cosh, sinh) of the anomaly are c and s, and dE/dM =
+    /// r.
     void place(double c, double s, double r, double* x) const {
         const double sign = isElliptic ? 1 : -1, rate = n * r;
         const double u = sign * a * (c - e), v = b * s;
@@ -75,7 +77,8 @@ struct Orbit {
         for (; done < t.size(); ++done) {
             const double mean = meanAnomaly + n * (t[done] - start);
             const double E = isElliptic ? solveElliptic(mean) : solveHyperbolic(mean);
-            const double c = isElliptic ? std::cos(E) : std::cosh(E), s = isElliptic ? std::sin(E) : std::sinh(E);
+            const double c = isElliptic ? std::cos(E) : std::cosh(E),
+                         s = isElliptic ? std::sin(E) : std::sinh(E);
             place(c, s, 1 / (isElliptic ? 1 - e * c : e * c - 1), x + done * width);
         }
     }
@@ -83,10 +86,10 @@ struct Orbit {
 private:
     static constexpr std::size_t lanes = 8;
 
-    /// Many times in a row, as runs ask for them: they are cut into `lanes` stretches that march together. From one time
-    /// to the next E turns by a small d: the Taylor polynomial of E(M) of degree 3, the addition theorems with Taylor
-    /// polynomials of sin d and cos d, and one Newton step. Where d is too large for that, from scratch; so is the first
-    /// of each stretch, so that round-off cannot add up.
+    /// Many times in a row, as runs ask for them: they are cut into `lanes` stretches that march together.
+    /// From one time to the next E turns by a small d: the Taylor polynomial of E(M) of degree 3, the
+    /// addition theorems with Taylor polynomials of sin d and cos d, and one Newton step. Where d is too
+    /// large for that, from scratch; so is the first of each stretch, so that round-off cannot add up.
     void march(std::span<const double> t, double* x) const {
         constexpr std::size_t width = 4;
         const std::size_t length = t.size() / lanes;
@@ -102,7 +105,8 @@ private:
                 }
                 for (std::size_t l = 0; l < lanes; ++l) {
                     const double d2 = d[l] * d[l];
-                    const double sd = d[l] * (1 - d2 * (1.0 / 6) * (1 - d2 * (1.0 / 20) * (1 - d2 * (1.0 / 42))));
+                    const double sd =
+                        d[l] * (1 - d2 * (1.0 / 6) * (1 - d2 * (1.0 / 20) * (1 - d2 * (1.0 / 42))));
                     const double cd = d2 * 0.5 * (1 - d2 * (1.0 / 12) * (1 - d2 * (1.0 / 30)));  // 1 - cos d
                     const double ds = c[l] * sd - s[l] * cd;
                     turnS[l] = s[l] + ds;
@@ -220,8 +224,12 @@ System makeKepler(const Settings& settings) {
 
 ModelEntry kepler() {
     ModelEntry e;
-    e.item = {"kepler", "Kepler problem", "A planet around a fixed sun, in the plane; exact solution by Kepler's equation.",
-              infos(keplerFields()), {}, ""};
+    e.item = {"kepler",
+              "Kepler problem",
+              "A planet around a fixed sun, in the plane; exact solution by Kepler's equation.",
+              infos(keplerFields()),
+              {},
+              ""};
     e.exampleQ = {0.4, 0};
     e.exampleP = {0, 2};
     e.exampleEnd = 50;

@@ -16,13 +16,14 @@ namespace extremal::systems {
 namespace {
 
 bool isAngle(const std::string& name) {
-    constexpr std::array<std::string_view, 7> angles = {"theta", "phi", "varphi", "psi", "alpha", "beta", "gamma"};
+    constexpr std::array<std::string_view, 7> angles = {"theta", "phi",  "varphi", "psi",
+                                                        "alpha", "beta", "gamma"};
     const std::string_view word = std::string_view(name).substr(0, name.find_first_of("_0123456789"));
     return std::find(angles.begin(), angles.end(), word) != angles.end();
 }
 
-/// Nothing is known of the coordinates but their names: angles are drawn as a chain of rods of length 1, measured from
-/// the downward vertical; of others the first two as a point in the plane, or one on a line.
+/// Nothing is known of the coordinates but their names: angles are drawn as a chain of rods of length 1,
+/// measured from the downward vertical; of others the first two as a point in the plane, or one on a line.
 void drawChain(const double* x, std::size_t d, Drawing& drawing) {
     Point joint{0, 0, 0};
     drawing.shapes.push_back(Support{joint, 0.5});
@@ -46,7 +47,8 @@ System makeLagrangian(const Settings& settings) {
     typed::TypedMechanics made = typed::mechanicsOf(formula);
     System s;
     s.id = "lagrangian";
-    for (const std::string& name : formula.coordinates) s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
+    for (const std::string& name : formula.coordinates)
+        s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
     s.mechanics = std::move(made.mechanics);
     const auto d = formula.coordinates.size();
     for (const int i : made.cyclic) {
@@ -68,8 +70,8 @@ System makeLagrangian(const Settings& settings) {
 }
 
 void checkLagrangian(const Settings& settings, const System& system, const State& initial) {
-    const auto fault = typed::faultAt(typed::formulaOf(settings), system.mechanics, initial.t, initial.x.data(),
-                                      initial.x.data() + system.dimension());
+    const auto fault = typed::faultAt(typed::formulaOf(settings), system.mechanics, initial.t,
+                                      initial.x.data(), initial.x.data() + system.dimension());
     if (fault) throw InvalidScene("/lagrangian", *fault);
 }
 
@@ -79,10 +81,12 @@ std::vector<FieldInfo> lagrangianFields() {
     coordinates.type = FieldType::names;
     coordinates.example = Value(Value::Array{"theta"});
     coordinates.description = "Names of the coordinates, at most 64; the velocity of x is x_t or dot(x).";
-    FieldInfo parameters = constantsField("parameters", "Constants by name; they may be expressions in each other.");
+    FieldInfo parameters =
+        constantsField("parameters", "Constants by name; they may be expressions in each other.");
     parameters.example = Value(Value::Object{{"m", 1}, {"l", 1}, {"g", 9.81}});
-    FieldInfo lagrangian = textField("lagrangian", "", nullptr,
-                                     "L as an expression in coordinates, velocities, parameters and the time t.");
+    FieldInfo lagrangian =
+        textField("lagrangian", "", nullptr,
+                  "L as an expression in coordinates, velocities, parameters and the time t.");
     lagrangian.title = "Lagrangian";
     lagrangian.example = "m/2*l^2*theta_t^2 + m*g*l*cos(theta)";
     return {coordinates, parameters, lagrangian};
@@ -92,8 +96,12 @@ std::vector<FieldInfo> lagrangianFields() {
 
 ModelEntry lagrangian() {
     ModelEntry e;
-    e.item = {"lagrangian", "typed Lagrangian",
-              "Any system by its Lagrangian, typed as a formula and differentiated symbolically.", lagrangianFields(), {}, ""};
+    e.item = {"lagrangian",
+              "typed Lagrangian",
+              "Any system by its Lagrangian, typed as a formula and differentiated symbolically.",
+              lagrangianFields(),
+              {},
+              ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 10;

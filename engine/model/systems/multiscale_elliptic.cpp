@@ -1,5 +1,6 @@
-/// The elliptic problem with a fast coefficient (Leok 2004, sec. 6.1), (a(x/epsilon) u')' = f, u(0) = u(1) = 0: no motion, but
-/// a solution along x, which a scheme gives node by node. State columns u, u_exact at the place x (elliptic.hpp).
+/// The elliptic problem with a fast coefficient (Leok 2004, sec. 6.1), (a(x/epsilon) u')' = f, u(0) = u(1) =
+/// 0: no motion, but a solution along x, which a scheme gives node by node. State columns u, u_exact at the
+/// place x (elliptic.hpp).
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -14,7 +15,8 @@ namespace extremal::systems {
 namespace {
 
 /// A formula in one variable. Throws InvalidScene at `pointer`.
-std::function<double(double)> formula(const Value& value, const std::string& pointer, const std::string& variable) {
+std::function<double(double)> formula(const Value& value, const std::string& pointer,
+                                      const std::string& variable) {
     if (value.isNumber()) return [c = value.asNumber()](double) { return c; };
     if (!value.isString()) throw InvalidScene(pointer, "must be an expression in " + variable);
     const std::string text = value.asString();
@@ -22,7 +24,8 @@ std::function<double(double)> formula(const Value& value, const std::string& poi
         const auto expression = std::make_shared<const Expression>(parseExpression(text));
         for (const Expression::Node& node : expression->nodes)
             if (node.kind == Operator::name && node.name != variable && node.name != "pi")
-                throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position, "it depends on " + variable);
+                throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position,
+                                      "it depends on " + variable);
         return [expression, variable](double x) {
             return evaluate(*expression, [&](std::string_view name) -> std::optional<double> {
                 if (name == variable) return x;
@@ -50,7 +53,8 @@ System makeMultiscaleElliptic(const Settings& settings) {
         return [exact](double x, std::span<double> values) { values[0] = values[1] = exact->u(x); };
     };
     s.error.columns = {{"error", "", "|u - u_exact| / max |u|", ""}};
-    s.error.evaluate = [scale = size > 0 ? size : 1](const double* x, const double* reference, double* values) {
+    s.error.evaluate = [scale = size > 0 ? size : 1](const double* x, const double* reference,
+                                                     double* values) {
         values[0] = std::abs(x[0] - reference[0]) / scale;
     };
     s.start = [](const Settings&) { return std::vector<double>{0, 0}; };
@@ -66,13 +70,19 @@ System makeMultiscaleElliptic(const Settings& settings) {
 
 ModelEntry multiscale_elliptic() {
     ModelEntry e;
-    FieldInfo epsilon = positive("epsilon", "period", "", 0.025, "Size of the fast scale: a depends on s = x/epsilon.");
-    e.item = {"multiscale-elliptic", "elliptic problem with a fast coefficient",
-              "(a(x/epsilon) u')' = f, u(0) = u(1) = 0: finite elements whose functions know the fast coefficient, and linear ones.",
-              {jsonField("a", "a", "a", "10/(1+0.95*sin(2*pi*s))", "The coefficient, an expression in s = x/epsilon; positive."),
+    FieldInfo epsilon =
+        positive("epsilon", "period", "", 0.025, "Size of the fast scale: a depends on s = x/epsilon.");
+    e.item = {"multiscale-elliptic",
+              "elliptic problem with a fast coefficient",
+              "(a(x/epsilon) u')' = f, u(0) = u(1) = 0: finite elements whose functions know the fast "
+              "coefficient, and linear ones.",
+              {jsonField("a", "a", "a", "10/(1+0.95*sin(2*pi*s))",
+                         "The coefficient, an expression in s = x/epsilon; positive."),
                epsilon, jsonField("f", "f", "f", "x^2", "The right-hand side, an expression in x."),
-               integerField("elements", "N", 2, 1e5, 10.0, "Number of elements of schemes that do not say theirs.")},
-              {}, ""};
+               integerField("elements", "N", 2, 1e5, 10.0,
+                            "Number of elements of schemes that do not say theirs.")},
+              {},
+              ""};
     e.exampleEnd = 1;
     e.exampleStep = 0.1;
     e.make = makeMultiscaleElliptic;

@@ -1,5 +1,5 @@
-/// The Sun and the five outer planets, Pluto among them, attracting each other (Hairer, Lubich and Wanner, Geometric
-/// Numerical Integration, sec. I.2.4), 18 coordinates in astronomical units, days and solar masses:
+/// The Sun and the five outer planets, Pluto among them, attracting each other (Hairer, Lubich and Wanner,
+/// Geometric Numerical Integration, sec. I.2.4), 18 coordinates in astronomical units, days and solar masses:
 ///     L = 1/2 sum_i m_i |q_i_t|^2 + G sum_{i<j} m_i m_j / |q_i - q_j|.
 /// The masses of the inner planets are added to the Sun's. Initial data: 5 September 1994. No exact solution.
 #include <array>
@@ -24,11 +24,36 @@ struct Body {
 };
 constexpr std::array<Body, bodies> table = {{
     {"sun", "Sun", 1.00000597682, {0, 0, 0}, {0, 0, 0}, 10},
-    {"jupiter", "Jupiter", 0.000954786104043, {-3.5023653, -3.8169847, -1.5507963}, {0.00565429, -0.00412490, -0.00190589}, 7},
-    {"saturn", "Saturn", 0.000285583733151, {9.0755314, -3.0458353, -1.6483708}, {0.00168318, 0.00483525, 0.00192462}, 6},
-    {"uranus", "Uranus", 0.0000437273164546, {8.3101420, -16.2901086, -7.2521278}, {0.00354178, 0.00137102, 0.00055029}, 5},
-    {"neptune", "Neptune", 0.0000517759138449, {11.4707666, -25.7294829, -10.8169456}, {0.00288930, 0.00114527, 0.00039677}, 5},
-    {"pluto", "Pluto", 1 / 1.3e8, {-15.5387357, -25.2225594, -3.1902382}, {0.00276725, -0.00170702, -0.00136504}, 3},
+    {"jupiter",
+     "Jupiter",
+     0.000954786104043,
+     {-3.5023653, -3.8169847, -1.5507963},
+     {0.00565429, -0.00412490, -0.00190589},
+     7},
+    {"saturn",
+     "Saturn",
+     0.000285583733151,
+     {9.0755314, -3.0458353, -1.6483708},
+     {0.00168318, 0.00483525, 0.00192462},
+     6},
+    {"uranus",
+     "Uranus",
+     0.0000437273164546,
+     {8.3101420, -16.2901086, -7.2521278},
+     {0.00354178, 0.00137102, 0.00055029},
+     5},
+    {"neptune",
+     "Neptune",
+     0.0000517759138449,
+     {11.4707666, -25.7294829, -10.8169456},
+     {0.00288930, 0.00114527, 0.00039677},
+     5},
+    {"pluto",
+     "Pluto",
+     1 / 1.3e8,
+     {-15.5387357, -25.2225594, -3.1902382},
+     {0.00276725, -0.00170702, -0.00136504},
+     3},
 }};
 
 struct OuterSolarSystem {
@@ -61,7 +86,8 @@ struct OuterSolarSystem {
         for (std::size_t k = 0; k < 3 * bodies; ++k) f[k] = T(0);
         for (std::size_t i = 0; i < bodies; ++i)
             for (std::size_t j = 0; j < i; ++j) {
-                const T x = q[3 * i] - q[3 * j], y = q[3 * i + 1] - q[3 * j + 1], z = q[3 * i + 2] - q[3 * j + 2];
+                const T x = q[3 * i] - q[3 * j], y = q[3 * i + 1] - q[3 * j + 1],
+                        z = q[3 * i + 2] - q[3 * j + 2];
                 const T r2 = x * x + y * y + z * z;
                 const T w = T(-G * table[i].mass * table[j].mass) / (r2 * sqrt(r2));
                 const std::array<T, 3> pull{w * x, w * y, w * z};
@@ -75,8 +101,9 @@ struct OuterSolarSystem {
 
 const std::vector<Field<OuterSolarSystem>>& outerSolarSystemFields() {
     static const std::vector<Field<OuterSolarSystem>> all = {
-        {&OuterSolarSystem::G, positive("G", "gravitational constant", "au³/(M☉ d²)", 2.95912208286e-4,
-                                        "Gravitational constant in astronomical units, days and solar masses.")},
+        {&OuterSolarSystem::G,
+         positive("G", "gravitational constant", "au³/(M☉ d²)", 2.95912208286e-4,
+                  "Gravitational constant in astronomical units, days and solar masses.")},
     };
     return all;
 }
@@ -108,7 +135,8 @@ System makeOuterSolarSystem(const Settings& settings) {
     s.id = "outer-solar-system";
     for (const Body& body : table)
         for (const char* axis : axisNames)
-            s.coordinates.push_back({std::string(body.name) + "." + axis, std::string(body.title) + " " + axis,
+            s.coordinates.push_back({std::string(body.name) + "." + axis,
+                                     std::string(body.title) + " " + axis,
                                      std::string(axis) + "_" + body.title, "au", "M☉ au/d"});
     s.timeUnit = "d";
     s.energyUnit = "M☉ au²/d²";
@@ -131,8 +159,12 @@ System makeOuterSolarSystem(const Settings& settings) {
 
 ModelEntry outer_solar_system() {
     ModelEntry e;
-    e.item = {"outer-solar-system", "outer solar system",
-              "The Sun, Jupiter, Saturn, Uranus, Neptune and Pluto, from 5 September 1994.", infos(outerSolarSystemFields()), {}, ""};
+    e.item = {"outer-solar-system",
+              "outer solar system",
+              "The Sun, Jupiter, Saturn, Uranus, Neptune and Pluto, from 5 September 1994.",
+              infos(outerSolarSystemFields()),
+              {},
+              ""};
     for (const Body& body : table)
         for (std::size_t k = 0; k < 3; ++k) {
             e.exampleQ.push_back(body.position[k]);

@@ -1,6 +1,7 @@
 /// Planar pendulum: L = m l^2 theta_t^2 / 2 + m g l cos theta, theta from the downward vertical.
 ///
-/// Exact solution by Jacobi elliptic functions (w = sqrt(g/l), y = theta_t at the start, modulus from the energy):
+/// Exact solution by Jacobi elliptic functions (w = sqrt(g/l), y = theta_t at the start, modulus from the
+/// energy):
 ///     kappa^2 = sin^2(theta_0/2) + (y/(2 w))^2
 ///     libration, kappa < 1:  sin(theta/2) = kappa sn(w t + u_0, kappa)
 ///     rotation,  kappa > 1:  theta/2 = am(kappa w t + u_0, 1/kappa), with the sign of the motion
@@ -127,8 +128,12 @@ System makePendulum(const Settings& settings) {
 
 ModelEntry pendulum() {
     ModelEntry e;
-    e.item = {"pendulum", "pendulum", "A mass on a rigid rod; exact solution by elliptic functions.", infos(pendulumFields()),
-              {}, ""};
+    e.item = {"pendulum",
+              "pendulum",
+              "A mass on a rigid rod; exact solution by elliptic functions.",
+              infos(pendulumFields()),
+              {},
+              ""};
     e.exampleQ = {1};
     e.exampleP = {0};
     e.exampleEnd = 20;

@@ -1,5 +1,5 @@
-/// Rigid body on SE(3): L = 1/2 eta . I eta + 1/2 m |x'|^2 - U(x, R), U typed by the user in x, y, z, R11..R33. SI units, unless
-/// the numbers are meant otherwise.
+/// Rigid body on SE(3): L = 1/2 eta . I eta + 1/2 m |x'|^2 - U(x, R), U typed by the user in x, y, z,
+/// R11..R33. SI units, unless the numbers are meant otherwise.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -26,7 +26,8 @@ BodyShape shapeInMetres(const BodyMechanics<double>& body, const Settings& setti
 
 /// The free body turns as on SO(3), and its centre of mass moves straight on.
 ExactSolution freeMotion(const BodyMechanics<double>& body, const State& initial) {
-    const ExactSolution turning = freeBodyMotion({body.inertia[0], body.inertia[1], body.inertia[2]}, initial);
+    const ExactSolution turning =
+        freeBodyMotion({body.inertia[0], body.inertia[1], body.inertia[2]}, initial);
     if (!turning) return {};
     return [turning, initial, mass = body.inertia[3]](double t, std::span<double> x) {
         turning(t, x.first(10));
@@ -49,7 +50,8 @@ System makeRigidBodySe3(const Settings& settings) {
     if (s.body.isFree()) addPolhode(s);
     if (s.body.isFree())
         s.exact = [body = s.body](const State& initial) { return freeMotion(body, initial); };
-    s.draw = [shape = shapeInMetres(s.body, settings), isFree = s.body.isFree()](const double* x, Drawing& drawing) {
+    s.draw = [shape = shapeInMetres(s.body, settings), isFree = s.body.isFree()](const double* x,
+                                                                                 Drawing& drawing) {
         drawing.tracer = onStage(x[10], x[11], x[12]);
         if (drawing.isTracerOnly) return;
         drawSpaceAxes(1, drawing);
@@ -64,7 +66,8 @@ System makeRigidBodySe3(const Settings& settings) {
 }
 
 std::vector<FieldInfo> rigidBodySe3Fields() {
-    std::vector<FieldInfo> all{inertiaField({1, 2, 3}), positive("mass", "mass", "kg", 1, "Mass of the body.")};
+    std::vector<FieldInfo> all{inertiaField({1, 2, 3}),
+                               positive("mass", "mass", "kg", 1, "Mass of the body.")};
     for (FieldInfo& f : typedPotentialFields(true)) all.push_back(std::move(f));
     all.push_back(shapeField());
     return all;
@@ -74,8 +77,12 @@ std::vector<FieldInfo> rigidBodySe3Fields() {
 
 ModelEntry rigid_body_se3() {
     ModelEntry e;
-    e.item = {"rigid-body-se3", "rigid body in space",
-              "A body that turns and moves in a potential of position and attitude, typed as a formula.", rigidBodySe3Fields(), {}, ""};
+    e.item = {"rigid-body-se3",
+              "rigid body in space",
+              "A body that turns and moves in a potential of position and attitude, typed as a formula.",
+              rigidBodySe3Fields(),
+              {},
+              ""};
     e.initial = bodyInitialFields(true);
     e.exampleInitial = {{"attitude", Value::Array{1.0, 0.0, 0.0, 0.0}},
                         {"momentum", Value::Array{0.45, 0.0, 0.9}},

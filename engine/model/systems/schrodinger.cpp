@@ -1,5 +1,5 @@
-/// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain, or between
-/// walls where psi = 0 (V(x) then). hbar and m are free; nothing else has a unit.
+/// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain, or
+/// between walls where psi = 0 (V(x) then). hbar and m are free; nothing else has a unit.
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,39 +13,49 @@ namespace extremal::systems {
 namespace {
 
 std::shared_ptr<const Hamiltonian> hamiltonianOf(const Settings& settings) {
-    const bool hasWalls = settings.text("boundary") == "dirichlet", isConvolution = settings.text("product") == "convolution";
+    const bool hasWalls = settings.text("boundary") == "dirichlet",
+               isConvolution = settings.text("product") == "convolution";
     if (hasWalls && isConvolution)
-        throw InvalidScene("/product", "convolution is for the boundary periodic", "nodes, or the boundary periodic");
+        throw InvalidScene("/product", "convolution is for the boundary periodic",
+                           "nodes, or the boundary periodic");
     const int n = modesOf(settings, "modes", !hasWalls);
     // What needs a full matrix.
     const std::string whole = hasWalls ? "the boundary is dirichlet" : "the product is a convolution",
                       instead = hasWalls ? "the boundary periodic" : "the product at the nodes";
     if ((hasWalls || isConvolution) && n > Eigenstates::denseLimit)
-        throw InvalidScene("/modes", "must be at most " + std::to_string(Eigenstates::denseLimit) + " where " + whole + ", got " +
-                                         std::to_string(n),
+        throw InvalidScene("/modes",
+                           "must be at most " + std::to_string(Eigenstates::denseLimit) + " where " + whole +
+                               ", got " + std::to_string(n),
                            "fewer modes, or " + instead);
     const wave::Grid grid{domainOf(settings, "domain"), n};
-    wave::Potential V = wave::makePotential(*settings.find("potential"), "/potential", grid, constantsOf(settings));
+    wave::Potential V =
+        wave::makePotential(*settings.find("potential"), "/potential", grid, constantsOf(settings));
     if ((hasWalls || isConvolution) && V.isTimeDependent())
-        throw InvalidScene("/potential", "depends on t, which is not possible where " + whole, "a potential in x, or " + instead);
-    return std::make_shared<const Hamiltonian>(
-        grid, settings.number("hbar"), settings.number("m"), std::move(V),
-        hasWalls ? WaveBasis::walls : isConvolution ? WaveBasis::convolution : WaveBasis::fourier);
+        throw InvalidScene("/potential", "depends on t, which is not possible where " + whole,
+                           "a potential in x, or " + instead);
+    return std::make_shared<const Hamiltonian>(grid, settings.number("hbar"), settings.number("m"),
+                                               std::move(V),
+                                               hasWalls        ? WaveBasis::walls
+                                               : isConvolution ? WaveBasis::convolution
+                                                               : WaveBasis::fourier);
 }
 
 std::vector<FieldInfo> parameters() {
     std::vector<FieldInfo> all = waveConstants();
-    all.push_back(jsonField(
-        "potential", "potential", "V", "free",
-        "An expression in x, t, hbar and m, or a name: free, harmonic, lattice, double-well, barrier, morse, random."));
+    all.push_back(jsonField("potential", "potential", "V", "free",
+                            "An expression in x, t, hbar and m, or a name: free, harmonic, lattice, "
+                            "double-well, barrier, morse, random."));
     all.push_back(domainField("domain", "domain", "Ends of the interval."));
-    all.push_back(choiceField("boundary", "boundary", {"periodic", "dirichlet"},
-                              "What holds at the ends of the interval: periodic, or dirichlet: walls, where psi is zero."));
-    all.push_back(choiceField("product", "product V ψ", {"nodes", "convolution"},
-                              "How the potential acts on a periodic domain: at the nodes, or by the exact convolution of the "
-                              "coefficients (Galerkin; at most 512 modes)."));
-    all.push_back(integerField("modes", "N", 8, 65536, 128,
-                               "Number of modes and of nodes: Fourier modes, even; between walls polynomials, at most 512."));
+    all.push_back(choiceField(
+        "boundary", "boundary", {"periodic", "dirichlet"},
+        "What holds at the ends of the interval: periodic, or dirichlet: walls, where psi is zero."));
+    all.push_back(choiceField(
+        "product", "product V ψ", {"nodes", "convolution"},
+        "How the potential acts on a periodic domain: at the nodes, or by the exact convolution of the "
+        "coefficients (Galerkin; at most 512 modes)."));
+    all.push_back(integerField(
+        "modes", "N", 8, 65536, 128,
+        "Number of modes and of nodes: Fourier modes, even; between walls polynomials, at most 512."));
     return all;
 }
 
@@ -53,10 +63,15 @@ std::vector<FieldInfo> parameters() {
 
 ModelEntry schrodinger() {
     ModelEntry e;
-    e.item = {"schrodinger", "Schrödinger equation", "A wave function in one dimension, periodic or between walls; potential typed or by name.",
-              parameters(), {}, ""};
+    e.item = {"schrodinger",
+              "Schrödinger equation",
+              "A wave function in one dimension, periodic or between walls; potential typed or by name.",
+              parameters(),
+              {},
+              ""};
     e.initial = waveStartFields("x");
-    e.exampleInitial = {{"psi", Value::Object{{"packet", "gaussian"}, {"wave_number", 5.0}}}, {"normalise", true}};
+    e.exampleInitial = {{"psi", Value::Object{{"packet", "gaussian"}, {"wave_number", 5.0}}},
+                        {"normalise", true}};
     e.exampleEnd = 2;
     e.exampleStep = 0.01;
     e.make = [](const Settings& settings) { return makeWaveSystem(settings, hamiltonianOf); };

@@ -1,5 +1,5 @@
-/// Planar pendulum on a stiff spring (Leok 2004, sec. 6.2), in polar coordinates: extension a, angle theta from the
-/// downward vertical,
+/// Planar pendulum on a stiff spring (Leok 2004, sec. 6.2), in polar coordinates: extension a, angle theta
+/// from the downward vertical,
 ///     L = m/2 (a_t^2 + (l + a)^2 theta_t^2) + m g (l + a) cos theta - k/2 a^2.
 /// Not separable. The spring is fast: a oscillates with about sqrt(k/m) around the mean
 /// (m g cos theta + m l theta_t^2) / k, which the printed fast equation leaves out. No exact solution.
@@ -32,7 +32,8 @@ struct SpringPendulum {
     }
     /// Energy of the spring's oscillation around the mean it has at this angle and angular momentum.
     double oscillation(const double* x) const {
-        const double r = x[0] + l, rate = x[3] / (m * r * r), mean = m * (g * std::cos(x[1]) + r * rate * rate) / k;
+        const double r = x[0] + l, rate = x[3] / (m * r * r),
+                     mean = m * (g * std::cos(x[1]) + r * rate * rate) / k;
         return x[2] * x[2] / (2 * m) + k / 2 * square(x[0] - mean);
     }
     /// At fixed angular momentum: w^2 = k/m + 3 p_theta^2 / (m^2 r^4), where sqrt(k/m) is printed.
@@ -94,8 +95,9 @@ double meanExtension(const SpringPendulum& s, const double* y) {
     return a;
 }
 
-/// Averaged over the oscillation, whose invariant I = E/w stays: H = p^2/(2 m r^2) - m g r cos theta + k a^2/2 + I w(p), a the
-/// mean extension, w^2 = k/m + 3 p^2/(m^2 r^4). Fast parts of theta and p_theta, of order 1/w^2, are taken off at the start.
+/// Averaged over the oscillation, whose invariant I = E/w stays: H = p^2/(2 m r^2) - m g r cos theta + k
+/// a^2/2 + I w(p), a the mean extension, w^2 = k/m + 3 p^2/(m^2 r^4). Fast parts of theta and p_theta, of
+/// order 1/w^2, are taken off at the start.
 ReducedMotion averagedMotion(const SpringPendulum& s, const State& initial) {
     const double* x = initial.x.data();
     const double w = s.frequency(x), invariant = s.oscillation(x) / w, shift = x[2] / (s.m * w * w);
@@ -133,10 +135,13 @@ System makeSpringPendulum(const Settings& settings) {
     s.timeUnit = "s";
     s.energyUnit = "J";
     s.mechanics = bindMechanics<double>(model);
-    s.fast = {std::sqrt(model.k / model.m), {0}, [model](double, const double* x) { return model.oscillation(x); },
+    s.fast = {std::sqrt(model.k / model.m),
+              {0},
+              [model](double, const double* x) { return model.oscillation(x); },
               [model](double, const double* x) { return model.oscillation(x) / model.frequency(x); },
               [model](double time) { return oscillate(model, time); },
-              {[model](double time) { return fall(model, time); }, [model](double time) { return turn(model, time); }}};
+              {[model](double time) { return fall(model, time); },
+               [model](double time) { return turn(model, time); }}};
     s.reduced = {{"rigid-pendulum", [model](const State& initial) { return rigidMotion(model, initial); }},
                  {"averaged", [model](const State& initial) { return averagedMotion(model, initial); }}};
     s.draw = [l = model.l](const double* x, Drawing& drawing) {
@@ -158,8 +163,12 @@ System makeSpringPendulum(const Settings& settings) {
 
 ModelEntry spring_pendulum() {
     ModelEntry e;
-    e.item = {"spring-pendulum", "spring pendulum",
-              "A pendulum whose rod is a stiff spring: a slow swing and a fast oscillation.", infos(springPendulumFields()), {}, ""};
+    e.item = {"spring-pendulum",
+              "spring pendulum",
+              "A pendulum whose rod is a stiff spring: a slow swing and a fast oscillation.",
+              infos(springPendulumFields()),
+              {},
+              ""};
     e.exampleQ = {0.05, 1};
     e.exampleP = {0, 0};
     e.exampleEnd = 10;

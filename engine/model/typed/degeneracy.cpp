@@ -23,7 +23,8 @@ Sample sampleAt(const Mechanics<double>& m, double t, const double* q, const dou
     Matrix hessian(2 * d, 2 * d);
     double value = 0;
     m.jet(m.model.get(), t, q, v, &value, gradient.data(), hessian.data());
-    return {std::isfinite(value) && gradient.allFinite() && hessian.allFinite(), hessian.bottomRightCorner(d, d)};
+    return {std::isfinite(value) && gradient.allFinite() && hessian.allFinite(),
+            hessian.bottomRightCorner(d, d)};
 }
 
 /// Rank after scaling rows and columns to size 1: masses of any size are regular.
@@ -76,8 +77,8 @@ std::optional<std::string> degeneracy(const Formula& formula, const Mechanics<do
     return singularText(formula, *singular, "");
 }
 
-std::optional<std::string> faultAt(const Formula& formula, const Mechanics<double>& mechanics, double t, const double* q,
-                                   const double* p) {
+std::optional<std::string> faultAt(const Formula& formula, const Mechanics<double>& mechanics, double t,
+                                   const double* q, const double* p) {
     const auto d = static_cast<std::size_t>(mechanics.dimension);
     std::vector<double> v(d, 0);
     const bool hasVelocity = mechanics.velocity(mechanics.model.get(), t, q, p, v.data());
@@ -87,7 +88,8 @@ std::optional<std::string> faultAt(const Formula& formula, const Mechanics<doubl
         std::string state;
         for (std::size_t i = 0; i < d && i < 4; ++i)
             state += (i ? ", " : "") + formula.coordinates[i] + " = " + formatNumber(q[i]);
-        return "is not finite, or has no finite derivatives, at the initial data (" + state + (d > 4 ? ", ...)" : ")");
+        return "is not finite, or has no finite derivatives, at the initial data (" + state +
+               (d > 4 ? ", ...)" : ")");
     }
     if (isSingular(sample.mass)) return singularText(formula, sample.mass, " at the initial data");
     if (!hasVelocity) return "has no velocity with the momenta of the initial data";

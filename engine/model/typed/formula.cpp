@@ -69,15 +69,24 @@ private:
         const auto a = operand(here.left), b = operand(here.right);
         if (!a || !b) return {};
         switch (here.kind) {
-            case Operator::number: return here.number;
-            case Operator::name: return {};
-            case Operator::negate: return -*a;
-            case Operator::add: return *a + *b;
-            case Operator::subtract: return *a - *b;
-            case Operator::multiply: return *a * *b;
-            case Operator::divide: return *a / *b;
-            case Operator::power: return std::pow(*a, *b);
-            case Operator::call: return applyFunction(here.name, *a, *b);
+            case Operator::number:
+                return here.number;
+            case Operator::name:
+                return {};
+            case Operator::negate:
+                return -*a;
+            case Operator::add:
+                return *a + *b;
+            case Operator::subtract:
+                return *a - *b;
+            case Operator::multiply:
+                return *a * *b;
+            case Operator::divide:
+                return *a / *b;
+            case Operator::power:
+                return std::pow(*a, *b);
+            case Operator::call:
+                return applyFunction(here.name, *a, *b);
         }
         return {};
     }
@@ -88,7 +97,8 @@ private:
     }
     void requireFinite(std::size_t n) const {
         if (result_.constant[n] && !std::isfinite(*result_.constant[n]))
-            throw ExpressionError("is not finite here: " + formatNumber(*result_.constant[n]), node(n).position);
+            throw ExpressionError("is not finite here: " + formatNumber(*result_.constant[n]),
+                                  node(n).position);
     }
     /// An exponent that has only parameters in it becomes a number: x^n with n = 2 is x^2, smooth at 0.
     void putExponentsInPlace() {
@@ -102,7 +112,8 @@ private:
                 values[n] = formula_.parameters[place(parameter)].second;
             else if (result_.symbol[n] < 0)
                 values[n] = valueOf(here, values);
-            hasParameter[n] = parameter >= 0 || dependsOnParameter(here.left) || dependsOnParameter(here.right);
+            hasParameter[n] =
+                parameter >= 0 || dependsOnParameter(here.left) || dependsOnParameter(here.right);
             if (here.kind != Operator::power || !dependsOnParameter(here.right) || !values[place(here.right)])
                 continue;
             const std::size_t exponent = place(here.right);

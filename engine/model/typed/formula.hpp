@@ -28,8 +28,8 @@ struct Formula {
     int firstParameter() const { return 3 * dimension() + 1; }
 };
 
-/// The parsed text; symbol[n] is the symbol that node n stands for, or -1; constant[n] is its value where it has
-/// no symbol at all, or, inside exponents, none but parameters: x^n is differentiated with n in place.
+/// The parsed text; symbol[n] is the symbol that node n stands for, or -1; constant[n] is its value where it
+/// has no symbol at all, or, inside exponents, none but parameters: x^n is differentiated with n in place.
 struct ResolvedFormula {
     Expression expression;
     std::vector<int> symbol;

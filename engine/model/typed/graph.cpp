@@ -12,8 +12,9 @@
 namespace extremal::typed {
 namespace {
 
-constexpr std::array<std::string_view, 15> names = {"sin",  "cos",  "tan", "asin", "acos", "atan", "atan2", "sinh",
-                                                    "cosh", "tanh", "exp", "log",  "abs",  "sign", "power"};
+constexpr std::array<std::string_view, 15> names = {"sin",  "cos",   "tan",  "asin", "acos",
+                                                    "atan", "atan2", "sinh", "cosh", "tanh",
+                                                    "exp",  "log",   "abs",  "sign", "power"};
 
 std::uint64_t mix(std::uint64_t h, std::uint64_t x) {
     h ^= x + 0x9e3779b97f4a7c15ULL + (h << 6) + (h >> 2);
@@ -112,7 +113,8 @@ int Graph::product(const std::vector<Operand>& operands) {
             coefficient *= exponent == 1 ? inner.number : std::pow(inner.number, exponent);
         } else if (inner.kind == Kind::sum && inner.operands.size() == 1 && inner.number == 0 &&
                    (isInteger(exponent) || inner.operands[0].factor > 0)) {
-            coefficient *= exponent == 1 ? inner.operands[0].factor : std::pow(inner.operands[0].factor, exponent);
+            coefficient *=
+                exponent == 1 ? inner.operands[0].factor : std::pow(inner.operands[0].factor, exponent);
             self(self, inner.operands[0].node, exponent);
         } else if (inner.kind == Kind::product && isInteger(exponent)) {
             for (const Operand& o : inner.operands) factors.push_back({o.node, o.factor * exponent});
@@ -128,12 +130,14 @@ int Graph::product(const std::vector<Operand>& operands) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < factors.size();) {
         Operand factor = factors[i];
-        for (++i; i < factors.size() && factors[i].node == factor.node; ++i) factor.factor += factors[i].factor;
+        for (++i; i < factors.size() && factors[i].node == factor.node; ++i)
+            factor.factor += factors[i].factor;
         if (factor.factor != 0) factors[kept++] = factor;
     }
     factors.resize(kept);
     if (factors.empty() || coefficient == 0) return number(coefficient);
-    const int whole = factors.size() == 1 && factors[0].factor == 1 ? factors[0].node : intern(std::move(node));
+    const int whole =
+        factors.size() == 1 && factors[0].factor == 1 ? factors[0].node : intern(std::move(node));
     return coefficient == 1 ? whole : scaled(whole, coefficient);
 }
 
@@ -169,14 +173,20 @@ std::vector<int> Graph::adopt(const Graph& from, const std::vector<int>& roots,
         for (Operand& o : operands) o.node = here[static_cast<std::size_t>(o.node)];
         int& made = here[static_cast<std::size_t>(i)];
         switch (node.kind) {
-            case Kind::number: made = number(node.number); break;
+            case Kind::number:
+                made = number(node.number);
+                break;
             case Kind::symbol: {
                 const std::optional<double> value = valueOf(node.symbol);
                 made = value ? number(*value) : symbol(node.symbol);
                 break;
             }
-            case Kind::sum: made = sum(node.number, operands); break;
-            case Kind::product: made = product(operands); break;
+            case Kind::sum:
+                made = sum(node.number, operands);
+                break;
+            case Kind::product:
+                made = product(operands);
+                break;
             case Kind::call:
                 made = call(node.function, operands[0].node, operands.size() > 1 ? operands[1].node : -1);
                 break;

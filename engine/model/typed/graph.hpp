@@ -4,9 +4,9 @@
 ///     product = prod_k operand_k ^ factor_k          (no number in it: c x is a sum of one term)
 ///     call    = function(operand_0 [, operand_1])
 ///
-/// Every node is made through the functions below, which bring it into this form, combine like terms and like powers,
-/// and fold numbers. Operands are ordered by a hash of their structure alone, so that equal formulas give equal
-/// graphs, whatever the order they were made in. A symbol is a number chosen by the caller.
+/// Every node is made through the functions below, which bring it into this form, combine like terms and like
+/// powers, and fold numbers. Operands are ordered by a hash of their structure alone, so that equal formulas
+/// give equal graphs, whatever the order they were made in. A symbol is a number chosen by the caller.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,21 @@
 namespace extremal::typed {
 
 enum class Function : std::uint8_t {
-    sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, abs, sign, power
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    atan2,
+    sinh,
+    cosh,
+    tanh,
+    exp,
+    log,
+    abs,
+    sign,
+    power
 };
 /// As it is spelled in expressions; "power" is pow(a, b) with an exponent that is no number.
 std::string_view name(Function function);

@@ -38,8 +38,8 @@ using GiNaC::exvector;
 using GiNaC::is_a;
 
 constexpr double maxSeconds = 5;
-/// Formulas larger than this are opaque to GiNaC where they are operands: a derivative then refers to them instead of
-/// repeating them, as in automatic differentiation, and no product of many factors explodes.
+/// Formulas larger than this are opaque to GiNaC where they are operands: a derivative then refers to them
+/// instead of repeating them, as in automatic differentiation, and no product of many factors explodes.
 constexpr int maxOpenSize = 64;
 constexpr std::size_t maxFactors = 12;
 /// Exact numbers grow under powers; beyond this many bits the base is made opaque.
@@ -196,7 +196,8 @@ private:
             exvector groups;
             for (std::size_t i = 0; i < factors.size(); i += maxFactors) {
                 const auto from = factors.begin() + static_cast<std::ptrdiff_t>(i);
-                const auto to = factors.begin() + static_cast<std::ptrdiff_t>(std::min(i + maxFactors, factors.size()));
+                const auto to =
+                    factors.begin() + static_cast<std::ptrdiff_t>(std::min(i + maxFactors, factors.size()));
                 groups.push_back(newPart(GiNaC::mul(exvector(from, to))));
             }
             factors = std::move(groups);
@@ -215,7 +216,8 @@ private:
         if (const auto& constant = resolved_.constant[place(n)]) return numeric(*constant);
         if (const int s = resolved_.symbol[place(n)]; s >= 0) return symbols_[place(s)];
         switch (here.kind) {
-            case Operator::negate: return -build(here.left);
+            case Operator::negate:
+                return -build(here.left);
             case Operator::add:
             case Operator::subtract: {
                 exvector terms;
@@ -241,10 +243,13 @@ private:
                 factors.push_back(opaque(build(at)));
                 return productOf(std::move(factors));
             }
-            case Operator::power: return powerOf(opaque(build(here.left)), opaque(build(here.right)));
-            case Operator::call: return call(here);
+            case Operator::power:
+                return powerOf(opaque(build(here.left)), opaque(build(here.right)));
+            case Operator::call:
+                return call(here);
             case Operator::number:
-            case Operator::name: break;
+            case Operator::name:
+                break;
         }
         return 0;
     }
@@ -342,11 +347,13 @@ Finding find(const Formula& formula, const ResolvedFormula& resolved, const std:
     } catch (const Stopped&) {
         return {};
     } catch (const TooLong&) {
-        return {nullptr, ExpressionError("takes more than " + formatNumber(maxSeconds) + " s to differentiate", 0,
-                                         "a shorter formula, or fewer coordinates")};
+        return {nullptr,
+                ExpressionError("takes more than " + formatNumber(maxSeconds) + " s to differentiate", 0,
+                                "a shorter formula, or fewer coordinates")};
     } catch (const std::bad_alloc&) {
         return {nullptr, ExpressionError("needs too much memory to differentiate", 0, "a shorter formula")};
-    } catch (const std::exception& e) {  // GiNaC's pole_error and the like: a part is infinite whatever the state is
+    } catch (const std::exception&
+                 e) {  // GiNaC's pole_error and the like: a part is infinite whatever the state is
         return {nullptr, ExpressionError("is not finite: " + std::string(e.what()), 0)};
     }
 }
@@ -362,7 +369,8 @@ public:
     };
     std::optional<Finding> recall(const Key& key) {
         const std::lock_guard lock(mutex_);
-        const auto found = std::find_if(known_.begin(), known_.end(), [&](const auto& k) { return k.first == key; });
+        const auto found =
+            std::find_if(known_.begin(), known_.end(), [&](const auto& k) { return k.first == key; });
         if (found == known_.end()) return {};
         known_.splice(known_.begin(), known_, found);
         return found->second;

@@ -5,8 +5,8 @@
 /// flattened to one graph with parameters left as symbols: moving a parameter differentiates nothing anew.
 /// abs' = sign and sign' = 0, also at 0.
 ///
-/// Errors: ExpressionError; more than 5 s or too much memory is one. GiNaC knows no threads: calls take turns. What
-/// was found for the last formulas is remembered, errors included.
+/// Errors: ExpressionError; more than 5 s or too much memory is one. GiNaC knows no threads: calls take
+/// turns. What was found for the last formulas is remembered, errors included.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,8 @@
 
 namespace extremal::typed {
 
-/// Nodes of `graph`. Gradient: (q_0.., v_0..). Hessian: lower triangle, entry (i, j) at i (i + 1) / 2 + j, j <= i.
+/// Nodes of `graph`. Gradient: (q_0.., v_0..). Hessian: lower triangle, entry (i, j) at i (i + 1) / 2 + j, j
+/// <= i.
 struct SymbolicLagrangian {
     Graph graph;
     int value = 0;
@@ -27,6 +28,7 @@ struct SymbolicLagrangian {
 };
 
 /// Coordinates and parameters must have valid, different names. Null if a stop was requested on the way.
-std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, const std::stop_token& stop = {});
+std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula,
+                                                        const std::stop_token& stop = {});
 
 }  // namespace extremal::typed

@@ -1,9 +1,9 @@
 /// A formula as a straight line of instructions over a small array of registers.
 ///
-/// Registers: the inputs (q, v, t), then the constants, then intermediate values, reused when they are no longer
-/// needed. Every common part is computed once; integer powers are products, x^(n/2) products of one square root, and
-/// sin and cos of one angle a single call. Evaluation allocates nothing and changes nothing but the caller's registers,
-/// so any number of threads may share a tape.
+/// Registers: the inputs (q, v, t), then the constants, then intermediate values, reused when they are no
+/// longer needed. Every common part is computed once; integer powers are products, x^(n/2) products of one
+/// square root, and sin and cos of one angle a single call. Evaluation allocates nothing and changes nothing
+/// but the caller's registers, so any number of threads may share a tape.
 #pragma once
 
 #include <cstdint>

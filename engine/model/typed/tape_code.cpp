@@ -17,7 +17,9 @@ std::uint32_t Code::value(int node) {
     const Graph::Node& here = graph_.at(node);
     std::uint32_t made = 0;
     switch (here.kind) {
-        case Graph::Kind::number: made = constant(here.number); break;
+        case Graph::Kind::number:
+            made = constant(here.number);
+            break;
         case Graph::Kind::symbol: {
             Item item{Kind::input, 0, {}};
             item.code.a = static_cast<std::uint32_t>(here.symbol);
@@ -25,8 +27,12 @@ std::uint32_t Code::value(int node) {
             made = static_cast<std::uint32_t>(items_.size() - 1);
             break;
         }
-        case Graph::Kind::sum: made = sum(here); break;
-        case Graph::Kind::product: made = product(here); break;
+        case Graph::Kind::sum:
+            made = sum(here);
+            break;
+        case Graph::Kind::product:
+            made = product(here);
+            break;
         case Graph::Kind::call: {
             const std::uint32_t a = value(here.operands[0].node);
             const auto function = static_cast<std::uint32_t>(here.function);

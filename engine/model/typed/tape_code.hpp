@@ -1,5 +1,5 @@
-/// From a graph to instructions, before registers are given out: each value is made once and has its own number.
-/// Internal to engine/model/typed.
+/// From a graph to instructions, before registers are given out: each value is made once and has its own
+/// number. Internal to engine/model/typed.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ public:
     enum class Kind : std::uint8_t { input, constant, instruction };
     struct Item {
         Kind kind;
-        double number = 0;         ///< constant
-        Instruction code{};        ///< instruction; operands are values; `to` is not used
+        double number = 0;   ///< constant
+        Instruction code{};  ///< instruction; operands are values; `to` is not used
     };
     explicit Code(const Graph& graph) : graph_(graph) {}
 

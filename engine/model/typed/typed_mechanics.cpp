@@ -22,8 +22,8 @@ struct Model {
     bool isQuadratic = false;  ///< in v
     bool isDiagonal = false;   ///< L_vv
     Tape value, gradient, force, jet, legendre;
-    std::vector<double> masses;            ///< separable
-    std::vector<double> hessian;           ///< its constant entries in place
+    std::vector<double> masses;   ///< separable
+    std::vector<double> hessian;  ///< its constant entries in place
     struct Place {
         std::size_t output, at, mirrored;  ///< output of the jet's tape -> two entries of the Hessian
     };
@@ -78,7 +78,9 @@ void force(const Model& m, double t, const double* q, const double* v, double* f
     const Registers r(m, m.force, t, q, v);
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.d); ++i) f[i] = r[i];
 }
-void separableForce(const void* p, const double& t, const double* q, double* f) { force(self(p), t, q, q, f); }
+void separableForce(const void* p, const double& t, const double* q, double* f) {
+    force(self(p), t, q, q, f);
+}
 
 bool separableVelocity(const void* p, const double&, const double*, const double* momentum, double* v) {
     const Model& m = self(p);
@@ -102,7 +104,8 @@ bool solveMass(int d, const double* triangle, double* x) {
     });
 }
 
-/// v from r = p - L_v at a guess, by one solve with the mass matrix there. Outputs of the tape: L_v, then L_vv.
+/// v from r = p - L_v at a guess, by one solve with the mass matrix there. Outputs of the tape: L_v, then
+/// L_vv.
 bool solveVelocity(const Model& m, const Registers& r, double* x) {
     const auto d = static_cast<std::size_t>(m.d);
     if (m.isDiagonal) {
@@ -149,7 +152,8 @@ bool newtonVelocity(const void* p, const double& t, const double* q, const doubl
     return false;
 }
 
-double energy(const void* p, const double& t, const double* q, const double* momentum, bool isFound, const double* v) {
+double energy(const void* p, const double& t, const double* q, const double* momentum, bool isFound,
+              const double* v) {
     const Model& m = self(p);
     if (!isFound) return std::numeric_limits<double>::quiet_NaN();
     const Registers r(m, m.value, t, q, v);
@@ -189,12 +193,14 @@ struct Numeric {
         std::vector<int> roots{from.value};
         roots.insert(roots.end(), from.gradient.begin(), from.gradient.end());
         roots.insert(roots.end(), from.hessian.begin(), from.hessian.end());
-        const std::vector<int> here = graph.adopt(from.graph, roots, [&](int symbol) -> std::optional<double> {
-            const int k = symbol - formula.firstParameter();
-            if (k < 0) return {};
-            return formula.parameters[static_cast<std::size_t>(k)].second;
-        });
-        const auto first = here.begin() + 1, second = first + static_cast<std::ptrdiff_t>(from.gradient.size());
+        const std::vector<int> here =
+            graph.adopt(from.graph, roots, [&](int symbol) -> std::optional<double> {
+                const int k = symbol - formula.firstParameter();
+                if (k < 0) return {};
+                return formula.parameters[static_cast<std::size_t>(k)].second;
+            });
+        const auto first = here.begin() + 1,
+                   second = first + static_cast<std::ptrdiff_t>(from.gradient.size());
         value = here.front();
         gradient.assign(first, second);
         hessian.assign(second, here.end());
@@ -264,7 +270,9 @@ private:
     }
     void buildLegendre() {
         std::vector<int> mass = massNodes();
-        const auto atZero = [&](int symbol) { return isVelocity(symbol) ? std::optional<double>(0) : std::nullopt; };
+        const auto atZero = [&](int symbol) {
+            return isVelocity(symbol) ? std::optional<double>(0) : std::nullopt;
+        };
         std::vector<int> roots(n_.gradient.begin() + d_, n_.gradient.end());
         model_->isQuadratic = !n_.graph.dependsOn(mass, [&](int s) { return isVelocity(s); });
         model_->isDiagonal = true;

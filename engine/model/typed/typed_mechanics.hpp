@@ -1,7 +1,8 @@
 /// The calls of Mechanics for a typed Lagrangian: tapes with the parameters folded in.
 ///
-/// Where L is quadratic in v the Legendre transform is one linear solve, M v = p - L_v(t, q, 0); elsewhere Newton.
-/// L = 1/2 sum_i m_i v_i^2 - V(t, q) with constant m_i is recognised symbolically: force and masses are then set.
+/// Where L is quadratic in v the Legendre transform is one linear solve, M v = p - L_v(t, q, 0); elsewhere
+/// Newton. L = 1/2 sum_i m_i v_i^2 - V(t, q) with constant m_i is recognised symbolically: force and masses
+/// are then set.
 #pragma once
 
 #include <optional>
@@ -21,9 +22,10 @@ struct TypedMechanics {
 /// Throws ExpressionError.
 TypedMechanics makeMechanics(const Formula& formula);
 
-/// What is wrong with the Lagrangian at a state (q, p), or with it everywhere if it is degenerate; empty if nothing is.
-std::optional<std::string> faultAt(const Formula& formula, const Mechanics<double>& mechanics, double t, const double* q,
-                                   const double* p);
+/// What is wrong with the Lagrangian at a state (q, p), or with it everywhere if it is degenerate; empty if
+/// nothing is.
+std::optional<std::string> faultAt(const Formula& formula, const Mechanics<double>& mechanics, double t,
+                                   const double* q, const double* p);
 std::optional<std::string> degeneracy(const Formula& formula, const Mechanics<double>& mechanics);
 
 }  // namespace extremal::typed

@@ -16,7 +16,8 @@ void checkName(const std::string& name, const std::string& pointer, const std::s
     if (!problem.empty())
         problems.push_back({pointer, "the name \"" + name + "\" " + problem, {}});
     else if (taken.contains(name))
-        problems.push_back({pointer, "the name \"" + name + "\" is there twice", "every name has one meaning"});
+        problems.push_back(
+            {pointer, "the name \"" + name + "\" is there twice", "every name has one meaning"});
 }
 
 }  // namespace
@@ -28,7 +29,8 @@ Formula formulaOf(const Settings& settings) {
     const Value* coordinates = settings.find("coordinates");
     const Value* parameters = settings.find("parameters");
     for (const Value& name : coordinates->asArray()) {
-        checkName(name.asString(), "/coordinates/" + std::to_string(formula.coordinates.size()), taken, problems);
+        checkName(name.asString(), "/coordinates/" + std::to_string(formula.coordinates.size()), taken,
+                  problems);
         taken.insert(name.asString());
         formula.coordinates.push_back(name.asString());
     }
@@ -54,7 +56,8 @@ TypedMechanics mechanicsOf(const Formula& formula) {
         if (const auto fault = degeneracy(formula, made.mechanics)) throw InvalidScene("/lagrangian", *fault);
         return made;
     } catch (const ExpressionError& e) {
-        throw InvalidScene("/lagrangian", std::string(e.what()) + "\n" + caretLines(formula.text, e.position), e.hint);
+        throw InvalidScene("/lagrangian", std::string(e.what()) + "\n" + caretLines(formula.text, e.position),
+                           e.hint);
     }
 }
 

@@ -1,7 +1,7 @@
 /// The keys of "model" of type "lagrangian" and what they mean.
 ///
-/// Errors: InvalidScene with pointers below /model ("/coordinates/1", "/parameters/pi", "/lagrangian"); what is wrong
-/// inside the formula is shown with a caret under the place.
+/// Errors: InvalidScene with pointers below /model ("/coordinates/1", "/parameters/pi", "/lagrangian"); what
+/// is wrong inside the formula is shown with a caret under the place.
 #pragma once
 
 #include <optional>

@@ -12,12 +12,12 @@ namespace extremal::typed {
 namespace {
 
 constexpr std::array<std::pair<const char*, const char*>, 37> greek = {
-    {{"alpha", "α"}, {"beta", "β"},   {"gamma", "γ"},    {"delta", "δ"}, {"epsilon", "ε"}, {"zeta", "ζ"},
-     {"eta", "η"},   {"theta", "θ"},  {"iota", "ι"},     {"kappa", "κ"}, {"lambda", "λ"},  {"mu", "μ"},
-     {"nu", "ν"},    {"xi", "ξ"},     {"omicron", "ο"},  {"rho", "ρ"},   {"sigma", "σ"},   {"tau", "τ"},
-     {"upsilon", "υ"}, {"phi", "φ"},  {"chi", "χ"},      {"psi", "ψ"},   {"omega", "ω"},   {"varphi", "φ"},
-     {"Gamma", "Γ"}, {"Delta", "Δ"},  {"Theta", "Θ"},    {"Lambda", "Λ"}, {"Xi", "Ξ"},     {"Pi", "Π"},
-     {"Sigma", "Σ"}, {"Upsilon", "Υ"}, {"Phi", "Φ"},     {"Psi", "Ψ"},   {"Omega", "Ω"},   {"Mu", "Μ"},
+    {{"alpha", "α"},   {"beta", "β"},    {"gamma", "γ"},   {"delta", "δ"},  {"epsilon", "ε"}, {"zeta", "ζ"},
+     {"eta", "η"},     {"theta", "θ"},   {"iota", "ι"},    {"kappa", "κ"},  {"lambda", "λ"},  {"mu", "μ"},
+     {"nu", "ν"},      {"xi", "ξ"},      {"omicron", "ο"}, {"rho", "ρ"},    {"sigma", "σ"},   {"tau", "τ"},
+     {"upsilon", "υ"}, {"phi", "φ"},     {"chi", "χ"},     {"psi", "ψ"},    {"omega", "ω"},   {"varphi", "φ"},
+     {"Gamma", "Γ"},   {"Delta", "Δ"},   {"Theta", "Θ"},   {"Lambda", "Λ"}, {"Xi", "Ξ"},      {"Pi", "Π"},
+     {"Sigma", "Σ"},   {"Upsilon", "Υ"}, {"Phi", "Φ"},     {"Psi", "Ψ"},    {"Omega", "Ω"},   {"Mu", "Μ"},
      {"Rho", "Ρ"}}};
 
 /// A name as a letter or word, and an index below it.
@@ -47,7 +47,8 @@ Name split(const std::string& name) {
 
 std::string plainIndex(const std::string& index) {
     if (index.empty()) return {};
-    const bool isNumber = std::all_of(index.begin(), index.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool isNumber =
+        std::all_of(index.begin(), index.end(), [](char c) { return c >= '0' && c <= '9'; });
     if (!isNumber) return "_" + index;
     static constexpr std::array<const char*, 10> digits = {"₀", "₁", "₂", "₃", "₄", "₅", "₆", "₇", "₈", "₉"};
     std::string text;
@@ -76,10 +77,12 @@ public:
         const Graph::Node& here = graph_.at(node);
         if (here.kind != Graph::Kind::sum) return term(node, 1, true);
         std::vector<std::pair<std::string, Graph::Operand>> terms;
-        for (const Graph::Operand& o : here.operands) terms.emplace_back(rank(o.node) + term(o.node, 1, true), o);
+        for (const Graph::Operand& o : here.operands)
+            terms.emplace_back(rank(o.node) + term(o.node, 1, true), o);
         std::sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
         // A sum that can start without a sign does.
-        const auto positive = std::find_if(terms.begin(), terms.end(), [](const auto& t) { return t.second.factor > 0; });
+        const auto positive =
+            std::find_if(terms.begin(), terms.end(), [](const auto& t) { return t.second.factor > 0; });
         if (positive != terms.end() && positive->first[0] == terms[0].first[0])
             std::rotate(terms.begin(), positive, positive + 1);
         std::string text;
@@ -116,7 +119,8 @@ private:
         const int d = formula_.dimension();
         if (s == formula_.time()) return italic("t");
         if (s >= formula_.firstParameter())
-            return named(formula_.parameters[static_cast<std::size_t>(s - formula_.firstParameter())].first, 0);
+            return named(formula_.parameters[static_cast<std::size_t>(s - formula_.firstParameter())].first,
+                         0);
         const int primes = s < d ? 0 : s < 2 * d ? 1 : 2;
         const int i = s < d ? s : s < 2 * d ? s - d : s - 2 * d - 1;
         return named(formula_.coordinates[static_cast<std::size_t>(i)], primes);
@@ -125,7 +129,8 @@ private:
     std::string named(const std::string& name, int primes) const {
         const Name parts = split(name);
         std::string text = italic(parts.base);
-        if (!parts.index.empty()) text += isRich_ ? "<sub>" + parts.index + "</sub>" : plainIndex(parts.index);
+        if (!parts.index.empty())
+            text += isRich_ ? "<sub>" + parts.index + "</sub>" : plainIndex(parts.index);
         if (primes > 0) text += primes == 1 ? "′" : "″";
         return text;
     }
@@ -161,11 +166,15 @@ private:
             return callText(n, exponent == 1 ? "" : numberText(exponent));
         if (exponent != 1) return raised(atom(node), numberText(exponent));
         switch (n.kind) {
-            case Graph::Kind::number: return numberText(n.number);
-            case Graph::Kind::symbol: return symbol(n.symbol);
-            case Graph::Kind::call: return callText(n, {});
+            case Graph::Kind::number:
+                return numberText(n.number);
+            case Graph::Kind::symbol:
+                return symbol(n.symbol);
+            case Graph::Kind::call:
+                return callText(n, {});
             case Graph::Kind::sum:
-            case Graph::Kind::product: break;
+            case Graph::Kind::product:
+                break;
         }
         return bracketed(node);
     }
@@ -192,7 +201,8 @@ private:
             return term(n.operands[0].node, coefficient * n.operands[0].factor, isFirst);
         std::vector<std::pair<std::string, Graph::Operand>> sorted;
         for (const Graph::Operand& o : factors) sorted.emplace_back(factorKey(o), o);
-        std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::sort(sorted.begin(), sorted.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
         std::vector<std::string> above, below;
         if (p != 1) above.push_back(numberText(p));
         if (q != 1) below.push_back(numberText(q));

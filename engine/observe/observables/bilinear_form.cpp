@@ -1,5 +1,5 @@
-/// The form that three-level schemes of wave functions keep, between the node before and this one, and its change since it
-/// was first known. Empty at the first node, and for one-step schemes, which keep the norm.
+/// The form that three-level schemes of wave functions keep, between the node before and this one, and its
+/// change since it was first known. Empty at the first node, and for one-step schemes, which keep the norm.
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -20,7 +20,8 @@ struct Form {
     void look(long long at, const double* x) {
         const Complex* c = coefficients(x);
         if (at == node) return;  // the same node again
-        if (at == node + 1 && node >= 0) value = bilinearForm(*h, alpha, dt, shift, before.data(), c, image.data(), work.data());
+        if (at == node + 1 && node >= 0)
+            value = bilinearForm(*h, alpha, dt, shift, before.data(), c, image.data(), work.data());
         if (!(first == first)) first = value;
         before.assign(c, c + h->size());
         node = at;
@@ -31,13 +32,18 @@ struct Form {
 
 ObservableEntry bilinear_form() {
     ObservableEntry e;
-    e.item = {"bilinear-form", "bilinear form", "What three-level schemes of wave functions keep in place of the norm.", {}, {},
+    e.item = {"bilinear-form",
+              "bilinear form",
+              "What three-level schemes of wave functions keep in place of the norm.",
+              {},
+              {},
               "a wave function"};
     e.applies = [](const System& system) { return system.hasWave(); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"bilinear_form", "J", "", {}, {}}, {"bilinear_form_error", "J - J(0)", "", {}, {}}};
-        const bool isPair = context.pair != nullptr, isThreeLevel = isPair && context.pair->space.text("form") == "three-level";
+        const bool isPair = context.pair != nullptr,
+                   isThreeLevel = isPair && context.pair->space.text("form") == "three-level";
         if (isPair && !isThreeLevel) {
             o.evaluate = [](const State&, const StepReport&, double* values) {
                 values[0] = values[1] = std::numeric_limits<double>::quiet_NaN();
@@ -50,8 +56,9 @@ ObservableEntry bilinear_form() {
         if (isThreeLevel) {
             form.alpha = threeLevelAlpha(context.pair->quadrature);
             const Value* shift = context.pair->space.find("energy_shift");
-            form.shift = shift && shift->isNumber() ? shift->asNumber()
-                                                    : form.h->energy(context.initial.t, coefficients(context.initial.x.data()));
+            form.shift = shift && shift->isNumber()
+                             ? shift->asNumber()
+                             : form.h->energy(context.initial.t, coefficients(context.initial.x.data()));
         }
         form.image.resize(static_cast<std::size_t>(form.h->size()));
         form.work = form.image;

@@ -1,11 +1,13 @@
-/// Energy H(t, q, p) and its signed change H(t) - H(0): conserved by the flow of a time-independent Lagrangian.
+/// Energy H(t, q, p) and its signed change H(t) - H(0): conserved by the flow of a time-independent
+/// Lagrangian.
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
 
 ObservableEntry energy() {
     ObservableEntry e;
-    e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.", {}, {}, ""};
+    e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.",
+              {},       {},       ""};
     e.applies = [](const System& system) { return system.hasMechanics() || system.energy; };
     e.bind = [](const ObserveContext& context) {
         Observer o;

@@ -1,13 +1,17 @@
-/// Error against the reference at the node's own t, by the system's measure: |q - q_ref|, |p - p_ref| (Euclidean) and
-/// q_i - q_ref,i of each coordinate, signed; the angle between two attitudes for bodies.
+/// Error against the reference at the node's own t, by the system's measure: |q - q_ref|, |p - p_ref|
+/// (Euclidean) and q_i - q_ref,i of each coordinate, signed; the angle between two attitudes for bodies.
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {
 
 ObservableEntry error() {
     ObservableEntry e;
-    e.item = {"error", "error", "Distance from the reference solution: |q - q_ref|, |p - p_ref| and each coordinate.", {},
-              {}, "a reference"};
+    e.item = {"error",
+              "error",
+              "Distance from the reference solution: |q - q_ref|, |p - p_ref| and each coordinate.",
+              {},
+              {},
+              "a reference"};
     e.needsReference = true;
     e.bind = [](const ObserveContext& context) {
         const ErrorMeasure measure = errorMeasure(context.system, context.initial);

@@ -1,5 +1,5 @@
-/// The momenta that Noether's theorem conserves, and the Euclidean norm of their change. A momentum that is a column of
-/// the state already is not written twice.
+/// The momenta that Noether's theorem conserves, and the Euclidean norm of their change. A momentum that is a
+/// column of the state already is not written twice.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -29,8 +29,12 @@ Observer meanOfWave(const std::shared_ptr<const Hamiltonian>& h) {
 
 ObservableEntry momentum() {
     ObservableEntry e;
-    e.item = {"momentum", "momentum", "Conserved momenta and the norm of their change; for systems with a symmetry.", {},
-              {}, "a symmetry"};
+    e.item = {"momentum",
+              "momentum",
+              "Conserved momenta and the norm of their change; for systems with a symmetry.",
+              {},
+              {},
+              "a symmetry"};
     e.applies = [](const System& system) { return !system.momenta.empty() || system.hasWave(); };
     e.bind = [](const ObserveContext& context) {
         if (context.system.hasWave()) return meanOfWave(context.system.wave);
@@ -43,14 +47,19 @@ ObservableEntry momentum() {
         for (const MomentumMap& map : momenta) {
             const std::string name = "momentum." + map.name;
             start.push_back(map.value(context.initial.x.data(), context.initial.x.data() + d));
-            isWritten.push_back(std::none_of(state.begin(), state.end(), [&](const Quantity& q) { return q.name == name; }));
+            isWritten.push_back(
+                std::none_of(state.begin(), state.end(), [&](const Quantity& q) { return q.name == name; }));
             if (isWritten.back()) o.columns.push_back({name, map.symbol, map.unit, {}, {}});
         }
         o.extreme = static_cast<int>(o.columns.size());
-        o.columns.push_back({"momentum_error", momenta.size() == 1 ? momenta[0].symbol + " - " + momenta[0].symbol + "(0)"
-                                                                   : "change of momentum",
-                             momenta.empty() ? "" : momenta[0].unit, {}, {}});
-        o.evaluate = [momenta, start, isWritten, d](const NodeBlock& nodes, double* values, std::size_t stride) {
+        o.columns.push_back({"momentum_error",
+                             momenta.size() == 1 ? momenta[0].symbol + " - " + momenta[0].symbol + "(0)"
+                                                 : "change of momentum",
+                             momenta.empty() ? "" : momenta[0].unit,
+                             {},
+                             {}});
+        o.evaluate = [momenta, start, isWritten, d](const NodeBlock& nodes, double* values,
+                                                    std::size_t stride) {
             for (std::size_t node = 0; node < nodes.size(); ++node, values += stride) {
                 double sum = 0;
                 std::size_t column = 0;

@@ -1,8 +1,9 @@
-/// The multiplier that glues the element beginning at the node to the one before it: lambda_k of the augmented action, from
-/// the whole saddle-point system with nothing condensed (solve/multipliers.hpp).
+/// The multiplier that glues the element beginning at the node to the one before it: lambda_k of the
+/// augmented action, from the whole saddle-point system with nothing condensed (solve/multipliers.hpp).
 ///
-/// From (q_k, p_k) one step of the pair gives q_{k+1}; the system is then solved between q_k and q_{k+1}, without p_k, and
-/// its first multiplier is -D_1 L_d(q_k, q_{k+1}). That it equals the momentum is what `multiplier_error` shows.
+/// From (q_k, p_k) one step of the pair gives q_{k+1}; the system is then solved between q_k and q_{k+1},
+/// without p_k, and its first multiplier is -D_1 L_d(q_k, q_{k+1}). That it equals the momentum is what
+/// `multiplier_error` shows.
 #include <Eigen/Core>
 
 #include <cmath>
@@ -34,7 +35,8 @@ public:
         const auto integrator = makeIntegrator(system_, pair_, Clock{state.t, step_});
         if (integrator->advance(next).outcome != Outcome::converged) return;
         Eigen::MatrixXd ends(d, 2);
-        ends << Eigen::Map<const Eigen::VectorXd>(state.x.data(), d), Eigen::Map<const Eigen::VectorXd>(next.x.data(), d);
+        ends << Eigen::Map<const Eigen::VectorXd>(state.x.data(), d),
+            Eigen::Map<const Eigen::VectorXd>(next.x.data(), d);
         const GluedElements found = solveBetween(glued_, state.t, ends);
         if (found.outcome != Outcome::converged) return;
         const Eigen::VectorXd lambda = found.multipliers.col(0);
@@ -54,23 +56,31 @@ private:
 
 ObservableEntry multiplier() {
     ObservableEntry e;
-    e.item = {"multiplier", "multiplier",
-              "Multiplier of continuity from the full saddle-point system of a pair, and its distance from the momentum.", {}, {},
+    e.item = {"multiplier",
+              "multiplier",
+              "Multiplier of continuity from the full saddle-point system of a pair, and its distance from "
+              "the momentum.",
+              {},
+              {},
               "a pair"};
     e.bind = [](const ObserveContext& context) {
         Observer o;
         const auto& coordinates = context.system.coordinates;
         const std::string unit = coordinates.size() == 1 ? coordinates.front().momentumUnit : "";
         o.columns = {{"multiplier", "|λ|", unit, {}, {}}, {"multiplier_error", "|λ - p|", unit, {}, {}}};
-        for (const Coordinate& c : coordinates) o.columns.push_back({"multiplier." + c.name, "λ_" + c.symbol, c.momentumUnit, {}, {}});
+        for (const Coordinate& c : coordinates)
+            o.columns.push_back({"multiplier." + c.name, "λ_" + c.symbol, c.momentumUnit, {}, {}});
         if (!context.pair || !isPairFor(*context.pair, context.system) || !hasOneTable(context.pair->space)) {
             o.evaluate = [n = o.columns.size()](const State&, const StepReport&, double* values) {
                 std::fill_n(values, n, std::numeric_limits<double>::quiet_NaN());
             };
             return o;
         }
-        o.evaluate = [look = std::make_shared<const MultiplierOfNode>(context.system, *context.pair, context.step)](
-                         const State& state, const StepReport& report, double* values) { (*look)(state, report, values); };
+        o.evaluate =
+            [look = std::make_shared<const MultiplierOfNode>(context.system, *context.pair, context.step)](
+                const State& state, const StepReport& report, double* values) {
+                (*look)(state, report, values);
+            };
         return o;
     };
     return e;

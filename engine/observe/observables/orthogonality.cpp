@@ -1,5 +1,5 @@
-/// How far the attitude is from a rotation: |R^T R - 1| (Frobenius) of the matrix that the quaternion gives as it stands,
-/// which is the square of its length times a rotation.
+/// How far the attitude is from a rotation: |R^T R - 1| (Frobenius) of the matrix that the quaternion gives
+/// as it stands, which is the square of its length times a rotation.
 #include <cmath>
 
 #include "engine/observe/catalog.hpp"
@@ -8,8 +8,9 @@ namespace extremal::observables {
 
 ObservableEntry orthogonality() {
     ObservableEntry e;
-    e.item = {"orthogonality", "orthogonality", "|RᵀR - 1| of the attitude: zero where it is a rotation.", {}, {},
-              "a rigid body"};
+    e.item = {
+        "orthogonality", "orthogonality", "|RᵀR - 1| of the attitude: zero where it is a rotation.", {}, {},
+        "a rigid body"};
     e.applies = [](const System& system) { return system.hasBody(); };
     e.bind = [](const ObserveContext&) {
         Observer o;

@@ -9,7 +9,11 @@ namespace extremal::observables {
 
 ObservableEntry phase_error() {
     ObservableEntry e;
-    e.item = {"phase-error", "phase error", "Phase of the wave function against the reference.", {}, {},
+    e.item = {"phase-error",
+              "phase error",
+              "Phase of the wave function against the reference.",
+              {},
+              {},
               "a wave function and a reference"};
     e.needsReference = true;
     e.applies = [](const System& system) { return system.hasWave(); };
@@ -23,7 +27,8 @@ ObservableEntry phase_error() {
             exact.resize(width * nodes.size());
             reference(nodes.times(), exact.data(), width);
             for (std::size_t i = 0; i < nodes.size(); ++i, values += stride)
-                values[0] = std::arg(innerProduct(coefficients(exact.data() + i * width), coefficients(nodes.x(i)), n));
+                values[0] = std::arg(
+                    innerProduct(coefficients(exact.data() + i * width), coefficients(nodes.x(i)), n));
         };
         return o;
     };

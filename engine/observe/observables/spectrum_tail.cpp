@@ -1,4 +1,5 @@
-/// The share of the wave function in the upper eighth of its wave numbers: far above round-off, N is too small.
+/// The share of the wave function in the upper eighth of its wave numbers: far above round-off, N is too
+/// small.
 #include "engine/observe/catalog.hpp"
 #include "engine/wave/spectrum.hpp"
 
@@ -6,8 +7,12 @@ namespace extremal::observables {
 
 ObservableEntry spectrum_tail() {
     ObservableEntry e;
-    e.item = {"spectrum-tail", "spectrum tail", "Share of the wave function in the upper eighth of its modes: is N enough?", {},
-              {}, "a wave function"};
+    e.item = {"spectrum-tail",
+              "spectrum tail",
+              "Share of the wave function in the upper eighth of its modes: is N enough?",
+              {},
+              {},
+              "a wave function"};
     e.applies = [](const System& system) { return system.hasWave(); };
     e.bind = [](const ObserveContext& context) {
         Observer o;

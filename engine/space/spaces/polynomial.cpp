@@ -12,15 +12,17 @@ FieldInfo degree() {
 }
 
 FieldInfo basis() {
-    return choiceField("basis", "basis", {"lobatto", "chebyshev", "equispaced", "legendre", "chebyshev-modal"},
-                       "Control points of a nodal basis, or a modal basis; the step is the same to round-off.");
+    return choiceField(
+        "basis", "basis", {"lobatto", "chebyshev", "equispaced", "legendre", "chebyshev-modal"},
+        "Control points of a nodal basis, or a modal basis; the step is the same to round-off.");
 }
 
 }  // namespace
 
 SpaceEntry polynomial() {
     SpaceEntry e;
-    e.item = {"polynomial", "polynomial", "Polynomials in time, continuous from step to step.", {degree(), basis()}, {}, ""};
+    e.item = {"polynomial",        "polynomial", "Polynomials in time, continuous from step to step.",
+              {degree(), basis()}, {},           ""};
     e.make = [](const Settings& settings) {
         return polynomialSpace<double>(settings.integer("degree"), polynomialBasis(settings.text("basis")));
     };

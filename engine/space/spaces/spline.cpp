@@ -16,11 +16,16 @@ FieldInfo count(const char* key, const char* symbol, double max, Value fallback,
 
 SpaceEntry spline() {
     SpaceEntry e;
-    e.item = {"spline", "spline", "B-splines in time: s - 1 times differentiable inside each step, continuous from step to step.",
-              {count("degree", "s", 24, nullptr, "Degree of the pieces.",
-                     "a curve of degree 0 stands still; above 24 more steps are cheaper than a higher degree"),
-               count("cells", "n", 64, 2.0, "Number of equal cells in one step; one cell: polynomials.",
-                     "more cells than that are better taken as more steps")}, {}, ""};
+    e.item = {
+        "spline",
+        "spline",
+        "B-splines in time: s - 1 times differentiable inside each step, continuous from step to step.",
+        {count("degree", "s", 24, nullptr, "Degree of the pieces.",
+               "a curve of degree 0 stands still; above 24 more steps are cheaper than a higher degree"),
+         count("cells", "n", 64, 2.0, "Number of equal cells in one step; one cell: polynomials.",
+               "more cells than that are better taken as more steps")},
+        {},
+        ""};
     e.make = [](const Settings& settings) {
         return splineSpace<double>(settings.integer("degree"), settings.integer("cells"));
     };

@@ -1,4 +1,5 @@
-/// Splittings on a system whose kicks and drifts are not explicit: Euler maps and adjoints with the same coefficients.
+/// Splittings on a system whose kicks and drifts are not explicit: Euler maps and adjoints with the same
+/// coefficients.
 #include <QTest>
 
 #include <cmath>
@@ -51,8 +52,10 @@ private slots:
     void bothFormsAreTheSameWhereSeparable() {
         const System kepler = laws::systemNamed("kepler");
         const auto a = makePartitioned(kepler.mechanics, {0, 0.05}, partitionedStages(blanesMoanS10(), true));
-        const auto b = makePartitioned(kepler.mechanics, {0, 0.05}, partitionedStages(blanesMoanS10(), false));
-        const State x = laws::after(*a, laws::keplerStart, 20).value(), y = laws::after(*b, laws::keplerStart, 20).value();
+        const auto b =
+            makePartitioned(kepler.mechanics, {0, 0.05}, partitionedStages(blanesMoanS10(), false));
+        const State x = laws::after(*a, laws::keplerStart, 20).value(),
+                    y = laws::after(*b, laws::keplerStart, 20).value();
         QVERIFY(laws::distance(x.x, y.x, 0, 4) < 1e-13);  // measured: 4e-15
     }
     void nystromMethodsAreForSeparableSystems() {
@@ -78,7 +81,8 @@ private slots:
                 return size;
             };
             const double below = largest(0.99 * e.stabilityLimit), above = largest(1.0001 * e.stabilityLimit);
-            qInfo("%s: limit %.4f, largest %.3g below and %.3g above", e.item.id.c_str(), e.stabilityLimit, below, above);
+            qInfo("%s: limit %.4f, largest %.3g below and %.3g above", e.item.id.c_str(), e.stabilityLimit,
+                  below, above);
             QVERIFY(below < 100);
             QVERIFY(!(above < 1e6));  // the weakest: SRKN 11b, which grows by 3e-4 a step
         }

@@ -1,5 +1,5 @@
-/// The coefficients of the splittings against the order conditions themselves: the logarithm of the product of
-/// exponentials in words of A and B, degree by degree; and their orders in quadruple precision.
+/// The coefficients of the splittings against the order conditions themselves: the logarithm of the product
+/// of exponentials in words of A and B, degree by degree; and their orders in quadruple precision.
 #include <QTest>
 
 #include <boost/multiprecision/float128.hpp>
@@ -20,7 +20,8 @@ namespace {
 
 constexpr int highest = 7;
 
-/// A polynomial in words of A (0) and B (1), by degree: degree n has 2^n words, the first letter in the highest bit.
+/// A polynomial in words of A (0) and B (1), by degree: degree n has 2^n words, the first letter in the
+/// highest bit.
 using Words = std::vector<Eigen::VectorXd>;
 
 Words zero() {

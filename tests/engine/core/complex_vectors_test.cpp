@@ -15,7 +15,9 @@ using Complex = std::complex<double>;
 
 std::vector<Complex> numbers(std::size_t n, double start) {
     std::vector<Complex> v;
-    for (std::size_t i = 0; i < n; ++i) v.push_back(std::polar(1 + 0.1 * std::sin(start + static_cast<double>(i)), start * static_cast<double>(i)));
+    for (std::size_t i = 0; i < n; ++i)
+        v.push_back(
+            std::polar(1 + 0.1 * std::sin(start + static_cast<double>(i)), start * static_cast<double>(i)));
     return v;
 }
 

@@ -1,4 +1,5 @@
-/// The last few things made: made once, forgotten in the order they came, and not kept where making them failed.
+/// The last few things made: made once, forgotten in the order they came, and not kept where making them
+/// failed.
 #include <QTest>
 
 #include <stdexcept>
@@ -25,15 +26,22 @@ private slots:
     }
     void whatFailsIsNotKept() {
         Recent<int, int> recent(2);
-        QVERIFY_EXCEPTION_THROWN(recent.get(1, []() -> int { throw std::runtime_error("no"); }), std::runtime_error);
+        QVERIFY_EXCEPTION_THROWN(recent.get(1, []() -> int { throw std::runtime_error("no"); }),
+                                 std::runtime_error);
         QCOMPARE(recent.get(1, [] { return 7; }), 7);
     }
     void sameIsWhatTheCallerSays() {
         Recent<int, int> recent(2);
         const auto lastDigit = [](int a, int b) { return a % 10 == b % 10; };
-        QCOMPARE(recent.get(13, [] { return 1; }, lastDigit), 1);
-        QCOMPARE(recent.get(23, [] { return 2; }, lastDigit), 1);
-        QCOMPARE(recent.get(24, [] { return 3; }, lastDigit), 3);
+        QCOMPARE(recent.get(
+                     13, [] { return 1; }, lastDigit),
+                 1);
+        QCOMPARE(recent.get(
+                     23, [] { return 2; }, lastDigit),
+                 1);
+        QCOMPARE(recent.get(
+                     24, [] { return 3; }, lastDigit),
+                 3);
     }
 };
 

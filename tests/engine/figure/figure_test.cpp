@@ -62,8 +62,8 @@ private slots:
         QVERIFY(isBounded(wave, 0));
         std::vector<double> lost, quarter;
         for (int i = 0; i < 1000; ++i) {
-            lost.push_back(std::expm1(-0.02 * i));      // what a damping scheme does to a fast motion
-            quarter.push_back(std::sin(1.57e-3 * i));   // of a slow wave: it may well come back
+            lost.push_back(std::expm1(-0.02 * i));     // what a damping scheme does to a fast motion
+            quarter.push_back(std::sin(1.57e-3 * i));  // of a slow wave: it may well come back
         }
         QVERIFY(!isBounded(lost, 0));
         QVERIFY(isBounded(quarter, 0));
@@ -75,13 +75,21 @@ private slots:
         const auto [low, high] = *f.y.range;
         QVERIFY2(high < 1e4, qPrintable(QString::number(high)));  // the failed scheme reaches 1e28
         QVERIFY(high > 0.09);                                     // RK4 reaches 0.09
-        QVERIFY(low > 1e-10 && low < 1e-7);                       // sign changes of 2e-7 |sin| reach below 1e-10
+        QVERIFY(low > 1e-10 && low < 1e-7);  // sign changes of 2e-7 |sin| reach below 1e-10
         QCOMPARE(*f.x.range, (std::pair<double, double>{0, 10}));
     }
     void rangesAreUsableForAnyData() {
         const double inf = std::numeric_limits<double>::infinity();
-        const std::vector<std::vector<double>> cases = {
-            {}, {0}, {1}, {-1, -1}, {inf, -inf, std::nan("")}, {1e300, 1}, {-1e300, 1e300}, {1e-300}, {0, 0, 5e-324}, {1e279, -1e279}};
+        const std::vector<std::vector<double>> cases = {{},
+                                                        {0},
+                                                        {1},
+                                                        {-1, -1},
+                                                        {inf, -inf, std::nan("")},
+                                                        {1e300, 1},
+                                                        {-1e300, 1e300},
+                                                        {1e-300},
+                                                        {0, 0, 5e-324},
+                                                        {1e279, -1e279}};
         for (const auto& values : cases)
             for (bool isLog : {false, true})
                 for (bool hasFailed : {false, true}) {

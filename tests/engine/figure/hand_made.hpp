@@ -1,5 +1,5 @@
-/// A comparison written by hand, so that figures can be tested without an integrator: a pendulum of four schemes, one
-/// that gains energy, one that fails.
+/// A comparison written by hand, so that figures can be tested without an integrator: a pendulum of four
+/// schemes, one that gains energy, one that fails.
 #pragma once
 
 #include <cmath>
@@ -41,19 +41,16 @@ inline System kepler() {
 }
 
 /// Energy error `amplitude` * |sin|, growing by `growth` per unit time; it ends at `end`.
-inline std::shared_ptr<const SchemeResult> scheme(std::string label, int style, double amplitude, double growth,
-                                                  double end, int rows = 1001) {
+inline std::shared_ptr<const SchemeResult> scheme(std::string label, int style, double amplitude,
+                                                  double growth, double end, int rows = 1001) {
     auto result = std::make_shared<SchemeResult>();
     result->spec.label = std::move(label);
     result->spec.step.value = 0.01 * (style + 1);
     result->style = style;
     result->fraction = 1;
-    std::vector<Column> columns = {{"t", "t", "s", {}},
-                                   {"q.theta", "θ", "rad", {}},
-                                   {"p.theta", "p", "kg m²/s", {}},
-                                   {"energy", "H", "J", {}},
-                                   {"energy_error", "H - H(0)", "J", {}},
-                                   {"error", "q - q ref", "rad", {}}};
+    std::vector<Column> columns = {
+        {"t", "t", "s", {}},      {"q.theta", "θ", "rad", {}},           {"p.theta", "p", "kg m²/s", {}},
+        {"energy", "H", "J", {}}, {"energy_error", "H - H(0)", "J", {}}, {"error", "q - q ref", "rad", {}}};
     for (int i = 0; i < rows; ++i) {
         const double t = end * i / (rows - 1), phase = 2 * std::numbers::pi * t / 2.1;
         const double e = amplitude * (std::sin(3 * phase) + growth * t);
@@ -84,7 +81,8 @@ inline Comparison comparison() {
                  scheme("midpoint", 2, 1e-3, 0, 10), scheme("RK4", 3, 1e-3, 9, 10)};
     auto failed = std::make_shared<SchemeResult>(*scheme("Störmer-Verlet", 4, 1e-2, 0, 0.31, 32));
     Trajectory& run = failed->trajectory;
-    for (std::size_t i = 0; i < run.rows(); ++i) run.columns[4].values[i] *= std::pow(10.0, static_cast<double>(i));
+    for (std::size_t i = 0; i < run.rows(); ++i)
+        run.columns[4].values[i] *= std::pow(10.0, static_cast<double>(i));
     run.columns[4].values.back() = std::numeric_limits<double>::infinity();
     failed->summary.status = RunStatus::failed;
     failed->summary.cause = Outcome::notFinite;

@@ -12,14 +12,16 @@
 namespace extremal::handmade {
 
 inline Scene mapScene() {
-    return readScene(std::string(R"({"extremal":1,"model":{"type":"harmonic-oscillator","k":100},"time":{"end":1},"initial":{"q":[1],"p":[0]},
+    return readScene(
+               std::string(
+                   R"({"extremal":1,"model":{"type":"harmonic-oscillator","k":100},"time":{"end":1},"initial":{"q":[1],"p":[0]},
         "schemes":[{"label":"midpoint","step":0.02,"scheme":"midpoint"},{"label":"RK4","step":0.05,"baseline":"rk4"}],
         "observe":["energy"],"views":[{"view":"parameter-map","from":1,"to":1e5,"steps":[0.001,0.1],"cells":[6,5]}]})"))
         .scene;
 }
 
-/// 10^-(10 - i - j) at value i and step j; of the midpoint rule beyond i + j = 7 blown up, failed, or not computed. RK4
-/// is a hundred times worse.
+/// 10^-(10 - i - j) at value i and step j; of the midpoint rule beyond i + j = 7 blown up, failed, or not
+/// computed. RK4 is a hundred times worse.
 inline Comparison mapComparison() {
     Comparison c;
     c.scene = mapScene();

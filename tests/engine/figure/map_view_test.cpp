@@ -30,7 +30,8 @@ private slots:
         QCOMPARE(midpoint.x.title, std::string("k  [N/m]"));
         QCOMPARE(midpoint.y.title, std::string("h  [s]"));
         QVERIFY(midpoint.x.isLog && midpoint.y.isLog);
-        QVERIFY2(midpoint.subtitle.find("to t = 1 s · 5 of 30 fail") != std::string::npos, midpoint.subtitle.c_str());
+        QVERIFY2(midpoint.subtitle.find("to t = 1 s · 5 of 30 fail") != std::string::npos,
+                 midpoint.subtitle.c_str());
     }
     void theDotIsTheScene() {
         const Figure rk4 = handmade::mapFigure("RK4");
@@ -46,7 +47,8 @@ private slots:
         QCOMPARE(cell->x, 1000.0);
         QCOMPARE(cell->y, 0.01);
         QCOMPARE(cell->text, std::string("k = 1000 N/m, h = 0.01 s\nmax |H − H(0)| = 1e-05 J"));
-        QCOMPARE(cellAt(figure, 1e5, 0.1)->text.substr(cellAt(figure, 1e5, 0.1)->text.find('\n') + 1), std::string("blow-up"));
+        QCOMPARE(cellAt(figure, 1e5, 0.1)->text.substr(cellAt(figure, 1e5, 0.1)->text.find('\n') + 1),
+                 std::string("blow-up"));
         QVERIFY(cellAt(figure, 1e4, 0.0316)->text.ends_with("diverged"));
         QVERIFY(cellAt(figure, 1e5, 0.01)->text.ends_with("not known"));
         QVERIFY(cellAt(figure, 0.32, 0.01) && !cellAt(figure, 0.31, 0.01));
@@ -55,9 +57,11 @@ private slots:
     void dataHaveARowForEachCell() {
         Figure figure = handmade::mapFigure("midpoint");
         const std::string all = figureCsv(figure, false);
-        QVERIFY2(all.starts_with("k  [N/m],h  [s],max |H − H(0)|  [J],outcome\n1,0.001,1e-10,\n"), all.c_str());
+        QVERIFY2(all.starts_with("k  [N/m],h  [s],max |H − H(0)|  [J],outcome\n1,0.001,1e-10,\n"),
+                 all.c_str());
         QCOMPARE(std::count(all.begin(), all.end(), '\n'), std::ptrdiff_t(31));
-        QVERIFY(all.find("\n100000,0.1,,blow-up\n") != std::string::npos || all.find("\n1e+05,0.1,,blow-up\n") != std::string::npos);
+        QVERIFY(all.find("\n100000,0.1,,blow-up\n") != std::string::npos ||
+                all.find("\n1e+05,0.1,,blow-up\n") != std::string::npos);
         figure.x.range = {5, 500};
         const std::string some = figureCsv(figure, true);
         QCOMPARE(std::count(some.begin(), some.end(), '\n'), std::ptrdiff_t(11));

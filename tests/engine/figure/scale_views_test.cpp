@@ -48,7 +48,8 @@ private slots:
             QVERIFY(!f.x.isLog && !f.y.isLog && f.x.isTime);
             for (std::size_t i = 0; i < 2; ++i) {
                 const auto values = c.schemes[i]->trajectory[column];
-                QVERIFY(values.size() == 26 && std::equal(values.begin(), values.end(), f.series[i].y.begin(), f.series[i].y.end()));
+                QVERIFY(values.size() == 26 &&
+                        std::equal(values.begin(), values.end(), f.series[i].y.begin(), f.series[i].y.end()));
             }
         }
         QCOMPARE(makeFigure(c, views[0]).y.title, std::string("H_fast  [J]"));
@@ -58,7 +59,8 @@ private slots:
         const Scene scene = spring(stiff, all).scene;
         const Comparison c = run(scene);
         const Figure f = makeFigure(c, plotViews(scene)[2]);
-        // The invariant of the true motion changes by 2.6e-5 of itself here; a scheme that loses the spring makes more of it.
+        // The invariant of the true motion changes by 2.6e-5 of itself here; a scheme that loses the spring
+        // makes more of it.
         double change[2];
         for (std::size_t i = 0; i < 2; ++i) {
             const auto y = c.schemes[i]->trajectory["adiabatic_invariant"];
@@ -67,19 +69,21 @@ private slots:
         }
         qInfo("relative change: %.2g, %.2g; %s", change[0], change[1], f.subtitle.c_str());
         QVERIFY(change[0] < 1e-4 && change[1] > 2 * change[0]);
-        QVERIFY(f.subtitle.starts_with("largest relative change: ") && f.subtitle.find("(R2) to ") != std::string::npos &&
-                f.subtitle.ends_with("(coarse)"));
+        QVERIFY(f.subtitle.starts_with("largest relative change: ") &&
+                f.subtitle.find("(R2) to ") != std::string::npos && f.subtitle.ends_with("(coarse)"));
     }
     void whatIsNotObservedIsAWarning() {
         const ReadScene read = spring(stiff, R"(["energy"])");
         QVERIFY(read.errors.empty());
-        QVERIFY(warnsOf(read, "fast-energy is not observed") && warnsOf(read, "adiabatic-invariant is not observed"));
+        QVERIFY(warnsOf(read, "fast-energy is not observed") &&
+                warnsOf(read, "adiabatic-invariant is not observed"));
         const Figure f = makeFigure(run(read.scene), plotViews(read.scene)[0]);
         QCOMPARE(f.message, std::string("The scene does not observe \"fast-energy\""));
         QVERIFY(!warnsOf(spring(stiff, all), "not observed"));
     }
     void aModelWithoutAFastOscillationHasNothingToShow() {
-        QVERIFY(warnsOf(spring(R"({"type":"double-pendulum"})", R"(["energy"])"), "fast-energy is nothing this model has"));
+        QVERIFY(warnsOf(spring(R"({"type":"double-pendulum"})", R"(["energy"])"),
+                        "fast-energy is nothing this model has"));
     }
 };
 

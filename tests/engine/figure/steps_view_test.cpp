@@ -18,10 +18,11 @@
 namespace extremal::steps_view_test {
 namespace {
 
-std::string pendulumText(const std::string& scheme, const std::string& end, const std::string& views, const std::string& more = "") {
-    return R"({"extremal": 1, "model": {"type": "pendulum"}, "initial": {"q": [2]}, "time": {"start": 1, "end": )" + end +
-           R"(}, "schemes": [{"label": "one", )" + scheme + R"(}], "reference": {"type": "none"}, "observe": ["energy"], "views": )" + views + more +
-           "}";
+std::string pendulumText(const std::string& scheme, const std::string& end, const std::string& views,
+                         const std::string& more = "") {
+    return R"({"extremal": 1, "model": {"type": "pendulum"}, "initial": {"q": [2]}, "time": {"start": 1, "end": )" +
+           end + R"(}, "schemes": [{"label": "one", )" + scheme +
+           R"(}], "reference": {"type": "none"}, "observe": ["energy"], "views": )" + views + more + "}";
 }
 
 Trajectory rowsOf(const std::string& scheme, const std::string& end, const std::string& more = "") {
@@ -42,13 +43,15 @@ private slots:
         for (const char* every : {"", R"(, "output": {"every": 0.37})"}) {
             const Trajectory rows = rowsOf(R"("step": 0.001, "baseline": "stormer-verlet")", "8", every);
             QVERIFY(rows.rows() > 15 && rows.nodes.size() == rows.rows());
-            for (std::size_t r = 0; r < rows.rows(); ++r) QCOMPARE(rows.nodes[r], std::round((rows["t"][r] - 1) / 0.001));
+            for (std::size_t r = 0; r < rows.rows(); ++r)
+                QCOMPARE(rows.nodes[r], std::round((rows["t"][r] - 1) / 0.001));
         }
     }
     /// The other route: a run that keeps every node says which step ends at a time.
     void rowsKnowTheirStepWhereStepsDiffer() {
         const char* scheme = R"("tolerance": 1e-9, "baseline": "dopri5")";
-        const Trajectory all = rowsOf(scheme, "21"), some = rowsOf(scheme, "21", R"(, "output": {"every": 1.3})");
+        const Trajectory all = rowsOf(scheme, "21"),
+                         some = rowsOf(scheme, "21", R"(, "output": {"every": 1.3})");
         QVERIFY(all.rows() > 100 && all.rows() < 2000 && some.rows() > 10 && some.rows() < 20);
         std::map<double, double> stepAt;
         for (std::size_t r = 0; r < all.rows(); ++r) {
@@ -59,9 +62,11 @@ private slots:
             QVERIFY(stepAt.count(some["t"][r]) == 1);
             QCOMPARE(some.nodes[r], stepAt.at(some["t"][r]));
         }
-        const double mean = (some["t"].back() - 1) / some.nodes.back();  // as if they were equal: several rows are others
+        const double mean =
+            (some["t"].back() - 1) / some.nodes.back();  // as if they were equal: several rows are others
         int wrong = 0;
-        for (std::size_t r = 0; r < some.rows(); ++r) wrong += some.nodes[r] != std::round((some["t"][r] - 1) / mean);
+        for (std::size_t r = 0; r < some.rows(); ++r)
+            wrong += some.nodes[r] != std::round((some["t"][r] - 1) / mean);
         QVERIFY(wrong > 3);
     }
     void rowsLeftOutTakeTheirStepsAlong() {
@@ -74,17 +79,19 @@ private slots:
         QVERIFY(rows.nodes.back() > rows.nodes[rows.rows() - 2]);
     }
     void rowsInsideStepsHaveFractions() {
-        const Trajectory rows =
-            rowsOf(R"("step": 0.1, "scheme": "galerkin-gauss-2")", "4", R"(, "output": {"every": 0.03, "dense": true})");
+        const Trajectory rows = rowsOf(R"("step": 0.1, "scheme": "galerkin-gauss-2")", "4",
+                                       R"(, "output": {"every": 0.03, "dense": true})");
         QVERIFY(rows.rows() > 90);
-        for (std::size_t r = 0; r < rows.rows(); ++r) QVERIFY(std::abs(rows.nodes[r] - 0.3 * static_cast<double>(r)) < 1e-9);
+        for (std::size_t r = 0; r < rows.rows(); ++r)
+            QVERIFY(std::abs(rows.nodes[r] - 0.3 * static_cast<double>(r)) < 1e-9);
     }
 
     void theAxisCountsSteps() {
         const Scene scene = sceneWith(R"([{"view": "energy", "against": "steps"}, "energy"])").scene;
         const Comparison comparison = run(scene);
         const System system = makeSystem(scene);
-        const Figure steps = makeFigure(comparison, scene.views.at(0), &system), time = makeFigure(comparison, scene.views.at(1), &system);
+        const Figure steps = makeFigure(comparison, scene.views.at(0), &system),
+                     time = makeFigure(comparison, scene.views.at(1), &system);
         QVERIFY(steps.x.isLog && !steps.x.isTime && time.x.isTime && !time.x.isLog);
         QCOMPARE(steps.x.title, std::string("steps"));
         QVERIFY(axesOf(scene.views[0], system).isXLog && axesOf(scene.views[0], system).variable == "n");
@@ -107,7 +114,8 @@ private slots:
         const Figure figure = makeFigure(run(scene), scene.views.at(0), &system);
         const Series& chance = figure.series.back();
         QCOMPARE(chance.style, formulaStyle);
-        QVERIFY(std::abs(std::log(chance.y[1] / chance.y[0]) / std::log(chance.x[1] / chance.x[0]) - 0.5) < 1e-12);
+        QVERIFY(std::abs(std::log(chance.y[1] / chance.y[0]) / std::log(chance.x[1] / chance.x[0]) - 0.5) <
+                1e-12);
         QVERIFY(chance.x[0] == 1 && std::abs(chance.y[0] / *figure.floor - 1) < 1e-12);
         QVERIFY(figure.subtitle.starts_with("relative, at most: ") && figure.subtitle.ends_with("(one)"));
     }
@@ -118,7 +126,8 @@ private slots:
         auto counted = std::make_shared<SchemeResult>(*handmade::scheme("line", 0, 1e-7, 0, 10, 2001));
         for (std::size_t r = 0; r < counted->trajectory.rows(); ++r) {
             counted->trajectory.nodes.push_back(static_cast<double>(r));
-            counted->trajectory.columns[5].values[r] = r == 1500 ? 1e-30 : 1e-12 * static_cast<double>(r);  // and a spike
+            counted->trajectory.columns[5].values[r] =
+                r == 1500 ? 1e-30 : 1e-12 * static_cast<double>(r);  // and a spike
         }
         made.schemes[0] = counted;
         const System system = handmade::pendulum();
@@ -126,14 +135,17 @@ private slots:
         view.keys.keys.emplace_back("against", "steps");
         QCOMPARE(counted->trajectory.columns[5].name, std::string("error"));
         const auto range = *makeFigure(made, view, &system).y.range;
-        QVERIFY2(range.first < 3e-12 && range.first > 1e-14 && range.second > 2e-9, std::to_string(std::log10(range.first)).c_str());
+        QVERIFY2(range.first < 3e-12 && range.first > 1e-14 && range.second > 2e-9,
+                 std::to_string(std::log10(range.first)).c_str());
     }
     void againstTimeIsAsBefore() {
         const System system = handmade::pendulum();
         View plain{"energy", "", ""}, said = plain;
         said.keys.keys.emplace_back("against", "time");
-        QCOMPARE(digest(makeFigure(handmade::comparison(), said, &system)), digest(makeFigure(handmade::comparison(), plain, &system)));
-        QVERIFY(digest(makeFigure(handmade::comparison(), plain, &system)).find("chance") == std::string::npos);
+        QCOMPARE(digest(makeFigure(handmade::comparison(), said, &system)),
+                 digest(makeFigure(handmade::comparison(), plain, &system)));
+        QVERIFY(digest(makeFigure(handmade::comparison(), plain, &system)).find("chance") ==
+                std::string::npos);
     }
 
     void theKeyIsReadWrittenAndChecked() {
@@ -146,16 +158,19 @@ private slots:
         QVERIFY(*toValue(time).find("views") == Value(Value::Array{"energy", "energy"}));
 
         const auto phase = sceneWith(R"([{"view": "phase", "x": "q.theta", "y": "p.theta"}])");
-        QVERIFY(phase.errors.empty() && phase.scene.views.at(0).keys.keys.empty());  // keys that other parts of a view read
+        QVERIFY(phase.errors.empty() &&
+                phase.scene.views.at(0).keys.keys.empty());  // keys that other parts of a view read
 
         const auto message = [](const std::string& views) {
             const auto read = sceneWith(views);
-            return read.errors.empty() ? std::string() : read.errors.front().pointer + ": " + read.errors.front().message;
+            return read.errors.empty() ? std::string()
+                                       : read.errors.front().pointer + ": " + read.errors.front().message;
         };
         QCOMPARE(message(R"([{"view": "energy", "against": "step"}])"),
                  std::string("/views/0/against: must be one of time and steps, got \"step\""));
         QVERIFY(message(R"([{"view": "phase", "against": "steps"}])").starts_with("/views/0/against: "));
-        QVERIFY(message(R"([{"view": "energy", "against": "steps", "range": {"x": [0, 90]}}])").starts_with("/views/0/range/x/0"));
+        QVERIFY(message(R"([{"view": "energy", "against": "steps", "range": {"x": [0, 90]}}])")
+                    .starts_with("/views/0/range/x/0"));
         QCOMPARE(message(R"([{"view": "energy", "range": {"x": [0, 9]}}])"), std::string());
     }
     void aCurveIsOfTheNumberOfSteps() {
@@ -164,7 +179,8 @@ private slots:
         const System system = makeSystem(read.scene);
         const Series curve = makeFigure(run(read.scene), read.scene.views.at(0), &system).series.back();
         QVERIFY(curve.x.size() > 4000);
-        for (std::size_t i = 0; i < curve.x.size(); ++i) QVERIFY(std::abs(curve.y[i] / (1e-6 * curve.x[i] * curve.x[i]) - 1) < 1e-9);
+        for (std::size_t i = 0; i < curve.x.size(); ++i)
+            QVERIFY(std::abs(curve.y[i] / (1e-6 * curve.x[i] * curve.x[i]) - 1) < 1e-9);
         const double ratio = curve.x[1] / curve.x[0];  // equally spaced on the logarithmic axis
         QVERIFY(std::abs(curve.x[4000] / curve.x[3999] / ratio - 1) < 1e-9);
         QVERIFY(!sceneWith(R"([{"view": "energy", "against": "steps", "curve": "1e-6*t"}])").errors.empty());

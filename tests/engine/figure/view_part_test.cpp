@@ -48,7 +48,8 @@ private slots:
                 const Figure f = makeFigure(comparison, view, &system);
                 const ViewAxes axes = axesOf(view, system);
                 QVERIFY2(axes.isXLog == f.x.isLog && axes.isYLog == f.y.isLog, entry.item.id.c_str());
-                QVERIFY2((axes.variable == "t") == f.x.isTime || entry.item.id == "section", entry.item.id.c_str());
+                QVERIFY2((axes.variable == "t") == f.x.isTime || entry.item.id == "section",
+                         entry.item.id.c_str());
             }
         const System kepler = handmade::kepler();
         QCOMPARE(axesOf({"trajectory", "", ""}, kepler).variable, std::string());
@@ -79,7 +80,8 @@ private slots:
         f.series[0].y = {0, 100};
         View view = part("phase", {4, 6});
         fitAxes(f, view, "");
-        QVERIFY(f.y.range->first > 35 && f.y.range->first < 40 && f.y.range->second > 60 && f.y.range->second < 65);
+        QVERIFY(f.y.range->first > 35 && f.y.range->first < 40 && f.y.range->second > 60 &&
+                f.y.range->second < 65);
         f.series[0].hasLine = false;  // dots are outside altogether
         f.x.range = f.y.range = {};
         fitAxes(f, view, "");
@@ -114,19 +116,23 @@ private slots:
         const Comparison comparison = run(scene);
         const Figure f = makeFigure(comparison, scene.views[2]);
         QVERIFY(f.series.size() == 2 && f.subtitle == "of node 2 of 10, x = 0.2 · zoomed");
-        QVERIFY(f.x.range->first == 0.2 && f.x.range->second == 0.3 && std::abs(f.x.whole->first - 0.1) < 1e-15);
+        QVERIFY(f.x.range->first == 0.2 && f.x.range->second == 0.3 &&
+                std::abs(f.x.whole->first - 0.1) < 1e-15);
         QCOMPARE(f.series[0].y[f.series[0].y.size() / 2], 1.0);
-        // Where the source hardly acts the solution is a multiple of the shape function; of the hat it is none.
+        // Where the source hardly acts the solution is a multiple of the shape function; of the hat it is
+        // none.
         const Figure u = makeFigure(comparison, {"trajectory", "", "u_exact"});
         QVERIFY(u.series.size() == 1 && u.series[0].style == exactStyle && u.y.title == "u");
         const auto at = [](const Series& s, double x) { return pointAt(s, x)->second; };
         double apart[2] = {0, 0};
         for (double x = 0.205; x < 0.3; x += 0.005)
             for (std::size_t i = 0; i < 2; ++i) {
-                const double share = (at(u.series[0], x) - at(u.series[0], 0.3)) / (at(u.series[0], 0.2) - at(u.series[0], 0.3));
+                const double share = (at(u.series[0], x) - at(u.series[0], 0.3)) /
+                                     (at(u.series[0], 0.2) - at(u.series[0], 0.3));
                 apart[i] = std::max(apart[i], std::abs(share - at(f.series[i], x)));
             }
-        qInfo("the solution differs from the multiscale function by %.3f, from the hat by %.3f", apart[0], apart[1]);
+        qInfo("the solution differs from the multiscale function by %.3f, from the hat by %.3f", apart[0],
+              apart[1]);
         QVERIFY(apart[0] < 0.02 && apart[1] > 0.05);
     }
     void whatTheAxisCannotShowIsAGap() {

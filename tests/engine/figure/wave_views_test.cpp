@@ -20,7 +20,8 @@ ReadScene waveScene(const std::string& views) {
     return readScene(R"({"extremal": 1, "model": {"type": "schrodinger", "potential": "free", "modes": 32},
         "initial": {"psi": {"packet": "plane-wave", "wave_number": 3}}, "time": {"end": 0.5},
         "schemes": [{"label": "a", "step": 0.05, "scheme": "schrodinger-gauss-8"}, {"label": "b", "step": 0.05, "baseline": "strang"}],
-        "observe": ["norm"], "views": )" + views + "}");
+        "observe": ["norm"], "views": )" +
+                     views + "}");
 }
 
 }  // namespace
@@ -38,22 +39,26 @@ class WaveViewsTest : public QObject {
     }
 
 private slots:
-    /// exp(i (3 x - 4.5 t))/sqrt(2 pi) at t = 0.5; Gauss 16 and the splitting, without a potential, are exact to round-off.
+    /// exp(i (3 x - 4.5 t))/sqrt(2 pi) at t = 0.5; Gauss 16 and the splitting, without a potential, are exact
+    /// to round-off.
     void partsAreThoseOfThePlaneWave() {
         const auto largest = [](const Series& s, const auto& exact) {
             double worst = 0;
-            for (std::size_t j = 0; j < s.x.size(); ++j) worst = std::max(worst, std::abs(s.y[j] - exact(3 * s.x[j] - 2.25)));
+            for (std::size_t j = 0; j < s.x.size(); ++j)
+                worst = std::max(worst, std::abs(s.y[j] - exact(3 * s.x[j] - 2.25)));
             return worst;
         };
         const double size = 1 / std::sqrt(2 * M_PI);
         const auto cosine = [&](double phase) { return size * std::cos(phase); };
         const auto sine = [&](double phase) { return size * std::sin(phase); };
         for (std::size_t scheme = 0; scheme < 2; ++scheme) {
-            QVERIFY(largest(profile("real").series.at(scheme), cosine) < 1e-13);       // measured 5.1e-15
+            QVERIFY(largest(profile("real").series.at(scheme), cosine) < 1e-13);  // measured 5.1e-15
             QVERIFY(largest(profile("imaginary").series.at(scheme), sine) < 1e-13);
             QVERIFY(largest(profile("modulus").series.at(scheme), [&](double) { return size; }) < 1e-13);
-            QVERIFY(largest(profile("imaginary").series.at(scheme), cosine) > 0.3);    // parts are not exchanged
-            QVERIFY(largest(profile("imaginary").series.at(scheme), [&](double p) { return -sine(p); }) > 0.3);
+            QVERIFY(largest(profile("imaginary").series.at(scheme), cosine) >
+                    0.3);  // parts are not exchanged
+            QVERIFY(largest(profile("imaginary").series.at(scheme), [&](double p) { return -sine(p); }) >
+                    0.3);
         }
         QCOMPARE(profile("real").y.title, std::string("Re ψ"));
         QCOMPARE(profile("imaginary").y.title, std::string("Im ψ"));
@@ -73,10 +78,12 @@ private slots:
         QCOMPARE(both.y.title, std::string("ψ"));
         QCOMPARE(both.subtitle, std::string("at t = 0.5, Im ψ is pale"));
         const std::string csv = figureCsv(both, false);
-        QVERIFY(csv.find("\n\"a, Re ψ\",0,") != std::string::npos && csv.find("\n\"b, Im ψ\",0,") != std::string::npos);
+        QVERIFY(csv.find("\n\"a, Re ψ\",0,") != std::string::npos &&
+                csv.find("\n\"b, Im ψ\",0,") != std::string::npos);
     }
     void theKeyIsReadAndChecked() {
-        const auto read = waveScene(R"([{"view": "profile", "part": "both"}, {"view": "profile", "part": "modulus"}, "profile"])");
+        const auto read = waveScene(
+            R"([{"view": "profile", "part": "both"}, {"view": "profile", "part": "modulus"}, "profile"])");
         QVERIFY(read.errors.empty());
         QCOMPARE(read.scene.views.at(0).keys.text("part"), std::string("both"));
         QVERIFY(read.scene.views.at(1) == read.scene.views.at(2));
@@ -87,7 +94,8 @@ private slots:
 
     /// A plane wave exp(i (2 x - 3 y)): one size everywhere, phases known; 16 x 8 nodes.
     void viewsOfARectangle() {
-        const ReadScene read = readScene(std::string_view(R"({"extremal": 1, "model": {"type": "schrodinger-2d", "modes": 16, "modes_y": 8, "domain_y": [1, 3]},
+        const ReadScene read = readScene(std::string_view(
+            R"({"extremal": 1, "model": {"type": "schrodinger-2d", "modes": 16, "modes_y": 8, "domain_y": [1, 3]},
             "initial": {"psi": {"packet": "plane-wave", "wave_number": 2, "wave_number_y": "-pi"}}, "time": {"end": 0.5},
             "schemes": [{"label": "a", "step": 0.25, "baseline": "strang"}, {"label": "b", "step": 0.05, "baseline": "strang"}],
             "observe": ["norm"], "views": [{"view": "profile", "scheme": "b"}, "carpet", "spectrum", "levels"]})"));
@@ -101,12 +109,14 @@ private slots:
         for (int column = 0; column < 16; ++column)
             for (int row = 0; row < 8; ++row) {
                 const auto k = static_cast<std::size_t>(column * 8 + row);
-                const double x = 2 * M_PI * column / 16, y = 1 + 2.0 * row / 8, phase = 2 * x - M_PI * y - 0.5 * E;
+                const double x = 2 * M_PI * column / 16, y = 1 + 2.0 * row / 8,
+                             phase = 2 * x - M_PI * y - 0.5 * E;
                 QVERIFY(std::abs(profile.heat->values[k] - size) < 1e-13);
                 QVERIFY(std::abs(std::remainder(profile.heat->hues[k] - phase / (2 * M_PI), 1)) < 1e-12);
             }
         // A node is in the middle of its cell.
-        QVERIFY(std::abs(profile.heat->left + M_PI / 16) < 1e-14 && std::abs(profile.heat->bottom - 0.875) < 1e-14);
+        QVERIFY(std::abs(profile.heat->left + M_PI / 16) < 1e-14 &&
+                std::abs(profile.heat->bottom - 0.875) < 1e-14);
         View real = read.scene.views[0];
         real.keys.keys.emplace_back("part", "real");
         const Figure parts = makeFigure(comparison, real, &system);
@@ -127,7 +137,8 @@ private slots:
         }
         QVERIFY(!makeFigure(comparison, read.scene.views[3], &system).message.empty());
         // A profile over a line shows every scheme, and names none.
-        QCOMPARE(waveScene(R"([{"view": "profile", "scheme": "b"}])").errors.at(0).pointer, std::string("/views/0/scheme"));
+        QCOMPARE(waveScene(R"([{"view": "profile", "scheme": "b"}])").errors.at(0).pointer,
+                 std::string("/views/0/scheme"));
     }
 };
 

@@ -123,7 +123,8 @@ private slots:
             const ActionDefect d = actionDefect(kepler_, pair, 0, exact, {});
             qInfo("order %d: slope %.3f over %d points", order, d.order, d.fitTo - d.fitFrom);
             QVERIFY(d.failure.empty());
-            QVERIFY(std::abs(d.order - (order + 1)) < 0.1);  // 3.00, 5.00, 6.95: in double precision, over the window there is
+            QVERIFY(std::abs(d.order - (order + 1)) <
+                    0.1);  // 3.00, 5.00, 6.95: in double precision, over the window there is
         }
     }
     void aFitOfPointsThatAreOnNoLineIsNone() {
@@ -136,8 +137,7 @@ private slots:
     void theDefectOfAWrongRuleHasAnotherOrder() {
         // Degree 2 with the two nodes of the trapezoid: order 2, not 4. The measurement must tell.
         ExactActions exact(kepler_, keplerStart, 0.2);
-        const ActionDefect d =
-            actionDefect(kepler_, polynomialPair(2, {"trapezoid", {}, {}}), 0, exact, {});
+        const ActionDefect d = actionDefect(kepler_, polynomialPair(2, {"trapezoid", {}, {}}), 0, exact, {});
         qInfo("slope %.3f", d.order);
         QVERIFY(std::abs(d.order - 3) < 0.15);
     }

@@ -11,11 +11,15 @@
 namespace extremal::pair_test {
 namespace {
 
-Settings polynomial(int degree) { return {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}}; }
+Settings polynomial(int degree) {
+    return {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
+}
 Settings spline(int degree, int cells) {
     return {"spline", {{"degree", static_cast<double>(degree)}, {"cells", static_cast<double>(cells)}}, {}};
 }
-PairProperties known(const Settings& space, Settings rule) { return describe(space, completeQuadrature(space, rule)); }
+PairProperties known(const Settings& space, Settings rule) {
+    return describe(space, completeQuadrature(space, rule));
+}
 Settings nodes(const char* rule, int n, int panels = 1) {
     return {rule, {{"nodes", static_cast<double>(n)}, {"panels", static_cast<double>(panels)}}, {}};
 }
@@ -33,7 +37,8 @@ private slots:
         QCOMPARE(completeQuadrature(polynomial(3), {"midpoint", {}, {}}).integer("panels"), 1);
     }
     void theRuleCountsTwiceInStationarity() {
-        // The measured orders of these are in the handbook; min(2s, order of the rule) would be 6, 4, 8 and 6.
+        // The measured orders of these are in the handbook; min(2s, order of the rule) would be 6, 4, 8
+        // and 6.
         QCOMPARE(known(polynomial(5), nodes("clenshaw-curtis", 6)).claims.order, 4);
         QCOMPARE(known(polynomial(4), nodes("clenshaw-curtis", 4)).claims.order, 2);
         QCOMPARE(known(polynomial(6), nodes("clenshaw-curtis", 7)).claims.order, 6);
@@ -48,7 +53,8 @@ private slots:
     }
     void rulesThatDoNotIntegrateVelocitiesAreRefused() {
         for (const int panels : {4, 5, 9}) {
-            const PairProperties p = known(polynomial(4), {"trapezoid", {{"panels", static_cast<double>(panels)}}, {}});
+            const PairProperties p =
+                known(polynomial(4), {"trapezoid", {{"panels", static_cast<double>(panels)}}, {}});
             QVERIFY2(p.refusal.find("free particle") != std::string::npos, p.refusal.c_str());
         }
         // Splines want panels that end at their knots.
@@ -63,9 +69,11 @@ private slots:
         }
     }
     void interiorFunctionsAreOrthonormalWhateverTheBasis() {
-        for (const auto basis : {PolynomialBasis::lobatto, PolynomialBasis::equispaced, PolynomialBasis::chebyshevModal}) {
+        for (const auto basis :
+             {PolynomialBasis::lobatto, PolynomialBasis::equispaced, PolynomialBasis::chebyshevModal}) {
             const auto table = makeTable(polynomialSpace<double>(24, basis), gauss<double>(24));
-            const Eigen::MatrixXd gram = table.derivative.transpose() * table.weight.asDiagonal() * table.derivative;
+            const Eigen::MatrixXd gram =
+                table.derivative.transpose() * table.weight.asDiagonal() * table.derivative;
             const double defect = (gram - Eigen::MatrixXd::Identity(24, 24)).cwiseAbs().maxCoeff();
             qInfo("largest entry of the kinetic matrix minus one: %.2e", defect);
             QVERIFY(defect < 0.02);  // the sum that replaces the integral is that good

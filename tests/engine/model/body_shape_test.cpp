@@ -1,5 +1,5 @@
-/// Bodies on the stage: Poinsot's ellipsoid touches its plane where the herpolhode is drawn, in the ring that the energy
-/// allows; faces look outwards; the tracer alone is the same tracer.
+/// Bodies on the stage: Poinsot's ellipsoid touches its plane where the herpolhode is drawn, in the ring that
+/// the energy allows; faces look outwards; the tracer alone is the same tracer.
 #include <QTest>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 using Vector = so3::Vector<double>;
 
-System body(const std::string& shape, std::array<double, 3> I = {1, 2, 3}, const std::string& model = "rigid-body") {
+System body(const std::string& shape, std::array<double, 3> I = {1, 2, 3},
+            const std::string& model = "rigid-body") {
     Value::Object keys{{"inertia", Value::Array{I[0], I[1], I[2]}}, {"shape", shape}};
     if (model == "heavy-top") {
         keys.push_back({"weight", 1.0});
@@ -59,14 +60,15 @@ private slots:
                 on += inBody(static_cast<int>(i)) * inBody(static_cast<int>(i)) / (a * a);
                 support += a * a * normal(static_cast<int>(i)) * normal(static_cast<int>(i));
             }
-            qInfo("on the ellipsoid %.1e, on the plane %.1e, farthest point %.1e", on - 1, tip.dot(along) - 1.25,
-                  std::sqrt(support) - 1.25);
+            qInfo("on the ellipsoid %.1e, on the plane %.1e, farthest point %.1e", on - 1,
+                  tip.dot(along) - 1.25, std::sqrt(support) - 1.25);
             QVERIFY(std::abs(on - 1) < 1e-14);
             QVERIFY(std::abs(tip.dot(along) - 1.25) < 1e-14);
             QVERIFY(std::abs(std::sqrt(support) - 1.25) < 1e-14);  // no point of it is beyond the plane
             // The solid has its corners on it.
             double farthest = 0;
-            for (const Point& c : solidOf(drawing).corners) farthest = std::max(farthest, fromStage(c).dot(along));
+            for (const Point& c : solidOf(drawing).corners)
+                farthest = std::max(farthest, fromStage(c).dot(along));
             QVERIFY(farthest < 1.25 + 1e-12 && farthest > 1.2);
         }
     }
@@ -111,7 +113,8 @@ private slots:
                 Vector normal = Vector::Zero(), middle = Vector::Zero();
                 for (std::size_t i = 0; i < face.size(); ++i) {
                     const Vector a = fromStage(solid.corners[static_cast<std::size_t>(face[i])]);
-                    const Vector b = fromStage(solid.corners[static_cast<std::size_t>(face[(i + 1) % face.size()])]);
+                    const Vector b =
+                        fromStage(solid.corners[static_cast<std::size_t>(face[(i + 1) % face.size()])]);
                     normal += so3::cross(a, b);
                     middle += a;
                 }
@@ -135,7 +138,8 @@ private slots:
     void thinRodsKeepAVisibleThickness() {
         const System system = body("ellipsoid", {1e-10, 1, 1});
         const std::vector<double> x = whole(startState());
-        for (const double a : poinsotEllipsoid(system.body, x.data(), 1.25).half) QVERIFY(a >= 0.07 && a <= 2.5);
+        for (const double a : poinsotEllipsoid(system.body, x.data(), 1.25).half)
+            QVERIFY(a >= 0.07 && a <= 2.5);
         Drawing drawing;
         system.draw(std::vector<double>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0}.data(), drawing);  // at rest
         for (const Point& c : solidOf(drawing).corners) QVERIFY(std::isfinite(c[0] + c[1] + c[2]));

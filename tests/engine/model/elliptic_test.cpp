@@ -13,21 +13,21 @@ namespace extremal::elliptic_test {
 namespace {
 
 EllipticProblem wavy(double epsilon) {
-    return {[](double s) { return 10 / (1 + 0.95 * std::sin(2 * std::numbers::pi * s)); }, epsilon, [](double x) { return x * x; }};
+    return {[](double s) { return 10 / (1 + 0.95 * std::sin(2 * std::numbers::pi * s)); }, epsilon,
+            [](double x) { return x * x; }};
 }
 
 /// u(0.1 i), i = 1..9, with forty digits of residual, for epsilon = 0.025, 0.00625, 0.0173.
 constexpr std::array<double, 3> epsilons = {0.025, 0.00625, 0.0173};
-constexpr double known[9][3] = {
-    {-0.00082002623133517270, -0.00082938155783379318, -0.00084570110887987491},
-    {-0.00162914178198336524, -0.00164728544549584131, -0.00168571360139180253},
-    {-0.00239810263792426412, -0.00242390065948106603, -0.00245140485775127318},
-    {-0.00307766478513755584, -0.00310941619628438896, -0.00311237743203547169},
-    {-0.00359858420960292691, -0.00363402105240073173, -0.00363684723808195001},
-    {-0.00387161689730006382, -0.00390790422432501595, -0.00391672486689941387},
-    {-0.00378751883420865308, -0.00382125470855216327, -0.00381533730263350584},
-    {-0.00321704600630838120, -0.00324426150157707730, -0.00324043172178330519},
-    {-0.00201095439957893467, -0.00202711359989473367, -0.00205597136977752064}};
+constexpr double known[9][3] = {{-0.00082002623133517270, -0.00082938155783379318, -0.00084570110887987491},
+                                {-0.00162914178198336524, -0.00164728544549584131, -0.00168571360139180253},
+                                {-0.00239810263792426412, -0.00242390065948106603, -0.00245140485775127318},
+                                {-0.00307766478513755584, -0.00310941619628438896, -0.00311237743203547169},
+                                {-0.00359858420960292691, -0.00363402105240073173, -0.00363684723808195001},
+                                {-0.00387161689730006382, -0.00390790422432501595, -0.00391672486689941387},
+                                {-0.00378751883420865308, -0.00382125470855216327, -0.00381533730263350584},
+                                {-0.00321704600630838120, -0.00324426150157707730, -0.00324043172178330519},
+                                {-0.00201095439957893467, -0.00202711359989473367, -0.00205597136977752064}};
 
 double largestNodalError(const EllipticSolution& s, EllipticElements kind) {
     const std::vector<double> u = s.nodal(kind);
@@ -49,7 +49,8 @@ private slots:
         for (std::size_t k = 0; k < 3; ++k) {
             const EllipticSolution s(wavy(epsilons[k]), 10);
             double worst = 0;
-            for (int i = 1; i <= 9; ++i) worst = std::max(worst, std::abs(s.u(0.1 * i) / known[i - 1][k] - 1));
+            for (int i = 1; i <= 9; ++i)
+                worst = std::max(worst, std::abs(s.u(0.1 * i) / known[i - 1][k] - 1));
             qInfo("epsilon %g: %.1e", epsilons[k], worst);
             QVERIFY(worst < 1e-13);
         }
@@ -61,39 +62,48 @@ private slots:
         for (const int elements : {10, 7, 200}) {
             const EllipticSolution solution(wavy(epsilon), elements);
             for (const int node : {1, elements / 2, elements - 1}) {
-                const EllipticHat hat = ellipticHat(wavy(epsilon), EllipticElements::multiscale, elements, node);
-                const EllipticHat straight = ellipticHat(wavy(epsilon), EllipticElements::linear, elements, node);
-                const double x0 = (node - 1.0) / elements, x1 = node / static_cast<double>(elements), x2 = (node + 1.0) / elements;
+                const EllipticHat hat =
+                    ellipticHat(wavy(epsilon), EllipticElements::multiscale, elements, node);
+                const EllipticHat straight =
+                    ellipticHat(wavy(epsilon), EllipticElements::linear, elements, node);
+                const double x0 = (node - 1.0) / elements, x1 = node / static_cast<double>(elements),
+                             x2 = (node + 1.0) / elements;
                 QVERIFY(std::abs(hat.x.front() - x0) < 1e-15 && std::abs(hat.x.back() - x2) < 1e-15);
                 QVERIFY(hat.phi.front() == 0 && hat.phi[hat.phi.size() / 2] == 1 && hat.phi.back() == 0);
                 std::vector<double> unit(static_cast<std::size_t>(elements) + 1);
                 unit[static_cast<std::size_t>(node)] = 1;
                 for (std::size_t i = 0; i < hat.x.size(); ++i) {
                     const double x = hat.x[i];
-                    const double exact = x <= x1 ? (R(x) - R(x0)) / (R(x1) - R(x0)) : (R(x2) - R(x)) / (R(x2) - R(x1));
+                    const double exact =
+                        x <= x1 ? (R(x) - R(x0)) / (R(x1) - R(x0)) : (R(x2) - R(x)) / (R(x2) - R(x1));
                     worst = std::max(worst, std::abs(hat.phi[i] - exact));
                     if (i % 50 == 25)
-                        inElement = std::max(inElement, std::abs(hat.phi[i] - solution.between(EllipticElements::multiscale, unit, x)));
+                        inElement = std::max(
+                            inElement,
+                            std::abs(hat.phi[i] - solution.between(EllipticElements::multiscale, unit, x)));
                     QVERIFY(std::abs(straight.phi[i] - (1 - std::abs(x - x1) * elements)) < 1e-12);
                     apart = std::max(apart, std::abs(hat.phi[i] - straight.phi[i]));
                 }
             }
         }
-        qInfo("from the closed form %.1e, from the elements %.1e, from straight lines %.2f", worst, inElement, apart);
+        qInfo("from the closed form %.1e, from the elements %.1e, from straight lines %.2f", worst, inElement,
+              apart);
         QVERIFY(worst < 1e-12 && inElement < 1e-12);  // measured: 2.5e-13 (the closed form cancels), 1e-14
         QVERIFY(apart > 0.05);                        // a hat that does not know the coefficient is seen
     }
     void multiscaleElementsAreExactAtTheNodes() {
         for (const double epsilon : epsilons)
             for (const int n : {10, 20, 40, 80, 160}) {
-                const double error = largestNodalError(EllipticSolution(wavy(epsilon), n), EllipticElements::multiscale);
+                const double error =
+                    largestNodalError(EllipticSolution(wavy(epsilon), n), EllipticElements::multiscale);
                 qInfo("epsilon %g, %d elements: %.1e", epsilon, n, error);
                 QVERIFY(error < 1e-13);
             }
     }
     void linearElementsMissTheCoefficient() {
         for (const double epsilon : epsilons) {
-            const double error = largestNodalError(EllipticSolution(wavy(epsilon), 10), EllipticElements::linear);
+            const double error =
+                largestNodalError(EllipticSolution(wavy(epsilon), 10), EllipticElements::linear);
             qInfo("epsilon %g: %.3f", epsilon, error);
             QVERIFY(error > 0.5);  // 0.68 to 0.69
         }
@@ -120,7 +130,8 @@ private slots:
     }
     void anyCoefficientAndForceWork() {
         // a = exp(sin), f = cos 3x: against the equation itself, by differences of the flux a u' - F.
-        const EllipticProblem p{[](double s) { return std::exp(std::sin(6 * s)); }, 0.05, [](double x) { return std::cos(3 * x); }};
+        const EllipticProblem p{[](double s) { return std::exp(std::sin(6 * s)); }, 0.05,
+                                [](double x) { return std::cos(3 * x); }};
         const EllipticSolution s(p, 16);
         QVERIFY(largestNodalError(s, EllipticElements::multiscale) < 1e-13);
         const auto flux = [&](double x) {

@@ -25,7 +25,8 @@ private slots:
         QTest::newRow("some turns away") << "pendulum" << QList<double>{13, 0.3} << 1.0;
         QTest::newRow("close to the separatrix") << "pendulum" << QList<double>{1, separatrix - 1e-3} << 1.0;
         QTest::newRow("ellipse") << "kepler" << QList<double>{0.4, 0, 0, 2} << 1.0;
-        QTest::newRow("ellipse, clockwise, other mu") << "kepler" << QList<double>{0.3, 0.5, 0.9, -1.1} << 1.7;
+        QTest::newRow("ellipse, clockwise, other mu")
+            << "kepler" << QList<double>{0.3, 0.5, 0.9, -1.1} << 1.7;
         QTest::newRow("circle") << "kepler" << QList<double>{1, 0, 0, 1} << 1.0;
         QTest::newRow("hyperbola") << "kepler" << QList<double>{1, 0.2, 0.3, 1.9} << 1.0;
     }
@@ -54,7 +55,8 @@ private slots:
         QVERIFY(laws::distance(x, state.x, 0, x.size()) < 1e-13);
     }
     void manyTimesAreAsGoodAsOneByOne() {
-        // Kepler's solution turns the anomaly from time to time; it must not drift from one made for that time alone.
+        // Kepler's solution turns the anomaly from time to time; it must not drift from one made for that
+        // time alone.
         const System kepler = laws::systemNamed("kepler");
         const ExactSolution solution = kepler.exact(laws::keplerStart);
         for (const double spacing : {0.0005, 0.005, 0.3}) {  // the last: too far apart to march
@@ -66,18 +68,20 @@ private slots:
                 solution(t, x.data(), 4);
                 for (std::size_t i = 0; i < t.size(); ++i) {
                     solution(t[i], y);
-                    for (std::size_t c = 0; c < 4; ++c) worst = std::max(worst, std::abs(x[4 * i + c] - y[c]));
+                    for (std::size_t c = 0; c < 4; ++c)
+                        worst = std::max(worst, std::abs(x[4 * i + c] - y[c]));
                 }
             }
             qInfo("%g: %.2e", spacing, worst);
-            // Round-off of t in Kepler's equation times the sensitivity 1/(1 - e)^2 = 6; measured 1e-14, 5e-14, 0.
+            // Round-off of t in Kepler's equation times the sensitivity 1/(1 - e)^2 = 6; measured 1e-14,
+            // 5e-14, 0.
             QVERIFY(worst < 1e-15 * (10 + t.back()));
         }
     }
     void someOrbitsHaveNone() {
         const System kepler = laws::systemNamed("kepler");
-        QVERIFY(!kepler.exact({0, 0, {1, 0, 0.5, 0}}));               // through the centre
-        QVERIFY(!kepler.exact({0, 0, {1, 0, 0, std::sqrt(2.0)}}));    // parabola
+        QVERIFY(!kepler.exact({0, 0, {1, 0, 0.5, 0}}));             // through the centre
+        QVERIFY(!kepler.exact({0, 0, {1, 0, 0, std::sqrt(2.0)}}));  // parabola
         QVERIFY(!laws::systemNamed("spring-pendulum").exact);
     }
 };

@@ -18,7 +18,8 @@ double residual(const System& system, const ExactSolution& solution, double t, d
     for (int k = 1; k <= 3; ++k) {
         solution(t + k * h, plus);
         solution(t - k * h, minus);
-        for (std::size_t i = 0; i < 10; ++i) slope[i] += c[static_cast<std::size_t>(k - 1)] * (plus[i] - minus[i]) / h;
+        for (std::size_t i = 0; i < 10; ++i)
+            slope[i] += c[static_cast<std::size_t>(k - 1)] * (plus[i] - minus[i]) / h;
     }
     double worst = 0, scale = 0;
     for (std::size_t i = 0; i < 10; ++i) {
@@ -49,7 +50,7 @@ private slots:
         check(standard(), 1e-13);
         check(separatrix(), 1e-9);  // adding 1e-16 to the momentum at the start moves t = 100 by 1e-10
         check(nearlySymmetric(), 1e-13);
-        check(thinRod(), 1e-11);    // 1e-16 at the start is 1e-12 of the rod's own spin
+        check(thinRod(), 1e-11);  // 1e-16 at the start is 1e-12 of the rod's own spin
         check(fastThinRod(), 1e-12);
     }
     void itSolvesTheEquationsForAnyBody() {
@@ -76,15 +77,18 @@ private slots:
         QVERIFY(worst < 1e-9);
     }
     void permanentRotationsAndSpheresTurnUniformly() {
-        for (const auto& [I, Pi] : {std::pair{Three{1, 2, 3}, Three{0, 0, 2}}, {Three{1, 2, 3}, Three{0, 2, 0}},
-                                    {Three{2, 2, 2}, Three{1, -2, 0.5}}, {Three{1, 1, 3}, Three{0.6, 0.8, 0}}}) {
+        for (const auto& [I, Pi] : {std::pair{Three{1, 2, 3}, Three{0, 0, 2}},
+                                    {Three{1, 2, 3}, Three{0, 2, 0}},
+                                    {Three{2, 2, 2}, Three{1, -2, 0.5}},
+                                    {Three{1, 1, 3}, Three{0.6, 0.8, 0}}}) {
             const State start = bodyState(Pi, {0.5, -0.5, 0.5, 0.5});
             const ExactSolution solution = freeBody(I).exact(start);
             std::vector<double> x(10);
             solution(3, x);
-            const so3::Quaternion<double> expected = so3::product(
-                so3::Quaternion<double>(0.5, -0.5, 0.5, 0.5),
-                so3::quaternionExp(so3::Vector<double>(3 * Pi[0] / I[0], 3 * Pi[1] / I[1], 3 * Pi[2] / I[2])));
+            const so3::Quaternion<double> expected =
+                so3::product(so3::Quaternion<double>(0.5, -0.5, 0.5, 0.5),
+                             so3::quaternionExp(
+                                 so3::Vector<double>(3 * Pi[0] / I[0], 3 * Pi[1] / I[1], 3 * Pi[2] / I[2])));
             QVERIFY(attitudeError(x, {expected(0), expected(1), expected(2), expected(3)}) < 1e-15);
             QVERIFY(momentumError(x, Pi) == 0);
         }

@@ -36,7 +36,9 @@ private slots:
         spin.columns = {{"turns", "turns", "n", ""}};
         spin.energy = [](double, const double* x) { return 7 * x[0]; };
         spin.error.columns = {{"error", "", "|n - n_ref|", ""}};
-        spin.error.evaluate = [](const double* x, const double* r, double* values) { values[0] = std::abs(x[0] - r[0]); };
+        spin.error.evaluate = [](const double* x, const double* r, double* values) {
+            values[0] = std::abs(x[0] - r[0]);
+        };
         spin.momenta = {{"kept", "k", "", [](const double* x, const double*) { return x[1]; }}};
         const State start{0, 0, {1, 5}};
         QVERIFY(!spin.hasMechanics());
@@ -44,8 +46,8 @@ private slots:
         for (const auto& [id, values] : {std::pair<const char*, std::vector<double>>{"energy", {14, 7}},
                                          {"error", {0.5}},
                                          {"momentum", {8, 3}}}) {
-            const Observer o = findObservable(id)->bind(
-                {spin, start, [](double, std::span<double> x) { x[0] = 1.5; }});
+            const Observer o =
+                findObservable(id)->bind({spin, start, [](double, std::span<double> x) { x[0] = 1.5; }});
             QCOMPARE(o.columns.size(), values.size());
             std::vector<double> seen(values.size());
             o.evaluate({1, 1, {2, 8}}, {}, seen.data());

@@ -1,4 +1,5 @@
-/// The built-in systems against independent routes: differences of the Lagrangian, normal modes, published figures.
+/// The built-in systems against independent routes: differences of the Lagrangian, normal modes, published
+/// figures.
 #include <QTest>
 
 #include <Eigen/Core>
@@ -33,8 +34,8 @@ class SystemsTest : public QObject {
 private slots:
     void derivativesAgreeWithDifferences_data() {
         QTest::addColumn<QString>("id");
-        for (const char* id : {"kepler", "pendulum", "spring-pendulum", "double-pendulum", "henon-heiles", "fput-chain",
-                               "outer-solar-system"})
+        for (const char* id : {"kepler", "pendulum", "spring-pendulum", "double-pendulum", "henon-heiles",
+                               "fput-chain", "outer-solar-system"})
             QTest::newRow(id) << id;
     }
     void derivativesAgreeWithDifferences() {
@@ -68,7 +69,8 @@ private slots:
                 // Errors h^2 and round-off over h; measured at most 1e-8 of the largest entry.
                 QVERIFY(std::abs((up - down) / (2 * h) - g[i]) < 1e-7 * (size + std::abs(L)));
                 for (std::size_t j = 0; j < n; ++j)
-                    QVERIFY(std::abs((plus[j] - minus[j]) / (2 * h) - H[i * n + j]) < 1e-7 * (curvature + size));
+                    QVERIFY(std::abs((plus[j] - minus[j]) / (2 * h) - H[i * n + j]) <
+                            1e-7 * (curvature + size));
             }
         }
     }
@@ -129,7 +131,8 @@ private slots:
         Eigen::VectorXd c = modes.vectors.transpose() * start;
         for (int i = 0; i < d; ++i) c(i) *= std::cos(std::sqrt(modes.values(i)) * state.t);
         const Eigen::VectorXd exact = modes.vectors * c;
-        const double worst = (exact - Eigen::Map<const Eigen::VectorXd>(state.x.data(), d)).cwiseAbs().maxCoeff();
+        const double worst =
+            (exact - Eigen::Map<const Eigen::VectorXd>(state.x.data(), d)).cwiseAbs().maxCoeff();
         QVERIFY2(worst < 1e-9, qPrintable(QString::number(worst)));
     }
     void theStarEscapesAtOneSixth() {
@@ -148,14 +151,18 @@ private slots:
         State start{0, 0, entry.exampleQ};
         start.x.insert(start.x.end(), entry.exampleP.begin(), entry.exampleP.end());
         const auto& m = s.mechanics;
-        const auto energy = [&](const State& at) { return m.energy(m.model.get(), at.t, at.x.data(), at.x.data() + 18); };
+        const auto energy = [&](const State& at) {
+            return m.energy(m.model.get(), at.t, at.x.data(), at.x.data() + 18);
+        };
         const auto momentum = [&](const State& at) {
             double sum = 0;
             for (const MomentumMap& map : s.momenta)
-                if (map.name.starts_with("angular")) sum += std::pow(map.value(at.x.data(), at.x.data() + 18), 2);
+                if (map.name.starts_with("angular"))
+                    sum += std::pow(map.value(at.x.data(), at.x.data() + 18), 2);
             return std::sqrt(sum);
         };
-        for (const auto& [scheme, expected] : {std::pair{"galerkin-gauss-2", 1.2e-5}, std::pair{"galerkin-gauss-3", 1.7e-8}}) {
+        for (const auto& [scheme, expected] :
+             {std::pair{"galerkin-gauss-2", 1.2e-5}, std::pair{"galerkin-gauss-3", 1.7e-8}}) {
             const auto step = makeIntegrator(s, *namedScheme(scheme), {0, 200});
             State state = start;
             const double H = energy(start), L = momentum(start);

@@ -1,5 +1,5 @@
-/// Potentials of bodies as formulas: force and slope against differences of U along the group and against the known
-/// torque of a gravity gradient, the momenta they leave, and what is refused.
+/// Potentials of bodies as formulas: force and slope against differences of U along the group and against the
+/// known torque of a gravity gradient, the momenta they leave, and what is refused.
 #include <QTest>
 
 #include <cmath>
@@ -21,7 +21,8 @@ BodyMechanics<double> bodyWith(const std::string& potential, int dimension = 6,
     BodyMechanics<double> body;
     body.dimension = dimension;
     body.inertia = {0.7, 1.1, 1.6, 2, 2, 2};
-    const auto kept = setTypedPotential(body, {"", {{"potential", potential}, {"parameters", Value(parameters)}}, {}});
+    const auto kept =
+        setTypedPotential(body, {"", {{"potential", potential}, {"parameters", Value(parameters)}}, {}});
     if (momenta) *momenta = kept;
     return body;
 }
@@ -35,8 +36,8 @@ Evaluated at(const BodyMechanics<double>& body, const se3::Motion<double>& g) {
     Evaluated e;
     e.force.resize(body.dimension);
     e.slope.resize(body.dimension, body.dimension);
-    body.potential(body.model.get(), g.rotation.data(), body.dimension == 6 ? g.position.data() : nullptr, &e.U, e.force.data(),
-                   e.slope.data());
+    body.potential(body.model.get(), g.rotation.data(), body.dimension == 6 ? g.position.data() : nullptr,
+                   &e.U, e.force.data(), e.slope.data());
     return e;
 }
 se3::Motion<double> moved(const se3::Motion<double>& g, const Eigen::VectorXd& zeta, double by) {
@@ -87,14 +88,16 @@ private slots:
                 slope = std::max(slope, (df - here.slope.col(b)).norm());
                 transposed = std::max(transposed, (df - here.slope.row(b).transpose()).norm());
             }
-            qInfo("dimension %d: force %.1e, slope %.1e; its transpose %.1e", dimension, force, slope, transposed);
+            qInfo("dimension %d: force %.1e, slope %.1e; its transpose %.1e", dimension, force, slope,
+                  transposed);
             QVERIFY(force < 1e-11);
             QVERIFY(slope < 1e-11);
             QVERIFY(transposed > 1e-3);  // the order of rows and columns matters: the law can fail
         }
     }
     void theGravityGradientTurnsTheBodyAsItIsKnownTo() {
-        // Torque in the body 3 mu / r^5 (rho x I rho), rho = R^T x; force -mu m x / r^3 + ... to the order of the body's size.
+        // Torque in the body 3 mu / r^5 (rho x I rho), rho = R^T x; force -mu m x / r^3 + ... to the order of
+        // the body's size.
         const BodyMechanics<double> body = bodyWith(gravityGradient, 6, nullptr, {{"mu", 1.7}});
         const auto g = somewhere();
         const Vector rho = g.rotation.transpose() * g.position, I(0.7, 1.1, 1.6);

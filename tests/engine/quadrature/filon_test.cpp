@@ -25,8 +25,8 @@ struct WidePair {
     Wide re, im;
 };
 
-/// int_0^1 x^j e^{izx} dx, j < count, with 50 digits: the power series for small z (it loses e^z of 1e50), else by
-/// parts (it loses j! / z^j).
+/// int_0^1 x^j e^{izx} dx, j < count, with 50 digits: the power series for small z (it loses e^z of 1e50),
+/// else by parts (it loses j! / z^j).
 std::vector<WidePair> monomialMoments(double z, int count) {
     std::vector<WidePair> mu(static_cast<std::size_t>(count));
     const Wide x = z;
@@ -68,7 +68,8 @@ std::vector<Complex> wideWeights(const std::vector<double>& node, double z) {
             const Wide scale = 1 / (Wide(node[i]) - Wide(node[k]));
             c.emplace_back(0);
             for (std::size_t n = c.size(); n-- > 0;)
-                c[n] = scale * ((n > 0 ? c[n - 1] : Wide(0)) - (n + 1 < c.size() ? c[n] * Wide(node[k]) : Wide(0)));
+                c[n] = scale *
+                       ((n > 0 ? c[n - 1] : Wide(0)) - (n + 1 < c.size() ? c[n] * Wide(node[k]) : Wide(0)));
         }
         WidePair sum;
         for (std::size_t n = 0; n < c.size(); ++n) {
@@ -116,7 +117,8 @@ private slots:
         // Measured: 2.9e-16 at most.
         std::vector<double> all = {0};
         for (int e = -12; e <= 12; ++e)
-            for (const double digit : {1.0, 2.5, 7.3}) all.push_back(std::min(1e12, digit * std::pow(10.0, e)));
+            for (const double digit : {1.0, 2.5, 7.3})
+                all.push_back(std::min(1e12, digit * std::pow(10.0, e)));
         for (double z = 1; z < 24; z += 0.25) all.push_back(z);  // where the three routes to j_n meet
         for (const FilonNodes nodes : bothNodes)
             for (const int count : {2, 3, 4, 5, 6, 7, 8, 12, 16})
@@ -124,8 +126,9 @@ private slots:
                     for (const double sign : {1.0, -1.0}) {
                         const FilonRule rule = filonRule(nodes, count, sign * z);
                         const double error = worst(rule.weight, wideWeights(rule.node, sign * z));
-                        QVERIFY2(error <= 1e-15,
-                                 qPrintable(QString("%1 nodes, z = %2: %3").arg(count).arg(sign * z).arg(error)));
+                        QVERIFY2(
+                            error <= 1e-15,
+                            qPrintable(QString("%1 nodes, z = %2: %3").arg(count).arg(sign * z).arg(error)));
                     }
     }
     void besselFunctionsOfManyOrdersDoNotOverflow() {
@@ -143,21 +146,22 @@ private slots:
             QCOMPARE(rule.weight.size(), exact.size());
             QVERIFY(worst(rule.weight, exact) <= 1e-15);
         };
-        has(filonRule(FilonNodes::lobatto, 3, 1),
-            {{.1744183666365537, .002680208280455376}, {.5705586549906132, .3116976138232962},
-             {.09649396318072963, .1453198720281087}});
-        has(filonRule(FilonNodes::lobatto, 3, 10),
-            {{.02378536915279295, .08720350277480049}, {-.01078930772405686, .03647341666818641},
-             {-.06739817251767308, .06023023346465834}});
-        has(filonRule(FilonNodes::lobatto, 4, 1),
-            {{.0834767182550169, -.0003644992523984692}, {.4004748749224007, .114497050037956},
-             {.3127234438158657, .2751249672411643}, {.04479594781461318, .07044017610513849}});
-        has(filonRule(FilonNodes::gauss, 3, 1),
-            {{.2760602609889951, .03125989322325553}, {.3899504351124243, .2130308936175869},
-             {.175460288706477, .2154069072910179}});
-        has(filonRule(FilonNodes::lobatto, 3, 1000),
-            {{3.559071558128575e-6, .001000825129056837}, {-6.242901268838556e-6, -3.304017194738336e-6},
-             {.0008295633702427125, -.0005599001881528018}});
+        has(filonRule(FilonNodes::lobatto, 3, 1), {{.1744183666365537, .002680208280455376},
+                                                   {.5705586549906132, .3116976138232962},
+                                                   {.09649396318072963, .1453198720281087}});
+        has(filonRule(FilonNodes::lobatto, 3, 10), {{.02378536915279295, .08720350277480049},
+                                                    {-.01078930772405686, .03647341666818641},
+                                                    {-.06739817251767308, .06023023346465834}});
+        has(filonRule(FilonNodes::lobatto, 4, 1), {{.0834767182550169, -.0003644992523984692},
+                                                   {.4004748749224007, .114497050037956},
+                                                   {.3127234438158657, .2751249672411643},
+                                                   {.04479594781461318, .07044017610513849}});
+        has(filonRule(FilonNodes::gauss, 3, 1), {{.2760602609889951, .03125989322325553},
+                                                 {.3899504351124243, .2130308936175869},
+                                                 {.175460288706477, .2154069072910179}});
+        has(filonRule(FilonNodes::lobatto, 3, 1000), {{3.559071558128575e-6, .001000825129056837},
+                                                      {-6.242901268838556e-6, -3.304017194738336e-6},
+                                                      {.0008295633702427125, -.0005599001881528018}});
     }
     void otherWeightsAreSeenToBeWrong() {
         // Legendre's polynomials in place of the cardinal ones: their integrals do not even sum to that of 1.
@@ -208,19 +212,22 @@ private slots:
             for (int count = 2; count <= 4; ++count)
                 for (const double z : {1.0, 1000.0}) {
                     // Measured: 0.036 to 0.037 above count + 1.
-                    const double order = slope(errorOfExp(nodes, count, 0.1, z), errorOfExp(nodes, count, 0.05, z), 2);
+                    const double order =
+                        slope(errorOfExp(nodes, count, 0.1, z), errorOfExp(nodes, count, 0.05, z), 2);
                     QVERIFY2(std::abs(order - (count + 1)) < 0.05,
                              qPrintable(QString("%1 nodes, z %2: %3").arg(count).arg(z).arg(order)));
                 }
         // The largest error of a whole turn of the phase: 1/z inside, 1/z^2 with the ends as nodes.
         const auto envelope = [](FilonNodes nodes, double z) {
             double most = 0;
-            for (int i = 0; i < 64; ++i) most = std::max(most, errorOfExp(nodes, 3, 1, z + i * std::numbers::pi / 32));
+            for (int i = 0; i < 64; ++i)
+                most = std::max(most, errorOfExp(nodes, 3, 1, z + i * std::numbers::pi / 32));
             return most;
         };
         for (const FilonNodes nodes : bothNodes) {
             const double rate = slope(envelope(nodes, 1e3), envelope(nodes, 1e5), 100);
-            QVERIFY2(std::abs(rate - (nodes == FilonNodes::gauss ? 1 : 2)) < 0.1, qPrintable(QString::number(rate)));
+            QVERIFY2(std::abs(rate - (nodes == FilonNodes::gauss ? 1 : 2)) < 0.1,
+                     qPrintable(QString::number(rate)));
         }
     }
     void gridsAreExactForHarmonicsOfPolynomials() {
@@ -231,10 +238,10 @@ private slots:
                     const auto mu = monomialMoments(k * z, 6);
                     for (int j = 0; j < 6; ++j) {
                         const auto at = static_cast<std::size_t>(j);
-                        const double c =
-                            onGrid(grid, [&](double x, double tau) { return std::pow(x, j) * std::cos(k * tau); });
-                        const double s =
-                            onGrid(grid, [&](double x, double tau) { return std::pow(x, j) * std::sin(k * tau); });
+                        const double c = onGrid(
+                            grid, [&](double x, double tau) { return std::pow(x, j) * std::cos(k * tau); });
+                        const double s = onGrid(
+                            grid, [&](double x, double tau) { return std::pow(x, j) * std::sin(k * tau); });
                         QVERIFY(std::abs(c - static_cast<double>(mu[at].re)) < 1e-15);
                         QVERIFY(std::abs(s - static_cast<double>(mu[at].im)) < 1e-15);
                     }
@@ -256,7 +263,8 @@ private slots:
                             sum += grid.weight[i * grid.phase.size() + m] * std::pow(grid.node[i], j) *
                                    std::polar(1.0, k * grid.phase[m][0] + l * grid.phase[m][1]);
                     const auto at = static_cast<std::size_t>(j);
-                    const Complex exact(static_cast<double>(mu[at].re), (rate < 0 ? -1 : 1) * static_cast<double>(mu[at].im));
+                    const Complex exact(static_cast<double>(mu[at].re),
+                                        (rate < 0 ? -1 : 1) * static_cast<double>(mu[at].im));
                     worst = std::max(worst, std::abs(sum - exact));
                 }
             }

@@ -30,8 +30,10 @@ private slots:
                 const auto k = static_cast<std::size_t>(i);
                 const double c = static_cast<double>(abs(rule.c[k] - exact.c[k]));
                 const double b = static_cast<double>(abs(rule.b[k] - exact.b[k]));
-                QVERIFY2(c <= 2e-16 && b <= 2e-16, qPrintable(QString("%1(%2), node %3: %4 %5")
-                                                                  .arg(name).arg(rule.size()).arg(i).arg(c).arg(b)));
+                QVERIFY2(
+                    c <= 2e-16 && b <= 2e-16,
+                    qPrintable(
+                        QString("%1(%2), node %3: %4 %5").arg(name).arg(rule.size()).arg(i).arg(c).arg(b)));
             }
         });
     }
@@ -56,10 +58,12 @@ private slots:
         const Rule<double> three = composite(lobatto<double>(3), 3);
         QCOMPARE(three.size(), 9);
         QCOMPARE(merged(three).size(), 7);
-        for (const Rule<double>& rule : {three, merged(three), composite(gauss<double>(2), 5), composite(radau<double>(2, true), 2)})
+        for (const Rule<double>& rule :
+             {three, merged(three), composite(gauss<double>(2), 5), composite(radau<double>(2, true), 2)})
             for (int degree = 0; degree <= rule.degree; ++degree) {
                 double sum = 0;
-                for (std::size_t i = 0; i < rule.c.size(); ++i) sum += rule.b[i] * std::pow(rule.c[i], degree);
+                for (std::size_t i = 0; i < rule.c.size(); ++i)
+                    sum += rule.b[i] * std::pow(rule.c[i], degree);
                 QVERIFY(std::abs(sum - 1.0 / (degree + 1)) < 1e-15);
             }
         // The nodes at a common end are one inside each panel.
@@ -67,20 +71,24 @@ private slots:
         QCOMPARE(three.c[3], 1.0 / 3);
     }
     void partialWeightsIntegrateThePiecewiseInterpolant() {
-        for (const Rule<double>& rule : {gauss<double>(4), composite(lobatto<double>(4), 3), merged(composite(lobatto<double>(4), 3)),
-                                         trapezoid<double>(5)})
+        for (const Rule<double>& rule : {gauss<double>(4), composite(lobatto<double>(4), 3),
+                                         merged(composite(lobatto<double>(4), 3)), trapezoid<double>(5)})
             for (const double tau : {0.0, 0.1, 0.37, 0.6, 0.99, 1.0}) {
                 std::vector<double> share(rule.c.size());
                 partialWeights<double>(rule, tau, share);
                 const int exact = rule.perPanel > 0 ? rule.perPanel - 1 : rule.size() - 1;
                 for (int degree = 0; degree <= exact; ++degree) {
                     double sum = 0;
-                    for (std::size_t i = 0; i < rule.c.size(); ++i) sum += share[i] * std::pow(rule.c[i], degree);
-                    QVERIFY2(std::abs(sum - std::pow(tau, degree + 1) / (degree + 1)) < 1e-14,
-                             qPrintable(QString("%1 nodes, tau %2, degree %3").arg(rule.size()).arg(tau).arg(degree)));
+                    for (std::size_t i = 0; i < rule.c.size(); ++i)
+                        sum += share[i] * std::pow(rule.c[i], degree);
+                    QVERIFY2(
+                        std::abs(sum - std::pow(tau, degree + 1) / (degree + 1)) < 1e-14,
+                        qPrintable(
+                            QString("%1 nodes, tau %2, degree %3").arg(rule.size()).arg(tau).arg(degree)));
                 }
                 if (tau == 1)
-                    for (std::size_t i = 0; i < share.size(); ++i) QVERIFY(std::abs(share[i] - rule.b[i]) < 1e-15);
+                    for (std::size_t i = 0; i < share.size(); ++i)
+                        QVERIFY(std::abs(share[i] - rule.b[i]) < 1e-15);
             }
     }
     void symmetricRulesAreMirrorImages() {

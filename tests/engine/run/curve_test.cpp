@@ -68,12 +68,14 @@ private slots:
         const auto rowsIn = [](const char* views) {
             const std::string text = std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},
                 "initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":0.1,"scheme":"galerkin-gauss-4"}],
-                "reference":"none","observe":["energy"],"views":[)") + views + "]}";
+                "reference":"none","observe":["energy"],"views":[)") +
+                                     views + "]}";
             const ReadScene read = readScene(std::string_view(text));
             if (!read.errors.empty()) qWarning("%s", read.errors[0].message.c_str());
             const Trajectory curve = run(read.scene).schemes.at(0)->curve;
             const auto t = curve["t"];
-            return std::pair{t.size(), std::count_if(t.begin(), t.end(), [](double at) { return at > 0.501 && at < 0.599; })};
+            return std::pair{t.size(), std::count_if(t.begin(), t.end(),
+                                                     [](double at) { return at > 0.501 && at < 0.599; })};
         };
         const auto usual = rowsIn(R"("stage",{"view":"phase","range":{"x":[0.5,0.6]}})");
         QCOMPARE(usual.first, std::size_t(20 * 40 + 1));
@@ -86,9 +88,11 @@ private slots:
     }
     void oscillationsInsideAStepAreResolvedOrFillTheirBand() {
         const auto curveOf = [](const char* k, const char* step) {
-            const std::string text = std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":)") + k +
-                                     R"_(},"initial":{"q":["0.05*sqrt(1e4/k)",1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":)_" + step +
-                                     R"(,"scheme":"multiscale-r2"}],"reference":"none","observe":["energy"],"views":["trajectory"]})";
+            const std::string text =
+                std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":)") + k +
+                R"_(},"initial":{"q":["0.05*sqrt(1e4/k)",1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":)_" +
+                step +
+                R"(,"scheme":"multiscale-r2"}],"reference":"none","observe":["energy"],"views":["trajectory"]})";
             return run(readScene(std::string_view(text)).scene).schemes.at(0)->curve;
         };
         // 15.9 periods a step, 16 points each: as many zeros as the spring has, two a period.
@@ -100,8 +104,8 @@ private slots:
             return count;
         };
         QVERIFY(std::abs(zeros(resolved) - 2 * 2 * 1000 / (2 * M_PI)) < 5);
-        // At k = 1e10 this step has exactly 1000 periods, which so few points cannot resolve. With 40 of them at
-        // equal distances the spring would stand still; at unequal ones it fills its band in every step.
+        // At k = 1e10 this step has exactly 1000 periods, which so few points cannot resolve. With 40 of them
+        // at equal distances the spring would stand still; at unequal ones it fills its band in every step.
         const Trajectory band = curveOf("1e10", "0.06283185307179587");
         QVERIFY(band.rows() < 2500);
         const auto a = band["q.a"];
@@ -109,7 +113,8 @@ private slots:
         for (std::size_t first = 1; first + perStep <= a.size(); first += perStep) {
             std::array<int, 4> quarter{};
             for (std::size_t i = first; i < first + perStep; ++i)
-                ++quarter[static_cast<std::size_t>(std::clamp(static_cast<int>((a[i] / 5e-5 + 1) * 2), 0, 3))];
+                ++quarter[static_cast<std::size_t>(
+                    std::clamp(static_cast<int>((a[i] / 5e-5 + 1) * 2), 0, 3))];
             QVERIFY(*std::min_element(quarter.begin(), quarter.end()) > 2);
         }
         qInfo("%d zeros in %d points", zeros(band), static_cast<int>(band.rows()));
@@ -133,7 +138,8 @@ private slots:
         QCOMPARE(error.size(), c.schemes[0]->curve.rows());
         const double most = *std::max_element(error.begin(), error.end());
         qInfo("largest on the curve %.2e, at nodes %.2e", most, c.schemes[0]->summary.maxError);
-        QVERIFY(most > 3 * c.schemes[0]->summary.maxError);  // order 5 between nodes of order 8: measured 76 times
+        QVERIFY(most >
+                3 * c.schemes[0]->summary.maxError);  // order 5 between nodes of order 8: measured 76 times
         const Figure f = makeFigure(c, scene.views[0]);
         QCOMPARE(f.series.size(), std::size_t(1));
         QVERIFY(f.subtitle.starts_with("largest on the curve"));

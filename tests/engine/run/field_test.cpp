@@ -12,12 +12,14 @@ namespace extremal::field_test {
 
 namespace {
 
-Scene scene(int modes, double waveNumber, const char* schemes = R"([{"scheme":"schrodinger-gauss-4","step":0.01}])") {
-    const std::string text = R"~({"extremal":1,"model":{"type":"schrodinger","potential":"1 - cos(x)","hbar":0.05,"modes":)~" +
-                             std::to_string(modes) +
-                             R"(},"initial":{"psi":{"packet":"periodic-gaussian","kappa":20,"centre":1,"wave_number":)" +
-                             std::to_string(waveNumber) + R"(}},"time":{"end":0.5},"schemes":)" + schemes +
-                             R"(,"observe":["norm","error"]})";
+Scene scene(int modes, double waveNumber,
+            const char* schemes = R"([{"scheme":"schrodinger-gauss-4","step":0.01}])") {
+    const std::string text =
+        R"~({"extremal":1,"model":{"type":"schrodinger","potential":"1 - cos(x)","hbar":0.05,"modes":)~" +
+        std::to_string(modes) +
+        R"(},"initial":{"psi":{"packet":"periodic-gaussian","kappa":20,"centre":1,"wave_number":)" +
+        std::to_string(waveNumber) + R"(}},"time":{"end":0.5},"schemes":)" + schemes +
+        R"(,"observe":["norm","error"]})";
     const ReadScene read = readScene(std::string_view(text));
     if (!read.errors.empty()) qWarning("%s", read.errors[0].message.c_str());
     return read.scene;
@@ -58,7 +60,8 @@ private slots:
         QVERIFY(std::abs(norm * 2 * 3.14159265358979323846 / 64 - 1) < 1e-12);
     }
     void filesOfARectangleHaveBothPlaces() {
-        const ReadScene read = readScene(std::string_view(R"~({"extremal":1,"model":{"type":"schrodinger-2d","modes":64,"modes_y":32,
+        const ReadScene read = readScene(
+            std::string_view(R"~({"extremal":1,"model":{"type":"schrodinger-2d","modes":64,"modes_y":32,
             "domain_y":[0,3]},"initial":{"psi":{"packet":"gaussian","centre":2,"width":0.3,"width_y":0.2}},"time":{"end":1},
             "schemes":[{"baseline":"strang","step":0.001}],"observe":["norm","position","momentum"]})~"));
         QVERIFY(read.errors.empty());
@@ -100,7 +103,8 @@ private slots:
         QVERIFY(result.schemes.at(0)->summary.maxError < 1e-5);
     }
     void schemesGiveTheSameBytesWithAnyThreads() {
-        const char* schemes = R"([{"scheme":"schrodinger-gauss-4","step":0.01},{"baseline":"strang","step":0.01},
+        const char* schemes =
+            R"([{"scheme":"schrodinger-gauss-4","step":0.01},{"baseline":"strang","step":0.01},
                                   {"scheme":"schrodinger-gauss-2","step":0.01,"solver":{"method":"krylov"}}])";
         const Comparison one = run(scene(64, 5, schemes), {1}), two = run(scene(64, 5, schemes), {2});
         for (std::size_t i = 0; i < one.schemes.size(); ++i) {

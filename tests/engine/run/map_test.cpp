@@ -1,4 +1,5 @@
-/// Maps of a parameter against the step: cells are plain runs, and what they show of the stiff spring is what is known.
+/// Maps of a parameter against the step: cells are plain runs, and what they show of the stiff spring is what
+/// is known.
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -24,16 +25,19 @@ const std::string stiffSchemes = R"({"label":"SV","step":0.05,"baseline":"storme
 
 std::string stiffScene(const std::string& view, const std::string& schemes = stiffSchemes) {
     return R"x({"extremal":1,"model":{"type":"spring-pendulum","k":1e4},"initial":{"q":["0.05*sqrt(1e4/k)",1],"p":[0,0]},
-        "time":{"end":4},"schemes":[)x" + schemes + R"(],
+        "time":{"end":4},"schemes":[)x" +
+           schemes + R"(],
         "reference":{"type":"scheme","scheme":{"label":"R3","step":0.1,"scheme":"multiscale-r3"}},
-        "observe":["energy","error"],"views":[)" + view + "]}";
+        "observe":["energy","error"],"views":[)" +
+           view + "]}";
 }
 
 ReadScene readStiff(const std::string& view, const std::string& schemes = stiffSchemes) {
     return readScene(stiffScene(view, schemes));
 }
 
-Comparison runStiff(const std::string& view, unsigned threads = 0, const std::string& schemes = stiffSchemes) {
+Comparison runStiff(const std::string& view, unsigned threads = 0,
+                    const std::string& schemes = stiffSchemes) {
     const ReadScene read = readStiff(view, schemes);
     for (const Problem& p : read.errors) qWarning("%s: %s", p.pointer.c_str(), p.message.c_str());
     return run(read.scene, {threads});
@@ -58,19 +62,23 @@ class MapTest : public QObject {
 private slots:
     /// Also in the parameter's own terms: the amplitude of the spring is an expression in k.
     void cellsArePlainRuns() {
-        const Comparison c = runStiff(R"({"view":"parameter-map","from":1e4,"to":1e8,"steps":[0.01,0.16],"cells":[3,3],"duration":2})");
+        const Comparison c = runStiff(
+            R"({"view":"parameter-map","from":1e4,"to":1e8,"steps":[0.01,0.16],"cells":[3,3],"duration":2})");
         int compared = 0;
         const MapGrid& grid = mapOf(c, "R1").grid;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) {
-                const ReadScene single = readScene(
-                    stiffScene("\"energy\""),
-                    {{"/model/k", grid.values[i]}, {"/schemes/*/step", grid.steps[j]}, {"/time/end", 2.0}, {"/observe", Value::Array{"energy"}}});
+                const ReadScene single =
+                    readScene(stiffScene("\"energy\""), {{"/model/k", grid.values[i]},
+                                                         {"/schemes/*/step", grid.steps[j]},
+                                                         {"/time/end", 2.0},
+                                                         {"/observe", Value::Array{"energy"}}});
                 QVERIFY(single.errors.empty());
                 for (const auto& scheme : run(single.scene).schemes) {
                     const MapCell& cell = mapOf(c, scheme->spec.label).at(i, j);
                     const bool isDone = scheme->summary.status == RunStatus::done;
-                    // A state that has blown up may go on for a while: SV at k = 10^4 and h = 0.16 fails later.
+                    // A state that has blown up may go on for a while: SV at k = 10^4 and h = 0.16 fails
+                    // later.
                     if (cell.end == MapCell::End::blownUp) continue;
                     QCOMPARE(cell.isDone(), isDone);
                     if (isDone) QVERIFY(cell.value == scheme->summary.maxEnergyError);
@@ -82,7 +90,8 @@ private slots:
     }
     /// w = sqrt(k/m): 100, 1000, 10^4. Explicit schemes end at h w = 2, the implicit one does not.
     void verletBlowsUpRightOfItsLimit() {
-        const Comparison c = runStiff(R"({"view":"parameter-map","from":100,"to":1e8,"steps":[0.001,0.1],"cells":[13,9],"duration":2})");
+        const Comparison c = runStiff(
+            R"({"view":"parameter-map","from":100,"to":1e8,"steps":[0.001,0.1],"cells":[13,9],"duration":2})");
         const ParameterMap &verlet = mapOf(c, "SV"), &midpoint = mapOf(c, "midpoint");
         int stable = 0, unstable = 0;
         for (std::size_t i = 0; i < verlet.grid.values.size(); ++i)
@@ -97,11 +106,13 @@ private slots:
                 }
                 QVERIFY(midpoint.at(i, j).end != MapCell::End::blownUp);
                 // Measured: at most 0.75 J where it is computed, of 12.5 J in the spring.
-                if (midpoint.at(i, j).isDone()) QVERIFY2(midpoint.at(i, j).value < 2, std::to_string(midpoint.at(i, j).value).c_str());
+                if (midpoint.at(i, j).isDone())
+                    QVERIFY2(midpoint.at(i, j).value < 2, std::to_string(midpoint.at(i, j).value).c_str());
             }
         QVERIFY(stable > 20 && unstable > 50);
     }
-    /// The momenta, of size 5 whatever k is: an implicit scheme is stable and wrong, the multiscale ones are right.
+    /// The momenta, of size 5 whatever k is: an implicit scheme is stable and wrong, the multiscale ones are
+    /// right.
     void errorsTellWhatEnergiesDoNot() {
         const Comparison c = runStiff(
             R"({"view":"parameter-map","from":1e8,"to":1e9,"steps":[0.1,0.2],"cells":[2,2],"duration":2,"value":"error.p"})");
@@ -111,8 +122,10 @@ private slots:
         QVERIFY(value("R1") < 1e-4);
         QVERIFY(value("R2") < 1e-9);
 
-        // The same by a plain run: h = 0.2 is twice the step of the reference, whose nodes are then those of the run.
-        const ReadScene plain = readScene(stiffScene("\"energy\""), {{"/model/k", 1e8}, {"/schemes/*/step", 0.2}, {"/time/end", 2}});
+        // The same by a plain run: h = 0.2 is twice the step of the reference, whose nodes are then those of
+        // the run.
+        const ReadScene plain = readScene(stiffScene("\"energy\""),
+                                          {{"/model/k", 1e8}, {"/schemes/*/step", 0.2}, {"/time/end", 2}});
         for (const auto& scheme : run(plain.scene).schemes) {
             double largest = 0;
             for (const double e : scheme->trajectory["error.p"]) largest = std::max(largest, std::abs(e));
@@ -125,11 +138,12 @@ private slots:
     /// Multiscale R1 along h at k = 1e8: single steps stand out of their neighbours by orders of magnitude.
     void resonancesAreSeen() {
         const Comparison c = runStiff(
-            R"({"view":"parameter-map","from":1e8,"to":1.001e8,"steps":[0.05,0.0504],"cells":[2,121],"duration":1})", 0,
-            R"({"label":"R1","step":0.05,"scheme":"multiscale-r1"})");
+            R"({"view":"parameter-map","from":1e8,"to":1.001e8,"steps":[0.05,0.0504],"cells":[2,121],"duration":1})",
+            0, R"({"label":"R1","step":0.05,"scheme":"multiscale-r1"})");
         const ParameterMap& map = mapOf(c, "R1");
         std::vector<double> all;
-        for (std::size_t j = 0; j < 121; ++j) all.push_back(map.at(0, j).isDone() ? map.at(0, j).value : 1e300);
+        for (std::size_t j = 0; j < 121; ++j)
+            all.push_back(map.at(0, j).isDone() ? map.at(0, j).value : 1e300);
         std::sort(all.begin(), all.end());
         qInfo("median %g, largest %g", all[60], all.back());
         QVERIFY(all[60] < 1e-7);
@@ -137,23 +151,29 @@ private slots:
     }
     void threadsChangeNothing() {
         // Steps of their own: nothing is remembered from other tests, nor of one run for the other.
-        const std::string view = R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0211,0.16],"cells":[4,3],"duration":1})";
-        const std::string other = R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0211,0.16],"cells":[4,3],"duration":1,"value":"energy"})";
+        const std::string view =
+            R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0211,0.16],"cells":[4,3],"duration":1})";
+        const std::string other =
+            R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0211,0.16],"cells":[4,3],"duration":1,"value":"energy"})";
         const Comparison one = runStiff(view, 1), two = runStiff(view + "," + other, 2);
         for (const auto& map : one.maps)
             for (std::size_t i = 0; i < map->cells.size(); ++i) {
                 QCOMPARE(map->cells[i].end, mapOf(two, map->scheme).cells[i].end);
-                if (map->cells[i].isDone()) QCOMPARE(map->cells[i].value, mapOf(two, map->scheme).cells[i].value);
+                if (map->cells[i].isDone())
+                    QCOMPARE(map->cells[i].value, mapOf(two, map->scheme).cells[i].value);
             }
         QCOMPARE(two.maps.size(), std::size_t(8));
     }
     void whatWasComputedIsRemembered() {
-        const std::string view = R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0203,0.16],"cells":[12,12],"duration":4})";
+        const std::string view =
+            R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0203,0.16],"cells":[12,12],"duration":4})";
         const auto begin = std::chrono::steady_clock::now();
         QCOMPARE(runStiff(view).maps.size(), std::size_t(4));
         const auto middle = std::chrono::steady_clock::now();
         // Another title, another step of the scene itself, one scheme less: the same cells.
-        const ReadScene changed = readScene(stiffScene(view), {{"/title", "other"}, {"/schemes/1/step", 0.02}, {"/schemes/0/enabled", false}});
+        const ReadScene changed =
+            readScene(stiffScene(view),
+                      {{"/title", "other"}, {"/schemes/1/step", 0.02}, {"/schemes/0/enabled", false}});
         QCOMPARE(run(changed.scene).maps.size(), std::size_t(3));
         const auto end = std::chrono::steady_clock::now();
         qInfo("%g ms, then %g ms", std::chrono::duration<double, std::milli>(middle - begin).count(),
@@ -161,15 +181,16 @@ private slots:
         QVERIFY((end - middle) * 4 < middle - begin);
     }
     void stoppingKeepsWhatIsDone() {
-        const ReadScene read =
-            readStiff(R"({"view":"parameter-map","from":1e3,"to":1e9,"steps":[0.0041,0.5],"cells":[60,30],"value":"error.p"})");
+        const ReadScene read = readStiff(
+            R"({"view":"parameter-map","from":1e3,"to":1e9,"steps":[0.0041,0.5],"cells":[60,30],"value":"error.p"})");
         QVERIFY(read.errors.empty());
         Run r(read.scene, {1});
         r.start();
         const auto doneCells = [&] {
             std::ptrdiff_t n = 0;
             for (const auto& map : r.latest().maps)
-                n += std::count_if(map->cells.begin(), map->cells.end(), [](const MapCell& c) { return c.end != MapCell::End::waiting; });
+                n += std::count_if(map->cells.begin(), map->cells.end(),
+                                   [](const MapCell& c) { return c.end != MapCell::End::waiting; });
             return n;
         };
         while (doneCells() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -194,7 +215,8 @@ private slots:
         QCOMPARE(writeScene(readScene(text).scene), text);
     }
     void gridsCanBeWrittenDown() {
-        const ReadScene read = readStiff(R"({"view":"parameter-map","from":100,"to":1e10,"steps":[0.02,1],"cells":[25,18]})");
+        const ReadScene read =
+            readStiff(R"({"view":"parameter-map","from":100,"to":1e10,"steps":[0.02,1],"cells":[25,18]})");
         const MapGrid grid = mapGridOf(read.scene, read.scene.views.at(0));
         QCOMPARE(grid.pointer, std::string("/model/k"));
         QCOMPARE(grid.values.front(), 100.0);
@@ -206,18 +228,42 @@ private slots:
         QTest::addColumn<QString>("keys");
         QTest::addColumn<QString>("pointer");
         QTest::addColumn<QString>("message");
-        QTest::newRow("parameter") << R"("parameter":"kk")" << "/views/0/parameter" << "unknown parameter";
-        QTest::newRow("reversed") << R"("from":1e6,"to":1e3)" << "/views/0/to" << "above \"from\"";
-        QTest::newRow("from") << R"("from":-1)" << "/views/0/from" << "must be a positive";
-        QTest::newRow("steps reversed") << R"("steps":[0.2,0.1])" << "/views/0/steps" << "smallest step and a larger one";
-        QTest::newRow("steps of zero") << R"("steps":[0,0.1])" << "/views/0/steps/0" << "must be a positive";
-        QTest::newRow("too many cells") << R"("cells":[200,200])" << "/views/0/cells" << "40000 cells, the limit is 10000";
-        QTest::newRow("half a cell") << R"("cells":[2.5,20])" << "/views/0/cells/0" << "must be an integer";
-        QTest::newRow("one cell") << R"("cells":[1,20])" << "/views/0/cells/0" << "2";
-        QTest::newRow("short cases") << R"("duration":0.1)" << "/views/0/steps" << "longer than the run";
-        QTest::newRow("too many steps") << R"("steps":[1e-9,0.1])" << "/views/0/steps" << "the limit is";
-        QTest::newRow("column") << R"("value":"energi_error")" << "/views/0/value" << "unknown column";
-        QTest::newRow("key") << R"("colour":1)" << "/views/0/colour" << "unknown key";
+        QTest::newRow("parameter") << R"("parameter":"kk")"
+                                   << "/views/0/parameter"
+                                   << "unknown parameter";
+        QTest::newRow("reversed") << R"("from":1e6,"to":1e3)"
+                                  << "/views/0/to"
+                                  << "above \"from\"";
+        QTest::newRow("from") << R"("from":-1)"
+                              << "/views/0/from"
+                              << "must be a positive";
+        QTest::newRow("steps reversed") << R"("steps":[0.2,0.1])"
+                                        << "/views/0/steps"
+                                        << "smallest step and a larger one";
+        QTest::newRow("steps of zero") << R"("steps":[0,0.1])"
+                                       << "/views/0/steps/0"
+                                       << "must be a positive";
+        QTest::newRow("too many cells") << R"("cells":[200,200])"
+                                        << "/views/0/cells"
+                                        << "40000 cells, the limit is 10000";
+        QTest::newRow("half a cell") << R"("cells":[2.5,20])"
+                                     << "/views/0/cells/0"
+                                     << "must be an integer";
+        QTest::newRow("one cell") << R"("cells":[1,20])"
+                                  << "/views/0/cells/0"
+                                  << "2";
+        QTest::newRow("short cases") << R"("duration":0.1)"
+                                     << "/views/0/steps"
+                                     << "longer than the run";
+        QTest::newRow("too many steps") << R"("steps":[1e-9,0.1])"
+                                        << "/views/0/steps"
+                                        << "the limit is";
+        QTest::newRow("column") << R"("value":"energi_error")"
+                                << "/views/0/value"
+                                << "unknown column";
+        QTest::newRow("key") << R"("colour":1)"
+                             << "/views/0/colour"
+                             << "unknown key";
     }
     void wrongMapsAreErrors() {
         QFETCH(QString, keys);
@@ -226,10 +272,12 @@ private slots:
         const ReadScene read = readStiff(R"({"view":"parameter-map",)" + keys.toStdString() + "}");
         QCOMPARE(read.errors.size(), std::size_t(1));
         QCOMPARE(QString::fromStdString(read.errors[0].pointer), pointer);
-        QVERIFY2(QString::fromStdString(read.errors[0].message).contains(message), read.errors[0].message.c_str());
+        QVERIFY2(QString::fromStdString(read.errors[0].message).contains(message),
+                 read.errors[0].message.c_str());
     }
     void parametersOfTypedModelsVary() {
-        const ReadScene read = readScene(std::string(R"({"extremal":1,"model":{"type":"lagrangian","coordinates":["x"],
+        const ReadScene read =
+            readScene(std::string(R"({"extremal":1,"model":{"type":"lagrangian","coordinates":["x"],
             "parameters":{"w":10},"lagrangian":"x_t^2/2-w^2*x^2/2"},"initial":{"q":[1],"p":[0]},"time":{"end":2},
             "schemes":[{"label":"SV","step":0.01,"scheme":"stormer-verlet-pair"}],"observe":["energy"],
             "views":[{"view":"parameter-map","parameter":"w","from":10,"to":1000,"steps":[0.01,0.1],"cells":[3,2]}]})"));
@@ -242,7 +290,8 @@ private slots:
     }
     void whatMakesNoSceneIsRefused() {
         // The amplitude is not a number where k is below 10.
-        const ReadScene read = readScene(std::string(R"x({"extremal":1,"model":{"type":"harmonic-oscillator","k":100},
+        const ReadScene read =
+            readScene(std::string(R"x({"extremal":1,"model":{"type":"harmonic-oscillator","k":100},
             "initial":{"q":["sqrt(k-10)"],"p":[0]},"time":{"end":1},"schemes":[{"label":"midpoint","step":0.01,"scheme":"midpoint"}],
             "observe":["energy"],"views":[{"view":"parameter-map","from":1,"to":100,"steps":[0.01,0.1],"cells":[3,2]}]})x"));
         QVERIFY(read.errors.empty());
@@ -253,7 +302,8 @@ private slots:
         QVERIFY(map.at(2, 1).isDone() && map.problems[2].empty());
     }
     void exportsHaveARowForEachCell() {
-        const std::string view = R"({"view":"parameter-map","from":1e4,"to":1e8,"steps":[0.01,0.16],"cells":[3,3],"duration":2})";
+        const std::string view =
+            R"({"view":"parameter-map","from":1e4,"to":1e8,"steps":[0.01,0.16],"cells":[3,3],"duration":2})";
         const Comparison c = runStiff(view);
         QTemporaryDir folder;
         const auto files = exportComparison(c, folder.path().toStdString());
@@ -261,7 +311,8 @@ private slots:
         const std::string text = fileOf(folder.path().toStdString() + "/parameter-map.csv");
         QCOMPARE(std::count(text.begin(), text.end(), '\n'), std::ptrdiff_t(1 + 4 * 9));
         QVERIFY(text.starts_with("scheme,parameter,step,value,outcome\nSV,10000,0.01,"));
-        QVERIFY(text.find("\nSV,1e+08,0.16,,blow-up\n") != std::string::npos || text.find("\nSV,100000000,0.16,,blow-up\n") != std::string::npos);
+        QVERIFY(text.find("\nSV,1e+08,0.16,,blow-up\n") != std::string::npos ||
+                text.find("\nSV,100000000,0.16,,blow-up\n") != std::string::npos);
     }
 };
 

@@ -16,10 +16,10 @@
 namespace extremal::run_test {
 namespace {
 
-Scene sceneFrom(const std::string& model, const std::string& initial, const std::string& end, const std::string& schemes,
-                const std::string& rest) {
-    const std::string text = "{\"extremal\":1,\"model\":" + model + ",\"initial\":" + initial + ",\"time\":{\"end\":" + end +
-                             "},\"schemes\":[" + schemes + "]" + rest + "}";
+Scene sceneFrom(const std::string& model, const std::string& initial, const std::string& end,
+                const std::string& schemes, const std::string& rest) {
+    const std::string text = "{\"extremal\":1,\"model\":" + model + ",\"initial\":" + initial +
+                             ",\"time\":{\"end\":" + end + "},\"schemes\":[" + schemes + "]" + rest + "}";
     const ReadScene read = readScene(std::string_view(text));
     for (const Problem& p : read.errors) qWarning("%s: %s", p.pointer.c_str(), p.message.c_str());
     return read.scene;
@@ -41,7 +41,8 @@ class RunTest : public QObject {
     Q_OBJECT
 private slots:
     void theStrideIsTheSmallestThatFits() {
-        for (const long long steps : {0LL, 1LL, 1998LL, 1999LL, 2000LL, 2001LL, 3997LL, 3998LL, 3999LL, 5000LL, 10000000LL}) {
+        for (const long long steps :
+             {0LL, 1LL, 1998LL, 1999LL, 2000LL, 2001LL, 3997LL, 3998LL, 3999LL, 5000LL, 10000000LL}) {
             const long long m = RowSampler::stride(steps);
             const auto rows = [&](long long k) { return steps / k + 1 + (steps % k != 0 ? 1 : 0); };
             QVERIFY(rows(m) <= 2000);
@@ -52,25 +53,31 @@ private slots:
         QTest::addColumn<QString>("output");
         QTest::addColumn<QList<double>>("expected");
         QTest::newRow("every node") << "" << QList<double>{0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2};
-        QTest::newRow("multiples that are nodes") << R"(,"output":{"every":0.5})" << QList<double>{0, 0.5, 1, 1.5, 2};
-        QTest::newRow("first node at or after") << R"(,"output":{"every":0.6})" << QList<double>{0, 0.75, 1.25, 2};
-        QTest::newRow("dense") << R"(,"output":{"every":0.6,"dense":true})" << QList<double>{0, 0.6, 1.2, 1.8, 2};
+        QTest::newRow("multiples that are nodes")
+            << R"(,"output":{"every":0.5})" << QList<double>{0, 0.5, 1, 1.5, 2};
+        QTest::newRow("first node at or after")
+            << R"(,"output":{"every":0.6})" << QList<double>{0, 0.75, 1.25, 2};
+        QTest::newRow("dense") << R"(,"output":{"every":0.6,"dense":true})"
+                               << QList<double>{0, 0.6, 1.2, 1.8, 2};
     }
     void rowsAreNodes() {
         QFETCH(QString, output);
         QFETCH(QList<double>, expected);
-        const Scene scene = sceneFrom(kepler, keplerData, "2.1", R"({"scheme":"galerkin-gauss-3","step":0.25})",
-                                      output.toStdString());
+        const Scene scene = sceneFrom(kepler, keplerData, "2.1",
+                                      R"({"scheme":"galerkin-gauss-3","step":0.25})", output.toStdString());
         const Comparison c = run(scene);
         const auto t = c.schemes.at(0)->trajectory["t"];
         QCOMPARE(static_cast<qsizetype>(t.size()), expected.size());
-        for (std::size_t i = 0; i < t.size(); ++i) QVERIFY(std::abs(t[i] - expected[static_cast<qsizetype>(i)]) < 1e-14);
+        for (std::size_t i = 0; i < t.size(); ++i)
+            QVERIFY(std::abs(t[i] - expected[static_cast<qsizetype>(i)]) < 1e-14);
         QCOMPARE(c.schemes[0]->summary.tEnd, 2.0);
         QCOMPARE(c.schemes[0]->summary.steps, 8LL);
     }
     void adaptiveCodesLandOnTheEnd() {
-        const Scene scene = sceneFrom(kepler, keplerData, "7.7", R"({"baseline":"fehlberg78","tolerance":1e-10},
-                                      {"baseline":"dopri5","tolerance":1e-6})", R"(,"observe":["error"])");
+        const Scene scene =
+            sceneFrom(kepler, keplerData, "7.7", R"({"baseline":"fehlberg78","tolerance":1e-10},
+                                      {"baseline":"dopri5","tolerance":1e-6})",
+                      R"(,"observe":["error"])");
         const Comparison c = run(scene);
         for (const auto& s : c.schemes) {
             QVERIFY(s->summary.status == RunStatus::done);
@@ -82,12 +89,13 @@ private slots:
     }
     void theSummarySeesEveryNode() {
         const std::string scheme = R"({"baseline":"stormer-verlet","step":0.01})";
-        const Comparison coarse =
-            run(sceneFrom(kepler, keplerData, "50", scheme, R"(,"observe":["energy","error"],"output":{"every":25})"));
-        const Comparison all =
-            run(sceneFrom(kepler, keplerData, "50", scheme, R"(,"observe":["energy","error"],"output":{"every":0.01})"));
+        const Comparison coarse = run(sceneFrom(kepler, keplerData, "50", scheme,
+                                                R"(,"observe":["energy","error"],"output":{"every":25})"));
+        const Comparison all = run(sceneFrom(kepler, keplerData, "50", scheme,
+                                             R"(,"observe":["energy","error"],"output":{"every":0.01})"));
         double worst = 0;
-        for (const double e : all.schemes[0]->trajectory["energy_error"]) worst = std::max(worst, std::abs(e));
+        for (const double e : all.schemes[0]->trajectory["energy_error"])
+            worst = std::max(worst, std::abs(e));
         QCOMPARE(coarse.schemes[0]->trajectory.rows(), std::size_t(3));
         QCOMPARE(coarse.schemes[0]->summary.maxEnergyError, worst);
         QCOMPARE(coarse.schemes[0]->summary.maxError, all.schemes[0]->summary.maxError);
@@ -122,17 +130,21 @@ private slots:
         QTest::addColumn<QString>("model");
         QTest::addColumn<QString>("initial");
         QTest::addColumn<QString>("scheme");
-        QTest::newRow("many cheap steps") << R"({"type":"kepler"})" << R"({"q":[0.4,0],"p":[0,2]})"
+        QTest::newRow("many cheap steps") << R"({"type":"kepler"})"
+                                          << R"({"q":[0.4,0],"p":[0,2]})"
                                           << R"({"baseline":"stormer-verlet","step":1e-4})";
-        QTest::newRow("Newton on a stiff system") << R"({"type":"spring-pendulum","k":1e8})" << R"({"q":[0.0005,1]})"
-                                                  << R"({"space":{"type":"polynomial","degree":12},"step":1e-3})";
+        QTest::newRow("Newton on a stiff system")
+            << R"({"type":"spring-pendulum","k":1e8})"
+            << R"({"q":[0.0005,1]})"
+            << R"({"space":{"type":"polynomial","degree":12},"step":1e-3})";
     }
     void stopEndsARunWithinFiftyMilliseconds() {
         QFETCH(QString, model);
         QFETCH(QString, initial);
         QFETCH(QString, scheme);
         for (const char* observe : {R"(,"observe":["energy"])", R"(,"observe":["error"])"}) {
-            Run r(sceneFrom(model.toStdString(), initial.toStdString(), "100000", scheme.toStdString(), observe));
+            Run r(sceneFrom(model.toStdString(), initial.toStdString(), "100000", scheme.toStdString(),
+                            observe));
             r.start();
             QTest::qWait(120);
             QVERIFY(!r.isFinished());
@@ -150,15 +162,18 @@ private slots:
     void troubleIsAnOutcomeAndOthersGoOn() {
         const Scene origin = sceneFrom(kepler, R"({"q":[0,0],"p":[0,1]})", "1",
                                        R"({"scheme":"midpoint","step":0.1},{"baseline":"rk4","step":0.1},
-                                          {"baseline":"fehlberg78","tolerance":1e-8})", R"(,"observe":["energy","error"])");
+                                          {"baseline":"fehlberg78","tolerance":1e-8})",
+                                       R"(,"observe":["energy","error"])");
         for (const auto& s : run(origin).schemes) {
             QVERIFY2(s->summary.status == RunStatus::failed, s->summary.label.c_str());
             QVERIFY(s->summary.cause != Outcome::converged && s->summary.cause != Outcome::stopped);
             QCOMPARE(s->summary.failedAt, 0.0);
         }
-        const Scene stiff = sceneFrom(R"({"type":"spring-pendulum","k":1e6})", R"({"q":[0.005,1]})", "10",
-                                      R"({"baseline":"rk4","step":0.02},{"scheme":"galerkin-gauss-4","step":0.001},
-                                         {"scheme":"galerkin-gauss-2","step":5})", R"(,"observe":["energy"])");
+        const Scene stiff =
+            sceneFrom(R"({"type":"spring-pendulum","k":1e6})", R"({"q":[0.005,1]})", "10",
+                      R"({"baseline":"rk4","step":0.02},{"scheme":"galerkin-gauss-4","step":0.001},
+                                         {"scheme":"galerkin-gauss-2","step":5})",
+                      R"(,"observe":["energy"])");
         const Comparison c = run(stiff);
         QVERIFY(c.schemes[0]->summary.status == RunStatus::failed);
         QVERIFY(c.schemes[0]->summary.failedAt > 0 && c.schemes[0]->summary.failedAt < 10);

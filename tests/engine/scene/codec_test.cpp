@@ -116,28 +116,41 @@ private slots:
         row("/observe=energy", "/observe", "must be an array");
         row("/views=[\"fase\"]", "/views/0", "unknown view \"fase\"", "phase");
         row("/views=[{\"view\":\"phase\",\"x\":\"q.z\"}]", "/views/0/x", "unknown column \"q.z\"", "q.x");
-        row("/views=[{\"view\":\"energy\",\"y\":\"q.x\"}]", "/views/0/y", "is only for phase portraits, trajectories");
+        row("/views=[{\"view\":\"energy\",\"y\":\"q.x\"}]", "/views/0/y",
+            "is only for phase portraits, trajectories");
         row("/views=[{\"view\":\"phase\",\"range\":[0,1]}]", "/views/0/range", "must be an object");
         row("/views=[{\"view\":\"phase\",\"range\":{\"z\":[0,1]}}]", "/views/0/range/z", "unknown key \"z\"");
-        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":3}}]", "/views/0/range/x", "must be an array of two numbers");
-        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":[1]}}]", "/views/0/range/x", "must have two numbers");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":3}}]", "/views/0/range/x",
+            "must be an array of two numbers");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":[1]}}]", "/views/0/range/x",
+            "must have two numbers");
         row("/views=[{\"view\":\"phase\",\"range\":{\"y\":[\"2*mu\",1]}}]", "/views/0/range/y",
             "must be two increasing numbers, got 2 and 1");
-        row("/views=[{\"view\":\"phase\",\"range\":{\"y\":[1,\"mi\"]}}]", "/views/0/range/y/1", "unknown name \"mi\"", "did you mean");
-        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":[1,1.0000000000001]}}]", "/views/0/range/x", "too close together");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"y\":[1,\"mi\"]}}]", "/views/0/range/y/1",
+            "unknown name \"mi\"", "did you mean");
+        row("/views=[{\"view\":\"phase\",\"range\":{\"x\":[1,1.0000000000001]}}]", "/views/0/range/x",
+            "too close together");
         row("/views=[{\"view\":\"energy\",\"range\":{\"y\":[0,1]}}]", "/views/0/range/y/0",
             "must be a positive finite number, got 0", "logarithmic");
-        row("/views=[{\"view\":\"work-precision\",\"range\":{\"x\":[-1,1]}}]", "/views/0/range/x/0", "got -1", "logarithmic");
-        row("/views=[{\"view\":\"stage\",\"range\":{\"x\":[0,1]}}]", "/views/0/range", "stage has no axes", "leave it out");
+        row("/views=[{\"view\":\"work-precision\",\"range\":{\"x\":[-1,1]}}]", "/views/0/range/x/0", "got -1",
+            "logarithmic");
+        row("/views=[{\"view\":\"stage\",\"range\":{\"x\":[0,1]}}]", "/views/0/range", "stage has no axes",
+            "leave it out");
         row("/views=[{\"view\":\"sparsity\",\"range\":{}}]", "/views/0/range", "sparsity has no axes");
         row("/views=[{\"view\":\"energy\",\"curve\":3}]", "/views/0/curve", "must be a text in quotes");
         row("/views=[{\"view\":\"energy\",\"curve\":\"sin(t\"}]", "/views/0/curve", "    sin(t\n       ^");
-        row("/views=[{\"view\":\"energy\",\"curve\":\"mu*sin(s)\"}]", "/views/0/curve", "unknown name \"s\"\n    mu*sin(s)\n           ^");
-        row("/views=[{\"view\":\"phase\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place", "\"x\": \"t\"");
-        row("/views=[{\"view\":\"trajectory\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place");
-        row("/views=[{\"view\":\"stage\",\"curve\":\"t\"}]", "/views/0/curve", "is for plots against time or a place");
-        row("/views=[{\"view\":\"energy\",\"node\":1}]", "/views/0/node", "is only for the view shape-function");
-        row("/views=[{\"view\":\"shape-function\",\"node\":1.5}]", "/views/0/node", "must be an integer from 1");
+        row("/views=[{\"view\":\"energy\",\"curve\":\"mu*sin(s)\"}]", "/views/0/curve",
+            "unknown name \"s\"\n    mu*sin(s)\n           ^");
+        row("/views=[{\"view\":\"phase\",\"curve\":\"t\"}]", "/views/0/curve",
+            "is for plots against time or a place", "\"x\": \"t\"");
+        row("/views=[{\"view\":\"trajectory\",\"curve\":\"t\"}]", "/views/0/curve",
+            "is for plots against time or a place");
+        row("/views=[{\"view\":\"stage\",\"curve\":\"t\"}]", "/views/0/curve",
+            "is for plots against time or a place");
+        row("/views=[{\"view\":\"energy\",\"node\":1}]", "/views/0/node",
+            "is only for the view shape-function");
+        row("/views=[{\"view\":\"shape-function\",\"node\":1.5}]", "/views/0/node",
+            "must be an integer from 1");
         row("/output/every=0", "/output/every", "must be a positive finite number");
         row("/output/every=1e-12", "/output/every", "asks for 3e+12 rows");
         row("/output/dense=true", "/output/dense", "needs an interval");
@@ -285,7 +298,8 @@ private slots:
     }
 
     void thePartAndTheCurveOfAViewAreKeptAsTheyWereWritten() {
-        const std::string views = R"(/views=[{"view":"trajectory","y":"q.y","range":{"x":[1,"1+mu"]},"curve":"mu*cos(t)+pi"},
+        const std::string views =
+            R"(/views=[{"view":"trajectory","y":"q.y","range":{"x":[1,"1+mu"]},"curve":"mu*cos(t)+pi"},
                                     {"view":"error","range":{"y":["mu/1e6",1]},"curve":"1e-6*t^2"},"phase"])";
         const ReadScene first = readScene(good, {parseOverride(views), parseOverride("/model/mu=2"),
                                                  parseOverride("/views/0/range/y=[0,\"mu^3\"]")});
@@ -297,12 +311,14 @@ private slots:
         QVERIFY(!b.xRange && b.yRange->low.value == 2e-6);
         QVERIFY((a.curve == ViewCurve{"mu*cos(t)+pi", {{"mu", 2.0}}}) && b.curve.values.empty());
         const std::string saved = writeScene(first.scene);
-        QVERIFY(saved.find("\"mu^3\"") != std::string::npos && saved.find("\"mu*cos(t)+pi\"") != std::string::npos);
+        QVERIFY(saved.find("\"mu^3\"") != std::string::npos &&
+                saved.find("\"mu*cos(t)+pi\"") != std::string::npos);
         QVERIFY(readScene(saved).scene == first.scene);
     }
 
     void aNodeIsOneOfTheNodesInside() {
-        const std::string text = R"({"extremal":1,"model":{"type":"multiscale-elliptic","elements":10},"schemes":[
+        const std::string text =
+            R"({"extremal":1,"model":{"type":"multiscale-elliptic","elements":10},"schemes":[
             {"scheme":"elliptic-multiscale"},{"scheme":"elliptic-linear","step":0.2}],"views":[{"view":"shape-function","node":4}]})";
         const ReadScene read = readScene(text);
         QVERIFY2(read.errors.empty(), textOf(read.errors).c_str());
@@ -310,14 +326,17 @@ private slots:
         QCOMPARE(read.scene.observe, std::vector<std::string>{"error"});  // it has no energy
         QVERIFY(readScene(writeScene(read.scene)).scene == read.scene);
         for (const char* node : {"0", "5", "-1"}) {
-            const Problem error = firstError(readScene(text, {parseOverride(std::string("/views/0/node=") + node)}));
+            const Problem error =
+                firstError(readScene(text, {parseOverride(std::string("/views/0/node=") + node)}));
             QCOMPARE(error.pointer, std::string("/views/0/node"));
-            QVERIFY2(error.message.find("must be an integer from 1 to 4") != std::string::npos, error.message.c_str());
+            QVERIFY2(error.message.find("must be an integer from 1 to 4") != std::string::npos,
+                     error.message.c_str());
         }
     }
 
     void theNumberOfElementsGivesTheStep() {
-        const std::string text = R"({"extremal":1,"model":{"type":"multiscale-elliptic","elements":10},"schemes":[
+        const std::string text =
+            R"({"extremal":1,"model":{"type":"multiscale-elliptic","elements":10},"schemes":[
             {"scheme":"elliptic-multiscale"},{"space":{"type":"elliptic-elements","elements":5},"quadrature":"auto"}]})";
         const auto steps = [](const ReadScene& read) {
             return std::pair{read.scene.schemes.at(0).step.value, read.scene.schemes.at(1).step.value};

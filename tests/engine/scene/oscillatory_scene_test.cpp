@@ -10,11 +10,14 @@
 namespace extremal::oscillatory_scene_test {
 namespace {
 
-std::string scene(const std::string& scheme, const std::string& model = R"({"type":"spring-pendulum","k":1e6})") {
-    return R"({"extremal":1,"model":)" + model + R"(,"time":{"end":2},"schemes":[)" + scheme + R"(],"reference":"none"})";
+std::string scene(const std::string& scheme,
+                  const std::string& model = R"({"type":"spring-pendulum","k":1e6})") {
+    return R"({"extremal":1,"model":)" + model + R"(,"time":{"end":2},"schemes":[)" + scheme +
+           R"(],"reference":"none"})";
 }
 std::string space(const std::string& keys, const std::string& rule = "") {
-    return R"({"step":0.2,"space":{"type":"oscillatory")" + keys + "}" + (rule.empty() ? "" : R"(,"quadrature":)" + rule) + "}";
+    return R"({"step":0.2,"space":{"type":"oscillatory")" + keys + "}" +
+           (rule.empty() ? "" : R"(,"quadrature":)" + rule) + "}";
 }
 
 }  // namespace
@@ -29,21 +32,35 @@ private slots:
             QTest::newRow(name) << QString::fromStdString(scheme) << start;
         };
         row("omega", space(R"(,"omega":-3)"), "/schemes/0/space/omega: must be a positive finite number");
-        row("omega name", space(R"(,"omega":"fast")"), "/schemes/0/space/omega: the expression has an unknown name");
-        row("omega list", space(R"(,"omega":[10,20,30])"), "/schemes/0/space/omega: must be a positive finite number");
-        row("second omega", space(R"(,"omega":[10,-20])"), "/schemes/0/space/omega/1: must be a positive finite number, got -20");
-        row("combination", space(R"(,"omega":[10,16],"harmonics":[{"of":[0,0]}])"), "/schemes/0/space/harmonics/0/of: must be two multiples");
-        row("twice", space(R"(,"omega":[10,16],"harmonics":[1,{"of":[-1,0]}])"), "/schemes/0/space/harmonics/1: is a harmonic that is there");
-        row("of one", space(R"(,"omega":10,"harmonics":[{"of":[1,1]}])"), "/schemes/0/space/harmonics/0: the degree of a harmonic");
+        row("omega name", space(R"(,"omega":"fast")"),
+            "/schemes/0/space/omega: the expression has an unknown name");
+        row("omega list", space(R"(,"omega":[10,20,30])"),
+            "/schemes/0/space/omega: must be a positive finite number");
+        row("second omega", space(R"(,"omega":[10,-20])"),
+            "/schemes/0/space/omega/1: must be a positive finite number, got -20");
+        row("combination", space(R"(,"omega":[10,16],"harmonics":[{"of":[0,0]}])"),
+            "/schemes/0/space/harmonics/0/of: must be two multiples");
+        row("twice", space(R"(,"omega":[10,16],"harmonics":[1,{"of":[-1,0]}])"),
+            "/schemes/0/space/harmonics/1: is a harmonic that is there");
+        row("of one", space(R"(,"omega":10,"harmonics":[{"of":[1,1]}])"),
+            "/schemes/0/space/harmonics/0: the degree of a harmonic");
         row("harmonics", space(R"(,"harmonics":3)"), "/schemes/0/space/harmonics: must be an array");
-        row("harmonic", space(R"(,"harmonics":[1,-1])"), "/schemes/0/space/harmonics/1: the degree of a harmonic must be an integer from 0 to 24, got -1");
-        row("variable", space(R"(,"variables":{"b":{"degree":2}})"), "/schemes/0/space/variables/b: spring-pendulum has no coordinate \"b\"");
-        row("key", space(R"(,"variables":{"a":{"degre":2}})"), "/schemes/0/space/variables/a/degre: unknown key");
-        row("degree", space(R"(,"fast":{"degree":0})"), "/schemes/0/space/fast/degree: the degree must be an integer from 1 to 24, got 0");
-        row("nodes", space("", R"({"type":"filon-lobatto","nodes":4})"), "/schemes/0: makes no sense: 4 nodes do not see");
-        row("phases", space("", R"({"type":"filon-lobatto","phases":4})"), "/schemes/0: makes no sense: 4 phases do not see");
-        row("unresolved", space("", R"({"type":"gauss","nodes":12})"), "/schemes/0/quadrature: 12 nodes do not resolve");
-        row("polynomials", R"({"step":0.1,"space":{"type":"polynomial","degree":2},"quadrature":"filon-lobatto"})",
+        row("harmonic", space(R"(,"harmonics":[1,-1])"),
+            "/schemes/0/space/harmonics/1: the degree of a harmonic must be an integer from 0 to 24, got -1");
+        row("variable", space(R"(,"variables":{"b":{"degree":2}})"),
+            "/schemes/0/space/variables/b: spring-pendulum has no coordinate \"b\"");
+        row("key", space(R"(,"variables":{"a":{"degre":2}})"),
+            "/schemes/0/space/variables/a/degre: unknown key");
+        row("degree", space(R"(,"fast":{"degree":0})"),
+            "/schemes/0/space/fast/degree: the degree must be an integer from 1 to 24, got 0");
+        row("nodes", space("", R"({"type":"filon-lobatto","nodes":4})"),
+            "/schemes/0: makes no sense: 4 nodes do not see");
+        row("phases", space("", R"({"type":"filon-lobatto","phases":4})"),
+            "/schemes/0: makes no sense: 4 phases do not see");
+        row("unresolved", space("", R"({"type":"gauss","nodes":12})"),
+            "/schemes/0/quadrature: 12 nodes do not resolve");
+        row("polynomials",
+            R"({"step":0.1,"space":{"type":"polynomial","degree":2},"quadrature":"filon-lobatto"})",
             "/schemes/0: makes no sense: a Filon rule");
         row("solver", R"({"step":0.2,"scheme":"multiscale-r1","solver":{"method":"fixed-point"}})",
             "/schemes/0/solver/method: fixed-point iteration");
@@ -57,19 +74,22 @@ private slots:
         QVERIFY2(error.starts_with(start.toStdString()), error.c_str());
     }
     void modelsThatDoNotKnowTheirFrequencySaySo() {
-        const ReadScene read = readScene(scene(R"({"step":0.2,"scheme":"multiscale-r1"})", R"({"type":"kepler"})"));
+        const ReadScene read =
+            readScene(scene(R"({"step":0.2,"scheme":"multiscale-r1"})", R"({"type":"kepler"})"));
         QVERIFY(!read.errors.empty());
         QCOMPARE(QString::fromStdString(read.errors[0].pointer), QString("/schemes/0/space/omega"));
     }
     void aSceneSurvivesWritingAndReading() {
-        const std::string keys = R"(,"omega":"estimate","degree":6,"harmonics":[3,1],"variables":{"a":{"degree":4}})";
+        const std::string keys =
+            R"(,"omega":"estimate","degree":6,"harmonics":[3,1],"variables":{"a":{"degree":4}})";
         const ReadScene read = readScene(scene(space(keys)));
         QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
         const ReadScene again = readScene(writeScene(read.scene));
         QVERIFY(again.errors.empty() && again.scene == read.scene);
     }
     void twoFrequenciesMayBeExpressions() {
-        const std::string keys = R"_(,"omega":["sqrt(k/m)","0.618*sqrt(k/m)"],"harmonics":[1,{"of":[1,-1],"degree":0}])_";
+        const std::string keys =
+            R"_(,"omega":["sqrt(k/m)","0.618*sqrt(k/m)"],"harmonics":[1,{"of":[1,-1],"degree":0}])_";
         const ReadScene read = readScene(scene(space(keys)));
         QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
         const Settings& s = read.scene.schemes[0].space;
@@ -83,7 +103,8 @@ private slots:
         const ReadScene read = readScene(scene(R"({"step":0.2008,"scheme":"multiscale-r1"})"));
         QVERIFY(read.errors.empty());
         const auto about = [](const ReadScene& r) {
-            return std::find_if(r.warnings.begin(), r.warnings.end(), [](const Problem& p) { return p.pointer == "/schemes/0/step"; });
+            return std::find_if(r.warnings.begin(), r.warnings.end(),
+                                [](const Problem& p) { return p.pointer == "/schemes/0/step"; });
         };
         QVERIFY(about(read) != read.warnings.end());
         QVERIFY(about(read)->remedy.isNumber());
@@ -93,8 +114,9 @@ private slots:
         QVERIFY(good.errors.empty() && about(good) == good.warnings.end());
     }
     void typedLagrangiansStepOverTheirOscillation() {
-        const std::string typed = R"({"type":"lagrangian","coordinates":["a","theta"],"parameters":{"k":1e6},)"
-                                  R"("lagrangian":"a_t^2/2 + (1+a)^2*theta_t^2/2 + 9.81*(1+a)*cos(theta) - k*a^2/2"})";
+        const std::string typed =
+            R"({"type":"lagrangian","coordinates":["a","theta"],"parameters":{"k":1e6},)"
+            R"("lagrangian":"a_t^2/2 + (1+a)^2*theta_t^2/2 + 9.81*(1+a)*cos(theta) - k*a^2/2"})";
         const std::string start = R"("initial":{"q":[0.005,1],"p":[0,0]},)";
         const auto last = [&](const std::string& model, const std::string& omega) {
             std::string text = scene(space(R"(,"degree":6,"harmonics":[3,1],"omega":)" + omega), model);

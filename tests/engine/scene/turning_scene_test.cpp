@@ -12,9 +12,11 @@ namespace {
 
 /// A body with |omega| = 1 at the start, over 60 rad.
 ReadScene body(const std::string& schemes) {
-    return readScene(R"({"extremal": 1, "title": "body", "model": {"type": "rigid-body", "inertia": [1, 2, 3]},
+    return readScene(
+        R"({"extremal": 1, "title": "body", "model": {"type": "rigid-body", "inertia": [1, 2, 3]},
         "initial": {"attitude": [1, 0, 0, 0], "omega": [0.6, 0, 0.8]}, "time": {"end": 60},
-        "schemes": [)" + schemes + R"(], "observe": ["error"]})");
+        "schemes": [)" +
+        schemes + R"(], "observe": ["error"]})");
 }
 std::size_t turningWarnings(const ReadScene& scene) {
     std::size_t count = 0;
@@ -56,14 +58,15 @@ private slots:
         QCOMPARE(scene.warnings[0].remedy.asNumber(), 2.2);
         QCOMPARE(turningWarnings(body(R"({"step": 2.2, "scheme": "lie-3"})")), std::size_t(0));
     }
-    /// Attitude error over 60 rad, a radian: on this body 1.8e-3, 7.6e-4 and 1.7e-4 at the limits of degree 2, 3 and 4,
-    /// 5.5e-3, 4.2e-3 and 1.1e-3 a third beyond, 1.2e-4 and less at half of them.
+    /// Attitude error over 60 rad, a radian: on this body 1.8e-3, 7.6e-4 and 1.7e-4 at the limits of degree
+    /// 2, 3 and 4, 5.5e-3, 4.2e-3 and 1.1e-3 a third beyond, 1.2e-4 and less at half of them.
     void whatTheWarningSaysIsSo() {
         const double limits[] = {1.25, 2.25, 3};
         for (int degree = 2; degree <= 4; ++degree)
             for (const double factor : {0.5, 1.0, 1.35}) {
                 const double h = factor * limits[degree - 2];
-                const ReadScene scene = body("{\"step\": " + std::to_string(h) + ", \"scheme\": \"lie-" + std::to_string(degree) + "\"}");
+                const ReadScene scene = body("{\"step\": " + std::to_string(h) + ", \"scheme\": \"lie-" +
+                                             std::to_string(degree) + "\"}");
                 const Comparison c = run(scene.scene);
                 const double loss = c.schemes[0]->summary.maxError / 60;
                 qInfo("degree %d, h = %.3f: %.1e rad lost per radian", degree, h, loss);

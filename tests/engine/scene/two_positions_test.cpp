@@ -12,8 +12,8 @@ namespace extremal::two_positions_test {
 namespace {
 
 std::string sceneText(const std::string& initial, const std::string& schemes, const std::string& more = "") {
-    return R"({"extremal":1,"model":{"type":"kepler"},"initial":)" + initial + R"(,"time":{"end":4},"schemes":[)" + schemes +
-           "]" + more + "}";
+    return R"({"extremal":1,"model":{"type":"kepler"},"initial":)" + initial +
+           R"(,"time":{"end":4},"schemes":[)" + schemes + "]" + more + "}";
 }
 const std::string twoPositions = R"({"q":[0.4,0],"q1":[0.38,0.19]})";
 const std::string threeSchemes =
@@ -40,19 +40,24 @@ private slots:
         QTest::addColumn<QString>("initial");
         QTest::addColumn<QString>("schemes");
         QTest::addColumn<QString>("start");
-        const QString one = R"({"step":0.1,"scheme":"midpoint"})", two = one + R"(,{"step":0.05,"scheme":"midpoint"})";
+        const QString one = R"({"step":0.1,"scheme":"midpoint"})",
+                      two = one + R"(,{"step":0.05,"scheme":"midpoint"})";
         const QString good = QString::fromStdString(twoPositions);
         QTest::newRow("different steps") << good << two << "/initial/at: is required";
         QTest::newRow("a step that does not divide the time")
             << R"({"q":[0.4,0],"q1":[0.38,0.19],"at":0.12})" << one << "/schemes/0/step: 0.1 does not reach";
-        QTest::newRow("no step at all") << good << R"({"tolerance":1e-8,"baseline":"dopri5"})" << "/initial/at: is required";
-        QTest::newRow("momentum as well") << R"({"q":[0.4,0],"q1":[0.38,0.19],"p":[0,2]})" << one << "/initial: has both p and q1";
+        QTest::newRow("no step at all") << good << R"({"tolerance":1e-8,"baseline":"dopri5"})"
+                                        << "/initial/at: is required";
+        QTest::newRow("momentum as well")
+            << R"({"q":[0.4,0],"q1":[0.38,0.19],"p":[0,2]})" << one << "/initial: has both p and q1";
         QTest::newRow("time alone") << R"({"q":[0.4,0],"at":0.1})" << one << "/initial/at: stands without q1";
         QTest::newRow("a time that is no time") << R"({"q":[0.4,0],"q1":[0.38,0.19],"at":-1})" << one
                                                 << "/initial/at: must be a positive finite number, got -1";
-        QTest::newRow("a position too short") << R"({"q":[0.4,0],"q1":[0.38]})" << one << "/initial/q1: must have 2 numbers";
+        QTest::newRow("a position too short")
+            << R"({"q":[0.4,0],"q1":[0.38]})" << one << "/initial/q1: must have 2 numbers";
         // Through the centre of attraction there is no motion.
-        QTest::newRow("the other side of the centre") << R"({"q":[0.4,0],"q1":[-0.4,0]})" << one << "/initial/q1: no motion";
+        QTest::newRow("the other side of the centre")
+            << R"({"q":[0.4,0],"q1":[-0.4,0]})" << one << "/initial/q1: no motion";
     }
     void whatCannotBeIsSaid() {
         QFETCH(QString, initial);
@@ -72,8 +77,10 @@ private slots:
     void everySchemePassesThroughBoth_data() {
         QTest::addColumn<QString>("scheme");
         QTest::addColumn<double>("step");
-        for (const char* scheme : {R"("scheme":"midpoint")", R"("scheme":"galerkin-lobatto-3")", R"("space":{"type":"spline","degree":2})",
-                                   R"("baseline":"stormer-verlet")", R"("baseline":"rk4")", R"("baseline":"symplectic-euler")"})
+        for (const char* scheme :
+             {R"("scheme":"midpoint")", R"("scheme":"galerkin-lobatto-3")",
+              R"("space":{"type":"spline","degree":2})", R"("baseline":"stormer-verlet")",
+              R"("baseline":"rk4")", R"("baseline":"symplectic-euler")"})
             for (const int n : {1, 2, 5, 50})  // 50: beyond the nodal equations, by shooting
                 QTest::addRow("%s, %d steps", scheme, n) << QString(scheme) << 0.1 / n;
     }
@@ -81,7 +88,8 @@ private slots:
         QFETCH(QString, scheme);
         QFETCH(double, step);
         const std::string text =
-            sceneText(R"({"q":[0.4,0],"q1":[0.38,0.19],"at":0.1})", "{" + scheme.toStdString() + ",\"step\":" + std::to_string(step) + "}");
+            sceneText(R"({"q":[0.4,0],"q1":[0.38,0.19],"at":0.1})",
+                      "{" + scheme.toStdString() + ",\"step\":" + std::to_string(step) + "}");
         const ReadScene read = readScene(text);
         QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
         const System system = makeSystem(read.scene);
@@ -96,8 +104,10 @@ private slots:
         QVERIFY(own < 0.8);
     }
     void theMultiplierIsTheMomentumInEveryRow() {
-        const std::string schemes = R"({"step":0.1,"scheme":"galerkin-gauss-2"},{"step":0.1,"baseline":"stormer-verlet"})";
-        const Comparison c = run(readScene(sceneText(twoPositions, schemes, R"(,"observe":["multiplier"])")).scene);
+        const std::string schemes =
+            R"({"step":0.1,"scheme":"galerkin-gauss-2"},{"step":0.1,"baseline":"stormer-verlet"})";
+        const Comparison c =
+            run(readScene(sceneText(twoPositions, schemes, R"(,"observe":["multiplier"])")).scene);
         const Trajectory& pair = c.schemes[0]->trajectory;
         QCOMPARE(pair["multiplier"].size(), std::size_t(41));
         for (std::size_t r = 0; r < 41; ++r) {

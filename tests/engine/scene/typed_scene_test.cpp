@@ -59,23 +59,43 @@ private slots:
         QTest::addColumn<QString>("override");
         QTest::addColumn<QString>("pointer");
         QTest::addColumn<QString>("message");
-        QTest::newRow("text as names") << "/model/coordinates=5" << "/model/coordinates" << "must be an array of names, got 5";
-        QTest::newRow("number as name") << "/model/coordinates=[5]" << "/model/coordinates/0"
+        QTest::newRow("text as names") << "/model/coordinates=5"
+                                       << "/model/coordinates"
+                                       << "must be an array of names, got 5";
+        QTest::newRow("number as name") << "/model/coordinates=[5]"
+                                        << "/model/coordinates/0"
                                         << "must be a text in quotes, got 5";
-        QTest::newRow("no coordinate") << "/model/coordinates=[]" << "/model/coordinates" << "needs at least one name";
-        QTest::newRow("parameter") << "/model/parameters/m=true" << "/model/parameters/m"
+        QTest::newRow("no coordinate") << "/model/coordinates=[]"
+                                       << "/model/coordinates"
+                                       << "needs at least one name";
+        QTest::newRow("parameter") << "/model/parameters/m=true"
+                                   << "/model/parameters/m"
                                    << "must be a finite number, got true";
-        QTest::newRow("circle") << R"(/model/parameters={"m": "k", "k": "m", "w": 1})" << "/model/parameters/m"
+        QTest::newRow("circle") << R"(/model/parameters={"m": "k", "k": "m", "w": 1})"
+                                << "/model/parameters/m"
                                 << "depends on itself: m -> k -> m";
-        QTest::newRow("velocity in a number") << "/time/end=dot(x)" << "/time/end" << "dot(...), which stands for a velocity";
-        QTest::newRow("degenerate") << "/model/lagrangian=x_t*x" << "/model/lagrangian" << "is degenerate";
-        QTest::newRow("degenerate for a parameter") << "/model/parameters/m=0" << "/model/lagrangian" << "is degenerate";
-        QTest::newRow("not finite at the start") << "/model/lagrangian=x_t^2 + log(x - 1)" << "/model/lagrangian"
-                                                 << "is not finite, or has no finite derivatives, at the initial data";
-        QTest::newRow("degenerate at the start") << "/model/lagrangian=(x - 1/w)^2*x_t^2" << "/model/lagrangian"
+        QTest::newRow("velocity in a number") << "/time/end=dot(x)"
+                                              << "/time/end"
+                                              << "dot(...), which stands for a velocity";
+        QTest::newRow("degenerate") << "/model/lagrangian=x_t*x"
+                                    << "/model/lagrangian"
+                                    << "is degenerate";
+        QTest::newRow("degenerate for a parameter") << "/model/parameters/m=0"
+                                                    << "/model/lagrangian"
+                                                    << "is degenerate";
+        QTest::newRow("not finite at the start")
+            << "/model/lagrangian=x_t^2 + log(x - 1)"
+            << "/model/lagrangian"
+            << "is not finite, or has no finite derivatives, at the initial data";
+        QTest::newRow("degenerate at the start") << "/model/lagrangian=(x - 1/w)^2*x_t^2"
+                                                 << "/model/lagrangian"
                                                  << "is degenerate at the initial data";
-        QTest::newRow("too many data") << "/initial/q=[1, 2]" << "/initial/q" << "must have 1 number (x), got 2";
-        QTest::newRow("no momentum") << "/observe=[\"momentum\"]" << "/observe/0" << "";
+        QTest::newRow("too many data") << "/initial/q=[1, 2]"
+                                       << "/initial/q"
+                                       << "must have 1 number (x), got 2";
+        QTest::newRow("no momentum") << "/observe=[\"momentum\"]"
+                                     << "/observe/0"
+                                     << "";
     }
     void errorsAreAtTheirPlace() {
         QFETCH(QString, override);
@@ -122,7 +142,8 @@ private slots:
             const auto time = trajectory["t"], x = trajectory["q.x"], energy = trajectory["energy"];
             double worst = 0;
             for (std::size_t i = 0; i < time.size(); ++i) {
-                const double t = time[i], expected = std::sin(t) * std::sin(t) / 2 - (1 - std::cos(t)) * std::cos(t);
+                const double t = time[i],
+                             expected = std::sin(t) * std::sin(t) / 2 - (1 - std::cos(t)) * std::cos(t);
                 worst = std::max({worst, std::abs(x[i] - 1 + std::cos(t)), std::abs(energy[i] - expected)});
             }
             qInfo("%s: %.2e", result.schemes[s]->summary.label.c_str(), worst);

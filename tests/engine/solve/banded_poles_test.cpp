@@ -1,4 +1,5 @@
-/// Sums over poles by elimination from both ends against dense solves, in every lane width and for several bands.
+/// Sums over poles by elimination from both ends against dense solves, in every lane width and for several
+/// bands.
 #include <QTest>
 
 #include <Eigen/LU>
@@ -73,7 +74,8 @@ private slots:
         QVERIFY(worst < 2e-12);  // 4e-14 measured for pairs, more where the residues of four cancel
     }
     void aForgottenCornerIsSeen() {
-        // Teeth: the matrix without the entries that make it cyclic gives another result where the diagonal is flat.
+        // Teeth: the matrix without the entries that make it cyclic gives another result where the diagonal
+        // is flat.
         std::mt19937 random(3);
         const CyclicBand Y = makeBand(32, 1, 0, random);
         Eigen::MatrixXcd A = Complex(0, 1) * denseOf(Y);

@@ -57,7 +57,8 @@ private slots:
         forAll([](const Space<double>& space, int, int) {
             const double delta = 1e-5, tau = 0.4321;
             const Values low(space, tau - delta), high(space, tau + delta), here(space, tau);
-            for (std::size_t a = 0; a < here.value.size(); ++a)  // measured: below 3e-7, from the third derivative
+            for (std::size_t a = 0; a < here.value.size();
+                 ++a)  // measured: below 3e-7, from the third derivative
                 QVERIFY(std::abs((high.value[a] - low.value[a]) / (2 * delta) - here.slope[a]) < 1e-6);
         });
     }
@@ -90,7 +91,8 @@ private slots:
             // Marsden's identity with all inner knots gone: tau^2 = sum_a a (a - 1) / (s (s - 1)) N_a.
             double square = 0;
             for (int a = 0; a <= degree; ++a)
-                square += a * (a - 1) / static_cast<double>(degree * (degree - 1)) * v.value[static_cast<std::size_t>(a)];
+                square += a * (a - 1) / static_cast<double>(degree * (degree - 1)) *
+                          v.value[static_cast<std::size_t>(a)];
             QVERIFY(std::abs(square - x * x) < 1e-14);
         }
     }

@@ -1,4 +1,5 @@
-/// The time-independent problem: Mathieu's values by both methods, harmonic levels on an interval, Newton on the KKT system.
+/// The time-independent problem: Mathieu's values by both methods, harmonic levels on an interval, Newton on
+/// the KKT system.
 #include <QTest>
 
 #include <cmath>
@@ -32,15 +33,19 @@ double mathieuError(const Hamiltonian& h, const std::array<double, 8>& a) {
 /// Of the oscillator between walls at -10 and 10, with polynomials of degree N.
 double worstLevel(int N) {
     const wave::Grid interval{{-10, 20}, N - 1};
-    const Eigenstates states(Hamiltonian(interval, 1, 1, wave::makePotential(Value("x^2/2"), "/potential", interval, units), WaveBasis::walls));
+    const Eigenstates states(Hamiltonian(interval, 1, 1,
+                                         wave::makePotential(Value("x^2/2"), "/potential", interval, units),
+                                         WaveBasis::walls));
     double worst = 0;
-    for (std::size_t k = 0; k < 10; ++k) worst = std::max(worst, std::abs(states.energies()[k] - static_cast<double>(k) - 0.5));
+    for (std::size_t k = 0; k < 10; ++k)
+        worst = std::max(worst, std::abs(states.energies()[k] - static_cast<double>(k) - 0.5));
     return worst;
 }
 
 std::shared_ptr<const Hamiltonian> inThePlane(int n, const std::string& V) {
     const wave::Grid plane{{-6, 12}, n, {-6, 12}, n};
-    return std::make_shared<const Hamiltonian>(plane, 1, 1, wave::makePotential(Value(V), "/potential", plane, units));
+    return std::make_shared<const Hamiltonian>(plane, 1, 1,
+                                               wave::makePotential(Value(V), "/potential", plane, units));
 }
 
 }  // namespace
@@ -51,13 +56,17 @@ private slots:
     void mathieuValues_data() {
         QTest::addColumn<double>("q");
         QTest::addColumn<QList<double>>("a");
-        QTest::newRow("0.5") << 0.5 << QList<double>{-0.1217655449410827, 0.4706543549338391, 1.466766842516056, 3.979189215751357,
-                                                     4.100900595560481, 9.013719838920393, 9.017606927797509, 16.00831045970948};
-        QTest::newRow("5") << 5.0 << QList<double>{-5.800046020851508, -5.790080598637771, 1.858187541547751, 2.099460445486665,
-                                                   7.449109739529178, 9.236327713693701, 11.5488320363434, 16.64821993716978};
-        QTest::newRow("25") << 25.0 << QList<double>{-40.25677954656679, -40.25677898468416, -21.31489969066573,
-                                                     -21.31486062224985, -3.522164727158296, -3.520941526621369,
-                                                     12.96407944432647, 12.98648995274246};
+        QTest::newRow("0.5") << 0.5
+                             << QList<double>{-0.1217655449410827, 0.4706543549338391, 1.466766842516056,
+                                              3.979189215751357,   4.100900595560481,  9.013719838920393,
+                                              9.017606927797509,   16.00831045970948};
+        QTest::newRow("5") << 5.0 << QList<double>{-5.800046020851508, -5.790080598637771, 1.858187541547751,
+                                                   2.099460445486665,  7.449109739529178,  9.236327713693701,
+                                                   11.5488320363434,   16.64821993716978};
+        QTest::newRow("25") << 25.0
+                            << QList<double>{-40.25677954656679, -40.25677898468416, -21.31489969066573,
+                                             -21.31486062224985, -3.522164727158296, -3.520941526621369,
+                                             12.96407944432647,  12.98648995274246};
     }
     void mathieuValues() {
         QFETCH(double, q);
@@ -69,7 +78,7 @@ private slots:
         const double pseudo = mathieuError(onCircle(48, V, 0.5), expected),
                      galerkin = mathieuError(onCircle(48, V, 0.5, WaveBasis::convolution), expected);
         qInfo("pseudo-spectral %.2g, Galerkin %.2g", pseudo, galerkin);
-        QVERIFY(pseudo < 1e-12);    // 1e-13 .. 2e-13 measured
+        QVERIFY(pseudo < 1e-12);  // 1e-13 .. 2e-13 measured
         QVERIFY(galerkin < 1e-12);
         QVERIFY(mathieuError(onCircle(48, V, 1), expected) > 0.1);
     }
@@ -77,7 +86,7 @@ private slots:
         const double coarse = worstLevel(48), middle = worstLevel(64), fine = worstLevel(96);
         qInfo("N = 48: %.2g, 64: %.2g, 96: %.2g", coarse, middle, fine);
         QVERIFY(fine < 1e-12);
-        QVERIFY(coarse > 1e-3 && coarse < 0.2);  // 6.6e-2: an error that is seen
+        QVERIFY(coarse > 1e-3 && coarse < 0.2);   // 6.6e-2: an error that is seen
         QVERIFY(middle > 1e-7 && middle < 1e-5);  // 3.3e-6
     }
     void newtonOnTheKktSystemIsQuadratic() {
@@ -88,7 +97,8 @@ private slots:
             const double E = states.energies()[static_cast<std::size_t>(k)];
             QVERIFY(std::abs(E - known[k]) < 1e-8);
             std::vector<Complex> guess = states.coefficients(k);
-            for (std::size_t j = 0; j < guess.size(); ++j) guess[j] += 3e-3 * std::polar(1.0, 1.0 + 3.0 * static_cast<double>(j));
+            for (std::size_t j = 0; j < guess.size(); ++j)
+                guess[j] += 3e-3 * std::polar(1.0, 1.0 + 3.0 * static_cast<double>(j));
             const StationaryState found = refineState(h, guess);
             QVERIFY(found.isConverged);
             std::vector<double> errors;
@@ -96,7 +106,8 @@ private slots:
             qInfo("errors %.1e %.1e %.1e %.1e", errors[0], errors[1], errors[2], errors[3]);
             QVERIFY(errors[0] > 1e-3);
             QVERIFY(errors.back() < 2e-12);
-            QVERIFY(errors[2] < errors[1] * errors[1] && errors[3] < 1e-11);  // 1.5e-1, 4.2e-3, 1.2e-6, 5.7e-13
+            QVERIFY(errors[2] < errors[1] * errors[1] &&
+                    errors[3] < 1e-11);  // 1.5e-1, 4.2e-3, 1.2e-6, 5.7e-13
             QVERIFY(std::abs(squaredNorm(found.c.data(), 64) - 1) < 1e-12);
             QVERIFY(found.residual < 1e-10);
         }
@@ -113,8 +124,10 @@ private slots:
         for (const int n : {0, 1, 3, 4}) {
             Value::Object psi{{"packet", "eigenstate"}, {"n", static_cast<double>(n)}};
             const auto c = wave::makePacket(psi, "/psi", true, h, units);
-            const double E = h->energy(0, c.data()), error = std::abs(E - levels[static_cast<std::size_t>(n)]);
-            const double unrefined = std::abs(coarse.energies()[static_cast<std::size_t>(n)] - levels[static_cast<std::size_t>(n)]);
+            const double E = h->energy(0, c.data()),
+                         error = std::abs(E - levels[static_cast<std::size_t>(n)]);
+            const double unrefined = std::abs(coarse.energies()[static_cast<std::size_t>(n)] -
+                                              levels[static_cast<std::size_t>(n)]);
             qInfo("E%d = %.10f, error %.2g, of 22 x 22 nodes %.2g", n, E, error, unrefined);
             QVERIFY(unrefined > 10 * error);
             QVERIFY(error < 2e-13);  // 7e-15 measured, of 22 x 22 nodes 1e-3
@@ -125,7 +138,8 @@ private slots:
             QVERIFY(std::sqrt(residual) < 1e-7);
         }
         // One that the coarse grid knows nothing of is refused.
-        QVERIFY_EXCEPTION_THROWN((void)wave::makePacket(Value::Object{{"packet", "eigenstate"}, {"n", 200.0}}, "/psi", true, h, units),
+        QVERIFY_EXCEPTION_THROWN((void)wave::makePacket(Value::Object{{"packet", "eigenstate"}, {"n", 200.0}},
+                                                        "/psi", true, h, units),
                                  InvalidScene);
     }
     void theConvolutionIsHermitianAndAgreesWhereItIsResolved() {
@@ -134,8 +148,9 @@ private slots:
             const ConvolutionProblem exact = convolutionGalerkin(h);
             QVERIFY((exact.H - exact.H.adjoint()).norm() < 1e-12);
             QVERIFY(std::abs(exact.W(n / 2) - 0.5) < 1e-15);
-            const double difference = std::abs(Eigenstates(onCircle(n, "20*exp(cos(x))", 1, WaveBasis::convolution)).energies()[0] -
-                                               Eigenstates(h).energies()[0]);
+            const double difference =
+                std::abs(Eigenstates(onCircle(n, "20*exp(cos(x))", 1, WaveBasis::convolution)).energies()[0] -
+                         Eigenstates(h).energies()[0]);
             qInfo("N = %d: ground states differ by %.2g", n, difference);
             if (n == 32) QVERIFY(difference < 1e-7);
             if (n == 64) QVERIFY(difference < 1e-12);

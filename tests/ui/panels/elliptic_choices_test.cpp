@@ -38,7 +38,8 @@ private slots:
         QTRY_VERIFY(!stage->isVisible() && !end->isVisible());
         window.open("preset:pendulum");
         QVERIFY(waitForResults(window));
-        QTRY_VERIFY(window.findChild<StageWidget*>()->isVisible() && window.findChild<QWidget*>("field.end")->isVisible());
+        QTRY_VERIFY(window.findChild<StageWidget*>()->isVisible() &&
+                    window.findChild<QWidget*>("field.end")->isVisible());
     }
     void everyCellOfTheDiscretizerRuns() {
         MainWindow window(Theme::light(), false);
@@ -54,8 +55,10 @@ private slots:
         for (const auto& scheme : window.runControl().results()->schemes) {
             const auto pair = pairOf(scheme->spec);
             QVERIFY(scheme->summary.status == RunStatus::done && pair && isElliptic(pair->space));
-            if (pair->space.text("functions") == "multiscale") QVERIFY(scheme->summary.maxError < 1e-13);
-            else QVERIFY(scheme->summary.maxError > 1e-5);
+            if (pair->space.text("functions") == "multiscale")
+                QVERIFY(scheme->summary.maxError < 1e-13);
+            else
+                QVERIFY(scheme->summary.maxError > 1e-5);
         }
         // Clicked again a cell shows its scheme.
         QTest::mouseClick(cells.front(), Qt::LeftButton);
@@ -88,15 +91,19 @@ private slots:
         MainWindow window(Theme::light(), false);
         window.show();
         for (const auto& [preset, model] : {std::pair{"preset:spring-pendulum", "multiscale-elliptic"},
-                                            {"preset:elliptic", "pendulum"}, {"preset:elliptic", "rigid-body"}}) {
+                                            {"preset:elliptic", "pendulum"},
+                                            {"preset:elliptic", "rigid-body"}}) {
             window.open(preset);
             const ModelEntry* entry = findModel(model);
             QVERIFY2(entry, model);
-            const bool isDone = window.workspace().edit(editsForModel(window.workspace().scene(), *entry), "model");
+            const bool isDone =
+                window.workspace().edit(editsForModel(window.workspace().scene(), *entry), "model");
             const auto problems = window.workspace().problemsAt("");
-            QVERIFY2(isDone, problems.empty() ? model : (problems[0].pointer + ": " + problems[0].message).c_str());
+            QVERIFY2(isDone,
+                     problems.empty() ? model : (problems[0].pointer + ": " + problems[0].message).c_str());
             QVERIFY(waitForResults(window));
-            for (const auto& scheme : window.runControl().results()->schemes) QVERIFY(scheme->summary.status == RunStatus::done);
+            for (const auto& scheme : window.runControl().results()->schemes)
+                QVERIFY(scheme->summary.status == RunStatus::done);
         }
     }
 };

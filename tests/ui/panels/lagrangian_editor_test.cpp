@@ -42,7 +42,9 @@ class LagrangianEditorTest : public QObject {
             const Value* value = valueAt(workspace().document(), pointer);
             return value && value->isString() ? QString::fromStdString(value->asString()) : QString();
         }
-        std::size_t coordinates() { return valueAt(workspace().document(), "/model/coordinates")->asArray().size(); }
+        std::size_t coordinates() {
+            return valueAt(workspace().document(), "/model/coordinates")->asArray().size();
+        }
         void type(const QString& text) {
             formula()->setFocus();
             formula()->selectAll();
@@ -162,7 +164,8 @@ private slots:
             names.emplace_back("q" + std::to_string(i));
             kinetic += QString(" + q%1_t^2").arg(i);
         }
-        for (int i = 1; i < 190; ++i) nest = QString("tan(%1+q%2*q%3)").arg(nest).arg(i % 63 + 1).arg(7 * i % 63 + 1);
+        for (int i = 1; i < 190; ++i)
+            nest = QString("tan(%1+q%2*q%3)").arg(nest).arg(i % 63 + 1).arg(7 * i % 63 + 1);
         std::vector<std::string> coordinates;
         for (const Value& n : names) coordinates.push_back(n.asString());
         std::vector<Edit> edits = editsForCoordinates(window.workspace().document(), coordinates);
@@ -174,7 +177,7 @@ private slots:
         timer.start();
         QVERIFY(window.workspace().edit({{"/time/end", 5.0}}, "end"));
         QVERIFY2(timer.elapsed() < 1500, qPrintable(QString::number(timer.elapsed())));  // measured: 0.2 s
-        window.formula()->setPlainText(kinetic + " - x^2");  // stops it
+        window.formula()->setPlainText(kinetic + " - x^2");                              // stops it
         QTRY_COMPARE_WITH_TIMEOUT(window.inScene(), kinetic + " - x^2", 4000);
     }
     void aNewTypedModelIsSound() {

@@ -31,7 +31,9 @@ private slots:
         QVERIFY(potential->text().startsWith("-mu*mass"));
         QCOMPARE(constants->text(), QString("mu = 1"));
         enter(constants, "mu = 1.2, k = 0.01");
-        const auto value = [&](const char* pointer) { return valueAt(window.workspace().document(), pointer); };
+        const auto value = [&](const char* pointer) {
+            return valueAt(window.workspace().document(), pointer);
+        };
         QCOMPARE(value("/model/parameters/mu")->asNumber(), 1.2);
         QCOMPARE(value("/model/parameters/k")->asNumber(), 0.01);
         enter(potential, "-mu*mass/sqrt(x^2+y^2+z^2) + k*R33");

@@ -1,4 +1,5 @@
-/// What the window offers for wave functions: on a circle everything, between walls nothing that would be refused.
+/// What the window offers for wave functions: on a circle everything, between walls nothing that would be
+/// refused.
 #include <QTest>
 
 #include "engine/baseline/catalog.hpp"
@@ -33,7 +34,8 @@ private slots:
         window.show();
         window.open("preset:box-revival");
         QVERIFY(window.workspace().edit({{"/time/end", "pi/10"}}, "end"));
-        QCOMPARE(baselines(window.workspace().scene()), (QStringList{"chebyshev-propagation", "crank-nicolson"}));
+        QCOMPARE(baselines(window.workspace().scene()),
+                 (QStringList{"chebyshev-propagation", "crank-nicolson"}));
         for (const SchemeEntry* e : fittingSchemes(window.workspace().scene()))
             QVERIFY(e->make(e->minDegree).space.text("form") != "three-level");
         for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
@@ -41,7 +43,11 @@ private slots:
         QCOMPARE(window.workspace().scene().schemes.size(), std::size_t(8));  // degrees 2 and 8 were there
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(QTest::qWaitFor(
-            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 20000));
+            [&] {
+                return window.runControl().state() == RunControl::State::finished &&
+                       !window.runControl().isStale();
+            },
+            20000));
         for (const auto& scheme : window.runControl().results()->schemes)
             QVERIFY(scheme->summary.status == RunStatus::done);
     }
@@ -50,9 +56,16 @@ private slots:
         QTest::addColumn<QString>("preset");
         QTest::addColumn<QStringList>("edits");
         QTest::addColumn<QStringList>("missing");
-        QTest::newRow("rectangle") << "preset:double-slit" << QStringList{"/model/potential", "\"cos(x + y)\"", "/model/modes", "16", "/model/modes_y", "20", "/time/end", "0.05"}
+        QTest::newRow("rectangle") << "preset:double-slit"
+                                   << QStringList{"/model/potential", "\"cos(x + y)\"",
+                                                  "/model/modes",     "16",
+                                                  "/model/modes_y",   "20",
+                                                  "/time/end",        "0.05"}
                                    << QStringList{};
-        QTest::newRow("convolution") << "preset:tunnelling" << QStringList{"/model/product", "\"convolution\"", "/model/modes", "32", "/time/end", "0.02"}
+        QTest::newRow("convolution") << "preset:tunnelling"
+                                     << QStringList{"/model/product", "\"convolution\"",
+                                                    "/model/modes",   "32",
+                                                    "/time/end",      "0.02"}
                                      << QStringList{"strang", "srkn-14a", "spectral-collocation"};
     }
     void everythingOfferedRuns() {
@@ -63,8 +76,11 @@ private slots:
         window.show();
         window.open(preset);
         for (int i = 0; i < edits.size(); i += 2)
-            QVERIFY(window.workspace().edit({{edits[i].toStdString(), edits[i + 1].startsWith('"') ? Value(edits[i + 1].mid(1).chopped(1).toStdString())
-                                                                                                  : Value(edits[i + 1].toDouble())}}, "smaller"));
+            QVERIFY(window.workspace().edit(
+                {{edits[i].toStdString(), edits[i + 1].startsWith('"')
+                                              ? Value(edits[i + 1].mid(1).chopped(1).toStdString())
+                                              : Value(edits[i + 1].toDouble())}},
+                "smaller"));
         const QStringList offered = baselines(window.workspace().scene());
         QVERIFY(offered.contains("leapfrog") && offered.contains("crank-nicolson"));
         for (const QString& id : missing) QVERIFY2(!offered.contains(id), qPrintable(id));
@@ -73,7 +89,11 @@ private slots:
             if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(QTest::qWaitFor(
-            [&] { return window.runControl().state() == RunControl::State::finished && !window.runControl().isStale(); }, 60000));
+            [&] {
+                return window.runControl().state() == RunControl::State::finished &&
+                       !window.runControl().isStale();
+            },
+            60000));
         for (const auto& scheme : window.runControl().results()->schemes)
             QVERIFY2(scheme->summary.status == RunStatus::done, scheme->spec.label.c_str());
     }

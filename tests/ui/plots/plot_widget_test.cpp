@@ -32,7 +32,8 @@ QPoint middle(PlotWidget& plot) { return canvas(plot).axisRect()->rect().center(
 
 void wheel(PlotWidget& plot, QPoint at, int notches) {
     QCustomPlot& c = canvas(plot);
-    QWheelEvent event(at, c.mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QWheelEvent event(at, c.mapToGlobal(at), {}, {0, 120 * notches}, Qt::NoButton, Qt::NoModifier,
+                      Qt::NoScrollPhase, false);
     QApplication::sendEvent(&c, &event);
 }
 
@@ -187,7 +188,8 @@ private slots:
         QSignalSpy clicked(plot.get(), &PlotWidget::pointClicked);
         QCustomPlot& c = canvas(*plot);
         const Series& s = figure.series.front();
-        const QPoint at(static_cast<int>(c.xAxis->coordToPixel(s.x[50])), static_cast<int>(c.yAxis->coordToPixel(s.y[50])));
+        const QPoint at(static_cast<int>(c.xAxis->coordToPixel(s.x[50])),
+                        static_cast<int>(c.yAxis->coordToPixel(s.y[50])));
         QTest::mouseClick(&c, Qt::LeftButton, {}, at);
         QCOMPARE(clicked.count(), 1);
         bool isASeries = false;

@@ -53,8 +53,10 @@ private slots:
     void rangesStayDrawable() {
         ViewState view;
         view.setFitted(PlotAxis::x, {0, 1});
-        constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-        for (const PlotRange bad : {PlotRange{1, 1}, PlotRange{2, 1}, PlotRange{nan, 1}, PlotRange{0, inf}, PlotRange{-1e300, 1e300}}) {
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                         inf = std::numeric_limits<double>::infinity();
+        for (const PlotRange bad : {PlotRange{1, 1}, PlotRange{2, 1}, PlotRange{nan, 1}, PlotRange{0, inf},
+                                    PlotRange{-1e300, 1e300}}) {
             view.setFitted(PlotAxis::x, bad);
             view.choose(PlotAxis::x, bad);
             QCOMPARE(view.range(PlotAxis::x), (PlotRange{0, 1}));

@@ -16,7 +16,8 @@ namespace {
 
 QString keysPage(const Actions& actions) {
     QString text = QStringLiteral(
-        "# Keys\n\nSingle letters and digits are left to a text field that has the focus. This page is written from the actions "
+        "# Keys\n\nSingle letters and digits are left to a text field that has the focus. This page is "
+        "written from the actions "
         "of the window.\n");
     QString menu;
     for (const QAction* action : actions.all()) {
@@ -25,7 +26,8 @@ QString keysPage(const Actions& actions) {
             text += "\n## " + menu + "\n\n| key | does |\n| --- | --- |\n";
         }
         QStringList keys;
-        for (const QKeySequence& key : action->shortcuts()) keys << key.toString(QKeySequence::PortableText).replace("|", "\\|");
+        for (const QKeySequence& key : action->shortcuts())
+            keys << key.toString(QKeySequence::PortableText).replace("|", "\\|");
         text += "| " + keys.join(", ") + " | " + QString(action->text()).remove('&').remove("...") + " |\n";
     }
     return text;
@@ -65,11 +67,13 @@ private slots:
         HelpWindow help;
         const auto* pages = help.findChild<QListWidget*>();
         const auto* text = help.findChild<QTextBrowser*>();
-        const QStringList files = QDir(QStringLiteral(EXTREMAL_SOURCE_DIR "/resources/handbook")).entryList({"*.md"});
+        const QStringList files =
+            QDir(QStringLiteral(EXTREMAL_SOURCE_DIR "/resources/handbook")).entryList({"*.md"});
         QCOMPARE(pages->count(), files.size());
         for (const QString& file : files) {
             help.open(file.chopped(3));
-            QVERIFY2(pages->currentItem()->data(Qt::UserRole).toString() == file.chopped(3), qPrintable(file));
+            QVERIFY2(pages->currentItem()->data(Qt::UserRole).toString() == file.chopped(3),
+                     qPrintable(file));
             QVERIFY2(text->toPlainText().size() > 200, qPrintable(file));
         }
     }

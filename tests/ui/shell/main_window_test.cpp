@@ -71,8 +71,9 @@ private slots:
         QTemporaryDir folder;
         QFile file(folder.filePath("near.json"));
         QVERIFY(file.open(QIODevice::WriteOnly));
-        file.write(R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},"initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":1},)"
-                   R"("schemes":[{"label":"R1","step":0.2008,"scheme":"multiscale-r1"}],"observe":["energy"]})");
+        file.write(
+            R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},"initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":1},)"
+            R"("schemes":[{"label":"R1","step":0.2008,"scheme":"multiscale-r1"}],"observe":["energy"]})");
         file.close();
         MainWindow window(Theme::light(), false);
         window.resize(1600, 1000);
@@ -112,7 +113,8 @@ private slots:
         QVERIFY(waitForResults(window));
         const auto shown = [&](const std::string& view) {
             const auto& plots = window.compareView().plots();
-            return std::count_if(plots.begin(), plots.end(), [&](const PlotWidget* p) { return p->figure().view == view; });
+            return std::count_if(plots.begin(), plots.end(),
+                                 [&](const PlotWidget* p) { return p->figure().view == view; });
         };
         const auto entry = [&](const QString& title) -> QAction* {
             for (QMenu* menu : window.findChildren<QMenu*>()) {
@@ -141,11 +143,14 @@ private slots:
         window.show();
         window.open("preset:stability-limit");
         QVERIFY(waitForResults(window));
-        const std::string view = R"([{"view":"parameter-map","parameter":"k","from":1,"to":1e4,"steps":[0.01,1],"cells":[5,5],"duration":4}])";
+        const std::string view =
+            R"([{"view":"parameter-map","parameter":"k","from":1,"to":1e4,"steps":[0.01,1],"cells":[5,5],"duration":4}])";
         QVERIFY(window.workspace().edit({{"/views", parseJson(view)}}, "a map"));
         QVERIFY(waitForResults(window));
         const auto& plots = window.compareView().plots();
-        const auto found = std::find_if(plots.begin(), plots.end(), [](const PlotWidget* p) { return p->figure().view == "parameter-map"; });
+        const auto found = std::find_if(plots.begin(), plots.end(), [](const PlotWidget* p) {
+            return p->figure().view == "parameter-map";
+        });
         QVERIFY(found != plots.end());
         PlotWidget& plot = **found;
         QCOMPARE(plot.figure().heat->faults.size(), std::size_t(25));
@@ -160,12 +165,13 @@ private slots:
         QCOMPARE(after.model.number("k"), 10.0);
         const std::string label = plot.figure().series[0].label;
         for (std::size_t i = 0; i < after.schemes.size(); ++i)
-            QCOMPARE(after.schemes[i].step.value, after.schemes[i].label == label ? 0.0316 : before.schemes[i].step.value);
+            QCOMPARE(after.schemes[i].step.value,
+                     after.schemes[i].label == label ? 0.0316 : before.schemes[i].step.value);
         const auto& notices = window.notices().all();
         QVERIFY(std::any_of(notices.begin(), notices.end(), [](const Notice& n) { return n.key == "case"; }));
         QVERIFY(waitForResults(window));
         QCOMPARE((*found)->figure().series[0].x.front(), 10.0);  // the dot moves along
-        window.actions().find("undo")->trigger();  // one edit
+        window.actions().find("undo")->trigger();                // one edit
         QVERIFY(window.workspace().scene() == before);
         QVERIFY(waitForResults(window));
         // The same with the pointer over the cell and Return.

@@ -36,7 +36,8 @@ class PlotEditsTest : public QObject {
         QMenu* menu = qobject_cast<Card*>(parent)->menu();
         emit menu->aboutToShow();
         for (QAction* action : menu->actions())
-            if (action->text() == text && action->isVisible() && action->isEnabled()) return action->trigger(), true;
+            if (action->text() == text && action->isVisible() && action->isEnabled())
+                return action->trigger(), true;
         return false;
     }
 
@@ -76,7 +77,8 @@ private slots:
         QCOMPARE(text({1.23456e-9, 0.0314159}, true), (std::pair{1.235e-9, 0.03142}));
     }
     void aViewOfSeveralPlotsIsSplit() {
-        const Scene scene = readScene(findPreset("spring-pendulum")->json).scene;  // "trajectory": a and theta
+        const Scene scene =
+            readScene(findPreset("spring-pendulum")->json).scene;  // "trajectory": a and theta
         const View before{"trajectory", "t", "q.theta"};
         View after = before;
         after.xRange = ViewRange{{1, {}}, {2, {}}};
@@ -101,7 +103,8 @@ private slots:
                 if (v.xRange) return std::optional(*v.xRange);
             return std::optional<ViewRange>();
         };
-        for (const Problem& p : window.workspace().problemsAt("/views")) qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
+        for (const Problem& p : window.workspace().problemsAt("/views"))
+            qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
         QVERIFY(part());
         QCOMPARE((std::pair{part()->low.value, part()->high.value}), (std::pair{1.0, 2.0}));
         QVERIFY(waitForResults(window));
@@ -109,10 +112,12 @@ private slots:
                              [](const View& v) { return v.yRange.has_value(); }));
         QWidget* canvas = plot(window, 1)->childAt(plot(window, 1)->rect().center());
         const QPointF middle = canvas->rect().center();
-        QWheelEvent wheel(middle, canvas->mapToGlobal(middle), {}, {0, 120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+        QWheelEvent wheel(middle, canvas->mapToGlobal(middle), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
+                          Qt::NoScrollPhase, false);
         QApplication::sendEvent(canvas, &wheel);
         QVERIFY(choose(window, 1, "Keep this part in the scene"));
-        for (const Problem& p : window.workspace().problemsAt("/views")) qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
+        for (const Problem& p : window.workspace().problemsAt("/views"))
+            qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
         QVERIFY(part()->low.value > 1 && part()->high.value < 2);
         window.workspace().undo();
         QVERIFY(waitForResults(window));
@@ -162,7 +167,8 @@ private slots:
         MainWindow window(Theme::light(), false);
         window.show();
         window.open("preset:henon-heiles");
-        QVERIFY(window.workspace().edit({{"/views", Value::Array{"phase", "energy", Value::Object{{"view", "section"}}}}}, "views"));
+        QVERIFY(window.workspace().edit(
+            {{"/views", Value::Array{"phase", "energy", Value::Object{{"view", "section"}}}}}, "views"));
         QVERIFY(waitForResults(window));
         const auto phase = [&] { return window.workspace().scene().views.at(0); };
         // The cost has no columns, and the energy none either.
@@ -192,8 +198,11 @@ private slots:
         MainWindow window(Theme::light(), false);
         window.show();
         window.open("preset:double-slit");
-        QVERIFY(window.workspace().edit({{"/model/modes", 16.0}, {"/model/modes_y", 16.0}, {"/time/end", 0.1},
-                                         {"/reference", Value::Object{{"type", "none"}}}}, "small"));
+        QVERIFY(window.workspace().edit({{"/model/modes", 16.0},
+                                         {"/model/modes_y", 16.0},
+                                         {"/time/end", 0.1},
+                                         {"/reference", Value::Object{{"type", "none"}}}},
+                                        "small"));
         QVERIFY(waitForResults(window));
         QCOMPARE(plot(window, 1)->figure().title, std::string("Profile of SRKN 14a"));
         QVERIFY(isChosen(window, 1, "Of the scheme", "the first"));
@@ -211,7 +220,10 @@ private slots:
         window.open("preset:seed-elliptic");
         QVERIFY(waitForResults(window));
         const auto& views = window.workspace().scene().views;
-        const auto at = [&] { return std::find_if(views.begin(), views.end(), [](const View& v) { return v.id == "shape-function"; }); };
+        const auto at = [&] {
+            return std::find_if(views.begin(), views.end(),
+                                [](const View& v) { return v.id == "shape-function"; });
+        };
         QVERIFY(at() != views.end());
         std::size_t slot = 0;
         while (plot(window, slot)->figure().view != "shape-function") ++slot;

@@ -31,7 +31,8 @@ private slots:
     }
     void nodesCount() {
         CostModel model;
-        const Scene small = scene("double-slit", {{"/model/modes", 16.0}, {"/model/modes_y", 16.0}}), large = scene("double-slit");
+        const Scene small = scene("double-slit", {{"/model/modes", 16.0}, {"/model/modes_y", 16.0}}),
+                    large = scene("double-slit");
         QVERIFY(std::abs(model.predict(large) / model.predict(small) - 256) < 1e-9);
         // What was measured on few nodes is carried over to many, and the other way round.
         Comparison measured;

@@ -29,7 +29,8 @@ private slots:
         QVERIFY(contrast(t.error, t.errorGround) >= 4.5);
         QVERIFY(contrast(t.error, t.panel) >= 4.5);
         QVERIFY(contrast(t.good, t.panel) >= 4.5);
-        for (const QColor& series : t.seriesColors) QVERIFY2(contrast(series, t.panel) >= 3, qPrintable(series.name()));
+        for (const QColor& series : t.seriesColors)
+            QVERIFY2(contrast(series, t.panel) >= 3, qPrintable(series.name()));
     }
     void contrastHasTheKnownExtremes() {
         QCOMPARE(contrast(Qt::black, Qt::white), 21.0);

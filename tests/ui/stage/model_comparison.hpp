@@ -144,15 +144,16 @@ inline Film freeBody() {
 inline Film heavyTop() {
     Film film = freeBody();
     film.title = "Heavy top";
-    film.model = settings("heavy-top", {{"inertia", Value::Array{1.0, 1.0, 0.5}},
-                                        {"weight", 1.0},
-                                        {"centre", Value::Array{0.0, 0.0, 1.0}}});
+    film.model = settings(
+        "heavy-top",
+        {{"inertia", Value::Array{1.0, 1.0, 0.5}}, {"weight", 1.0}, {"centre", Value::Array{0.0, 0.0, 1.0}}});
     film.labels = {"Lie Gauss 4"};
     film.motion = [](int, double t) {
         using Vector = so3::Vector<double>;
-        const auto q = so3::product(so3::quaternionExp(Vector(0, 0, 0.6 * t)),
-                                    so3::product(so3::quaternionExp(Vector(0.7 + 0.1 * std::cos(4 * t), 0, 0)),
-                                                 so3::quaternionExp(Vector(0, 0, 5 * t))));
+        const auto q =
+            so3::product(so3::quaternionExp(Vector(0, 0, 0.6 * t)),
+                         so3::product(so3::quaternionExp(Vector(0.7 + 0.1 * std::cos(4 * t), 0, 0)),
+                                      so3::quaternionExp(Vector(0, 0, 5 * t))));
         const Vector pi(0.2, 0.1, 2), Pi = so3::matrix(q).transpose() * pi;
         return std::vector<double>{q(0), q(1), q(2), q(3), Pi(0), Pi(1), Pi(2), pi(0), pi(1), pi(2)};
     };

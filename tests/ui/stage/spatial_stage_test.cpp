@@ -54,7 +54,8 @@ private slots:
     }
     void smoothBodiesShowTheirOutlineAlone() {
         Solid cube;
-        for (int c = 0; c < 8; ++c) cube.corners.push_back({c & 1 ? 1.0 : -1.0, c & 2 ? 1.0 : -1.0, c & 4 ? 1.0 : -1.0});
+        for (int c = 0; c < 8; ++c)
+            cube.corners.push_back({c & 1 ? 1.0 : -1.0, c & 2 ? 1.0 : -1.0, c & 4 ? 1.0 : -1.0});
         cube.faces = {{1, 3, 7, 5}, {0, 4, 6, 2}, {2, 6, 7, 3}, {0, 1, 5, 4}, {4, 5, 7, 6}, {0, 2, 3, 1}};
         Camera corner;
         corner.azimuth = 0.5;
@@ -79,8 +80,8 @@ private slots:
         const auto drag = [&](Qt::KeyboardModifiers keys) {
             QTest::mousePress(&stage, Qt::LeftButton, keys, {150, 150});
             // QTest::mouseMove knows no modifiers.
-            QMouseEvent move(QEvent::MouseMove, {190, 150}, stage.mapToGlobal(QPointF(190, 150)), Qt::NoButton,
-                             Qt::LeftButton, keys);
+            QMouseEvent move(QEvent::MouseMove, {190, 150}, stage.mapToGlobal(QPointF(190, 150)),
+                             Qt::NoButton, Qt::LeftButton, keys);
             QCoreApplication::sendEvent(&stage, &move);
             QTest::mouseRelease(&stage, Qt::LeftButton, keys, {190, 150});
             const QImage after = stage.grab().toImage();
@@ -95,7 +96,8 @@ private slots:
             int count = 0;
             for (int y = part.top(); y <= part.bottom(); ++y)
                 for (int x = part.left(); x <= part.right(); ++x)
-                    count += std::abs(image.pixelColor(x + 40, y).lightness() - whole.pixelColor(x, y).lightness()) > 24;
+                    count += std::abs(image.pixelColor(x + 40, y).lightness() -
+                                      whole.pixelColor(x, y).lightness()) > 24;
             return 100.0 * count / (part.width() * part.height());
         };
         qInfo("percent of the pixels that differ: moved %.2f, turned %.2f", changed(moved), changed(turned));

@@ -1,5 +1,5 @@
-/// The small picture in the corner of the stage: momenta on their sphere, the polhodes as trails, in the same place at any
-/// zoom, faint behind, and off the sphere where momentum is lost.
+/// The small picture in the corner of the stage: momenta on their sphere, the polhodes as trails, in the same
+/// place at any zoom, faint behind, and off the sphere where momentum is lost.
 #include <QTest>
 
 #include <algorithm>
@@ -46,7 +46,8 @@ private slots:
         for (const EnergyCurve& curve : curves)
             for (const auto& n : curve.points) {
                 worst = std::max(worst, std::abs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1));
-                worst = std::max(worst, std::abs(n[0] * n[0] / I[0] + n[1] * n[1] / I[1] + n[2] * n[2] / I[2] - curve.e));
+                worst = std::max(
+                    worst, std::abs(n[0] * n[0] / I[0] + n[1] * n[1] / I[1] + n[2] * n[2] / I[2] - curve.e));
                 QCOMPARE(curve.isSeparatrix, std::abs(curve.e - 0.5) < 1e-14);
             }
         qInfo("worst %.1e", worst);

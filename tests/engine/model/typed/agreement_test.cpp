@@ -1,5 +1,5 @@
-/// A typed Lagrangian and the built-in system are the same system: derivatives, steps and long runs agree to round-off,
-/// although one is differentiated symbolically and the other by forward numbers.
+/// A typed Lagrangian and the built-in system are the same system: derivatives, steps and long runs agree to
+/// round-off, although one is differentiated symbolically and the other by forward numbers.
 #include <QTest>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct Twins {
     System typed, builtIn;
     Discretization pair;
     double h;
-    State start;         ///< of the regular motion
+    State start;  ///< of the regular motion
     double runTolerance;
 };
 
@@ -29,10 +29,20 @@ Discretization newtonPair(int degree) {
 const std::vector<Twins>& twins() {
     static const std::vector<Twins> all = {
         {"Kepler", typedKepler(), systemNamed("kepler"), newtonPair(3), 0.05, keplerStart, 1e-9},
-        {"spring pendulum", typedSpringPendulum(), systemNamed("spring-pendulum"), newtonPair(3), 0.001,
-         {0, 0, {0.05, 1, 0, 0}}, 1e-11},
-        {"double pendulum", typedDoublePendulum(), systemNamed("double-pendulum"), newtonPair(3), 0.01,
-         {0, 0, {0.3, 0.2, 0, 0}}, 1e-11},
+        {"spring pendulum",
+         typedSpringPendulum(),
+         systemNamed("spring-pendulum"),
+         newtonPair(3),
+         0.001,
+         {0, 0, {0.05, 1, 0, 0}},
+         1e-11},
+        {"double pendulum",
+         typedDoublePendulum(),
+         systemNamed("double-pendulum"),
+         newtonPair(3),
+         0.01,
+         {0, 0, {0.3, 0.2, 0, 0}},
+         1e-11},
     };
     return all;
 }
@@ -108,9 +118,13 @@ private slots:
             std::vector<double> g(n), ga(n), gb(n);
             const auto all = jetOf(a, x);
             a.mechanics.gradient(a.mechanics.model.get(), 0.3, x.data(), x.data() + d, g.data());
-            QVERIFY(largestDifference(std::vector<double>(all.begin() + 1, all.begin() + 1 + static_cast<long>(n)), g) < 1e-14);
-            QVERIFY(a.mechanics.flow(a.mechanics.model.get(), 0.3, x.data(), x.data() + d, ga.data(), ga.data() + d));
-            QVERIFY(b.mechanics.flow(b.mechanics.model.get(), 0.3, x.data(), x.data() + d, gb.data(), gb.data() + d));
+            QVERIFY(largestDifference(
+                        std::vector<double>(all.begin() + 1, all.begin() + 1 + static_cast<long>(n)), g) <
+                    1e-14);
+            QVERIFY(a.mechanics.flow(a.mechanics.model.get(), 0.3, x.data(), x.data() + d, ga.data(),
+                                     ga.data() + d));
+            QVERIFY(b.mechanics.flow(b.mechanics.model.get(), 0.3, x.data(), x.data() + d, gb.data(),
+                                     gb.data() + d));
             QVERIFY(largestDifference(ga, gb) < 1e-14);
             const double ea = a.mechanics.energy(a.mechanics.model.get(), 0.3, x.data(), x.data() + d);
             const double eb = b.mechanics.energy(b.mechanics.model.get(), 0.3, x.data(), x.data() + d);
@@ -122,7 +136,8 @@ private slots:
     void stepsAgree_data() { addTwins(); }
     void stepsAgree() {
         const Twins& t = current();
-        const auto a = makeIntegrator(t.typed, t.pair, {0, t.h}), b = makeIntegrator(t.builtIn, t.pair, {0, t.h});
+        const auto a = makeIntegrator(t.typed, t.pair, {0, t.h}),
+                   b = makeIntegrator(t.builtIn, t.pair, {0, t.h});
         std::mt19937 random(7);
         double worst = 0;
         for (int i = 0; i < 10000; ++i) {
@@ -137,7 +152,8 @@ private slots:
     void longRunsAgree_data() { addTwins(); }
     void longRunsAgree() {
         const Twins& t = current();
-        const auto a = makeIntegrator(t.typed, t.pair, {0, t.h}), b = makeIntegrator(t.builtIn, t.pair, {0, t.h});
+        const auto a = makeIntegrator(t.typed, t.pair, {0, t.h}),
+                   b = makeIntegrator(t.builtIn, t.pair, {0, t.h});
         State x = t.start, y = t.start;
         double worst = 0;
         for (int i = 0; i < 10000; ++i) {

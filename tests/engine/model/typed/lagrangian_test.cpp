@@ -31,7 +31,8 @@ struct Jet2 {
 Jet2 jetAt(const System& s, double t, std::vector<double> q, std::vector<double> v) {
     const auto n = 2 * q.size();
     Jet2 j{0, std::vector<double>(n), std::vector<double>(n * n)};
-    s.mechanics.jet(s.mechanics.model.get(), t, q.data(), v.data(), &j.value, j.gradient.data(), j.hessian.data());
+    s.mechanics.jet(s.mechanics.model.get(), t, q.data(), v.data(), &j.value, j.gradient.data(),
+                    j.hessian.data());
     return j;
 }
 
@@ -43,11 +44,35 @@ private slots:
     void derivativesAreThoseOfDifferences_data() {
         QTest::addColumn<QString>("term");
         for (const char* term :
-             {"sin(x*y_t)", "cos(x + 2*y)", "tan(x/2)", "asin(x/3)", "acos(y/3)", "atan(x*y)", "atan2(y, x)",
-              "sinh(x - y)", "cosh(x_t)", "tanh(x*y)", "exp(-x^2)", "log(x + 3)", "sqrt(x^2 + y^2)", "abs(x)*y",
-              "sign(x)*y_t^2", "x^3*y^-2", "x^-1.5", "(x + 3)^1.7", "x^y", "2^(x*y)", "1/(1 + x^2)^2.5",
-              "x_t^4", "dot(x)*y*t", "t^2*x", "((x + y)*(x - y) + 1)^3/7", "x^(n + 1)", "pi*x^2",
-              "(x + 1)*(y + 1)*(x + 2)*(y + 2)*(x + 3)*(y + 3)*(x + 4)*(y + 4)*(x + 5)*(y + 5)*(x + 6)*(y + 6)*(x+7)",
+             {"sin(x*y_t)",
+              "cos(x + 2*y)",
+              "tan(x/2)",
+              "asin(x/3)",
+              "acos(y/3)",
+              "atan(x*y)",
+              "atan2(y, x)",
+              "sinh(x - y)",
+              "cosh(x_t)",
+              "tanh(x*y)",
+              "exp(-x^2)",
+              "log(x + 3)",
+              "sqrt(x^2 + y^2)",
+              "abs(x)*y",
+              "sign(x)*y_t^2",
+              "x^3*y^-2",
+              "x^-1.5",
+              "(x + 3)^1.7",
+              "x^y",
+              "2^(x*y)",
+              "1/(1 + x^2)^2.5",
+              "x_t^4",
+              "dot(x)*y*t",
+              "t^2*x",
+              "((x + y)*(x - y) + 1)^3/7",
+              "x^(n + 1)",
+              "pi*x^2",
+              "(x + 1)*(y + 1)*(x + 2)*(y + 2)*(x + 3)*(y + 3)*(x + 4)*(y + 4)*(x + 5)*(y + 5)*(x + 6)*(y + "
+              "6)*(x+7)",
               "sin(sin(x+1)+cos(y+2)+sin(x+3)+cos(y+4)+sin(x+5)+cos(y+6)+sin(x+7)+cos(y+8)+sin(x+9)+cos(y+10)"
               "+sin(x+11)+cos(y+12)+sin(x+13)+cos(y*x+14)+sin(x+15)+cos(y+16)+sin(x_t+17)+cos(y+18))^2"})
             QTest::newRow(term) << term;
@@ -60,11 +85,16 @@ private slots:
         auto jet = [&](const std::vector<double>& z) { return jetAt(s, 0.3, {z[0], z[1]}, {z[2], z[3]}); };
         const Jet2 here = jet(at);
         const Expression expression = parseExpression(L);
-        // The value by the interpreter of number expressions, which knows nothing of the tape; dot(x) written out.
+        // The value by the interpreter of number expressions, which knows nothing of the tape; dot(x) written
+        // out.
         if (!term.contains("dot")) {
             const double expected = evaluate(expression, [&](std::string_view name) -> std::optional<double> {
                 if (name == "n") return 2;
-                return name == "x" ? at[0] : name == "y" ? at[1] : name == "x_t" ? at[2] : name == "y_t" ? at[3] : 0.3;
+                return name == "x"     ? at[0]
+                       : name == "y"   ? at[1]
+                       : name == "x_t" ? at[2]
+                       : name == "y_t" ? at[3]
+                                       : 0.3;
             });
             QVERIFY(std::abs(here.value - expected) < 1e-14 * std::max(1.0, std::abs(expected)));
         }
@@ -84,7 +114,8 @@ private slots:
                     slope += sign * c[k - 1] * there.value / delta;
                     for (std::size_t j = 0; j < 4; ++j) row[j] += sign * c[k - 1] * there.gradient[j] / delta;
                 }
-            QVERIFY2(std::abs(slope - here.gradient[i]) < 1e-8 * largest, qPrintable(QString("gradient %1").arg(i)));
+            QVERIFY2(std::abs(slope - here.gradient[i]) < 1e-8 * largest,
+                     qPrintable(QString("gradient %1").arg(i)));
             for (std::size_t j = 0; j < 4; ++j)
                 QVERIFY2(std::abs(row[j] - here.hessian[i * 4 + j]) < 1e-8 * largest,
                          qPrintable(QString("hessian %1 %2").arg(i).arg(j)));
@@ -111,7 +142,9 @@ private slots:
         QCOMPARE(jetAt(s, 0, {0}, {0}).hessian[0], 0.0);
     }
     void separableLagrangiansAreRecognised() {
-        const auto isSeparable = [](const char* L) { return typedSystem({"x", "y"}, {{"m", 2}}, L).mechanics.isSeparable; };
+        const auto isSeparable = [](const char* L) {
+            return typedSystem({"x", "y"}, {{"m", 2}}, L).mechanics.isSeparable;
+        };
         QVERIFY(isSeparable("m*x_t^2/2 + 3*y_t^2 - sin(x*y)*t"));
         QVERIFY(isSeparable("(x_t + y_t)^2 + (x_t - y_t)^2 - x"));
         QVERIFY(!isSeparable("x_t^2 + y_t^2 + x*y_t"));
@@ -138,8 +171,10 @@ private slots:
         };
         QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + 1/r"), (QStringList{"phi", "z"}));
         QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + 1/r - z"), QStringList{"phi"});
-        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + 1/r - g*z", {{"g", 0}}), (QStringList{"phi", "z"}));
-        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + (z+1)*(z-1) - z^2"), (QStringList{"r", "phi", "z"}).mid(1));
+        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + 1/r - g*z", {{"g", 0}}),
+                 (QStringList{"phi", "z"}));
+        QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + (z+1)*(z-1) - z^2"),
+                 (QStringList{"r", "phi", "z"}).mid(1));
     }
     void theLegendreTransformIsInverted() {
         // Diagonal, full, and not quadratic in the velocities (a relativistic particle).
@@ -153,7 +188,8 @@ private slots:
             QVERIFY(m.velocity(m.model.get(), 0, q, g + 2, found));
             QVERIFY(std::abs(found[0] - v[0]) < 2e-15 && std::abs(found[1] - v[1]) < 2e-15);
             const Jet2 j = jetAt(s, 0, {q[0], q[1]}, {v[0], v[1]});
-            QVERIFY(std::abs(m.energy(m.model.get(), 0, q, g + 2) - (g[2] * v[0] + g[3] * v[1] - j.value)) < 1e-14);
+            QVERIFY(std::abs(m.energy(m.model.get(), 0, q, g + 2) - (g[2] * v[0] + g[3] * v[1] - j.value)) <
+                    1e-14);
         }
         // Where no velocity has this momentum it says so.
         const System bounded = typedSystem({"x"}, {}, "atan(x_t)*x_t + x_t^2/1e6 - x_t^4");
@@ -166,14 +202,21 @@ private slots:
         QTest::addColumn<QString>("message");
         QTest::addColumn<int>("caret");
         QTest::addColumn<QString>("hint");
-        QTest::newRow("nearest name") << "x_t^2 + kk*x" << "has an unknown name \"kk\"" << 8 << "did you mean \"k\"?";
-        QTest::newRow("nearest velocity") << "x_tt^2" << "has an unknown name \"x_tt\"" << 0 << "did you mean \"x_t\"?";
-        QTest::newRow("dot of a parameter") << "dot(k)^2" << "has dot(...) of something else than a coordinate" << 0
-                                            << "coordinates: x";
-        QTest::newRow("unknown function") << "x_t^2 + sine(x)" << "has no function \"sine\"" << 8 << "did you mean \"sin\"?";
-        QTest::newRow("open bracket") << "x_t^2 + (x" << "has a bracket that is not closed" << 8 << "";
-        QTest::newRow("constant pole") << "x_t^2 + x/(2 - 2)" << "divides by zero" << 9 << "";
-        QTest::newRow("infinite constant") << "x_t^2 + 9^9^9^9*x" << "is not finite here: inf" << 11 << "";
+        QTest::newRow("nearest name") << "x_t^2 + kk*x"
+                                      << "has an unknown name \"kk\"" << 8 << "did you mean \"k\"?";
+        QTest::newRow("nearest velocity") << "x_tt^2"
+                                          << "has an unknown name \"x_tt\"" << 0 << "did you mean \"x_t\"?";
+        QTest::newRow("dot of a parameter")
+            << "dot(k)^2"
+            << "has dot(...) of something else than a coordinate" << 0 << "coordinates: x";
+        QTest::newRow("unknown function") << "x_t^2 + sine(x)"
+                                          << "has no function \"sine\"" << 8 << "did you mean \"sin\"?";
+        QTest::newRow("open bracket") << "x_t^2 + (x"
+                                      << "has a bracket that is not closed" << 8 << "";
+        QTest::newRow("constant pole") << "x_t^2 + x/(2 - 2)"
+                                       << "divides by zero" << 9 << "";
+        QTest::newRow("infinite constant") << "x_t^2 + 9^9^9^9*x"
+                                           << "is not finite here: inf" << 11 << "";
     }
     void mistakesAreShownWhereTheyAre() {
         QFETCH(QString, text);
@@ -191,7 +234,8 @@ private slots:
     }
     void degenerateLagrangiansAreRefused() {
         QVERIFY(problemOf("x_t*x").message.find("no square of x_t") != std::string::npos);
-        QVERIFY(problemOf("(x_t + y_t)^2 - x*y", {"x", "y"}).message.find("singular matrix") != std::string::npos);
+        QVERIFY(problemOf("(x_t + y_t)^2 - x*y", {"x", "y"}).message.find("singular matrix") !=
+                std::string::npos);
         QVERIFY(problemOf("x_t^2 - y^2", {"x", "y"}).message.find("no square of y_t") != std::string::npos);
         QVERIFY(problemOf("x_t^2 - 1e-20*y_t^2", {"x", "y"}).message.empty());  // small, but regular
     }
@@ -229,9 +273,12 @@ private slots:
         QTest::newRow("tower of powers") << nest("(1.7*x+3)", "(%1^59+1)", 180);
         QTest::newRow("large power") << "x_t^2 + (1.1*x)^1000000 + (2*x)^-999999999 + (3/7*x)^1234567.5";
         QTest::newRow("rationals") << nest("x", "(1.37*%1+x/7)", 190);
-        QTest::newRow("product") << join(1000, [](int i) { return QString("(x+%1)").arg(i); }, "*");
-        QTest::newRow("product of velocities") << join(900, [](int i) { return QString("(x_t+%1)").arg(i); }, "*");
-        QTest::newRow("sum") << join(4900, [](int) { return QString("x"); }, "+");
+        QTest::newRow("product") << join(
+            1000, [](int i) { return QString("(x+%1)").arg(i); }, "*");
+        QTest::newRow("product of velocities") << join(
+            900, [](int i) { return QString("(x_t+%1)").arg(i); }, "*");
+        QTest::newRow("sum") << join(
+            4900, [](int) { return QString("x"); }, "+");
         QTest::newRow("quotients") << nest("x", "(1/(x+%1))", 190);
     }
     void nothingTakesLong() {
@@ -239,7 +286,8 @@ private slots:
         QElapsedTimer timer;
         timer.start();
         (void)problemOf(text.toStdString());
-        QVERIFY2(timer.elapsed() < 6500, qPrintable(QString::number(timer.elapsed())));  // measured: at most 1 s
+        QVERIFY2(timer.elapsed() < 6500,
+                 qPrintable(QString::number(timer.elapsed())));  // measured: at most 1 s
     }
     void whatTakesTooLongIsGivenUp() {
         // 64 coordinates inside each other: the Hessian alone has millions of parts.
@@ -257,7 +305,8 @@ private slots:
         const qint64 once = timer.elapsed();
         QVERIFY(once < 6500);  // measured: 5.2 s
         if (first.message.empty()) QSKIP("this machine is fast enough");
-        QVERIFY2(first.message.find("takes more than 5 s to differentiate") != std::string::npos, first.message.c_str());
+        QVERIFY2(first.message.find("takes more than 5 s to differentiate") != std::string::npos,
+                 first.message.c_str());
         timer.restart();
         QCOMPARE(problemOf(kinetic + nest, coordinates).message, first.message);
         QVERIFY(timer.elapsed() < 1000);  // remembered
@@ -277,7 +326,8 @@ private slots:
         for (const auto& f : found) QVERIFY(f == alone);
     }
     void equationsAreTypeset() {
-        const typed::Formula pendulum{{"theta1"}, {{"m", 1}, {"l", 2}, {"g", 9.81}, {"omega_0", 1}},
+        const typed::Formula pendulum{{"theta1"},
+                                      {{"m", 1}, {"l", 2}, {"g", 9.81}, {"omega_0", 1}},
                                       "m/2*l^2*theta1_t^2 + m*g*l*cos(theta1) - 0.5*omega_0^2*theta1^2"};
         const auto plain = typed::equationLines(pendulum, typed::TextForm::plain);
         QCOMPARE(QString::fromStdString(plain.at(0)), QString("m l² θ₁″ + m l g sin θ₁ + ω₀² θ₁ = 0"));

@@ -14,7 +14,9 @@ inline System typedSystem(Value::Array coordinates, Value::Object parameters, co
     return findModel("lagrangian")->make(settings);
 }
 
-inline System typedKepler() { return typedSystem({"x", "y"}, {{"mu", 1}}, "(x_t^2 + y_t^2)/2 + mu/sqrt(x^2 + y^2)"); }
+inline System typedKepler() {
+    return typedSystem({"x", "y"}, {{"mu", 1}}, "(x_t^2 + y_t^2)/2 + mu/sqrt(x^2 + y^2)");
+}
 
 inline System typedSpringPendulum() {
     return typedSystem({"a", "theta"}, {{"m", 1}, {"g", 9.81}, {"l", 1}, {"k", 1e4}},
@@ -22,9 +24,10 @@ inline System typedSpringPendulum() {
 }
 
 inline System typedDoublePendulum() {
-    return typedSystem({"theta1", "theta2"}, {{"m1", 1}, {"m2", 1}, {"l1", 1}, {"l2", 1}, {"g", 9.81}},
-                       "(m1 + m2)/2*l1^2*theta1_t^2 + m2/2*l2^2*theta2_t^2 + m2*l1*l2*theta1_t*theta2_t*cos(theta1 - theta2)"
-                       " + (m1 + m2)*g*l1*cos(theta1) + m2*g*l2*cos(theta2)");
+    return typedSystem(
+        {"theta1", "theta2"}, {{"m1", 1}, {"m2", 1}, {"l1", 1}, {"l2", 1}, {"g", 9.81}},
+        "(m1 + m2)/2*l1^2*theta1_t^2 + m2/2*l2^2*theta2_t^2 + m2*l1*l2*theta1_t*theta2_t*cos(theta1 - theta2)"
+        " + (m1 + m2)*g*l1*cos(theta1) + m2*g*l2*cos(theta2)");
 }
 
 }  // namespace extremal::laws
