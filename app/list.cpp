@@ -6,7 +6,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/composition.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/codec.hpp"

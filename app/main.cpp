@@ -10,7 +10,7 @@
 #include "app/arguments.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
-#include "engine/wave/wisdom.hpp"
+#include "engine/model/wave/wisdom.hpp"
 
 namespace {
 

@@ -10,8 +10,8 @@
 #include "app/verbs.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/json.hpp"
-#include "engine/wave/grid.hpp"
-#include "engine/wave/wisdom.hpp"
+#include "engine/model/wave/grid.hpp"
+#include "engine/model/wave/wisdom.hpp"
 
 namespace extremal::app {
 namespace {

@@ -1,12 +1,22 @@
-# extremal_catalogue(namespace folder type header function)
+# extremal_catalogue(namespace folders type header function)
 #   For every FOLDER/<stem>.cpp, which defines `TYPE extremal::NAMESPACE::<stem>()`, one entry in alphabetical order
-#   of `const std::vector<TYPE>& extremal::FUNCTION()`. Self-registering statics would vanish from a static library.
-function(extremal_catalogue namespace folder type header function)
-    file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
-    set(declarations "")
-    set(entries "")
+#   of `const std::vector<TYPE>& extremal::FUNCTION()`. FOLDER may be a pattern, or a list of them.
+#   Self-registering statics would vanish from a static library.
+function(extremal_catalogue namespace folders type header function)
+    set(files "")
+    foreach(folder ${folders})
+        file(GLOB found CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+        list(APPEND files ${found})
+    endforeach()
+    set(stems "")
     foreach(file ${files})
         get_filename_component(stem ${file} NAME_WE)
+        list(APPEND stems ${stem})
+    endforeach()
+    list(SORT stems)
+    set(declarations "")
+    set(entries "")
+    foreach(stem ${stems})
         string(APPEND declarations "${type} ${stem}();\n")
         string(APPEND entries "        ${namespace}::${stem}(),\n")
     endforeach()

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "engine/integrator/wave.hpp"
-#include "engine/integrator/wave_step.hpp"
+#include "engine/family/wave/wave.hpp"
+#include "engine/family/wave/wave_step.hpp"
 
 namespace extremal {
 namespace {

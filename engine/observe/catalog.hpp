@@ -10,7 +10,7 @@
 #include "engine/core/catalog.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/core/state.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/evaluation.hpp"
 #include "engine/trajectory/trajectory.hpp"

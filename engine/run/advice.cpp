@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/core/text.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
 
 namespace extremal {

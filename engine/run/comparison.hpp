@@ -9,8 +9,8 @@
 
 #include "engine/core/outcome.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/integrator/action_defect.hpp"
-#include "engine/integrator/kkt_pattern.hpp"
+#include "engine/family/galerkin/action_defect.hpp"
+#include "engine/family/galerkin/kkt_pattern.hpp"
 #include "engine/run/parameter_map.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/frames.hpp"

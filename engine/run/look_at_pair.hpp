@@ -5,7 +5,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "engine/integrator/exact_actions.hpp"
+#include "engine/family/galerkin/exact_actions.hpp"
 #include "engine/run/comparison.hpp"
 
 namespace extremal {

@@ -12,10 +12,10 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
 namespace {

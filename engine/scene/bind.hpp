@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "engine/integrator/integrator.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
 

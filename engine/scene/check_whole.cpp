@@ -3,15 +3,15 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
-#include "engine/integrator/resonance.hpp"
-#include "engine/integrator/scheme.hpp"
-#include "engine/integrator/wave.hpp"
+#include "engine/family/multiscale/resonance.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/family/wave/wave.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/cost.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/two_positions.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
 namespace {

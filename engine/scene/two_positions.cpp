@@ -10,7 +10,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/recent.hpp"
 #include "engine/core/text.hpp"
-#include "engine/integrator/table_of.hpp"
+#include "engine/family/galerkin/table_of.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
 #include "engine/solve/newton.hpp"

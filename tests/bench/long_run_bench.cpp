@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 
 using namespace extremal;

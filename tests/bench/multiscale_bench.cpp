@@ -16,8 +16,8 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/instruction_set.hpp"
-#include "engine/integrator/multiscale.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/multiscale/multiscale.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "tests/bench/cpu_time.hpp"
 

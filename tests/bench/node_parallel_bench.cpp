@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/core/instruction_set.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "tests/bench/cpu_time.hpp"
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/wave/fourier.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/fourier.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 #include "tests/bench/wave_costs.hpp"
 
 using namespace extremal;

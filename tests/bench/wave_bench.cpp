@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/baseline/splitting_table.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 #include "tests/bench/wave_costs.hpp"
 
 using namespace extremal;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "tests/bench/cpu_time.hpp"
 
 namespace extremal::bench {

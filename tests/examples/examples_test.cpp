@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/integrator/galerkin_step.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "tests/examples/galerkin_fine.cpp"
 #include "tests/examples/quartic_oscillator.cpp"
 #include "tests/examples/trigonometric.cpp"

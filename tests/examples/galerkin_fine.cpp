@@ -1,5 +1,5 @@
 /// Degree s with Gauss(s + 1): one node more than collocation needs.
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 
 namespace extremal::schemes {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 
 namespace extremal::laws {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "engine/integrator/oscillatory.hpp"
-#include "engine/integrator/resonance.hpp"
+#include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/multiscale/resonance.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
 

@@ -5,7 +5,7 @@
 #include <boost/multiprecision/float128.hpp>
 
 #include "engine/action/table.hpp"
-#include "engine/integrator/lie_step_build.hpp"
+#include "engine/family/lie/lie_step_build.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"

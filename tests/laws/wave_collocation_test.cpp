@@ -2,7 +2,7 @@
 /// Chebyshev nodes.
 #include <QTest>
 
-#include "engine/integrator/wave_collocation.hpp"
+#include "engine/family/wave/wave_collocation.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "engine/core/problem.hpp"
-#include "engine/wave/convolution.hpp"
-#include "engine/wave/eigen.hpp"
+#include "engine/model/wave/convolution.hpp"
+#include "engine/model/wave/eigen.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 

@@ -6,10 +6,10 @@
 
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/integrator/wave.hpp"
-#include "engine/wave/eigen.hpp"
-#include "engine/wave/interval.hpp"
-#include "engine/wave/spectrum.hpp"
+#include "engine/family/wave/wave.hpp"
+#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/interval.hpp"
+#include "engine/model/wave/spectrum.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "engine/core/problem.hpp"
-#include "engine/wave/eigen.hpp"
-#include "engine/wave/spectrum.hpp"
+#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/spectrum.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 

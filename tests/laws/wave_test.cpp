@@ -5,9 +5,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/integrator/pade.hpp"
-#include "engine/wave/eigen.hpp"
-#include "engine/wave/spectrum.hpp"
+#include "engine/family/wave/pade.hpp"
+#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/spectrum.hpp"
 #include "tests/laws/allocations.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"

@@ -2,8 +2,8 @@
 /// limit.
 #include <QTest>
 
-#include "engine/integrator/wave.hpp"
-#include "engine/integrator/wave_three_level.hpp"
+#include "engine/family/wave/wave.hpp"
+#include "engine/family/wave/wave_three_level.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"

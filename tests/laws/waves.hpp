@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 #include "tests/laws/laws.hpp"
 
 namespace extremal::laws {

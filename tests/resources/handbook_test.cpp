@@ -7,7 +7,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/integrator/composition.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 
 namespace extremal::tools {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/core/text.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/catalog.hpp"
 

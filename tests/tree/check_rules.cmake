@@ -22,7 +22,7 @@ endfunction()
 
 set(header "/// What it is.\n#pragma once\n")
 expect(sound engine/run/run.hpp "${header}#include <vector>\n#include \"engine/core/state.hpp\"\n" "")
-expect(same_level engine/baseline/a.cpp "#include \"engine/integrator/integrator.hpp\"\n" "")
+expect(below engine/baseline/a.cpp "#include \"engine/integrator/integrator.hpp\"\n" "")
 expect(ui_may_use_qt ui/shell/a.cpp "#include <QWidget>\n#include \"engine/run/run.hpp\"\n#include \"a.hpp\"\n" "")
 expect(upward engine/core/state.hpp "${header}\n#include \"engine/run/run.hpp\"\n"
     "core/state.hpp:4: core includes \"engine/run/run.hpp\", which is above it")

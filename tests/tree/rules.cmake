@@ -4,29 +4,15 @@
 #
 # Includes point down the order of the folders; the engine knows no Qt and no OpenGL; a file is one idea.
 
-# A folder may include itself, folders of its own level, and every level before it.
+# A folder may include itself and every folder before it.
 set(levels
-    "core"
-    "group quadrature space wave model"
-    "action"
-    "solve"
-    "integrator baseline"
-    "trajectory"
-    "observe"
-    "scene"
-    "run"
-    "figure"
-    "study"
-    "ui"
-    "app")
+    core mesh group quadrature model space action solve integrator family baseline trajectory observe scene run figure study
+    ui app)
 set(max_lines 500)
 
 set(level 0)
-foreach(folders ${levels})
-    separate_arguments(folders)
-    foreach(folder ${folders})
-        set(level_of_${folder} ${level})
-    endforeach()
+foreach(folder ${levels})
+    set(level_of_${folder} ${level})
     math(EXPR level "${level} + 1")
 endforeach()
 

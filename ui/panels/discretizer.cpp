@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "engine/integrator/elliptic.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/elliptic/elliptic.hpp"
+#include "engine/family/scheme.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"

@@ -8,8 +8,8 @@
 #include <QVBoxLayout>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/elliptic.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/elliptic/elliptic.hpp"
+#include "engine/family/scheme.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/scheme_card.hpp"

@@ -2,8 +2,8 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/integrator/scheme.hpp"
-#include "engine/integrator/wave.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/family/wave/wave.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/space/catalog.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/figure/view.hpp"
-#include "engine/integrator/elliptic.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/elliptic/elliptic.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/codec.hpp"

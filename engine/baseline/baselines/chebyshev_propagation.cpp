@@ -12,7 +12,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
-#include "engine/integrator/wave_step.hpp"
+#include "engine/family/wave/wave_step.hpp"
 
 namespace extremal::baselines {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/wave.hpp"
+#include "engine/family/wave/wave.hpp"
 
 namespace extremal::baselines {
 

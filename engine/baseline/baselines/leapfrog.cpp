@@ -2,7 +2,7 @@
 /// hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2.
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/integrator/wave_three_level.hpp"
+#include "engine/family/wave/wave_three_level.hpp"
 
 namespace extremal::baselines {
 

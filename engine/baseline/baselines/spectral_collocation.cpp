@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/wave.hpp"
-#include "engine/integrator/wave_collocation.hpp"
+#include "engine/family/wave/wave.hpp"
+#include "engine/family/wave/wave_collocation.hpp"
 
 namespace extremal::baselines {
 namespace {

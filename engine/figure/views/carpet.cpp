@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "engine/figure/build.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal::views {
 namespace {

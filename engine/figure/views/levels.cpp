@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/figure/build.hpp"
-#include "engine/wave/eigen.hpp"
+#include "engine/model/wave/eigen.hpp"
 
 namespace extremal::views {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/figure/build.hpp"
-#include "engine/wave/spectrum.hpp"
+#include "engine/model/wave/spectrum.hpp"
 
 namespace extremal::views {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/wave_system.hpp"
-#include "engine/wave/eigen.hpp"
+#include "engine/model/wave/wave_system.hpp"
+#include "engine/model/wave/eigen.hpp"
 
 namespace extremal::systems {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/model/wave_system.hpp"
+#include "engine/model/wave/wave_system.hpp"
 
 namespace extremal::systems {
 namespace {

@@ -12,8 +12,8 @@
 namespace extremal::typed {
 namespace {
 
-using Value = std::uint32_t;
-constexpr Value none = std::numeric_limits<Value>::max();
+using Register = std::uint32_t;
+constexpr Register none = std::numeric_limits<Register>::max();
 
 /// How many operands of an instruction are values; a comes first, then b, then c.
 int operandCount(Op op) {
@@ -49,19 +49,19 @@ void forOperands(Instruction& code, F&& f) {
 struct Line {
     struct Step {
         Instruction code;
-        Value makes, makesToo = none;  ///< makesToo: cos of sinCos
+        Register makes, makesToo = none;  ///< makesToo: cos of sinCos
     };
     std::vector<Step> steps;
-    std::vector<Value> outputs;
+    std::vector<Register> outputs;
     std::vector<int> uses;  ///< of each value
 
-    Line(const std::vector<Code::Item>& items, std::vector<Value> wanted) : outputs(std::move(wanted)) {
+    Line(const std::vector<Code::Item>& items, std::vector<Register> wanted) : outputs(std::move(wanted)) {
         uses.assign(items.size(), 0);
-        for (const Value v : outputs) ++uses[v];
+        for (const Register v : outputs) ++uses[v];
         for (std::size_t i = items.size(); i-- > 0;) {
             if (uses[i] == 0 || items[i].kind != Code::Kind::instruction) continue;
-            Step step{items[i].code, static_cast<Value>(i), none};
-            forOperands(step.code, [&](Value& v) { ++uses[v]; });
+            Step step{items[i].code, static_cast<Register>(i), none};
+            forOperands(step.code, [&](Register& v) { ++uses[v]; });
             steps.push_back(step);
         }
         std::reverse(steps.begin(), steps.end());
@@ -77,8 +77,8 @@ private:
         steps.resize(kept);
     }
     void joinSinesAndCosines() {
-        constexpr auto sine = static_cast<Value>(Function::sin), cosine = static_cast<Value>(Function::cos);
-        std::map<Value, std::pair<std::size_t, std::size_t>> pairs;  // argument -> places of sin, cos
+        constexpr auto sine = static_cast<Register>(Function::sin), cosine = static_cast<Register>(Function::cos);
+        std::map<Register, std::pair<std::size_t, std::size_t>> pairs;  // argument -> places of sin, cos
         constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
         for (std::size_t i = 0; i < steps.size(); ++i) {
             const Instruction& c = steps[i].code;
@@ -91,7 +91,7 @@ private:
             const auto [s, c] = both;
             if (s == nowhere || c == nowhere) continue;
             Step& first = steps[std::min(s, c)];
-            const Value sinValue = steps[s].makes, cosValue = steps[c].makes;
+            const Register sinValue = steps[s].makes, cosValue = steps[c].makes;
             first = {{Op::sinCos, 0, argument, 0, 0}, sinValue, cosValue};
             isDropped[std::max(s, c)] = 1;
             --uses[argument];
@@ -100,13 +100,13 @@ private:
     }
     /// A product that only one sum uses becomes part of it.
     void joinProductsAndSums() {
-        std::map<Value, std::size_t> products;
+        std::map<Register, std::size_t> products;
         std::vector<char> isDropped(steps.size(), 0);
         for (std::size_t i = 0; i < steps.size(); ++i) {
             Instruction& code = steps[i].code;
             if (code.op == Op::multiply) products[steps[i].makes] = i;
             if (code.op != Op::add && code.op != Op::subtract) continue;
-            const auto join = [&](Value product, Value other, Op op) {
+            const auto join = [&](Register product, Register other, Op op) {
                 const auto found = products.find(product);
                 if (found == products.end() || uses[product] != 1) return false;
                 const Instruction& p = steps[found->second].code;
@@ -114,7 +114,7 @@ private:
                 isDropped[found->second] = 1;
                 return true;
             };
-            const Value a = code.a, b = code.b;
+            const Register a = code.a, b = code.b;
             if (code.op == Op::add) {
                 if (!join(b, a, Op::multiplyAdd)) join(a, b, Op::multiplyAdd);
             } else if (!join(b, a, Op::subtractProduct)) {
@@ -129,7 +129,7 @@ private:
 
 Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     Code code(graph);
-    std::vector<Value> wanted;
+    std::vector<Register> wanted;
     for (const int root : roots) wanted.push_back(code.value(root));
     Line line(code.items(), std::move(wanted));
 
@@ -148,8 +148,8 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     // The last step that reads each value; outputs are read at the end.
     std::vector<std::size_t> last(place.size(), 0);
     for (std::size_t s = 0; s < line.steps.size(); ++s)
-        forOperands(line.steps[s].code, [&](Value& v) { last[v] = s; });
-    for (const Value v : line.outputs) last[v] = line.steps.size();
+        forOperands(line.steps[s].code, [&](Register& v) { last[v] = s; });
+    for (const Register v : line.outputs) last[v] = line.steps.size();
     const auto firstFree = static_cast<std::uint32_t>(tape.inputs_ + tape.constants_.size());
     std::uint32_t end = firstFree;
     std::vector<std::uint32_t> free;
@@ -161,21 +161,21 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     };
     for (std::size_t s = 0; s < line.steps.size(); ++s) {
         auto& [instruction, makes, makesToo] = line.steps[s];
-        std::vector<Value> read;
-        forOperands(instruction, [&](Value& v) {
+        std::vector<Register> read;
+        forOperands(instruction, [&](Register& v) {
             read.push_back(v);
             v = place[v];
         });
         std::sort(read.begin(), read.end());
         read.erase(std::unique(read.begin(), read.end()), read.end());
-        for (const Value v : read)
+        for (const Register v : read)
             if (last[v] == s && place[v] >= firstFree) free.push_back(place[v]);
         instruction.to = place[makes] = take();
         if (makesToo != none) instruction.c = place[makesToo] = take();
         tape.code_.push_back(instruction);
     }
     tape.registers_ = end;
-    for (const Value v : line.outputs) tape.outputs_.push_back(place[v]);
+    for (const Register v : line.outputs) tape.outputs_.push_back(place[v]);
     return tape;
 }
 

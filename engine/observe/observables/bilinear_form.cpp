@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/integrator/wave_three_level.hpp"
+#include "engine/family/wave/wave_three_level.hpp"
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {

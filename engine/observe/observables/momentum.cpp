@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "engine/observe/catalog.hpp"
-#include "engine/wave/spectrum.hpp"
+#include "engine/model/wave/spectrum.hpp"
 
 namespace extremal::observables {
 namespace {

@@ -10,8 +10,8 @@
 #include <limits>
 #include <memory>
 
-#include "engine/integrator/scheme.hpp"
-#include "engine/integrator/table_of.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/family/galerkin/table_of.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/solve/multipliers.hpp"
 

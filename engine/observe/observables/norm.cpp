@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "engine/observe/catalog.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal::observables {
 

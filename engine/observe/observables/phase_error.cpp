@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/observe/catalog.hpp"
-#include "engine/wave/hamiltonian.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal::observables {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/observe/catalog.hpp"
-#include "engine/wave/spectrum.hpp"
+#include "engine/model/wave/spectrum.hpp"
 
 namespace extremal::observables {
 

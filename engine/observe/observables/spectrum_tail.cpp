@@ -1,7 +1,7 @@
 /// The share of the wave function in the upper eighth of its wave numbers: far above round-off, N is too
 /// small.
 #include "engine/observe/catalog.hpp"
-#include "engine/wave/spectrum.hpp"
+#include "engine/model/wave/spectrum.hpp"
 
 namespace extremal::observables {
 

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "engine/integrator/pade.hpp"
+#include "engine/family/wave/pade.hpp"
 #include "engine/solve/banded_poles.hpp"
 #include "tests/tools/test.hpp"
 

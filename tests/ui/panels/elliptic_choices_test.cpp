@@ -5,7 +5,7 @@
 #include <QStandardItemModel>
 #include <QTest>
 
-#include "engine/integrator/elliptic.hpp"
+#include "engine/family/elliptic/elliptic.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
 #include "tests/tools/test.hpp"

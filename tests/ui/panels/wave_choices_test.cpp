@@ -3,7 +3,7 @@
 #include <QTest>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/integrator/scheme.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/panels/discretizer.hpp"

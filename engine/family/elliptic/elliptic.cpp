@@ -1,0 +1,79 @@
+#include "engine/family/elliptic/elliptic.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/elliptic.hpp"
+
+namespace extremal {
+namespace {
+
+class Elliptic final : public Integrator {
+public:
+    Elliptic(const EllipticProblem& problem, int elements, EllipticElements kind)
+        : kind_(kind), solution_(problem, elements), nodal_(solution_.nodal(kind)) {}
+
+    StepReport advance(State& state) override {
+        StepReport report;
+        const int n = solution_.elements();
+        report.step = 1.0 / n;
+        if (state.node >= n) {
+            report.outcome = Outcome::stopped;
+            return report;
+        }
+        report.linearSolves = state.node == 0 ? 1 : 0;
+        last_ = static_cast<int>(state.node);
+        ++state.node;
+        state.t = static_cast<double>(state.node) / n;
+        state.x[0] = nodal_[static_cast<std::size_t>(state.node)];
+        state.x[1] = solution_.u(state.t);
+        return report;
+    }
+    void curve(double tau, std::span<double> x) const override {
+        const double place = (last_ + tau) / solution_.elements();
+        x[0] = solution_.between(kind_, nodal_, place);
+        x[1] = solution_.u(place);
+    }
+
+private:
+    EllipticElements kind_;
+    EllipticSolution solution_;
+    std::vector<double> nodal_;
+    int last_ = 0;
+};
+
+}  // namespace
+
+bool isElliptic(const Settings& space) { return space.type == "elliptic-elements"; }
+
+PairProperties describeElliptic(const Settings& space) {
+    const bool isLinear = space.text("functions") == "linear";
+    PairProperties p;
+    p.claims.order = isLinear ? 2 : 0;
+    p.curveOrder = 2;
+    p.knownAs = isLinear ? "linear elements" : "multiscale elements";
+    p.shortName = isLinear ? "P1" : "MsFEM";
+    p.stabilityLimit = std::numeric_limits<double>::infinity();
+    return p;
+}
+
+std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
+                                                   const Clock& clock) {
+    if (!system.elliptic)
+        throw InvalidScene(
+            "/space/type",
+            "elliptic-elements are for the model multiscale-elliptic, and " + system.id + " is another",
+            "take polynomial");
+    const double n = std::round(1 / clock.step);
+    if (!(n >= 2 && n <= 1e5) || clock.start != 0 || std::abs(n * clock.step - 1) > 1e-9)
+        throw InvalidScene("/step",
+                           "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(clock.step),
+                           "leave it out: it is 1/elements");
+    const bool isLinear = pair.space.text("functions") == "linear";
+    return std::make_unique<Elliptic>(*system.elliptic, static_cast<int>(n),
+                                      isLinear ? EllipticElements::linear : EllipticElements::multiscale);
+}
+
+}  // namespace extremal

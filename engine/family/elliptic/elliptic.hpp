@@ -1,0 +1,19 @@
+/// The discrete solution of the elliptic problem as a march along x: nothing is integrated, the nodal values
+/// are found at once and given one by one, with the curve of the elements between them.
+#pragma once
+
+#include <memory>
+
+#include "engine/family/scheme.hpp"
+
+namespace extremal {
+
+bool isElliptic(const Settings& space);
+PairProperties describeElliptic(const Settings& space);
+
+/// Throws InvalidScene (pointer relative to the scheme) where the system is none, or the step no whole part
+/// of 1.
+std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
+                                                   const Clock& clock);
+
+}  // namespace extremal

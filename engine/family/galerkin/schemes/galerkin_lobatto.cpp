@@ -1,0 +1,26 @@
+/// Degree s with Lobatto(s + 1) equals the partitioned pair Lobatto IIIA-IIIB.
+#include "engine/family/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry galerkin_lobatto() {
+    SchemeEntry e;
+    e.item = {"galerkin-lobatto-<s>",
+              "Galerkin Lobatto",
+              "Degree s with Lobatto(s + 1): the pair Lobatto IIIA-IIIB, order 2s.",
+              {},
+              Claims{2, true, true, {"momentum"}},
+              ""};
+    e.source = "Leok 2004, sec. 2.1; Marsden and West 2001, 2.6.6";
+    e.minDegree = 1;
+    e.maxDegree = 24;
+    e.make = [](int degree) {
+        Discretization pair;
+        pair.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
+        pair.quadrature = {"lobatto", {{"nodes", static_cast<double>(degree + 1)}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes

@@ -1,0 +1,26 @@
+/// Degree 1 with the midpoint rule: L_d = h L((q_0 + q_1)/2, (q_1 - q_0)/h).
+#include "engine/family/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry midpoint() {
+    SchemeEntry e;
+    e.item = {"midpoint",
+              "midpoint",
+              "Linear pieces with the midpoint rule: order 2, stable for every step.",
+              {},
+              Claims{2, true, true, {"momentum", "quadratic invariants"}},
+              ""};
+    e.source = "Marsden and West 2001, 1.3.2";
+    e.minDegree = 0;
+    e.maxDegree = 0;
+    e.make = [](int) {
+        Discretization pair;
+        pair.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
+        pair.quadrature = {"midpoint", {{"panels", 1.0}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes

@@ -1,0 +1,27 @@
+/// Degree s with Clenshaw-Curtis(s + 1): order 2 and 4 for s = 1 and 2, then 4 for odd and 6 for even s.
+#include "engine/family/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry spectral_clenshaw_curtis() {
+    SchemeEntry e;
+    e.item = {"spectral-clenshaw-curtis-<s>",
+              "spectral Clenshaw-Curtis",
+              "Degree s with Clenshaw-Curtis on s + 1 nodes, as in spectral variational integrators: order 4 "
+              "for odd, 6 for even degrees from 3 on.",
+              {},
+              Claims{2, true, true, {"momentum"}},
+              ""};
+    e.source = "Hall and Leok 2015";
+    e.minDegree = 1;
+    e.maxDegree = 24;
+    e.make = [](int degree) {
+        Discretization pair;
+        pair.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
+        pair.quadrature = {"clenshaw-curtis", {{"nodes", static_cast<double>(degree + 1)}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes

@@ -1,0 +1,26 @@
+/// Degree 1 with the trapezoidal rule: for separable systems this is Störmer-Verlet.
+#include "engine/family/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry trapezoidal() {
+    SchemeEntry e;
+    e.item = {"trapezoidal",
+              "trapezoidal",
+              "Linear pieces with the trapezoidal rule: Störmer-Verlet as a pair, order 2.",
+              {},
+              Claims{2, true, true, {"momentum"}},
+              ""};
+    e.source = "Marsden and West 2001, 2.4.3";
+    e.minDegree = 0;
+    e.maxDegree = 0;
+    e.make = [](int) {
+        Discretization pair;
+        pair.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
+        pair.quadrature = {"trapezoid", {{"panels", 1.0}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes

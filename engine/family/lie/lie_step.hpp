@@ -1,0 +1,103 @@
+/// One step of a Galerkin variational integrator on a Lie group, in the natural chart at its foot.
+///
+/// The curve is g(t) = g_0 exp(xi(t)) with xi in the polynomial space of the table, xi = sum_a Y_a
+/// phi_a(tau), 0 at the foot. With eta_i = dexp(xi_i) xi'_i, m_i = M eta_i and the force f_i of the potential
+/// at node i,
+///     L_d = h sum_i b_i [ 1/2 eta_i . M eta_i - U(g_0 exp xi_i) ],      p_a = dL_d / dY_a
+///         = sum_i b_i { h phi_a(c_i) [ (D_xi eta_i)^T m_i + dexp(xi_i)^T f_i ] + phi_a'(c_i) dexp(xi_i)^T
+///         m_i },
+///     W = -h sum_i b_i Ad_exp(-xi_i)^T f_i                                    (L_d depends on g_0 through U
+///     alone) p_a = 0 for the interior Y_a,      p_s = dexp(-xi_s)^T (mu_0 - W) for the last,      xi_s =
+///     Y_s, mu_1 = Ad_exp(xi_s)^T (mu_0 - W).
+/// The last two are the discrete Euler-Poincare equations, and the multiplied form has no singularity at
+/// |xi_s| = 2 pi. No logarithm is ever taken. Momenta are updated by the last line and not by p_s, so that
+/// they are kept to round-off even where the iteration is not. For a free body g and W drop out: the reduced
+/// step. The adjoint step has its chart at the tip of the step: the same equations with -h from g_1 = g_0
+/// exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 4. Corrected: the
+/// body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is dexp_{-ad} l'/h + l D_xi[dexp_{-ad
+/// xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed inverted); the curve ends
+/// at g_1 (printed g_0^{-1} g_1).
+///
+/// Newton with the Jacobian of the predicted curve, kept while it contracts well, to round-off.
+/// T: scalar; G: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp). All buffers are allocated in the
+/// constructor.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <stop_token>
+#include <vector>
+
+#include "engine/action/table.hpp"
+#include "engine/core/outcome.hpp"
+#include "engine/integrator/galerkin_step.hpp"
+#include "engine/family/lie/lie_groups.hpp"
+#include "engine/model/body.hpp"
+#include "engine/solve/small_lu.hpp"
+
+namespace extremal {
+
+template <class T, class G>
+class LieStep {
+public:
+    static constexpr int n = G::n;
+    using Vector = typename G::Vector;
+    using Matrix = typename G::Matrix;
+
+    /// `isReduced`: leave out the dependence on g where the body is free; `isAdjoint`: chart at the end of
+    /// the step.
+    LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced, bool isAdjoint,
+            SolverPolicy policy);
+
+    /// Moves the pose by one step and adds to the report. On failure it is left as it was.
+    Outcome advance(Pose<T>& pose, StepReport& report, const std::stop_token& stop);
+
+    /// The pose of the last step at tau in [0, 1] from its start.
+    Pose<T> curve(const T& tau) const;
+
+private:
+    using Columns = Eigen::Matrix<T, n, Eigen::Dynamic>;
+    using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+    using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+    enum class Attempt { solved, failed, notFinite, singular, stopped };
+
+    int m() const { return table_.unknowns(); }
+    int nodes() const { return table_.nodes(); }
+    void placeNodes();
+    void placeFoot();
+    bool predict();
+    void residual();
+    /// The matrix of lu_, to be filled.
+    auto jacobian() { return Eigen::Map<Square>(lu_.column(0), n * m(), n * m()); }
+    Attempt assembleJacobian();
+    void addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A, Matrix& xiXi);
+    T correction();
+    T floor() const;
+    void correct();
+    void updateImpulse();
+    Attempt iterate(const std::stop_token& stop);
+    Vector weigh(const Vector& eta) const { return eta.cwiseProduct(inertia_); }
+
+    BodyMechanics<T> body_;
+    Table<T> table_;
+    T h_;  ///< negative in the adjoint step
+    bool hasPotential_, isAdjoint_;
+    SolverPolicy policy_;
+    T tolerance_;
+    Vector inertia_;
+
+    Pose<T> known_, foot_;  ///< the start of the step; the foot of the chart (the same, or the end)
+    typename G::Element footElement_;
+    Vector mu_;  ///< momentum at the start, in the body
+    Vector W_;
+    Columns Y_, xi_, v_, force_, R_;
+    Square atPoints_, fit_;  ///< (k, a): values at m points from Y, and the opposite
+    Columns points_;
+    SmallLu<T> lu_;  ///< the Jacobian, then its factors
+    Flat flat_;
+    std::vector<T> times_;        ///< of the m points
+    std::vector<Pose<T>> poses_;  ///< guesses at the start and the m points
+    StepReport* report_ = nullptr;
+};
+
+}  // namespace extremal

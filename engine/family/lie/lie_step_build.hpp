@@ -1,0 +1,351 @@
+/// The definition of LieStep for any scalar. Included where it is instantiated: lie.cpp for double, the tests
+/// for quadruple precision.
+#pragma once
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/family/lie/lie_guess.hpp"
+#include "engine/family/lie/lie_step.hpp"
+
+namespace extremal {
+
+template <class T, class G>
+LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced,
+                       bool isAdjoint, SolverPolicy policy)
+    : body_(body),
+      table_(std::move(table)),
+      h_(isAdjoint ? T(-step) : step),
+      hasPotential_(!body.isFree() || !isReduced),
+      isAdjoint_(isAdjoint),
+      policy_(policy) {
+    const T epsilon = std::numeric_limits<T>::epsilon();
+    tolerance_ = policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
+    for (int i = 0; i < n; ++i) inertia_(i) = body.inertia[static_cast<std::size_t>(i)];
+    for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(n, m());
+    for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(n, nodes());
+    W_ = mu_ = Vector::Zero();
+    const int size = n * m();
+    lu_ = SmallLu<T>(size);
+    flat_ = Flat::Zero(size);
+    // Y from the values of xi at m points, and back.
+    const std::vector<T> points = lobatto<T>(m() + 1).c;
+    atPoints_ = Square(m(), m());
+    std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
+    for (int k = 0; k < m(); ++k) {
+        times_.push_back(points[static_cast<std::size_t>(k + 1)]);
+        table_.space.evaluate(times_.back(), value, slope);
+        atPoints_.row(k) =
+            Eigen::Map<const Flat>(value.data(), table_.space.size).transpose() * table_.change;
+    }
+    fit_ = atPoints_.partialPivLu().inverse();
+    poses_.resize(static_cast<std::size_t>(m() + 1));
+}
+
+/// xi_i and xi'_i from Y.
+template <class T, class G>
+void LieStep<T, G>::placeNodes() {
+    xi_.noalias() = Y_.lazyProduct(table_.value.transpose());
+    v_.noalias() = Y_.lazyProduct(table_.derivative.transpose());
+    v_ /= h_;
+}
+
+/// The foot of the adjoint step follows from the unknowns.
+template <class T, class G>
+void LieStep<T, G>::placeFoot() {
+    if (!isAdjoint_) return;
+    foot_ = G::place(known_, G::element(known_), -Y_.col(m() - 1));
+    footElement_ = G::element(foot_);
+}
+
+/// Y of the curve through guessed poses at the m points; false where the step is so long that there is none.
+template <class T, class G>
+bool LieStep<T, G>::predict() {
+    poses_[0] = known_;
+    poses_[0].momentum = mu_.template head<3>();
+    const T step = isAdjoint_ ? T(-h_) : h_;
+    for (int k = 0; k < m(); ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        poses_[at + 1] =
+            guessedAfter(body_, poses_[at], T((times_[at] - (k > 0 ? times_[at - 1] : T(0))) * step));
+    }
+    // The points are symmetric in time: the adjoint step sees the same ones from the end.
+    const auto last = static_cast<std::size_t>(m());
+    const Pose<T>& foot = poses_[isAdjoint_ ? last : 0];
+    const so3::Vector<T> w = mu_.template head<3>().cwiseQuotient(inertia_.template head<3>());
+    for (int k = 0; k < m(); ++k) {
+        const auto at = static_cast<std::size_t>(k + 1);
+        const Pose<T>& place = poses_[isAdjoint_ ? last - at : at];
+        const so3::Vector<T> near = (h_ * times_[at - 1]) * w;
+        points_.col(k) = G::coordinates(foot, place, turnBetween(foot.attitude, place.attitude, near));
+    }
+    Y_.noalias() = points_.lazyProduct(fit_.transpose());
+    using std::isfinite;
+    return isfinite(Y_.squaredNorm());
+}
+
+/// R, the equations at the present Y; fills force_ (as momenta at the foot) and W.
+template <class T, class G>
+void LieStep<T, G>::residual() {
+    R_.setZero();
+    W_.setZero();
+    if (hasPotential_) placeFoot();
+    for (int i = 0; i < nodes(); ++i) {
+        const typename G::template Chart<1> at(xi_.col(i));
+        const Vector v = v_.col(i), momentum = weigh(at.dexp(v));
+        Vector forXi = at.gradient(v, momentum);
+        const Vector forV = at.dexpTransposed(momentum);
+        if (hasPotential_) {
+            Vector f = Vector::Zero();
+            if (!body_.isFree()) {
+                const typename G::Element g = G::times(footElement_, at);
+                body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(),
+                                nullptr);
+            }
+            forXi += at.dexpTransposed(f);
+            force_.col(i) = at.rotateMomentum(f);
+            W_ -= (h_ * table_.weight(i)) * force_.col(i);
+        }
+        for (int a = 0; a < m(); ++a)
+            R_.col(a) += (table_.weight(i) * h_ * table_.value(i, a)) * forXi +
+                         (table_.weight(i) * table_.derivative(i, a)) * forV;
+    }
+    const typename G::template Chart<0> end(Y_.col(m() - 1));
+    if (isAdjoint_)
+        R_.col(m() - 1) -= end.dexpTransposed(mu_);
+    else
+        R_.col(m() - 1) -= end.dexpRightTransposed(mu_ - W_);
+    report_->evaluations += nodes();
+}
+
+/// Adds what the potential does to the second derivatives at node i; A = dexp(xi_i).
+template <class T, class G>
+void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A,
+                                   Matrix& xiXi) {
+    const typename G::Element g = G::times(footElement_, at);
+    Vector f;
+    Matrix slope;
+    body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), slope.data());
+    xiXi += at.derivativeOfTransposed(f) + A.transpose() * slope * A;
+    auto jacobian = this->jacobian();
+    const int last = n * (m() - 1);
+    const Vector xiEnd = Y_.col(m() - 1);
+    const typename G::template Chart<0> end(xiEnd), opposite(-xiEnd);
+    if (isAdjoint_) {
+        // The foot moves by -dexp(-xi_s) with the last unknown, and the node with it.
+        Matrix moved;
+        const Matrix foot = opposite.dexpMatrix();
+        for (int k = 0; k < n; ++k) moved.col(k) = -at.rotateBack(foot.col(k));
+        const Matrix change = A.transpose() * slope * moved;
+        for (int a = 0; a < m(); ++a)
+            jacobian.template block<n, n>(n * a, last) +=
+                (table_.weight(i) * h_ * table_.value(i, a)) * change;
+    } else {
+        // dexp(-xi_s)^T dW/dxi_i
+        const Matrix turned = (slope - G::precessionMatrix(f)) * A;
+        Matrix change;
+        for (int k = 0; k < n; ++k) change.col(k) = end.dexpRightTransposed(at.rotateMomentum(turned.col(k)));
+        for (int a = 0; a < m(); ++a)
+            jacobian.template block<n, n>(last, n * a) -=
+                (table_.weight(i) * h_ * table_.value(i, a)) * change;
+    }
+}
+
+/// dR/dY at the present Y, and its factorisation.
+template <class T, class G>
+typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
+    auto jacobian = this->jacobian();
+    jacobian.setZero();
+    if (hasPotential_) placeFoot();
+    for (int i = 0; i < nodes(); ++i) {
+        const typename G::template Chart<2> at(xi_.col(i));
+        const Vector v = v_.col(i), momentum = weigh(at.dexp(v));
+        const Matrix A = at.dexpMatrix(), D = at.derivative(v);
+        const Matrix MA = inertia_.asDiagonal() * A;
+        const Matrix vv = A.transpose() * MA;
+        const Matrix vXi = at.derivativeOfTransposed(momentum) + MA.transpose() * D;
+        Matrix xiXi = at.hessian(v, momentum) + D.transpose() * inertia_.asDiagonal() * D;
+        if (!body_.isFree()) addPotentialAt(i, at, A, xiXi);
+        const T b = table_.weight(i);
+        for (int a = 0; a < m(); ++a) {
+            const T value = b * table_.value(i, a), slope = b * table_.derivative(i, a);
+            const Matrix forXi = (h_ * value) * xiXi + slope * vXi;
+            const Matrix forV = value * vXi.transpose() + (slope / h_) * vv;
+            for (int c = 0; c < m(); ++c)
+                jacobian.template block<n, n>(n * a, n * c) +=
+                    table_.value(i, c) * forXi + table_.derivative(i, c) * forV;
+        }
+    }
+    const typename G::template Chart<1> end(Y_.col(m() - 1));
+    const int last = n * (m() - 1);
+    jacobian.template block<n, n>(last, last) -=
+        isAdjoint_ ? end.derivativeOfTransposed(mu_) : end.derivativeOfRightTransposed(mu_ - W_);
+    report_->evaluations += nodes();
+    ++report_->linearSolves;
+    // Inertias far apart make pivots far apart; only what is lost in round-off is singular.
+    switch (lu_.factorise()) {
+        case SmallLu<T>::Result::regular:
+            break;
+        case SmallLu<T>::Result::singular:
+            return Attempt::singular;
+        case SmallLu<T>::Result::notFinite:
+            return Attempt::notFinite;
+    }
+    return Attempt::solved;
+}
+
+/// Solves for the correction of Y from R, in flat_; returns its size relative to the unknowns.
+template <class T, class G>
+T LieStep<T, G>::correction() {
+    for (int a = 0; a < m(); ++a) flat_.template segment<n>(n * a) = -R_.col(a);
+    lu_.solve(flat_.data());
+    ++report_->linearSolves;
+    T size(0), scale(0);
+    using std::abs;
+    for (int a = 0; a < m(); ++a)
+        for (int k = 0; k < n; ++k) {
+            const T d = abs(flat_(n * a + k));
+            if (!(d <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
+            size = std::max(size, d);
+            scale = std::max(scale, T(abs(Y_(k, a))));
+        }
+    return scale > T(0) ? T(size / scale) : size;
+}
+
+/// What round-off in the equations leaves of the corrections: they are momenta of the heaviest axis, or of
+/// the whole body on its way, and move the lightest axis.
+template <class T, class G>
+T LieStep<T, G>::floor() const {
+    T heaviest = inertia_.template head<3>().maxCoeff();
+    if constexpr (n == 6)
+        for (int a = 0; a < m(); ++a)
+            heaviest = std::max(heaviest, T(inertia_(3) * Y_.col(a).template tail<3>().squaredNorm()));
+    return std::numeric_limits<T>::epsilon() * heaviest / inertia_.template head<3>().minCoeff();
+}
+
+template <class T, class G>
+void LieStep<T, G>::correct() {
+    if constexpr (n == 3) {
+        for (int a = 0; a < m(); ++a) Y_.col(a) += flat_.template segment<n>(n * a);
+    } else {
+        points_.noalias() = Y_.lazyProduct(atPoints_.transpose());
+        for (int k = 0; k < m(); ++k) {
+            Vector change = Vector::Zero();
+            for (int a = 0; a < m(); ++a) change += atPoints_(k, a) * flat_.template segment<n>(n * a);
+            points_.col(k) = G::corrected(points_.col(k), change);
+        }
+        Y_.noalias() = points_.lazyProduct(fit_.transpose());
+    }
+    placeNodes();
+}
+
+/// force_ and W at the present Y.
+template <class T, class G>
+void LieStep<T, G>::updateImpulse() {
+    W_.setZero();
+    placeFoot();
+    if (body_.isFree()) return;
+    for (int i = 0; i < nodes(); ++i) {
+        const typename G::template Chart<0> at(xi_.col(i));
+        const typename G::Element g = G::times(footElement_, at);
+        Vector f;
+        body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), nullptr);
+        force_.col(i) = at.rotateMomentum(f);
+        W_ -= (h_ * table_.weight(i)) * force_.col(i);
+    }
+    report_->evaluations += nodes();
+}
+
+template <class T, class G>
+typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& stop) {
+    const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
+    T last = std::numeric_limits<T>::infinity();
+    int growing = 0, sinceJacobian = 0;
+    placeNodes();
+    Attempt attempt = assembleJacobian();
+    if (attempt != Attempt::solved) return attempt;
+    for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
+        if (stop.stop_requested()) return Attempt::stopped;
+        residual();
+        const T size = correction();
+        ++report_->iterations;
+        report_->residual = static_cast<double>(size);
+        if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
+        correct();
+        // At round-off, or no longer shrinking within a few digits of it, or so fast that the next correction
+        // would be. Light axes stop further away from it: there a new Jacobian must not have helped either.
+        const bool isStalled = size >= last * T(0.25), isAtFloor = sinceJacobian == 0 && size < floor();
+        const bool isSmall = size <= tolerance_ || (isStalled && (size < stagnation || isAtFloor));
+        const bool isNextSmall = iteration > 0 && size < last && size * (size / last) < T(0.25) * tolerance_;
+        if (isSmall || isNextSmall) {
+            updateImpulse();
+            return Attempt::solved;
+        }
+        ++sinceJacobian;
+        growing = size >= last ? growing + 1 : 0;
+        if (growing >= 4) return Attempt::failed;
+        if (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation) {
+            attempt = assembleJacobian();
+            if (attempt != Attempt::solved) return attempt == Attempt::notFinite ? Attempt::failed : attempt;
+            sinceJacobian = 0;
+        }
+        last = size;
+    }
+    return Attempt::failed;
+}
+
+template <class T, class G>
+Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::stop_token& stop) {
+    report_ = &report;
+    known_ = foot_ = pose;
+    footElement_ = G::element(known_);
+    mu_ = G::bodyMomentum(footElement_, known_);
+    if (!predict()) return isRateFinite(body_, poses_[0]) ? Outcome::diverged : Outcome::notFinite;
+    switch (iterate(stop)) {
+        case Attempt::solved:
+            break;
+        case Attempt::failed:
+            return Outcome::diverged;
+        case Attempt::notFinite:
+            return Outcome::notFinite;
+        case Attempt::singular:
+            return Outcome::singular;
+        case Attempt::stopped:
+            return Outcome::stopped;
+    }
+    // Beyond, the chart folds over itself at 2 pi, and the solution is hardly the wanted one.
+    const Vector end = Y_.col(m() - 1);
+    using std::sqrt;
+    if (end.template head<3>().squaredNorm() > T(25)) return Outcome::diverged;
+    if (isAdjoint_) {
+        G::fetch(foot_, footElement_, W_, known_);
+        pose = foot_;
+    } else {
+        Pose<T> tip = G::place(foot_, footElement_, end);
+        G::carry(foot_, footElement_, W_, tip);
+        pose = tip;
+    }
+    return Outcome::converged;
+}
+
+template <class T, class G>
+Pose<T> LieStep<T, G>::curve(const T& tau) const {
+    const T s = isAdjoint_ ? T(1) - tau : tau;
+    std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
+    table_.space.evaluate(s, value, slope);
+    const Flat phi = table_.change.transpose() * Eigen::Map<const Flat>(value.data(), table_.space.size);
+    const Vector xi = Y_ * phi;
+    Vector W = Vector::Zero();
+    if (hasPotential_) {
+        const std::vector<T> share = weightsUpTo(table_, s);
+        for (int i = 0; i < nodes(); ++i) W -= (h_ * share[static_cast<std::size_t>(i)]) * force_.col(i);
+    }
+    Pose<T> at = G::place(foot_, footElement_, xi);
+    G::carry(foot_, footElement_, W, at);
+    return at;
+}
+
+}  // namespace extremal

@@ -1,0 +1,29 @@
+/// Lie group variational integrator of degree s with Gauss(s).
+#include "engine/family/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry lie() {
+    SchemeEntry e;
+    e.item = {"lie-<s>",
+              "Lie group Gauss",
+              "Degree s in the algebra with Gauss(s), for rigid bodies: order 2s, keeps the spatial momentum "
+              "to round-off.",
+              {},
+              Claims{2, true, true, {"momentum"}},
+              "a rigid body"};
+    e.source = "Leok 2004, sec. 4";
+    e.minDegree = 1;
+    e.maxDegree = 8;
+    e.make = [](int degree) {
+        Discretization pair;
+        pair.space = {"lie-polynomial",
+                      {{"degree", static_cast<double>(degree)}, {"symmetric", false}, {"reduced", true}},
+                      {}};
+        pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes

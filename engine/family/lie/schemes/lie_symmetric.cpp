@@ -1,0 +1,29 @@
+/// Half a step of the adjoint Lie group integrator of degree s with Gauss(s), then half a step of it.
+#include "engine/family/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry lie_symmetric() {
+    SchemeEntry e;
+    e.item = {"lie-symmetric-<s>",
+              "symmetric Lie group Gauss",
+              "Half a step of the adjoint of lie-<s>, then half a step of it: order 2s, and back and forth "
+              "returns to the start.",
+              {},
+              Claims{2, true, true, {"momentum"}},
+              "a rigid body"};
+    e.source = "Leok 2004, sec. 4; Hairer, Lubich and Wanner 2006, II.3";
+    e.minDegree = 1;
+    e.maxDegree = 8;
+    e.make = [](int degree) {
+        Discretization pair;
+        pair.space = {"lie-polynomial",
+                      {{"degree", static_cast<double>(degree)}, {"symmetric", true}, {"reduced", true}},
+                      {}};
+        pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes

@@ -1,0 +1,25 @@
+/// The oscillatory pairs that have names, from small to rich.
+#pragma once
+
+#include <vector>
+
+#include "engine/family/scheme.hpp"
+
+namespace extremal {
+
+/// Slow coordinates of degree `slow`, those the system calls fast of degree `fast`, both with the same
+/// harmonics; the frequency is the system's own, the rule automatic.
+inline Discretization multiscalePair(int slow, int fast, const std::vector<int>& harmonics) {
+    Value::Array degrees;
+    for (const int m : harmonics) degrees.emplace_back(static_cast<double>(m));
+    Value ofFast(Value::Object{{"degree", static_cast<double>(fast)}});
+    Discretization pair;
+    pair.space = {
+        "oscillatory",
+        {{"omega", "model"}, {"degree", static_cast<double>(slow)}, {"harmonics", degrees}, {"fast", ofFast}},
+        {}};
+    pair.quadrature = {"auto", {}, {}};
+    return pair;
+}
+
+}  // namespace extremal

@@ -1,0 +1,381 @@
+#include "engine/family/multiscale/product.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "engine/family/multiscale/oscillatory_table.hpp"
+#include "engine/core/dense.hpp"
+#include "engine/core/jet.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/family.hpp"
+#include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/quadrature/rule.hpp"
+#include "engine/solve/small_lu.hpp"
+
+namespace extremal {
+namespace {
+
+/// A function of time and its rate.
+using Moving = Dual<double, 1>;
+
+/// The curve of one coordinate on a step: X = (p_0..p_n, alpha, beta), and w where it is free.
+struct ProductCurve {
+    int degree;
+    bool isFree;
+    double frequency;  ///< where it is not
+
+    int size() const { return degree + (isFree ? 4 : 3); }
+
+    struct At {
+        Moving q;
+        std::vector<Moving> first, second;  ///< dq/dX_j; d^2 q / dX_j dX_k at j * size + k
+    };
+    void evaluate(double t, double h, const double* X, At& at) const {
+        const int n = size(), alpha = degree + 1, beta = alpha + 1, omega = beta + 1;
+        const double a = X[alpha], b = X[beta], w = isFree ? X[omega] : frequency;
+        at.first.resize(static_cast<std::size_t>(n));
+        at.second.assign(static_cast<std::size_t>(n * n), Moving(0.0));
+        const Moving time = Moving::variable(t, 0), x = time * (2 / h) - 1.0;
+        const Moving s = sin(time * w), c = cos(time * w), F = 1.0 + s * a + c * b,
+                     G = time * (c * a - s * b);
+        const auto pair = [&](int j, int k, const Moving& value) {
+            at.second[static_cast<std::size_t>(j * n + k)] = at.second[static_cast<std::size_t>(k * n + j)] =
+                value;
+        };
+        Moving P(1.0), lower(0.0), slow(0.0);
+        for (int j = 0; j <= degree; ++j) {
+            slow += P * X[j];
+            at.first[static_cast<std::size_t>(j)] = P * F;
+            pair(j, alpha, P * s);
+            pair(j, beta, P * c);
+            if (isFree) pair(j, omega, P * G);
+            const Moving next = (x * P * (2.0 * j + 1) - lower * static_cast<double>(j)) * (1.0 / (j + 1));
+            lower = P;
+            P = next;
+        }
+        at.q = slow * F;
+        at.first[static_cast<std::size_t>(alpha)] = slow * s;
+        at.first[static_cast<std::size_t>(beta)] = slow * c;
+        if (!isFree) return;
+        at.first[static_cast<std::size_t>(omega)] = slow * G;
+        pair(alpha, omega, slow * time * c);
+        pair(beta, omega, slow * time * s * -1.0);
+        pair(omega, omega, slow * time * time * (s * a + c * b) * -1.0);
+    }
+};
+
+class Product final : public Integrator {
+public:
+    Product(const System& system, std::vector<ProductCurve> curves, const Rule<double>& rule,
+            const Clock& clock, const SolverPolicy& policy, std::unique_ptr<Integrator> additive)
+        : mechanics_(system.mechanics),
+          curves_(std::move(curves)),
+          rule_(rule),
+          clock_(clock),
+          policy_(policy),
+          additive_(std::move(additive)),
+          at_(curves_.size()),
+          start_(curves_.size()),
+          end_(curves_.size()) {
+        int size = 0;
+        for (const ProductCurve& c : curves_) {
+            offset_.push_back(size);
+            size += c.size() + 1;
+        }
+        unknowns_.resize(static_cast<std::size_t>(size));
+        residual_ = unknowns_;
+        lu_ = SmallLu<double>(size);
+        const std::size_t d = curves_.size();
+        q_.resize(d);
+        v_.resize(d);
+        gradient_.resize(2 * d);
+        hessian_.resize(4 * d * d);
+        forces_.resize(rule_.c.size() * d);
+        fitted_.x.resize(2 * d);
+        for (const ProductCurve& c : curves_) fits_.push_back(fitOf(c));
+    }
+
+    StepReport advance(State& state) override {
+        StepReport report;
+        report.step = clock_.step;
+        report.outcome = solve(state, report);
+        if (report.outcome != Outcome::converged) return report;
+        from_ = state;
+        for (std::size_t k = 0; k < curves_.size(); ++k) {
+            state.x[k] = end_[k].q.value;
+            state.x[curves_.size() + k] = own(k)[curves_[k].size()];
+        }
+        state.t = clock_.at(++state.node);
+        return report;
+    }
+
+    /// p by its equation, and what that misses of the multiplier spread over the step.
+    void curve(double tau, std::span<double> x) const override {
+        const std::size_t d = curves_.size();
+        std::vector<double> share(rule_.c.size());
+        partialWeights<double>(rule_, tau, share);
+        ProductCurve::At at;
+        for (std::size_t k = 0; k < d; ++k) {
+            curves_[k].evaluate(tau * clock_.step, clock_.step, own(k), at);
+            x[k] = at.q.value;
+            double upTo = from_.x[d + k], whole = upTo;
+            for (std::size_t i = 0; i < share.size(); ++i) {
+                upTo += clock_.step * share[i] * forces_[i * d + k];
+                whole += clock_.step * rule_.b[i] * forces_[i * d + k];
+            }
+            x[d + k] = upTo + tau * (own(k)[curves_[k].size()] - whole);
+        }
+    }
+
+    double periodsPerStep() const override { return additive_->periodsPerStep(); }
+
+private:
+    static constexpr int fitSamples = 24;
+    double* own(std::size_t k) { return unknowns_.data() + offset_[k]; }
+    const double* own(std::size_t k) const { return unknowns_.data() + offset_[k]; }
+
+    /// Coefficients of P_0..P_n, cos and sin in a curve from its samples.
+    Eigen::MatrixXd fitOf(const ProductCurve& c) const {
+        const OscillatoryBasis added(c.degree, {0});
+        const double z = c.frequency * clock_.step;
+        const auto n = static_cast<std::size_t>(added.size());
+        Eigen::MatrixXd functions(added.size(), fitSamples);
+        std::vector<double> slopes(n);
+        for (int i = 0; i < fitSamples; ++i) {
+            const double tau = (i + 0.5) / fitSamples;
+            added.evaluate<double>(tau, {z * tau, 0}, {z, 0}, {functions.col(i).data(), n}, slopes);
+        }
+        return dense::leastSquares<double>(functions.transpose(),
+                                           Eigen::MatrixXd::Identity(fitSamples, fitSamples));
+    }
+
+    /// The additive curve with its amplitudes over the mean of P. Where even that has no solution, a
+    /// constant.
+    void guess(const State& state) {
+        const std::size_t d = curves_.size();
+        fitted_ = state;
+        const bool isFound = additive_->advance(fitted_).outcome == Outcome::converged;
+        Eigen::MatrixXd samples(fitSamples, static_cast<Eigen::Index>(d));
+        std::vector<double> x = state.x;
+        for (int i = 0; i < fitSamples; ++i) {
+            if (isFound) additive_->curve((i + 0.5) / fitSamples, x);
+            for (std::size_t k = 0; k < d; ++k) samples(i, static_cast<Eigen::Index>(k)) = x[k];
+        }
+        for (std::size_t k = 0; k < d; ++k) {
+            const ProductCurve& c = curves_[k];
+            const Eigen::VectorXd fit = fits_[k] * samples.col(static_cast<Eigen::Index>(k));
+            double* X = own(k);
+            for (int j = 0; j <= c.degree; ++j) X[j] = fit(j);
+            const double mean = fit(0);
+            X[c.degree + 1] = mean != 0 ? fit(c.degree + 2) / mean : 0;
+            X[c.degree + 2] = mean != 0 ? fit(c.degree + 1) / mean : 0;
+            if (c.isFree) X[c.degree + 3] = c.frequency;
+            X[c.size()] = fitted_.x[d + k];
+        }
+    }
+
+    Outcome solve(const State& state, StepReport& report) {
+        guess(state);
+        const double epsilon = std::numeric_limits<double>::epsilon();
+        double last = std::numeric_limits<double>::infinity();
+        for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
+            if (stop().stop_requested()) return Outcome::stopped;
+            if (!assemble(state, report)) return Outcome::notFinite;
+            switch (lu_.factorise()) {
+                case SmallLu<double>::Result::regular:
+                    break;
+                case SmallLu<double>::Result::singular:
+                    return Outcome::singular;
+                case SmallLu<double>::Result::notFinite:
+                    return Outcome::notFinite;
+            }
+            lu_.solve(residual_.data());
+            ++report.iterations;
+            ++report.linearSolves;
+            const double size = correction(state);
+            if (!std::isfinite(size)) return Outcome::notFinite;
+            report.residual = size;
+            // Amplitudes over a small mean are ill-conditioned: their last digits never settle.
+            if (size <= 4 * epsilon || (size < 1e-7 && size >= last / 4))
+                return assemble(state, report) ? Outcome::converged : Outcome::notFinite;
+            last = size;
+        }
+        return Outcome::diverged;
+    }
+
+    /// Takes the correction off X. Its size relative to the unknowns: slow part, amplitudes, frequency and
+    /// momentum each to their own kind.
+    double correction(const State& state) {
+        double worst = 0;
+        for (std::size_t k = 0; k < curves_.size(); ++k) {
+            const ProductCurve& c = curves_[k];
+            double* const X = own(k);
+            const double* const delta = residual_.data() + offset_[k];
+            const auto relative = [&](int first, int count, double least) {
+                double change = 0, scale = least;
+                for (int j = first; j < first + count; ++j) {
+                    change = std::max(change, std::abs(delta[j]));
+                    scale = std::max(scale, std::abs(X[j]));
+                }
+                worst = std::max(worst, change / (scale + std::numeric_limits<double>::min()));
+            };
+            relative(0, c.degree + 1, 0);
+            relative(c.degree + 1, 2, 1);
+            if (c.isFree) relative(c.degree + 3, 1, 0);
+            relative(c.size(), 1, std::abs(state.x[curves_.size() + k]));
+            for (int j = 0; j <= c.size(); ++j) X[j] -= delta[j];
+        }
+        return worst;
+    }
+
+    /// R and dR/dX at the present X; false where they are not finite.
+    bool assemble(const State& state, StepReport& report) {
+        const int d = static_cast<int>(curves_.size()), all = static_cast<int>(unknowns_.size());
+        const double h = clock_.step;
+        std::fill(residual_.begin(), residual_.end(), 0.0);
+        for (int j = 0; j < all; ++j) std::fill_n(lu_.column(j), all, 0.0);
+        for (std::size_t i = 0; i < rule_.c.size(); ++i) {
+            evaluate(rule_.c[i] * h, at_);
+            for (std::size_t k = 0; k < at_.size(); ++k) {
+                q_[k] = at_[k].q.value;
+                v_[k] = at_[k].q.g[0];
+            }
+            double value = 0;
+            mechanics_.jet(mechanics_.model.get(), state.t + rule_.c[i] * h, q_.data(), v_.data(), &value,
+                           gradient_.data(), hessian_.data());
+            ++report.evaluations;
+            if (!std::isfinite(value)) return false;
+            std::copy_n(gradient_.begin(), d, forces_.begin() + static_cast<std::ptrdiff_t>(i) * d);
+            for (int k = 0; k < d; ++k) addNode(k, rule_.b[i] * h);
+        }
+        evaluate(0, start_);
+        evaluate(h, end_);
+        for (int k = 0; k < d; ++k) addEnds(k, state);
+        return std::all_of(residual_.begin(), residual_.end(), [](double r) { return std::isfinite(r); });
+    }
+    void evaluate(double t, std::vector<ProductCurve::At>& at) {
+        for (std::size_t k = 0; k < curves_.size(); ++k) curves_[k].evaluate(t, clock_.step, own(k), at[k]);
+    }
+    void addNode(int k, double weight) {
+        const int d = static_cast<int>(curves_.size()), n = curves_[static_cast<std::size_t>(k)].size();
+        const ProductCurve::At& at = at_[static_cast<std::size_t>(k)];
+        const double onQ = weight * gradient_[static_cast<std::size_t>(k)],
+                     onV = weight * gradient_[static_cast<std::size_t>(d + k)];
+        const auto H = [&](int i, int j) {
+            return weight * hessian_[static_cast<std::size_t>(i * 2 * d + j)];
+        };
+        const int row = offset_[static_cast<std::size_t>(k)];
+        for (int j = 0; j < n; ++j) {
+            const Moving& phi = at.first[static_cast<std::size_t>(j)];
+            residual_[static_cast<std::size_t>(row + j)] += onQ * phi.value + onV * phi.g[0];
+            for (int i = 0; i < n; ++i) {
+                const Moving& bent = at.second[static_cast<std::size_t>(i * n + j)];
+                lu_.column(row + i)[row + j] += onQ * bent.value + onV * bent.g[0];
+            }
+            for (int l = 0; l < d; ++l) {
+                const double byQ = H(k, l) * phi.value + H(d + k, l) * phi.g[0];
+                const double byV = H(k, d + l) * phi.value + H(d + k, d + l) * phi.g[0];
+                const std::vector<Moving>& others = at_[static_cast<std::size_t>(l)].first;
+                for (std::size_t i = 0; i < others.size(); ++i)
+                    lu_.column(offset_[static_cast<std::size_t>(l)] + static_cast<int>(i))[row + j] +=
+                        byQ * others[i].value + byV * others[i].g[0];
+            }
+        }
+    }
+    /// Continuity, its multipliers, and the momentum at the start.
+    void addEnds(int k, const State& state) {
+        const auto at = static_cast<std::size_t>(k);
+        const int n = curves_[at].size(), row = offset_[at];
+        const double p0 = state.x[curves_.size() + at], p1 = own(at)[n];
+        double* const R = residual_.data() + row;
+        for (int j = 0; j < n; ++j) {
+            const auto a = static_cast<std::size_t>(j);
+            R[j] += p0 * start_[at].first[a].value - p1 * end_[at].first[a].value;
+            for (int i = 0; i < n; ++i) {
+                const auto b = static_cast<std::size_t>(i * n + j);
+                lu_.column(row + i)[row + j] +=
+                    p0 * start_[at].second[b].value - p1 * end_[at].second[b].value;
+            }
+            lu_.column(row + n)[row + j] = -end_[at].first[a].value;
+            lu_.column(row + j)[row + n] = start_[at].first[a].value;
+        }
+        R[n] = start_[at].q.value - state.x[at];
+    }
+
+    const Mechanics<double>& mechanics_;
+    std::vector<ProductCurve> curves_;
+    Rule<double> rule_;
+    Clock clock_;
+    SolverPolicy policy_;
+    std::unique_ptr<Integrator> additive_;
+    std::vector<Eigen::MatrixXd> fits_;
+    std::vector<int> offset_;
+    std::vector<double> unknowns_, residual_, q_, v_, gradient_, hessian_;
+    std::vector<double> forces_;  ///< L_q at node i at i * d + k
+    std::vector<ProductCurve::At> at_, start_, end_;
+    SmallLu<double> lu_;
+    State from_, fitted_;
+};
+
+}  // namespace
+
+bool isProduct(const Settings& space) { return space.type == "oscillatory-product"; }
+
+Settings completeProductRule(const Settings&, const Settings& quadrature) {
+    if (quadrature.type.empty() || quadrature.type == "auto") return {"auto", {}, {}};
+    return completeOscillatoryRule({"oscillatory", {}, {}}, quadrature);
+}
+
+PairProperties describeProduct(const Settings&, const Settings& quadrature) {
+    PairProperties p;
+    p.claims.isSymmetric = false;
+    p.claims.isSymplectic = true;
+    p.stabilityLimit = std::numeric_limits<double>::infinity();
+    p.knownAs = "product form";
+    p.shortName = "MS*";
+    p.caution =
+        "is an experiment: its fast amplitudes are multiples of the slow parts, and steps have no solution "
+        "where these pass "
+        "through 0 or the amplitudes vanish. See the handbook, Multiscale";
+    if (isFilon(quadrature)) {
+        p.refusal = "the frequency may change from step to step, and a Filon rule needs it beforehand";
+        p.hint = "auto, or a rule with 24 nodes a fast period";
+    }
+    return p;
+}
+
+std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& pair,
+                                                  const Clock& clock, const SolverPolicy& policy) {
+    Discretization additive = pair;
+    additive.space.type = "oscillatory";
+    std::erase_if(additive.space.keys, [](const auto& member) { return member.first == "frequency"; });
+    additive.quadrature = {"auto", {}, {}};
+    const Phases<double> z = oscillatoryPhases(system, additive.space, clock.step);
+    if (z[1] != 0)
+        throw InvalidScene("/space/omega", "must be one frequency in a product",
+                           "the space oscillatory takes two");
+    const double periods = std::abs(z[0]) / (2 * std::numbers::pi);
+    if (!(periods < 1e4))
+        throw InvalidScene(
+            "/step", "has " + formatNumber(periods, 3) + " fast periods, and products resolve each of them",
+            "a smaller step, or the space oscillatory");
+    const bool isFree = pair.space.text("frequency") == "free";
+    std::vector<ProductCurve> curves;
+    int degree = 0;
+    for (const OscillatoryBasis& basis : oscillatoryBases(additive.space, system)) {
+        curves.push_back({basis.degree, isFree, z[0] / clock.step});
+        degree = std::max(degree, basis.degree);
+    }
+    const Rule<double> made =
+        makeRule<double>(pair.quadrature.type == "auto" ? resolvingRule(z[0], degree) : pair.quadrature);
+    checkResolution(z[0], made);
+    return std::make_unique<Product>(system, std::move(curves), made, clock, policy,
+                                     makeIntegrator(system, additive, clock));
+}
+
+}  // namespace extremal

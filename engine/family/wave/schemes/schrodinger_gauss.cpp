@@ -1,0 +1,32 @@
+/// Wave functions: Fourier in space, degree s with Gauss(s) in time.
+#include "engine/family/scheme.hpp"
+
+namespace extremal::schemes {
+
+SchemeEntry schrodinger_gauss() {
+    SchemeEntry e;
+    e.item = {
+        "schrodinger-gauss-<s>",
+        "Schrödinger Gauss",
+        "Fourier in space, degree s with Gauss(s) in time: order 2s, keeps norm and energy to round-off.",
+        {},
+        Claims{2, true, true, {"norm", "energy"}},
+        "a wave function"};
+    e.source = "Leok 2004, sec. 6";
+    e.minDegree = 1;
+    e.maxDegree = 16;
+    e.make = [](int degree) {
+        Discretization pair;
+        pair.space = {"fourier",
+                      {{"degree", static_cast<double>(degree)},
+                       {"energy_shift", "mean"},
+                       {"form", "one-step"},
+                       {"start", "gauss"}},
+                      {}};
+        pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
+        return pair;
+    };
+    return e;
+}
+
+}  // namespace extremal::schemes

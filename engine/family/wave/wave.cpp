@@ -1,0 +1,262 @@
+#include "engine/family/wave/wave.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/wave/wave_collocation.hpp"
+#include "engine/family/wave/wave_slabs.hpp"
+#include "engine/family/wave/wave_step.hpp"
+#include "engine/family/wave/wave_three_level.hpp"
+#include "engine/quadrature/rule.hpp"
+#include "engine/solve/banded_poles.hpp"
+#include "engine/model/wave/eigen.hpp"
+
+namespace extremal {
+namespace {
+
+/// Ec: NaN where it is the mean energy of the start.
+double shiftOf(const Settings& space) {
+    const Value* shift = space.find("energy_shift");
+    if (!shift || (shift->isString() && shift->asString() == "mean"))
+        return std::numeric_limits<double>::quiet_NaN();
+    if (shift->isNumber() && std::isfinite(shift->asNumber())) return shift->asNumber();
+    throw InvalidScene("/space/energy_shift", "must be a number or \"mean\"",
+                       "mean: the energy of the start");
+}
+
+/// Microseconds of one transform there and back.
+double transforms(double n) { return 0.0006 * n * std::log2(n); }
+
+/// What a step costs whatever its size: the turn of the phase, the clock.
+constexpr double overhead = 0.2;
+
+/// Measured on one machine at N = 256 and 512; it is the ratios that choose.
+double costOf(WaveSolver solver, const Hamiltonian& h, int degree, double step) {
+    const double n = h.size(), s = degree, band = std::max(1, h.harmonics());
+    if (solver == WaveSolver::banded)
+        return overhead + 0.0018 * n * s * (band > 1 ? 1.6 * band : 1) + 0.003 * n;
+    if (solver == WaveSolver::dense) return overhead + 0.00035 * n * n + transforms(n);
+    // Iterations grow with the part of the potential that the preconditioner does not see.
+    const auto [low, high] = std::minmax_element(h.potential().begin(), h.potential().end());
+    const double strength = step * (*high - *low) / (2 * h.hbar() * s);
+    // Vectors that leave the cache cost more.
+    return s * (5 + 8 * std::sqrt(strength)) * (transforms(n) + (n > 20000 ? 0.025 : 0.01) * n);
+}
+
+std::string duration(double microseconds) {
+    if (microseconds < 1e3) return formatNumber(microseconds, 2) + " µs";
+    return microseconds < 1e6 ? formatNumber(microseconds / 1e3, 2) + " ms"
+                              : formatNumber(microseconds / 1e6, 2) + " s";
+}
+
+void checkSolver(WaveSolver solver, const Hamiltonian& h) {
+    if (solver != WaveSolver::dense && !h.isPeriodic())
+        throw InvalidScene("/solver/method",
+                           std::string(name(solver)) + " needs a periodic domain: it works on Fourier modes",
+                           "auto or dense");
+    if (solver != WaveSolver::dense && !h.isSplit())
+        throw InvalidScene(
+            "/solver/method",
+            std::string(name(solver)) + " needs a potential that acts at the nodes, not by convolution",
+            "auto or dense");
+    if (solver == WaveSolver::banded && h.isPlane())
+        throw InvalidScene("/solver/method", "banded is for one dimension", "auto or krylov");
+    if (solver != WaveSolver::krylov && h.isTimeDependent())
+        throw InvalidScene("/solver/method",
+                           std::string(name(solver)) + " needs a potential that does not depend on t",
+                           "krylov");
+    if (solver == WaveSolver::banded && !BandedPoles::isPossible(h.size(), std::max(1, h.harmonics())))
+        throw InvalidScene(
+            "/solver/method",
+            "banded needs a potential of at most 8 harmonics and at least 4 modes for each and 4 more, got " +
+                std::to_string(h.harmonics()) + " harmonics and " + std::to_string(h.size()) + " modes",
+            "auto, dense or krylov");
+    if (solver == WaveSolver::dense && h.size() > Eigenstates::denseLimit)
+        throw InvalidScene("/solver/method",
+                           "dense takes at most " + std::to_string(Eigenstates::denseLimit) + " modes, got " +
+                               std::to_string(h.size()),
+                           "auto or krylov");
+}
+
+PairProperties describeThreeLevel(const Settings& space, const Settings& quadrature) {
+    PairProperties p;
+    if (space.integer("degree") != 1) {
+        p.refusal = "the three-level form has degree 1, got " + std::to_string(space.integer("degree"));
+        p.hint = "degree 1, or the one-step form";
+        return p;
+    }
+    const double alpha = threeLevelAlpha(quadrature);
+    const bool isExact = alpha == 1.0 / 6,
+               isSymmetric = quadrature.type == "exact" || makeRule<double>(quadrature).isSymmetric;
+    p.claims = {isExact && space.text("start") != "variational" ? 4 : 2, true, true, {"bilinear form"}};
+    p.curveOrder = p.claims.order;
+    p.shortName = "3L" + std::to_string(p.claims.order);
+    p.knownAs = isExact ? "Milne-Simpson" : alpha == 0 ? "leapfrog" : "";
+    p.isExplicit = alpha == 0;
+    p.stabilityLimit = threeLevelLimit(alpha);
+    if (!isSymmetric || !(alpha >= 0 && alpha <= 0.25 + 1e-14)) {
+        p.refusal =
+            "the three-level form takes symmetric rules with a weight of 0 to 1/4 on the outer levels";
+        p.hint = "exact, trapezoid or midpoint";
+    }
+    return p;
+}
+
+}  // namespace
+
+bool isBetweenWalls(const System& system) { return system.hasWave() && !system.wave->isPeriodic(); }
+
+bool hasFullMatrix(const System& system) { return system.hasWave() && !system.wave->isSplit(); }
+
+void requirePeriodic(const System& system, const std::string& pointer, const std::string& what,
+                     const std::string& hint) {
+    if (isBetweenWalls(system))
+        throw InvalidScene(
+            pointer, what + " needs a periodic domain, and the boundary of this model is dirichlet", hint);
+}
+
+void requireSplit(const System& system, const std::string& pointer, const std::string& what,
+                  const std::string& hint) {
+    requirePeriodic(system, pointer, what, hint);
+    if (hasFullMatrix(system))
+        throw InvalidScene(
+            pointer,
+            what + " needs a potential that acts at the nodes, and the product of this model is convolution",
+            hint);
+}
+
+WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step) {
+    const Hamiltonian& h = *system.wave;
+    const int degree = space.integer("degree");
+    WavePlan plan;
+    for (const WaveSolver s : {WaveSolver::banded, WaveSolver::dense, WaveSolver::krylov})
+        if (solver.type == name(s)) {
+            checkSolver(s, h);
+            return {s, true, costOf(s, h, degree, step)};
+        }
+    if (!solver.type.empty() && solver.type != "auto")
+        throw InvalidScene("/solver/method",
+                           solver.type + " does not solve the linear systems of a wave function",
+                           "auto, banded, dense or krylov");
+    plan.microseconds = std::numeric_limits<double>::infinity();
+    for (const WaveSolver s : {WaveSolver::banded, WaveSolver::dense, WaveSolver::krylov}) {
+        try {
+            checkSolver(s, h);
+        } catch (const InvalidScene&) {
+            continue;
+        }
+        if (const double cost = costOf(s, h, degree, step); cost < plan.microseconds) plan = {s, false, cost};
+    }
+    return plan;
+}
+
+double waveFrequency(const System& system, const Settings& space, const State& start) {
+    const Hamiltonian& h = *system.wave;
+    double shift = shiftOf(space);
+    if (std::isnan(shift)) shift = h.energy(start.t, coefficients(start.x.data()));
+    double low = h.lowest(), high = h.highest();
+    if (h.size() <= Eigenstates::denseLimit && !h.isTimeDependent()) {
+        const auto& energies = Eigenstates::of(system.wave)->energies();
+        low = energies.front();
+        high = energies.back();
+    }
+    return std::max(std::abs(low - shift), std::abs(high - shift)) / h.hbar();
+}
+
+namespace {
+
+std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& pair, const Clock& clock,
+                                   WaveSolver solver) {
+    const int degree = pair.space.integer("degree");
+    const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
+    if (system.wave->isTimeDependent() && pair.space.text("form") == "three-level")
+        throw InvalidScene("/space/form", "three-level needs a potential that does not depend on t",
+                           "one-step");
+    if (pair.space.text("form") == "three-level")
+        requirePeriodic(system, "/space/form", "three-level", "one-step");
+    const int iterations =
+        pair.solver.integer("max_iterations") > 0 ? pair.solver.integer("max_iterations") : 600;
+    const double tolerance = given > 0 ? given : 1e-14;
+    if (pair.space.text("form") == "three-level") {
+        const std::string start = pair.space.text("start");
+        return makeThreeLevelWave(system.wave, clock, shift,
+                                  {threeLevelAlpha(pair.quadrature),
+                                   start == "variational" ? WaveStart::variational
+                                   : start == "exact"     ? WaveStart::exact
+                                                          : WaveStart::gauss,
+                                   solver, tolerance, iterations});
+    }
+    // A potential that depends on time has no factors: its stages are solved together.
+    if (system.wave->isTimeDependent())
+        return makeCollocationWave(system.wave, clock, shift, gauss<double>(degree), tolerance, iterations);
+    switch (solver) {
+        case WaveSolver::banded:
+            // Pairs keep the norm to round-off; fours are faster, and good to 1e-11 or so.
+            return makeBandedWave(system.wave, clock, shift, degree, given >= 1e-11 ? 4 : 2);
+        case WaveSolver::dense:
+            return makeDenseWave(system.wave, clock, shift, degree);
+        case WaveSolver::krylov:
+            break;
+    }
+    return makeKrylovWave(system.wave, clock, shift, degree, tolerance, iterations);
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair,
+                                               const Clock& clock) {
+    if (!system.hasWave())
+        throw InvalidScene("/space/type",
+                           pair.space.type + " needs a wave function, and " + system.id + " has none",
+                           "another space: extremal list spaces");
+    const int slabs = std::max(1, pair.space.integer("slabs"));
+    if (pair.space.text("time_basis") == "chebyshev")
+        requireSplit(system, "/space/time_basis", "chebyshev", "legendre");
+    const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
+    const auto make = [system, pair, plan, slabs](const Clock& of) -> std::unique_ptr<Integrator> {
+        const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
+        auto step = isChebyshev
+                        ? makeCollocationWave(system.wave, of, std::numeric_limits<double>::quiet_NaN(),
+                                              chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
+                        : makeWave(system, pair, of, plan.solver);
+        step->setAbout(isChebyshev ? "all stages together by GMRES"
+                                   : std::string(name(plan.solver)) +
+                                         (plan.isForced ? " as wanted, about " : ", about ") +
+                                         duration(slabs * plan.microseconds) + " a step");
+        return step;
+    };
+    return slabs > 1 ? makeSlabs(make, clock, slabs) : make(clock);
+}
+
+PairProperties describeWave(const Settings& space, const Settings& quadrature) {
+    PairProperties p;
+    const int s = space.integer("degree");
+    if (space.text("form") == "three-level") return describeThreeLevel(space, quadrature);
+    p.claims = {2 * s, true, true, {"norm", "energy"}};
+    p.curveOrder = 2 * s;
+    p.shortName = "G" + std::to_string(2 * s);
+    p.knownAs = s == 1 ? "Crank-Nicolson" : "";
+    p.stabilityLimit = std::numeric_limits<double>::infinity();
+    if (space.text("time_basis") == "chebyshev") {
+        // The interpolatory rule of s symmetric nodes; as a space it is tested at its own nodes, whatever the
+        // rule.
+        p.claims.order = s + s % 2;
+        p.curveOrder = s;
+        p.claims.conserves = {"norm"};
+        p.claims.isSymplectic = false;
+        p.shortName = "C" + std::to_string(p.claims.order);
+    }
+    const bool isGauss =
+        quadrature.type == "gauss" && quadrature.integer("nodes") == s && quadrature.integer("panels") <= 1;
+    if (!isGauss) {
+        p.refusal = "the one-step form of degree " + std::to_string(s) + " takes Gauss with " +
+                    std::to_string(s) + (s == 1 ? " node" : " nodes");
+        p.hint = "quadrature auto";
+    }
+    return p;
+}
+
+}  // namespace extremal

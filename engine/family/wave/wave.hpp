@@ -1,0 +1,64 @@
+/// Integrators of wave functions: the space `fourier` in space and polynomials of degree s in time.
+///
+/// One-step form: R_s(-i dt (H - Ec)/hbar), see pade.hpp; order 2s, unitary for every step. Ec,
+/// the energy shift, is a choice of gauge: the exact motion does not know it, the scheme's error grows with
+/// (E - Ec) dt. `mean` takes <H> of the start. The phase e^{-i Ec t/hbar} is put back at every node from t
+/// itself, so nothing accumulates.
+///
+/// Three-level form, degree 1: wave_three_level.hpp.
+///
+/// How the solves are done, whichever is the cheapest by an estimate from N, s and the potential:
+///     banded   elimination in Fourier space, in one dimension where V has few harmonics
+///     (solve/banded_poles.hpp) dense    the eigenstates of H, once; N <= 512; where H is not split the only
+///     one krylov   GMRES with two transforms an iteration, preconditioned by the kinetic part; any V
+/// A potential that depends on time couples the stages of the Gauss nodes: it has no factors, and krylov
+/// solves for all of them together (wave_collocation.hpp).
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/family/scheme.hpp"
+
+namespace extremal {
+
+enum class WaveSolver { banded, dense, krylov };
+constexpr const char* name(WaveSolver s) {
+    return s == WaveSolver::banded ? "banded" : s == WaveSolver::dense ? "dense" : "krylov";
+}
+
+/// A wave function whose domain has walls at its ends.
+bool isBetweenWalls(const System& system);
+/// A wave function whose H is not split (Hamiltonian::isSplit).
+bool hasFullMatrix(const System& system);
+/// Throws InvalidScene at the pointer unless the domain is periodic: `what` needs it, `hint` does not.
+void requirePeriodic(const System& system, const std::string& pointer, const std::string& what,
+                     const std::string& hint);
+
+/// Likewise unless H is split.
+void requireSplit(const System& system, const std::string& pointer, const std::string& what,
+                  const std::string& hint);
+
+/// What was chosen, and why.
+struct WavePlan {
+    WaveSolver solver = WaveSolver::krylov;
+    bool isForced = false;
+    double microseconds = 0;  ///< predicted, a step
+};
+/// Throws InvalidScene (pointer relative to the scheme) where a forced solver cannot be used.
+WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step);
+
+/// Largest |E - Ec|/hbar: what the stability limit of a three-level scheme counts. By the eigenstates up to
+/// 512 modes, else by the bounds of kinetic and potential energy.
+double waveFrequency(const System& system, const Settings& space, const State& start);
+
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair,
+                                               const Clock& clock);
+
+/// What is known of a pair with the space fourier before it runs.
+PairProperties describeWave(const Settings& space, const Settings& quadrature);
+inline bool isWaveSpace(const Settings& space) {
+    return space.type == "fourier" || space.type == "space-time";
+}
+
+}  // namespace extremal

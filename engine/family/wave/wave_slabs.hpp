@@ -1,0 +1,23 @@
+/// Fully spectral in space and time: each step in equal slabs, on each of which the curve is a polynomial of
+/// high degree. `legendre`: tested with polynomials of one degree less, which is Gauss collocation, from the
+/// action; `chebyshev`: collocation at the Chebyshev roots. Both have symmetric nodes and keep the norm.
+/// Trial and test spaces differ by a degree: an action with both ends given would be a boundary-value
+/// problem.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "engine/family/wave/wave_step.hpp"
+#include "engine/quadrature/rule.hpp"
+
+namespace extremal {
+
+/// `make` makes the integrator of one slab, for steps of clock.step/slabs.
+std::unique_ptr<Integrator> makeSlabs(std::function<std::unique_ptr<Integrator>(const Clock&)> make,
+                                      const Clock& clock, int slabs);
+
+/// n Chebyshev roots in [0, 1], as a rule whose nodes alone count.
+Rule<double> chebyshevRoots(int n);
+
+}  // namespace extremal

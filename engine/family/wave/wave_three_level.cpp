@@ -1,0 +1,143 @@
+#include "engine/family/wave/wave_three_level.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/quadrature/rule.hpp"
+
+namespace extremal {
+namespace {
+
+std::unique_ptr<WaveStep> gaussStep(const std::shared_ptr<const Hamiltonian>& h, const Clock& clock,
+                                    double shift, int degree, const ThreeLevel& form) {
+    if (form.solver == WaveSolver::banded) return makeBandedWave(h, clock, shift, degree, 2);
+    if (form.solver == WaveSolver::dense) return makeDenseWave(h, clock, shift, degree);
+    return makeKrylovWave(h, clock, shift, degree, form.tolerance, form.maxIterations);
+}
+
+class ThreeLevelWave final : public WaveStep {
+public:
+    ThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
+                   const ThreeLevel& form)
+        : WaveStep(std::move(hamiltonian), clock, shift), form_(form) {
+        for (auto* v : {&previous_, &next_, &work_}) v->resize(static_cast<std::size_t>(n()));
+        first_.x.resize(2 * previous_.size());
+    }
+
+private:
+    void prepare() override {
+        if (form_.alpha > 0)
+            inverse_ = makeShiftedInverse(form_.solver, shared(), dt(), shift(), 1 / (2 * form_.alpha),
+                                          form_.tolerance, form_.maxIterations);
+        // Both shifts are the same and the gauge is known: the step is in v, so its own phase is taken out
+        // again.
+        if (form_.start != WaveStart::variational)
+            starter_ =
+                gaussStep(shared(), {0, dt()}, shift(), form_.start == WaveStart::gauss ? 2 : 8, form_);
+    }
+    void restart() override { hasPrevious_ = false; }
+
+    void step(double, Complex* v, StepReport& report) override {
+        report.outcome = hasPrevious_ ? later(v, report) : first(v, report);
+        if (report.outcome != Outcome::converged) return;
+        std::copy(v, v + n(), previous_.begin());
+        std::copy(next_.begin(), next_.end(), v);
+        hasPrevious_ = true;
+    }
+    /// next_ <- v^{l+1}.
+    Outcome later(const Complex* v, StepReport& report) {
+        const std::size_t size = next_.size();
+        if (form_.alpha == 0) {
+            image(v, report);
+            for (std::size_t i = 0; i < size; ++i) {
+                const Complex change(2 * next_[i].imag(), -2 * next_[i].real());  // -2i Y v
+                next_[i] = previous_[i] + change;
+            }
+            return Outcome::converged;
+        }
+        const double zeta = 1 / (2 * form_.alpha), k = (1 - 2 * form_.alpha) / form_.alpha;
+        for (std::size_t i = 0; i < size; ++i) next_[i] = zeta * (2.0 * previous_[i] + k * v[i]);
+        const Outcome outcome = inverse_->apply(next_.data(), report, stop());
+        for (std::size_t i = 0; i < size; ++i) next_[i] -= previous_[i] + k * v[i];
+        return outcome;
+    }
+    /// next_ <- v^1.
+    Outcome first(const Complex* v, StepReport& report) {
+        const std::size_t size = next_.size();
+        if (starter_) {
+            first_.t = 0;
+            first_.node = 0;
+            std::copy_n(reinterpret_cast<const double*>(v), 2 * size, first_.x.begin());
+            const StepReport own = starter_->advance(first_);
+            report.linearSolves += own.linearSolves;
+            report.iterations += own.iterations;
+            report.evaluations += own.evaluations;
+            const Complex back = std::polar(1.0, shift() * dt() / hamiltonian().hbar());
+            for (std::size_t i = 0; i < size; ++i) next_[i] = back * coefficients(first_.x.data())[i];
+            return own.outcome;
+        }
+        if (form_.alpha == 0) {
+            image(v, report);
+            for (std::size_t i = 0; i < size; ++i)
+                next_[i] = v[i] + Complex(next_[i].imag(), -next_[i].real());
+            return Outcome::converged;
+        }
+        const double zeta = 1 / (2 * form_.alpha), c = (1 - 2 * form_.alpha) / (2 * form_.alpha);
+        for (std::size_t i = 0; i < size; ++i) next_[i] = zeta * (1 + c) * v[i];
+        const Outcome outcome = inverse_->apply(next_.data(), report, stop());
+        for (std::size_t i = 0; i < size; ++i) next_[i] -= c * v[i];
+        return outcome;
+    }
+    /// next_ <- Y v.
+    void image(const Complex* v, StepReport& report) {
+        hamiltonian().apply(hamiltonian().potential().data(), v, next_.data(), work_.data());
+        ++report.evaluations;
+        const double factor = dt() / hamiltonian().hbar();
+        for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = factor * (next_[i] - shift() * v[i]);
+    }
+    std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {
+        return gaussStep(shared(), clock, shift, 2, form_);
+    }
+
+    ThreeLevel form_;
+    std::unique_ptr<ShiftedInverse> inverse_;
+    std::unique_ptr<WaveStep> starter_;
+    std::vector<Complex> previous_, next_, work_;
+    State first_;
+    bool hasPrevious_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<WaveStep> makeThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian,
+                                             const Clock& clock, double shift, const ThreeLevel& form) {
+    return std::make_unique<ThreeLevelWave>(std::move(hamiltonian), clock, shift, form);
+}
+
+double threeLevelAlpha(const Settings& quadrature) {
+    if (quadrature.type == "exact") return 1.0 / 6;
+    const Rule<double> rule = makeRule<double>(quadrature);
+    double alpha = 0;
+    for (std::size_t i = 0; i < rule.c.size(); ++i) alpha += rule.b[i] * rule.c[i] * (1 - rule.c[i]);
+    return std::abs(alpha) < 1e-14 ? 0 : std::abs(alpha - 1.0 / 6) < 1e-14 ? 1.0 / 6 : alpha;
+}
+
+double threeLevelLimit(double alpha) {
+    return alpha < 0.25 - 1e-14 ? 1 / std::sqrt(1 - 4 * alpha) : std::numeric_limits<double>::infinity();
+}
+
+double bilinearForm(const Hamiltonian& h, double alpha, double dt, double shift, const Complex* before,
+                    const Complex* after, Complex* image, Complex* work) {
+    const int n = h.size();
+    // c = e^{-i Ec t/hbar} v: the phase between the two levels goes.
+    const Complex back = std::polar(1.0, shift * dt / h.hbar());
+    const Complex product = std::conj(back) * innerProduct(after, before, n);
+    h.apply(h.potential().data(), before, image, work);
+    for (int i = 0; i < n; ++i) image[i] -= shift * before[i];
+    const Complex through = std::conj(back) * innerProduct(after, image, n);
+    return product.real() + 2 * alpha * dt / h.hbar() * through.imag();
+}
+
+}  // namespace extremal

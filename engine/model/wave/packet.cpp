@@ -1,0 +1,264 @@
+#include "engine/model/wave/packet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/recent.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/stationary.hpp"
+
+namespace extremal::wave {
+namespace {
+
+constexpr double twoPi = 2 * std::numbers::pi;
+
+struct Context {
+    const std::string& pointer;
+    const std::shared_ptr<const Hamiltonian>& hamiltonian;
+    const Constants& constants;
+    const Grid& grid() const { return hamiltonian->grid(); }
+};
+
+std::vector<Complex> fromNodes(const Context& context, const std::vector<Complex>& psi) {
+    const Hamiltonian& h = *context.hamiltonian;
+    for (std::size_t j = 0; j < psi.size(); ++j)
+        if (!std::isfinite(psi[j].real()) || !std::isfinite(psi[j].imag()))
+            throw InvalidScene(context.pointer,
+                               "is not finite at x = " + formatNumber(h.x()[j % h.x().size()], 6) +
+                                   (h.isPlane() ? ", y = " + formatNumber(h.y()[j / h.x().size()], 6) : ""));
+    std::vector<Complex> c(psi.size());
+    h.toCoefficients(psi.data(), c.data());
+    return c;
+}
+
+/// psi(x, y) = f_x(x) f_y(y); on an interval without the second.
+using Factor = std::function<Complex(double)>;
+std::vector<Complex> product(const Context& context, const std::vector<Factor>& factors) {
+    std::vector<Complex> along, values;
+    for (const double x : context.hamiltonian->x()) along.push_back(factors[0](x));
+    for (const double y : context.hamiltonian->y()) {
+        const Complex across = factors.size() > 1 ? factors[1](y) : 1;
+        for (const Complex& f : along) values.push_back(factors.size() > 1 ? f * across : f);
+    }
+    return fromNodes(context, values);
+}
+
+std::vector<Complex> expressions(const Context& context, const Value& psi) {
+    std::vector<Function> parts;
+    for (const char* key : {"re", "im"}) {
+        const Value* text = psi.find(key);
+        const std::string place = context.pointer + "/" + key;
+        if (!text) {
+            parts.push_back({[](double, double, double) { return 0.0; }, false});
+        } else if (text->isNumber()) {
+            parts.push_back({[v = text->asNumber()](double, double, double) { return v; }, false});
+        } else if (text->isString()) {
+            parts.push_back(
+                functionOf(text->asString(), place, context.constants, {context.grid().isPlane(), false}));
+        } else {
+            throw InvalidScene(place, context.grid().isPlane() ? "must be an expression in x and y"
+                                                               : "must be an expression in x");
+        }
+    }
+    parametersOf(psi, context.pointer, {}, {"re", "im"}, context.constants);
+    std::vector<Complex> values;
+    for (const double y : context.hamiltonian->y())
+        for (const double x : context.hamiltonian->x())
+            values.emplace_back(parts[0].value(x, y, 0), parts[1].value(x, y, 0));
+    return fromNodes(context, values);
+}
+
+std::vector<Complex> given(const Context& context, const Value& values) {
+    const auto n = static_cast<std::size_t>(context.hamiltonian->size());
+    std::vector<Complex> psi(n);
+    for (const char* key : {"re", "im"}) {
+        const Value* numbers = values.find(key);
+        const std::string place = context.pointer + "/values/" + key;
+        if (!numbers && std::string_view(key) == "im") continue;
+        if (!numbers || !numbers->isArray() || numbers->asArray().size() != n)
+            throw InvalidScene(
+                place,
+                "must have " + std::to_string(n) + " numbers, one per node" +
+                    (numbers && numbers->isArray() ? ", got " + std::to_string(numbers->asArray().size())
+                                                   : std::string()),
+                context.grid().isPlane() ? "the number of nodes is /model/modes times /model/modes_y, x first"
+                                         : "the number of nodes is /model/modes");
+        for (std::size_t j = 0; j < n; ++j) {
+            const double v =
+                numberOf(numbers->asArray()[j], place + "/" + std::to_string(j), context.constants);
+            psi[j] += std::string_view(key) == "re" ? Complex(v, 0) : Complex(0, v);
+        }
+    }
+    return fromNodes(context, psi);
+}
+
+/// A state of a grid too fine for all of them at once: from the finest grid that is not, refined by Newton's
+/// method. Whether it is the same state is seen by its energy, which may move by a fraction of the distance
+/// to the next.
+StationaryState refinedState(const Hamiltonian& h, int n) {
+    const wave::Grid& fine = h.grid();
+    const int limit = Eigenstates::denseLimit, nx = fine.isPlane() ? std::min(fine.nx, 22) : limit,
+              ny = fine.isPlane() ? std::min(fine.ny, (limit / nx) & ~1) : 1;
+    const auto coarse = h.withModes(nx, ny);
+    const auto states = Eigenstates::of(coarse);
+    const std::vector<Complex> found = states->coefficients(n);
+    std::vector<Complex> c(static_cast<std::size_t>(h.size()));
+    for (int i = 0; i < coarse->size(); ++i)
+        c[static_cast<std::size_t>(h.fourier().placeOf(
+            coarse->fourier().number(i), coarse->fourier().numberY(i)))] = found[static_cast<std::size_t>(i)];
+    StationaryState state = refineState(h, std::move(c));
+    // Of states of nearly one energy, which are mixed anyhow, the nearest that differs.
+    const auto& E = states->energies();
+    const double own = E[static_cast<std::size_t>(n)], same = 1e-6 * (1 + std::abs(own));
+    double gap = std::numeric_limits<double>::infinity();
+    for (const double other : E)
+        if (std::abs(other - own) > same) gap = std::min(gap, std::abs(other - own));
+    state.isConverged = state.isConverged && std::abs(state.energy - own) < 0.3 * gap;
+    return state;
+}
+
+/// Remembered: a scene is read more than once.
+std::vector<Complex> fineState(const std::shared_ptr<const Hamiltonian>& h, int n,
+                               const std::string& pointer) {
+    static Recent<std::pair<std::shared_ptr<const Hamiltonian>, int>, StationaryState> recent(4);
+    StationaryState state = recent.get({h, n}, [&] { return refinedState(*h, n); });
+    if (!state.isConverged)
+        throw InvalidScene(pointer,
+                           "state " + std::to_string(n) + " is not to be had: it is looked for from " +
+                               std::to_string(Eigenstates::denseLimit) +
+                               " modes or fewer, which do not resolve it",
+                           "a lower state, fewer modes, or another packet");
+    return std::move(state.c);
+}
+
+std::vector<Complex> eigenstate(const Context& context, const Value& psi) {
+    const double n = parametersOf(psi, context.pointer, {{"n", 0}}, {"packet"}, context.constants)[0];
+    const Hamiltonian& h = *context.hamiltonian;
+    if (h.isTimeDependent())
+        throw InvalidScene(context.pointer, "has no eigenstate: the potential depends on t",
+                           "another packet");
+    const int limit = std::min(h.size(), Eigenstates::denseLimit);
+    if (!(n >= 0 && n < limit / 2 && n == std::floor(n)))
+        throw InvalidScene(
+            context.pointer + "/n",
+            "must be a whole number from 0 to " + std::to_string(limit / 2 - 1) + ", got " + formatNumber(n));
+    if (h.size() <= limit) return Eigenstates::of(context.hamiltonian)->coefficients(static_cast<int>(n));
+    return fineState(context.hamiltonian, static_cast<int>(n), context.pointer);
+}
+
+std::vector<Complex> packet(const Context& context, const Value& psi, const std::string& name) {
+    const Hamiltonian& h = *context.hamiltonian;
+    const std::vector<Domain> axes =
+        h.isPlane() ? std::vector{h.grid().x, h.grid().y} : std::vector{h.grid().x};
+    // The keys of the axes one after the other, those of y with _y at their end; as many values for each.
+    const auto read = [&](const std::function<std::vector<Parameter>(const Domain&, bool isY)>& keysOf) {
+        std::vector<Parameter> all;
+        for (const Domain& axis : axes)
+            for (Parameter p : keysOf(axis, &axis != &axes.front())) {
+                if (&axis != &axes.front()) p.key += "_y";
+                all.push_back(std::move(p));
+            }
+        return parametersOf(psi, context.pointer, all, {"packet"}, context.constants);
+    };
+    const auto middleOf = [](const Domain& axis) { return axis.left + axis.length / 2; };
+    std::vector<Factor> factors;
+    if (name == "gaussian") {
+        const auto p = read([&](const Domain& axis, bool) -> std::vector<Parameter> {
+            return {{"centre", middleOf(axis)}, {"width", axis.length / 20, false, true}, {"wave_number", 0}};
+        });
+        for (std::size_t i = 0; i < axes.size(); ++i)
+            factors.push_back([centre = p[3 * i], width = p[3 * i + 1], k = p[3 * i + 2], L = axes[i].length,
+                               period = h.isPeriodic() ? axes[i].length : 0](double x) {
+                const double d = x - centre - period * std::round((x - centre) / L);
+                return std::exp(-d * d / (4 * width * width)) * std::polar(1.0, k * (centre + d));
+            });
+        return product(context, factors);
+    }
+    if (!h.isPeriodic() && (name == "periodic-gaussian" || name == "plane-wave"))
+        throw InvalidScene(context.pointer + "/packet",
+                           name + " needs a periodic domain: it does not vanish at the walls",
+                           "gaussian or eigenstate, re and im in x, or the boundary periodic");
+    if (name == "periodic-gaussian") {
+        const auto p = read([&](const Domain& axis, bool) -> std::vector<Parameter> {
+            return {{"kappa", 20, false, true}, {"centre", middleOf(axis)}, {"wave_number", 0}};
+        });
+        for (std::size_t i = 0; i < axes.size(); ++i)
+            factors.push_back([kappa = p[3 * i], centre = p[3 * i + 1], k = p[3 * i + 2],
+                               L = axes[i].length](double x) {
+                return std::exp(-kappa * (1 - std::cos(twoPi / L * (x - centre)))) * std::polar(1.0, k * x);
+            });
+        return product(context, factors);
+    }
+    if (name == "plane-wave") {
+        const auto k = read([](const Domain&, bool isY) -> std::vector<Parameter> {
+            return {{"wave_number", 0, !isY}};
+        });
+        std::vector<int> numbers;
+        double phase = 0;
+        for (std::size_t i = 0; i < axes.size(); ++i) {
+            const std::string place = context.pointer + "/wave_number" + (i > 0 ? "_y" : "");
+            const double turns = k[i] * axes[i].length / twoPi;
+            const int n = i > 0 ? h.grid().ny : h.grid().nx;
+            if (std::abs(turns - std::round(turns)) > 1e-9 * std::max(1.0, std::abs(turns)))
+                throw InvalidScene(place,
+                                   "does not fit into the domain: " + formatNumber(turns, 6) +
+                                       " waves, got " + formatNumber(k[i]),
+                                   "a multiple of 2 pi/length = " + formatNumber(twoPi / axes[i].length, 6));
+            if (std::abs(turns) >= n / 2)
+                throw InvalidScene(
+                    place, "needs more than " + std::to_string(n) + " modes, got " + formatNumber(k[i]),
+                    "more modes");
+            numbers.push_back(static_cast<int>(std::lround(turns)));
+            phase += k[i] * axes[i].left;
+        }
+        std::vector<Complex> c(static_cast<std::size_t>(h.size()));
+        c[static_cast<std::size_t>(h.fourier().placeOf(numbers[0], numbers.size() > 1 ? numbers[1] : 0))] =
+            std::sqrt(h.grid().measure()) * std::polar(1.0, phase);
+        return c;
+    }
+    if (name == "eigenstate") return eigenstate(context, psi);
+    const std::vector<std::string> names{"gaussian", "periodic-gaussian", "eigenstate", "plane-wave"};
+    throw InvalidScene(context.pointer + "/packet", "unknown packet \"" + name + "\"",
+                       suggestName(name, names));
+}
+
+std::vector<Complex> dispatch(const Context& context, const Value& psi) {
+    if (!psi.isObject())
+        throw InvalidScene(context.pointer, "must be an object",
+                           "for example {\"packet\": \"gaussian\"} or {\"re\": \"exp(-(x - 3)^2)\"}");
+    if (const Value* name = psi.find("packet")) {
+        if (!name->isString())
+            throw InvalidScene(context.pointer + "/packet", "must be the name of a packet");
+        return packet(context, psi, name->asString());
+    }
+    if (const Value* values = psi.find("values")) {
+        parametersOf(psi, context.pointer, {}, {"values"}, context.constants);
+        if (!values->isObject())
+            throw InvalidScene(context.pointer + "/values", "must be {\"re\": [..], \"im\": [..]}");
+        return given(context, *values);
+    }
+    if (psi.find("re") || psi.find("im")) return expressions(context, psi);
+    throw InvalidScene(context.pointer, "says nothing of the wave function",
+                       "give re and im, a packet, or values");
+}
+
+}  // namespace
+
+std::vector<Complex> makePacket(const Value& psi, const std::string& pointer, bool isNormalised,
+                                const std::shared_ptr<const Hamiltonian>& hamiltonian,
+                                const Constants& constants) {
+    std::vector<Complex> c = dispatch({pointer, hamiltonian, constants}, psi);
+    const double norm = std::sqrt(squaredNorm(c.data(), static_cast<int>(c.size())));
+    if (!(norm > 0)) throw InvalidScene(pointer, "is zero everywhere on the grid");
+    if (isNormalised)
+        for (Complex& v : c) v /= norm;
+    return c;
+}
+
+}  // namespace extremal::wave

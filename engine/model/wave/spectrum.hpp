@@ -1,0 +1,41 @@
+/// Mean values of a wave function, and whether its spectrum is resolved.
+#pragma once
+
+#include <string>
+
+#include "engine/model/wave/hamiltonian.hpp"
+
+namespace extremal {
+
+/// Between walls: coefficient k of psi as a series of Chebyshev polynomials, k = 0 .. size() + 1.
+Complex chebyshevCoefficient(const Hamiltonian& h, const Complex* c, int k);
+
+/// Share of the norm in the upper eighth of the wave numbers, |a| > 7N/16: sqrt(sum |c_a|^2/sum of all
+/// |c_a|^2). On a rectangle in that of either direction; between walls the same of the Chebyshev
+/// coefficients, by their degree.
+double spectrumTail(const Hamiltonian& h, const Complex* c);
+
+/// What to say of a wave function that its grid does not resolve (a tail above 1e-4); empty where it does.
+std::string resolutionCaution(const Hamiltonian& h, const Complex* c);
+
+/// <p>/<1>, along x and y; the coefficient at k = -N/2, which is half of either sign, counts as standing
+/// still. Between walls the mean of -i hbar d/dx by the rule: it exists there too (m d<x>/dt = <p>), but the
+/// walls push.
+struct MeanMomentum {
+    double x = 0, y = 0;
+};
+MeanMomentum meanMomentum(const Hamiltonian& h, const Complex* c);
+
+/// sum_j f(x_j) |psi_j|^2/sum_j |psi_j|^2 for some functions of the node at once.
+struct NodeMeans {
+    double x = 0, y = 0,
+           cosine = 0;  ///< of x, of y, and of 2 pi (x - left)/L + left, which is x itself where L = 2 pi
+};
+NodeMeans nodeMeans(const Hamiltonian& h, const Complex* c, Complex* work);
+
+/// The probability current (hbar/m) Im(conj(psi) psi_x) at the node next to the middle of the domain, between
+/// walls in the middle, and on a rectangle along x, summed over the line there; the printed one has the other
+/// sign. d/dt |psi|^2 + d/dx j = 0.
+double currentInTheMiddle(const Hamiltonian& h, const Complex* c, Complex* work, Complex* slope);
+
+}  // namespace extremal

@@ -1,0 +1,102 @@
+#include "engine/model/wave/stationary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "engine/core/gmres.hpp"
+
+namespace extremal {
+namespace {
+
+/// The KKT matrix at (c, E) and its preconditioner; vectors have dc, then dE.
+class KktSystem {
+public:
+    KktSystem(const Hamiltonian& h, const std::vector<Complex>& c)
+        : h_(h), c_(c), n_(c.size()), image_(n_), work_(n_), scaled_(n_ + 1) {
+        double mean = 0;
+        for (const double V : h.potential()) mean += V / static_cast<double>(n_);
+        mean_ = mean;
+    }
+
+    void setEnergy(double E) {
+        E_ = E;
+        // T + mean - E passes through zero near the state's own wave numbers; what counts is that it is large
+        // where T is.
+        const double floor = std::max({1e-3 * std::abs(E), std::abs(mean_ - E), 1e-12 * h_.highest()});
+        inverse_.clear();
+        for (const double T : h_.kinetic()) inverse_.push_back(1 / std::max(T + mean_ - E, floor));
+        dividend_ = 0;
+        for (std::size_t i = 0; i < n_; ++i) dividend_ += inverse_[i] * std::norm(c_[i]);
+    }
+    /// out = K P^{-1} u.
+    void apply(const Complex* u, Complex* out) {
+        precondition(u, scaled_.data());
+        h_.apply(h_.potential().data(), scaled_.data(), image_.data(), work_.data());
+        const Complex dE = scaled_[n_];
+        Complex last = 0;
+        for (std::size_t i = 0; i < n_; ++i) {
+            out[i] = image_[i] - E_ * scaled_[i] - dE * c_[i];
+            last -= std::conj(c_[i]) * scaled_[i];
+        }
+        out[n_] = last;
+    }
+    /// out = P^{-1} u, P = [D, -c; -c*, 0] with the diagonal D.
+    void precondition(const Complex* u, Complex* out) const {
+        Complex sum = u[n_];
+        for (std::size_t i = 0; i < n_; ++i) sum += std::conj(c_[i]) * inverse_[i] * u[i];
+        const Complex dE = -sum / dividend_;
+        for (std::size_t i = 0; i < n_; ++i) out[i] = inverse_[i] * (u[i] + dE * c_[i]);
+        out[n_] = dE;
+    }
+
+private:
+    const Hamiltonian& h_;
+    const std::vector<Complex>& c_;
+    std::size_t n_;
+    double E_ = 0, mean_ = 0, dividend_ = 0;
+    std::vector<double> inverse_;
+    std::vector<Complex> image_, work_, scaled_;
+};
+
+}  // namespace
+
+StationaryState refineState(const Hamiltonian& h, std::vector<Complex> guess) {
+    constexpr int mostSteps = 12, mostIterations = 600;
+    const int n = h.size();
+    const auto size = static_cast<std::size_t>(n);
+    StationaryState s;
+    s.c = std::move(guess);
+    KktSystem system(h, s.c);
+    Gmres gmres(size + 1);
+    std::vector<Complex> image(size), work(size), rhs(size + 1), u(size + 1), step(size + 1);
+    const double norm = std::sqrt(squaredNorm(s.c.data(), n));
+    for (Complex& v : s.c) v /= norm;
+    const double roundOff =
+        std::numeric_limits<double>::epsilon() * std::max(std::abs(h.highest()), std::abs(h.lowest()));
+    for (int k = 0; k <= mostSteps; ++k) {
+        h.apply(h.potential().data(), s.c.data(), image.data(), work.data());
+        if (k == 0) s.energy = innerProduct(s.c.data(), image.data(), n).real();
+        s.history.push_back(s.energy);
+        for (std::size_t i = 0; i < size; ++i) rhs[i] = -(image[i] - s.energy * s.c[i]);
+        rhs[size] = -(1 - squaredNorm(s.c.data(), n)) / 2;
+        s.residual = std::sqrt(squaredNorm(rhs.data(), n));
+        const double moved = k > 0 ? std::abs(s.energy - s.history[s.history.size() - 2]) : 1e300;
+        s.isConverged = moved <= std::max(1e-13 * std::abs(s.energy), 4 * roundOff);
+        if (s.isConverged || k == mostSteps || !std::isfinite(s.residual)) break;
+        system.setEnergy(s.energy);
+        int iterations = 0;
+        // Quadratic convergence asks for a relative error of the size of the residual and no less.
+        const double tolerance = std::clamp(0.1 * s.residual / (1 + std::abs(s.energy)), 1e-9, 1e-2);
+        const Outcome outcome = gmres.solve([&](const Complex* from, Complex* to) { system.apply(from, to); },
+                                            rhs.data(), u.data(), tolerance, mostIterations, iterations, {});
+        if (outcome == Outcome::notFinite) break;
+        system.precondition(u.data(), step.data());
+        for (std::size_t i = 0; i < size; ++i) s.c[i] += step[i];
+        s.energy += step[size].real();
+    }
+    return s;
+}
+
+}  // namespace extremal

@@ -1,0 +1,101 @@
+#include "engine/model/wave/typed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "engine/core/expression.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+
+namespace extremal::wave {
+namespace {
+
+[[noreturn]] void refuse(const std::string& pointer, const std::string& text, const ExpressionError& e,
+                         const std::string& hint) {
+    throw InvalidScene(pointer,
+                       "the expression " + std::string(e.what()) + "\n" + caretLines(text, e.position),
+                       e.hint.empty() ? hint : e.hint);
+}
+
+std::optional<double> lookUp(const Constants& constants, std::string_view name) {
+    for (const auto& [key, value] : constants)
+        if (key == name) return value;
+    return {};
+}
+
+std::string namesOf(const Constants& constants, std::vector<std::string> names) {
+    for (const auto& [key, value] : constants) names.push_back(key);
+    return "it may use " + joinNames(names);
+}
+
+}  // namespace
+
+double numberOf(const Value& value, const std::string& pointer, const Constants& constants) {
+    double number = std::nan("");
+    if (value.isNumber()) {
+        number = value.asNumber();
+    } else if (value.isString()) {
+        try {
+            number = evaluate(parseExpression(value.asString()),
+                              [&](std::string_view name) { return lookUp(constants, name); });
+        } catch (const ExpressionError& e) {
+            refuse(pointer, value.asString(), e, namesOf(constants, {"pi"}));
+        }
+    } else {
+        throw InvalidScene(pointer, "must be a number or an expression");
+    }
+    if (!std::isfinite(number)) throw InvalidScene(pointer, "must be finite, got " + formatNumber(number));
+    return number;
+}
+
+Function functionOf(const std::string& text, const std::string& pointer, const Constants& constants,
+                    Variables variables) {
+    Function f;
+    std::vector<std::string> known{"x"};
+    if (variables.hasY) known.push_back("y");
+    if (variables.hasTime) known.push_back("t");
+    known.push_back("pi");
+    try {
+        const auto expression = std::make_shared<const Expression>(parseExpression(text));
+        const auto names = expression->names();
+        f.usesTime = std::find(names.begin(), names.end(), "t") != names.end();
+        f.value = [expression, constants, hasY = variables.hasY](double x, double y, double t) {
+            return evaluate(*expression, [&](std::string_view name) -> std::optional<double> {
+                if (name == "x") return x;
+                if (name == "y" && hasY) return y;
+                if (name == "t") return t;
+                return lookUp(constants, name);
+            });
+        };
+        if (f.usesTime && !variables.hasTime)
+            throw InvalidScene(pointer, "depends on t: a start is a function of place alone");
+        f.value(0.5, 0.5, 0.5);  // every name is looked up once
+    } catch (const ExpressionError& e) {
+        refuse(pointer, text, e, namesOf(constants, known));
+    }
+    return f;
+}
+
+std::vector<double> parametersOf(const Value& object, const std::string& pointer,
+                                 const std::vector<Parameter>& parameters,
+                                 const std::vector<std::string>& others, const Constants& constants) {
+    std::vector<std::string> known = others;
+    for (const Parameter& p : parameters) known.push_back(p.key);
+    for (const auto& [key, value] : object.asObject())
+        if (std::find(known.begin(), known.end(), key) == known.end())
+            throw InvalidScene(pointer + "/" + key, "unknown key \"" + key + "\"", suggestName(key, known));
+    std::vector<double> values;
+    for (const Parameter& p : parameters) {
+        const std::string place = pointer + "/" + p.key;
+        const Value* given = object.find(p.key);
+        if (!given && p.isRequired) throw InvalidScene(place, "is required", "it has " + joinNames(known));
+        values.push_back(given ? numberOf(*given, place, constants) : p.fallback);
+        if (p.isPositive && !(values.back() > 0))
+            throw InvalidScene(place, "must be a positive finite number, got " + formatNumber(values.back()));
+    }
+    return values;
+}
+
+}  // namespace extremal::wave

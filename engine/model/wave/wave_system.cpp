@@ -1,0 +1,127 @@
+#include "engine/model/wave/wave_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/recent.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/packet.hpp"
+#include "engine/model/wave/spectrum.hpp"
+
+namespace extremal {
+namespace {
+
+using Shared = std::shared_ptr<const Hamiltonian>;
+
+ErrorMeasure errorOf(int n) {
+    ErrorMeasure m;
+    m.columns = {{"error", "", "‖ψ - ψ ref‖", ""}};
+    m.evaluate = [n](const double* x, const double* reference, double* values) {
+        double sum = 0;
+        for (int i = 0; i < 2 * n; ++i) sum += (x[i] - reference[i]) * (x[i] - reference[i]);
+        values[0] = std::sqrt(sum);
+    };
+    return m;
+}
+
+FieldSampling samplingOf(const Shared& h) {
+    FieldSampling f;
+    f.x = h->x();
+    if (h->isPlane()) f.y = h->y();
+    f.components = {"re", "im"};
+    f.sample = [h](const double* x, double* values) {
+        const auto n = static_cast<std::size_t>(h->size());
+        std::vector<Complex> psi(n);
+        h->toNodes(coefficients(x), psi.data());
+        for (std::size_t j = 0; j < n; ++j) {
+            values[j] = psi[j].real();
+            values[n + j] = psi[j].imag();
+        }
+    };
+    return f;
+}
+
+/// How fast the phases of its parts move apart: six widths of the energy distribution.
+double frequencyOf(const Hamiltonian& h, double t, const double* x) {
+    const auto n = static_cast<std::size_t>(h.size());
+    const Complex* c = coefficients(x);
+    std::vector<double> V(n);
+    std::vector<Complex> Hc(n), work(n);
+    h.potentialAt(t, V.data());
+    h.apply(V.data(), c, Hc.data(), work.data());
+    const double norm = squaredNorm(c, h.size()), E = innerProduct(c, Hc.data(), h.size()).real() / norm;
+    const double width = std::sqrt(std::max(0.0, squaredNorm(Hc.data(), h.size()) / norm - E * E));
+    return std::isfinite(width) ? 6 * width / h.hbar() : 0;
+}
+
+}  // namespace
+
+System makeWaveSystem(const Settings& settings, const std::function<Shared(const Settings&)>& make) {
+    System s;
+    s.id = settings.type;
+    static Recent<Settings, Shared> recent(6);
+    const Shared h = recent.get(settings, [&] { return make(settings); });
+    s.wave = h;
+    s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };
+    s.error = errorOf(h->size());
+    s.field = samplingOf(h);
+    s.draw = [h](const double* values, Drawing& drawing) { drawWave(*h, values, drawing); };
+    s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
+    s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
+    s.start = [h](const Settings& initial) {
+        const std::vector<Complex> c =
+            wave::makePacket(*initial.find("psi"), "/psi", initial.flag("normalise"), h,
+                             {{"hbar", h->hbar()}, {"m", h->mass()}});
+        const double* numbers = reinterpret_cast<const double*>(c.data());
+        return std::vector<double>(numbers, numbers + 2 * c.size());
+    };
+    if (!h->isTimeDependent() && h->size() <= Eigenstates::denseLimit)
+        s.exact = [h](const State& initial) { return exactWave(h, initial); };
+    return s;
+}
+
+std::vector<FieldInfo> waveConstants() {
+    FieldInfo hbar = positive("hbar", "Planck constant", "", 1, "The reduced Planck constant.");
+    hbar.symbol = "ħ";
+    return {hbar, positive("m", "mass", "", 1, "The mass.")};
+}
+
+wave::Constants constantsOf(const Settings& settings) {
+    return {{"hbar", settings.number("hbar")}, {"m", settings.number("m")}};
+}
+
+wave::Domain domainOf(const Settings& settings, const std::string& key) {
+    const std::vector<double> domain = settings.numbers(key);
+    if (!(domain[1] > domain[0]))
+        throw InvalidScene("/" + key, "must go from left to right, got " + formatNumber(domain[0]) + " to " +
+                                          formatNumber(domain[1]));
+    return {domain[0], domain[1] - domain[0]};
+}
+
+int modesOf(const Settings& settings, const std::string& key, bool isEven) {
+    const int n = settings.integer(key);
+    if (isEven && n % 2 != 0)
+        throw InvalidScene("/" + key, "must be even, got " + std::to_string(n), std::to_string(n + 1));
+    return n;
+}
+
+FieldInfo domainField(const std::string& key, const std::string& title, const std::string& description) {
+    FieldInfo domain = numbers(key, title, "", {"left", "right"}, Value::Array{0.0, "2*pi"}, description);
+    domain.fallback = Value::Array{0.0, 2 * std::numbers::pi};
+    domain.symbol = title;
+    return domain;
+}
+
+std::vector<FieldInfo> waveStartFields(const std::string& places) {
+    FieldInfo psi = jsonField("psi", "wave function", "ψ", nullptr,
+                              "re and im as expressions in " + places +
+                                  ", a packet by name with its keys, or values at the nodes.");
+    psi.example = Value::Object{{"packet", "gaussian"}};
+    return {psi, flagField("normalise", true, "Scale the wave function to norm 1.")};
+}
+
+}  // namespace extremal
