@@ -48,7 +48,7 @@ Table<double> rounded(const Table<Quad>& wide, const Space<double>& space, const
     t.derivative = wide.derivative.cast<double>();
     t.testValue = wide.testValue.cast<double>();
     t.testDerivative = wide.testDerivative.cast<double>();
-    t.continuation = wide.continuation.cast<double>();
+    t.extrapolation = wide.extrapolation.cast<double>();
     t.change = wide.change.cast<double>();
     t.lift = wide.lift.cast<double>();
     t.consistency = wide.consistency;

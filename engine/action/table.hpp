@@ -41,11 +41,11 @@ struct Table {
     Matrix derivative;      ///< (i, a): phi_a'(c_i)
     Matrix testValue;       ///< (i, a): test functions at the nodes; the last column is the start function
     Matrix testDerivative;  ///< (i, a)
-    Matrix continuation;  ///< (a, b): coefficients of the curve continued into the next step, relative to its
-                          ///< start
-    Matrix cautious;      ///< the same of its smoothest part alone, which swings less far; empty: none
-    Matrix change;        ///< (function of the space, a): z = liftCoefficients q_0 + change Y
-    Vector lift;          ///< coefficients of the function 1 in the space
+    Matrix extrapolation;  ///< (a, b): coefficients of the curve extrapolated into the next step, relative to
+                           ///< its start
+    Matrix smoothExtrapolation;  ///< of its smoothest part alone, which varies less there; empty: none
+    Matrix change;               ///< (function of the space, a): z = liftCoefficients q_0 + change Y
+    Vector lift;                 ///< coefficients of the function 1 in the space
     /// Smallest k for which the rule is not exact for some (P_k phi_a)', P_k of degree k and phi_a interior
     /// (at most degree + 1). Stationarity is then met to h^k only, which costs the action h^(2k); at k = 0
     /// the rule does not integrate the slopes of the space, and not even a free particle keeps its speed.

@@ -168,7 +168,7 @@ Table<T> buildTable(const Space<T>& space, const Rule<T>& rule) {
     for (const T& c : probe.point) beyond.push_back(T(1) + c);
     Matrix next = dense::product<T>(Samples<T>(space, beyond).value, t.change);
     next.col(m - 1).array() -= T(1);  // the new step starts at q_1 = q_0 + Y_{m-1}
-    t.continuation = dense::leastSquares<T>(dense::product<T>(samples.value, t.change), next);
+    t.extrapolation = dense::leastSquares<T>(dense::product<T>(samples.value, t.change), next);
     return t;
 }
 

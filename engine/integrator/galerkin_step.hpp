@@ -71,22 +71,24 @@ public:
     StepReport advance(const T& t, T* q, T* p, const std::stop_token& stop);
 
     /// The curve of the last step at tau in [0, 1]: q, and p by the momentum equation integrated to tau.
-    void curve(const T& tau, T* q, T* p) const;
+    void denseOutput(const T& tau, T* q, T* p) const;
 
     /// Forgets the previous curve: the next step starts from a Taylor guess.
     void restart() {
-        hasCurve_ = false;
-        if (together_) together_->forget();
+        hasPrevious_ = false;
+        if (fixedPointSolver_) fixedPointSolver_->forget();
     }
 
 private:
     using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
     using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
-    using Wide = std::conditional_t<std::is_same_v<T, double>, long double, T>;
+    using Accumulator = std::conditional_t<std::is_same_v<T, double>, long double, T>;
 
     enum class Attempt { solved, failed, notFinite, singular, stopped };
-    enum class Start { continued, cautious, fresh };
+    /// What the iteration starts from: the previous step's curve extrapolated; the smooth part of that curve,
+    /// which varies less beyond its step; or what is known without it.
+    enum class StartingValue { extrapolated, previous, fallback };
 
     /// The functions of a table, node by node and function by function. The equations are the gradient of one
     /// sum of numbers, S = sum_i w_i L(q_0 + sum_a phi_a(c_i) Y_a, sum_a phi_a'(c_i) Y_a): test and trial
@@ -114,22 +116,23 @@ private:
     int offset(int k) const { return offset_[static_cast<std::size_t>(k)]; }
     void addProduct(const Square& A, int height, const T* B, int columns, T* C, int strideC) const;
     void placeNodes();
-    void evaluateForces(const T& t);
+    void evaluateGradients(const T& t);
+    Accumulator actionGradient(int k, T* grad);
     void residual();
-    bool evaluateCurvature(const T& t);
+    bool evaluateHessians(const T& t);
     void assembleNode(int i);
     void assembleBlock(int k, int l);
-    void bend(int k, int l, bool isSlope);
+    void applyHessian(int k, int l, bool isSlope);
     bool assembleJacobian(const T& t);
-    bool guess(const T& t, Start start);
-    Start next(Start start) const;
+    bool startFrom(const T& t, StartingValue start);
+    StartingValue next(StartingValue start) const;
     bool startVelocity(const T& t);
     T correction();
-    Attempt iterate(const T& t, Start start, const std::stop_token& stop);
+    Attempt iterate(const T& t, StartingValue start, const std::stop_token& stop);
     Attempt newton(const T& t, const std::stop_token& stop);
     Attempt fixedPoint(const T& t, const std::stop_token& stop);
     Attempt solve(const T& t, const std::stop_token& stop);
-    void takeUp(const T* q, const T* p);
+    void resume(const T* q, const T* p);
     void add(T* q, T* p);
 
     Mechanics<T> mechanics_;
@@ -142,7 +145,7 @@ private:
 
     Flat Y_, previousY_, R_, delta_;
     int rows_ = 0;
-    bool isRich_ = false;  ///< many nodes: sums go through kernels of this machine
+    bool isVectorised_ = false;  ///< many nodes: sums go through kernels of this machine
     NodeSums sums_;
     Columns nodeQ_, nodeV_;
     Square gradient_;             ///< (i, k): L_q, then L_v
@@ -150,18 +153,18 @@ private:
     Vector q0_, p0_, v0_, a0_, dq_, dp_;
     Vector carryQ_, carryP_, lastQ_, lastP_;  ///< lost to rounding; and the state it belongs to
     Vector placeQ_, placeV_;
-    Flat impulse_, thrust_;  ///< at a node: h b times L_q and L_v of one coordinate
+    Flat weightedLq_, weightedLv_;  ///< h b_i times L_q(i) and L_v(i), or rows of L'', of one coordinate
     Flat jetGradient_, jetHessian_;
-    Square curvature_;            ///< (i, j): entry j of the Hessian at node i
-    std::vector<bool> isCurved_;  ///< entry j is not 0 at all nodes
-    Square bent_;                 ///< (i, c): a row of the Hessian applied to function c
+    Square hessians_;              ///< (i, j): entry j of the Hessian at node i
+    std::vector<bool> isPresent_;  ///< entry j is not 0 at all nodes
+    Square applied_;               ///< (i, c): a row of the Hessian applied to function c
     Square jacobian_;
     Eigen::PartialPivLU<Square> lu_;
-    bool hasCurve_ = false;                     ///< Y_ of Newton's last step can be continued
-    std::optional<NodeIteration<T>> together_;  ///< separable Lagrangians
-    bool isTogether_ = false;                   ///< it solved the last step
-    Start boldest_ = Start::continued;          ///< guess to begin with,
-    int waryFor_ = 0;                           ///< for that many steps, after a bolder one was poor
+    bool hasPrevious_ = false;                           ///< Y_ of Newton's last step can be extrapolated
+    std::optional<NodeIteration<T>> fixedPointSolver_;   ///< separable Lagrangians
+    bool isSolvedByFixedPoint_ = false;                  ///< it solved the last step
+    StartingValue first_ = StartingValue::extrapolated;  ///< to begin with,
+    int otherThanExtrapolatedFor_ = 0;                   ///< for that many steps, after a better one was poor
     int newtonSteps_ = 0;  ///< steps for which Newton is preferred after the fixed point was slow
     StepReport report_;
 };

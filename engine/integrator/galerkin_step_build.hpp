@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/integrator/galerkin_step.hpp"
+#include "engine/integrator/galerkin_step_solve.hpp"
 #include "engine/integrator/galerkin_step_sums.hpp"
 #include "engine/integrator/node_iteration_build.hpp"
 
@@ -25,16 +26,16 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         size += m(k);
         widest = std::max(widest, m(k));
     }
-    isRich_ = std::is_same_v<T, double> && n() >= 16 && tables_.front().frequency != T(0);
-    rows_ = isRich_ ? (n() + 7) / 8 * 8 : n();
-    if (isRich_) sums_ = nodeSums();
+    isVectorised_ = std::is_same_v<T, double> && n() >= 16 && tables_.front().frequency != T(0);
+    rows_ = isVectorised_ ? (n() + 7) / 8 * 8 : n();
+    if (isVectorised_) sums_ = nodeSums();
     const auto padded = [&](const auto& column) {
         Flat all = Flat::Constant(rows(), column(n() - 1));
         all.head(n()) = column;
         return all;
     };
     for (const Table<T>& t : tables_) {
-        const int own = t.unknowns(), height = isRich_ ? (own + 7) / 8 * 8 : own;
+        const int own = t.unknowns(), height = isVectorised_ ? (own + 7) / 8 * 8 : own;
         Functions f;
         f.value = f.slope = Square::Zero(rows(), own);
         for (int a = 0; a < own; ++a) {
@@ -52,7 +53,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     node_ = times_ = padded(tables_.front().node);
     weight_ = padded(tables_.front().weight) * h_;
     weight_.tail(rows() - n()).setZero();
-    impulse_ = thrust_ = Flat::Zero(rows());
+    weightedLq_ = weightedLv_ = Flat::Zero(rows());
     for (Flat* f : {&Y_, &previousY_, &R_, &delta_}) *f = Flat::Zero(size);
     for (Columns* c : {&nodeQ_, &nodeV_}) *c = Columns::Zero(rows(), d());
     gradient_ = Square::Zero(rows(), 2 * d());
@@ -61,180 +62,18 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         *v = Vector::Zero(d());
     jetGradient_ = Flat::Zero(2 * d());
     jetHessian_ = Flat::Zero(4 * d() * d());
-    curvature_ = Square::Zero(rows(), 4 * d() * d());
-    isCurved_.assign(static_cast<std::size_t>(4 * d() * d()), false);
-    bent_ = Square::Zero(rows(), widest);
+    hessians_ = Square::Zero(rows(), 4 * d() * d());
+    isPresent_.assign(static_cast<std::size_t>(4 * d() * d()), false);
+    applied_ = Square::Zero(rows(), widest);
     jacobian_ = Square::Zero(size, size);
     lu_ = Eigen::PartialPivLU<Square>(size);
     if (mechanics_.isSeparable && tables_.size() == 1 && tables_.front().frequency == T(0))
-        together_.emplace(mechanics_, tables_.front(), h_, tolerance_);
-}
-
-/// v(q_0, p_0) and the acceleration there: L_vv a = L_q - L_vq v (explicit time dependence of L_v is left
-/// out: it only matters for the quality of a guess).
-template <class T, int D>
-bool GalerkinStep<T, D>::startVelocity(const T& t) {
-    if (!mechanics_.velocity(mechanics_.model.get(), t, q0_.data(), p0_.data(), v0_.data())) return false;
-    T value;
-    const int dim = d();
-    mechanics_.jet(mechanics_.model.get(), t, q0_.data(), v0_.data(), &value, jetGradient_.data(),
-                   jetHessian_.data());
-    ++report_.evaluations;
-    const Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> H(
-        jetHessian_.data(), 2 * dim, 2 * dim);
-    Square mass = H.bottomRightCorner(dim, dim);
-    const Flat rhs = jetGradient_.head(dim) - H.bottomLeftCorner(dim, dim) * v0_;
-    a0_ = mass.partialPivLu().solve(rhs);
-    return a0_.allFinite();
-}
-
-/// Starting guess for Y: the previous curve continued, or its smoothest part; else q_0 + v_0 t + a_0 t^2 / 2
-/// fitted in the space; where a step has many periods that says nothing, and it starts from rest.
-template <class T, int D>
-bool GalerkinStep<T, D>::guess(const T& t, Start start) {
-    if (start != Start::fresh) {
-        for (int k = 0; k < d(); ++k) {
-            const auto& onward = start == Start::continued ? table(k).continuation : table(k).cautious;
-            Y_.segment(offset(k), m(k)).noalias() = onward.lazyProduct(previousY_.segment(offset(k), m(k)));
-        }
-        return true;
-    }
-    if (tables_.front().frequency != T(0)) {
-        Y_.setZero();
-        return true;
-    }
-    if (!startVelocity(t)) return false;
-    // Galerkin projection of the second derivative: K Y = sum_i b_i psi(c_i) (-a_0) h ... for unit mass, with
-    // p_0 -> v_0.
-    for (int k = 0; k < d(); ++k) {
-        const Table<T>& own = table(k);
-        auto R = R_.segment(offset(k), m(k));
-        for (int a = 0; a < m(k); ++a) R(a) = -h_ * own.weight.dot(own.testValue.col(a)) * a0_(k);
-        R(m(k) - 1) -= v0_(k);
-        Y_.segment(offset(k), m(k)).noalias() = functions(k).kineticInverse.lazyProduct(R);
-    }
-    return true;
-}
-
-/// Solves J delta = R, Newton's correction being -delta; returns its size relative to the unknowns.
-template <class T, int D>
-T GalerkinStep<T, D>::correction() {
-    using std::abs;
-    delta_ = lu_.solve(R_);
-    ++report_.linearSolves;
-    // Each coordinate is measured against its own increments and the round-off of its own value.
-    T worst(0);
-    for (int k = 0; k < d(); ++k) {
-        const T scale = Y_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
-        const T roundOff = std::numeric_limits<T>::epsilon() * abs(q0_(k));
-        const T size = delta_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
-        if (!(size <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
-        const T known = std::max(scale, roundOff);  // 0: at rest in 0 so far
-        if (size > roundOff * T(0.01)) worst = std::max(worst, known > T(0) ? T(size / known) : T(1));
-    }
-    return worst;
-}
-
-template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Start start,
-                                                                 const std::stop_token& stop) {
-    const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
-    const int limit = policy_.maxIterations;
-    T last = std::numeric_limits<T>::infinity();
-    int growing = 0, stalls = 0, sinceJacobian = 0;
-    placeNodes();
-    if (!assembleJacobian(t)) return Attempt::singular;
-    for (int iteration = 0; iteration < limit; ++iteration) {
-        if (stop.stop_requested()) return Attempt::stopped;
-        evaluateForces(t);
-        residual();
-        const T size = correction();
-        ++report_.iterations;
-        report_.residual = static_cast<double>(size);
-        if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
-        if (iteration == 0 && start != Start::fresh && size > T(1))
-            return Attempt::failed;  // rich curves swing far beyond their step
-        // At round-off, or no longer shrinking within a few digits of it: the forces at hand are those of the
-        // solution.
-        if (size <= tolerance_ || (size < stagnation && size >= last * T(0.25))) return Attempt::solved;
-        // An ill-conditioned step stays further from round-off, whatever the Jacobian.
-        if (size < 100 * stagnation && size >= last * T(0.25) && ++stalls >= 3) return Attempt::solved;
-        Y_ -= delta_;
-        placeNodes();
-        ++sinceJacobian;
-        growing = size >= last ? growing + 1 : 0;
-        if (growing >= 4) return Attempt::failed;
-        if (size > T(0.1) || (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation)) {
-            if (!assembleJacobian(t)) return Attempt::singular;
-            sinceJacobian = 0;
-        }
-        last = size;
-    }
-    return Attempt::failed;
-}
-
-template <class T, int D>
-typename GalerkinStep<T, D>::Start GalerkinStep<T, D>::next(Start start) const {
-    return start == Start::continued && tables_.front().cautious.size() > 0 ? Start::cautious : Start::fresh;
-}
-
-/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from a more
-/// cautious one.
-template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, const std::stop_token& stop) {
-    if (waryFor_ > 0 && --waryFor_ == 0) boldest_ = Start::continued;
-    for (Start start = hasCurve_ ? boldest_ : Start::fresh;; start = next(start)) {
-        if (!guess(t, start)) return Attempt::singular;
-        const Attempt result = iterate(t, start, stop);
-        if (result == Attempt::solved && together_) together_->remember(gradient_.leftCols(d()));
-        if (result == Attempt::solved || result == Attempt::stopped || start == Start::fresh) return result;
-        boldest_ = next(start);
-        waryFor_ = 16;
-    }
-}
-
-template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, const std::stop_token& stop) {
-    using Result = typename NodeIteration<T>::Result;
-    switch (together_->solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(), policy_.maxIterations,
-                             stop, report_)) {
-        case Result::solved: {
-            together_->increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
-            return dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
-        }
-        case Result::stopped:
-            return Attempt::stopped;
-        case Result::notFinite:
-            return Attempt::notFinite;
-        case Result::slow:
-            break;
-    }
-    return Attempt::failed;
-}
-
-template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const std::stop_token& stop) {
-    isTogether_ = false;
-    if (together_ && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
-        Attempt result = fixedPoint(t, stop);
-        // Forces continued from the step before may be a poor start where steps are large.
-        if (policy_.method == SolverMethod::fixedPoint && result != Attempt::solved &&
-            result != Attempt::stopped)
-            result = fixedPoint(t, stop);
-        isTogether_ = result == Attempt::solved;
-        hasCurve_ = false;
-        if (isTogether_ || result == Attempt::stopped || policy_.method == SolverMethod::fixedPoint)
-            return result;
-        newtonSteps_ = 32;  // the fixed point is slow here: stay with Newton for a while
-    } else if (newtonSteps_ > 0) {
-        --newtonSteps_;
-    }
-    return newton(t, stop);
+        fixedPointSolver_.emplace(mechanics_, tables_.front(), h_, tolerance_);
 }
 
 /// Starts from (q, p), and from what the last step could not add if this is where it ended.
 template <class T, int D>
-void GalerkinStep<T, D>::takeUp(const T* q, const T* p) {
+void GalerkinStep<T, D>::resume(const T* q, const T* p) {
     bool isNext = true;
     for (int k = 0; k < d(); ++k) {
         isNext = isNext && q[k] == lastQ_(k) && p[k] == lastP_(k);
@@ -249,11 +88,11 @@ void GalerkinStep<T, D>::takeUp(const T* q, const T* p) {
 /// Adds the increments to (q, p); the carries keep what is lost (Knuth's exact sum).
 template <class T, int D>
 void GalerkinStep<T, D>::add(T* q, T* p) {
-    if (!isTogether_) {
+    if (!isSolvedByFixedPoint_) {
         for (int k = 0; k < d(); ++k) {
             // Stiff forces nearly cancel in this sum.
-            Wide impulse(0);
-            for (int i = 0; i < n(); ++i) impulse += Wide(weight_(i)) * Wide(gradient_(i, k));
+            Accumulator impulse(0);
+            for (int i = 0; i < n(); ++i) impulse += Accumulator(weight_(i)) * Accumulator(gradient_(i, k));
             dp_(k) = static_cast<T>(impulse);
             dq_(k) = Y_(offset(k) + m(k) - 1);
         }
@@ -274,7 +113,7 @@ template <class T, int D>
 StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_token& stop) {
     report_ = StepReport{};
     report_.step = static_cast<double>(h_);
-    takeUp(q, p);
+    resume(q, p);
     const Attempt result = solve(t, stop);
     switch (result) {
         case Attempt::solved:
@@ -292,17 +131,17 @@ StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_t
             report_.outcome = Outcome::stopped;
             break;
     }
-    hasCurve_ = result == Attempt::solved && !isTogether_;
+    hasPrevious_ = result == Attempt::solved && !isSolvedByFixedPoint_;
     if (result == Attempt::solved) add(q, p);
     return report_;
 }
 
 template <class T, int D>
-void GalerkinStep<T, D>::curve(const T& tau, T* q, T* p) const {
+void GalerkinStep<T, D>::denseOutput(const T& tau, T* q, T* p) const {
     Square Y, forces = gradient_.leftCols(d());
-    if (isTogether_) {
+    if (isSolvedByFixedPoint_) {
         Y.resize(m(0), d());
-        together_->coefficients(Y, forces);
+        fixedPointSolver_->coefficients(Y, forces);
     }
     std::vector<T> value, slope;
     for (int k = 0; k < d(); ++k) {
@@ -312,7 +151,7 @@ void GalerkinStep<T, D>::curve(const T& tau, T* q, T* p) const {
         own.space.evaluate(tau, value, slope);
         const Eigen::Map<const Flat> phi(value.data(), own.space.size);
         const Flat y = own.change.transpose() * phi;
-        q[k] = q0_(k) + (isTogether_ ? Flat(Y.col(k)) : Flat(Y_.segment(offset(k), m(k)))).dot(y);
+        q[k] = q0_(k) + (isSolvedByFixedPoint_ ? Flat(Y.col(k)) : Flat(Y_.segment(offset(k), m(k)))).dot(y);
         p[k] = p0_(k);
     }
     // p(tau) = p_0 + h int_0^tau of what the rule takes L_q for, from its values at the nodes: at tau = 1 the

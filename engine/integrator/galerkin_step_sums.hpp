@@ -19,7 +19,7 @@ void GalerkinStep<T, D>::addProduct(const Square& A, int height, const T* B, int
                                     int strideC) const {
     const auto depth = static_cast<int>(A.cols());
     if constexpr (std::is_same_v<T, double>) {
-        if (isRich_)
+        if (isVectorised_)
             return sums_.product(
                 {A.data(), static_cast<int>(A.rows()), B, depth, C, strideC, height, columns, depth});
     }
@@ -35,18 +35,18 @@ void GalerkinStep<T, D>::addProduct(const Square& A, int height, const T* B, int
 template <class T, int D>
 void GalerkinStep<T, D>::placeNodes() {
     for (int k = 0; k < d(); ++k) {
-        if (!isRich_) {
+        if (!isVectorised_) {
             const T *value = functions(k).value.data(), *slope = functions(k).slope.data(),
                     *y = Y_.data() + offset(k);
             T *q = nodeQ_.data() + k * rows(), *v = nodeV_.data() + k * rows();
             for (int i = 0; i < rows(); ++i) {
-                T far(0), fast(0);
+                T position(0), velocity(0);
                 for (int a = 0; a < m(k); ++a) {
-                    far += value[a * rows() + i] * y[a];
-                    fast += slope[a * rows() + i] * y[a];
+                    position += value[a * rows() + i] * y[a];
+                    velocity += slope[a * rows() + i] * y[a];
                 }
-                q[i] = q0_(k) + far;
-                v[i] = fast;
+                q[i] = q0_(k) + position;
+                v[i] = velocity;
             }
             continue;
         }
@@ -59,9 +59,9 @@ void GalerkinStep<T, D>::placeNodes() {
 
 /// L_q and L_v at all nodes.
 template <class T, int D>
-void GalerkinStep<T, D>::evaluateForces(const T& t) {
+void GalerkinStep<T, D>::evaluateGradients(const T& t) {
     report_.evaluations += n();
-    if (isRich_ && mechanics_.gradients) {
+    if (isVectorised_ && mechanics_.gradients) {
         times_ = node_ * h_;
         times_.array() += t;
         return mechanics_.gradients(mechanics_.model.get(), times_.data(), rows(), nodeQ_.data(),
@@ -78,51 +78,45 @@ void GalerkinStep<T, D>::evaluateForces(const T& t) {
     }
 }
 
-/// R from L_q, L_v; entry a of a coordinate is the equation of test function a, the last one that of 1 -
-/// phi_{m-1}.
+/// grad_a = sum_i w_i [ L_q(i) phi_a(c_i) + L_v(i) phi_a'(c_i) ] of coordinate k, the chain rule for a table;
+/// returns the same for the function 1, sum_i w_i L_q(i), in the precision in which it was added up.
 template <class T, int D>
-void GalerkinStep<T, D>::residual() {
-    R_.setZero();
-    for (int k = 0; k < d(); ++k) {
-        T* const R = R_.data() + offset(k);
-        const int last = m(k) - 1;
-        T total(0);
-        if (!isRich_) {
-            const T *value = functions(k).valueAt.data(), *slope = functions(k).slopeAt.data();
-            for (int i = 0; i < rows(); ++i, value += last + 1, slope += last + 1) {
-                const T q = weight_(i) * gradient_(i, k), v = weight_(i) * gradient_(i, d() + k);
-                total += q;
-                for (int a = 0; a <= last; ++a) R[a] += value[a] * q + slope[a] * v;
-            }
-            R[last] = p0_(k) + (total - R[last]);
-            continue;
-        }
-        if constexpr (std::is_same_v<T, double>) {
-            // On a fast motion both sums are far larger than what is left of them.
-            Wide impulse(0);
-            for (int i = 0; i < rows(); ++i) {
-                impulse_(i) = weight_(i) * gradient_(i, k);
-                thrust_(i) = weight_(i) * gradient_(i, d() + k);
-                impulse += Wide(impulse_(i));
-            }
-            sums_.sumOfTwo({functions(k).valueAt.data(), impulse_.data(), functions(k).slopeAt.data(),
-                            thrust_.data(), static_cast<int>(functions(k).valueAt.rows()), m(k), rows(), R});
-            R[last] = static_cast<T>(Wide(p0_(k)) + (impulse - Wide(R[last])));
+typename GalerkinStep<T, D>::Accumulator GalerkinStep<T, D>::actionGradient(int k, T* grad) {
+    for (int i = 0; i < rows(); ++i) {
+        weightedLq_(i) = weight_(i) * gradient_(i, k);
+        weightedLv_(i) = weight_(i) * gradient_(i, d() + k);
+    }
+    if constexpr (std::is_same_v<T, double>) {
+        if (isVectorised_) {
+            Accumulator impulse(0);
+            for (int i = 0; i < rows(); ++i) impulse += Accumulator(weightedLq_(i));
+            sums_.sumOfTwo({functions(k).valueAt.data(), weightedLq_.data(), functions(k).slopeAt.data(),
+                            weightedLv_.data(), static_cast<int>(functions(k).valueAt.rows()), m(k), rows(),
+                            grad});
+            return impulse;
         }
     }
+    const T *value = functions(k).valueAt.data(), *slope = functions(k).slopeAt.data();
+    T impulse(0);
+    for (int i = 0; i < rows(); ++i, value += m(k), slope += m(k)) {
+        const T q = weightedLq_(i), v = weightedLv_(i);
+        impulse += q;
+        for (int a = 0; a < m(k); ++a) grad[a] += value[a] * q + slope[a] * v;
+    }
+    return Accumulator(impulse);
 }
 
 /// The Hessians of L at all nodes, and which of their entries matter. Of few nodes the pivots say whether
 /// they are finite.
 template <class T, int D>
-bool GalerkinStep<T, D>::evaluateCurvature(const T& t) {
+bool GalerkinStep<T, D>::evaluateHessians(const T& t) {
     const int size = 4 * d() * d();
     report_.evaluations += n();
-    if (isRich_ && mechanics_.hessians) {
+    if (isVectorised_ && mechanics_.hessians) {
         times_ = node_ * h_;
         times_.array() += t;
         mechanics_.hessians(mechanics_.model.get(), times_.data(), rows(), nodeQ_.data(), nodeV_.data(),
-                            curvature_.data());
+                            hessians_.data());
     } else {
         T value;
         for (int i = 0; i < n(); ++i) {
@@ -132,37 +126,38 @@ bool GalerkinStep<T, D>::evaluateCurvature(const T& t) {
             }
             mechanics_.jet(mechanics_.model.get(), t + node_(i) * h_, placeQ_.data(), placeV_.data(), &value,
                            jetGradient_.data(), jetHessian_.data());
-            for (int j = 0; j < size; ++j) curvature_(i, j) = jetHessian_(j);
+            for (int j = 0; j < size; ++j) hessians_(i, j) = jetHessian_(j);
         }
     }
-    if (isRich_)
+    if (isVectorised_)
         for (int j = 0; j < size; ++j)
-            isCurved_[static_cast<std::size_t>(j)] = (curvature_.col(j).array() != T(0)).any();
-    return !isRich_ || curvature_.allFinite();
+            isPresent_[static_cast<std::size_t>(j)] = (hessians_.col(j).array() != T(0)).any();
+    return !isVectorised_ || hessians_.allFinite();
 }
 
-/// bent_(i, c) = w_i (L_{x_k q_l} phi_c + L_{x_k v_l} phi_c') for x = q or v.
+/// applied_(i, c) = w_i (L_{x_k q_l} phi_c + L_{x_k v_l} phi_c') for x = q or v.
 template <class T, int D>
-void GalerkinStep<T, D>::bend(int k, int l, bool isSlope) {
+void GalerkinStep<T, D>::applyHessian(int k, int l, bool isSlope) {
     const int dim = d(), onValue = (isSlope ? dim + k : k) * 2 * dim + l;
-    const T* const byValue = curvature_.col(onValue).data();
-    const T* const bySlope = curvature_.col(onValue + dim).data();
+    const T* const byValue = hessians_.col(onValue).data();
+    const T* const bySlope = hessians_.col(onValue + dim).data();
     const Functions& to = functions(l);
+    T *const q = weightedLq_.data(), *const v = weightedLv_.data();
     for (int i = 0; i < rows(); ++i) {
-        impulse_(i) = weight_(i) * byValue[i];
-        thrust_(i) = weight_(i) * bySlope[i];
+        q[i] = weight_(i) * byValue[i];
+        v[i] = weight_(i) * bySlope[i];
     }
     for (int c = 0; c < m(l); ++c) {
         const T* const value = to.value.col(c).data();
         const T* const slope = to.slope.col(c).data();
-        T* const bent = bent_.col(c).data();
+        T* const applied = applied_.col(c).data();
         if constexpr (std::is_same_v<T, double>) {
-            if (isRich_) {
-                sums_.combine(impulse_.data(), value, thrust_.data(), slope, bent, rows());
+            if (isVectorised_) {
+                sums_.combine(q, value, v, slope, applied, rows());
                 continue;
             }
         }
-        for (int i = 0; i < rows(); ++i) bent[i] = impulse_(i) * value[i] + thrust_(i) * slope[i];
+        for (int i = 0; i < rows(); ++i) applied[i] = q[i] * value[i] + v[i] * slope[i];
     }
 }
 
@@ -172,16 +167,18 @@ template <class T, int D>
 void GalerkinStep<T, D>::assembleBlock(int k, int l) {
     const int height = m(k), columns = m(l), dim = d(), stride = static_cast<int>(jacobian_.rows());
     auto block = jacobian_.block(offset(k), offset(l), height, columns);
-    const auto isCurved = [&](int i, int j) { return isCurved_[static_cast<std::size_t>(i * 2 * dim + j)]; };
+    const auto isPresent = [&](int i, int j) {
+        return isPresent_[static_cast<std::size_t>(i * 2 * dim + j)];
+    };
     block.setZero();
-    if (isCurved(dim + k, l) || isCurved(dim + k, dim + l)) {
-        bend(k, l, true);
-        addProduct(functions(k).slopeAt, height, bent_.data(), columns, &block(0, 0), stride);
+    if (isPresent(dim + k, l) || isPresent(dim + k, dim + l)) {
+        applyHessian(k, l, true);
+        addProduct(functions(k).slopeAt, height, applied_.data(), columns, &block(0, 0), stride);
     }
-    const bool hasForce = isCurved(k, l) || isCurved(k, dim + l);
+    const bool hasForce = isPresent(k, l) || isPresent(k, dim + l);
     if (hasForce) {
-        bend(k, l, false);
-        addProduct(functions(k).valueAt, height, bent_.data(), columns, &block(0, 0), stride);
+        applyHessian(k, l, false);
+        addProduct(functions(k).valueAt, height, applied_.data(), columns, &block(0, 0), stride);
     }
     if (k != l) {
         auto other = jacobian_.block(offset(l), offset(k), columns, height);
@@ -190,10 +187,11 @@ void GalerkinStep<T, D>::assembleBlock(int k, int l) {
     }
     block.row(height - 1) *= T(-1);
     if (hasForce)
-        for (int c = 0; c < columns; ++c) block(height - 1, c) += bent_.col(c).sum();
-    if (k == l || !(isCurved(l, k) || isCurved(l, dim + k))) return;
-    bend(l, k, false);
-    for (int c = 0; c < height; ++c) jacobian_(offset(l) + columns - 1, offset(k) + c) += bent_.col(c).sum();
+        for (int c = 0; c < columns; ++c) block(height - 1, c) += applied_.col(c).sum();
+    if (k == l || !(isPresent(l, k) || isPresent(l, dim + k))) return;
+    applyHessian(l, k, false);
+    for (int c = 0; c < height; ++c)
+        jacobian_(offset(l) + columns - 1, offset(k) + c) += applied_.col(c).sum();
 }
 
 /// What one node adds to dR/dY: few nodes and functions are summed as they come.
@@ -207,8 +205,8 @@ void GalerkinStep<T, D>::assembleNode(int i) {
         const T* const slope = functions(k).slopeAt.data() + i * (last + 1);
         for (int l = 0; l < dim; ++l) {
             const int qq = k * 2 * dim + l, vq = (dim + k) * 2 * dim + l;
-            const T byQQ = b * curvature_(i, qq), byQV = b * curvature_(i, qq + dim);
-            const T byVQ = b * curvature_(i, vq), byVV = b * curvature_(i, vq + dim);
+            const T byQQ = b * hessians_(i, qq), byQV = b * hessians_(i, qq + dim);
+            const T byVQ = b * hessians_(i, vq), byVV = b * hessians_(i, vq + dim);
             const T* const to = functions(l).valueAt.data() + i * m(l);
             const T* const toSlope = functions(l).slopeAt.data() + i * m(l);
             for (int c = 0; c < m(l); ++c) {
@@ -225,8 +223,8 @@ void GalerkinStep<T, D>::assembleNode(int i) {
 /// dR/dY at the present Y and its factorisation.
 template <class T, int D>
 bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
-    if (!evaluateCurvature(t)) return false;
-    if (isRich_) {
+    if (!evaluateHessians(t)) return false;
+    if (isVectorised_) {
         for (int k = 0; k < d(); ++k)
             for (int l = 0; l <= k; ++l) assembleBlock(k, l);
     } else {

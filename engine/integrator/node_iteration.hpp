@@ -71,7 +71,7 @@ private:
     T largestChange(const T* q) const;
     /// The sums that move q and p go through extended precision: rounded in double they were biased, and the
     /// energy of ten million steps drifted by 1e-12.
-    using Wide = std::conditional_t<std::is_same_v<T, double>, long double, T>;
+    using Accumulator = std::conditional_t<std::is_same_v<T, double>, long double, T>;
     std::size_t at(int k, int i) const { return static_cast<std::size_t>(k * stride_ + i); }
 
     Mechanics<T> mechanics_;
@@ -79,7 +79,7 @@ private:
     T h_, tolerance_;
     bool isExact_;         ///< solve to round-off
     Array node_;           ///< c_i
-    Array N_, start_;      ///< by columns: N, and G_ij = N_ij h b_j times the continuation of the forces
+    Array N_, start_;      ///< by columns: N, and G_ij = N_ij h b_j times the extrapolation of the forces
     Array slope_, toEnd_;  ///< s_i, S - s_i
     T velocityToEnd_;      ///< S
     Array weight_;         ///< h b_i

@@ -12,10 +12,10 @@
 namespace extremal {
 namespace detail {
 
-/// (j, i): weight of the force at node j in its continuation to 1 + c_i, by the polynomial of the highest
+/// (j, i): weight of the force at node j in its extrapolation to 1 + c_i, by the polynomial of the highest
 /// degree whose Legendre coefficients the rule integrates exactly.
 template <class T>
-typename NodeIteration<T>::Square continuation(const Rule<T>& rule) {
+typename NodeIteration<T>::Square extrapolation(const Rule<T>& rule) {
     const int n = rule.size(), degree = std::min(n - 1, rule.degree / 2);
     typename NodeIteration<T>::Square here(n, degree + 1), beyond(n, degree + 1);
     for (int i = 0; i < n; ++i) {
@@ -71,7 +71,7 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     const Square inverse = kinetic.partialPivLu().inverse();
     const Square moments = h * (table.testValue.transpose() * table.weight.asDiagonal());  // m x n
     const Square toForces = -inverse * moments;                                            // m x n
-    const Square G = table.value * toForces, start = G * detail::continuation<T>(table.rule).transpose();
+    const Square G = table.value * toForces, start = G * detail::extrapolation<T>(table.rule).transpose();
 
     const auto size = static_cast<std::size_t>(stride_), d = static_cast<std::size_t>(d_);
     const auto unknowns = static_cast<std::size_t>(m_);
@@ -193,7 +193,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
     Sweep<T> s{d_,        n_,        stride_,         start_.data(),       base_.data(),
                F_.data(), nullptr,   impulse_.data(), inverseMass_.data(), q,
                Z_.data(), Q_.data(), size_.data()};
-    const auto useImpulses = [&] {  // from here on; the continuation of the last step is in terms of forces
+    const auto useImpulses = [&] {  // from here on; the extrapolation of the last step is in terms of forces
         s.G = N_.data();
         s.weight = weight_.data();
     };
@@ -241,23 +241,24 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
 
 template <class T>
 void NodeIteration<T>::increments(T* dq, T* dp, T* carryQ, T* carryP) const {
-    const auto split = [](const Wide& sum, T& main, T& carry) {
+    const auto split = [](const Accumulator& sum, T& main, T& carry) {
         main = static_cast<T>(sum);
-        carry += static_cast<T>(sum - Wide(main));
+        carry += static_cast<T>(sum - Accumulator(main));
     };
     for (int k = 0; k < d_; ++k) {
         const auto c = static_cast<std::size_t>(k);
-        Wide kicks[2] = {Wide(0), Wide(0)},
-             impulses[2] = {Wide(0), Wide(0)};  // two, as each waits for its last sum
-        for (int i = 0; i < stride_; i += 2)    // beyond the nodes impulses are 0
+        Accumulator kicks[2] = {Accumulator(0), Accumulator(0)},
+                    impulses[2] = {Accumulator(0), Accumulator(0)};  // two, as each waits for its last sum
+        for (int i = 0; i < stride_; i += 2)                         // beyond the nodes impulses are 0
             for (int l = 0; l < 2; ++l) {
-                kicks[l] += Wide(toEnd_[at(0, i + l)]) * Wide(impulse_[at(k, i + l)]);
-                impulses[l] += Wide(impulse_[at(k, i + l)]);
+                kicks[l] += Accumulator(toEnd_[at(0, i + l)]) * Accumulator(impulse_[at(k, i + l)]);
+                impulses[l] += Accumulator(impulse_[at(k, i + l)]);
             }
-        const Wide kick = kicks[0] + kicks[1], impulse = impulses[0] + impulses[1];
-        const Wide drift(velocityToEnd_);
-        split(drift * Wide(v0_[c]) + (kick * Wide(inverseMass_[c]) + drift * Wide(lost_[c])), dq[k],
-              carryQ[k]);
+        const Accumulator kick = kicks[0] + kicks[1], impulse = impulses[0] + impulses[1];
+        const Accumulator drift(velocityToEnd_);
+        split(drift * Accumulator(v0_[c]) +
+                  (kick * Accumulator(inverseMass_[c]) + drift * Accumulator(lost_[c])),
+              dq[k], carryQ[k]);
         split(impulse, dp[k], carryP[k]);
     }
 }

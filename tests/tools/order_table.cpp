@@ -111,7 +111,7 @@ Errors errorsOf(const Setting<D>& setting, const Table<Quad>& table, int steps, 
         e.p = std::max(e.p, distance<D>(x, exact, D));
         if (!withCurve) continue;
         for (const double tau : {0.13, 0.29, 0.5, 0.64, 0.83}) {
-            step.curve(Quad(tau), inside.data(), inside.data() + D);
+            step.denseOutput(Quad(tau), inside.data(), inside.data() + D);
             const std::vector<Quad> there = setting.exact(h * (k + Quad(tau)));
             e.curveQ = std::max(e.curveQ, distance<D>(inside, there, 0));
             e.curveP = std::max(e.curveP, distance<D>(inside, there, D));

@@ -234,15 +234,15 @@ Table<double> build(const OscillatoryBasis& basis, const Phases<double>& turns, 
     Points<T> start;
     start.add(0, {0, 0}, 1);
     const Matrix<T> atStart = Samples<T>(basis, z, start).value, onto = f.change.transpose() * f.gram;
-    const auto continued = [&](const Matrix<T>& curve) {
+    const auto extrapolated = [&](const Matrix<T>& curve) {
         Matrix<T> next = later * curve;
         next.row(0) -= atStart * next;  // relative to where it begins
         Matrix<T> Y = onto * next;
         Y.row(m - 1) /= onto.row(m - 1).dot(f.change.col(m - 1));
         return Eigen::MatrixXd(Y.template cast<double>());
     };
-    t.continuation = continued(f.change);
-    t.cautious = continued(smoothestPart(basis, f));
+    t.extrapolation = extrapolated(f.change);
+    t.smoothExtrapolation = extrapolated(smoothestPart(basis, f));
     return t;
 }
 

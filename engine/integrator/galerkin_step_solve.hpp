@@ -1,0 +1,197 @@
+/// How GalerkinStep finds its unknowns: the two equations, starting values, Newton's method and the fixed
+/// point. Included by galerkin_step_build.hpp.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/integrator/galerkin_step.hpp"
+
+namespace extremal {
+
+/// R(Y), the step as the two equations it is: stationarity of the discrete action inside the step and at its
+/// start. Only sums over the nodes are behind actionGradient.
+template <class T, int D>
+void GalerkinStep<T, D>::residual() {
+    R_.setZero();
+    for (int k = 0; k < d(); ++k) {
+        T* const R = R_.data() + offset(k);
+        // Inside, a < m - 1:  dS/dY_a = sum_i w_i [ L_q(i) phi_a(c_i) + L_v(i) phi_a'(c_i) ] = 0.
+        const Accumulator impulse = actionGradient(k, R);
+        // At the start:  p_0 + sum_i w_i [ L_q(i) psi(c_i) + L_v(i) psi'(c_i) ] = 0,  psi = 1 - phi_{m-1}.
+        // On a fast motion the two sums are far larger than their difference.
+        T& last = R[m(k) - 1];
+        last = isVectorised_ ? static_cast<T>(Accumulator(p0_(k)) + (impulse - Accumulator(last)))
+                             : p0_(k) + (static_cast<T>(impulse) - last);
+    }
+}
+
+/// v(q_0, p_0) and the acceleration there: L_vv a = L_q - L_vq v (explicit time dependence of L_v is left
+/// out: it only matters for the quality of a guess).
+template <class T, int D>
+bool GalerkinStep<T, D>::startVelocity(const T& t) {
+    if (!mechanics_.velocity(mechanics_.model.get(), t, q0_.data(), p0_.data(), v0_.data())) return false;
+    T value;
+    const int dim = d();
+    mechanics_.jet(mechanics_.model.get(), t, q0_.data(), v0_.data(), &value, jetGradient_.data(),
+                   jetHessian_.data());
+    ++report_.evaluations;
+    const Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> H(
+        jetHessian_.data(), 2 * dim, 2 * dim);
+    Square mass = H.bottomRightCorner(dim, dim);
+    const Flat rhs = jetGradient_.head(dim) - H.bottomLeftCorner(dim, dim) * v0_;
+    a0_ = mass.partialPivLu().solve(rhs);
+    return a0_.allFinite();
+}
+
+/// Sets Y to a starting value. The fallback is q_0 + v_0 t + a_0 t^2 / 2 fitted in the space; where a step
+/// has many periods that says nothing, and it starts from rest.
+template <class T, int D>
+bool GalerkinStep<T, D>::startFrom(const T& t, StartingValue start) {
+    if (start != StartingValue::fallback) {
+        for (int k = 0; k < d(); ++k) {
+            const auto& onward =
+                start == StartingValue::extrapolated ? table(k).extrapolation : table(k).smoothExtrapolation;
+            Y_.segment(offset(k), m(k)).noalias() = onward.lazyProduct(previousY_.segment(offset(k), m(k)));
+        }
+        return true;
+    }
+    if (tables_.front().frequency != T(0)) {
+        Y_.setZero();
+        return true;
+    }
+    if (!startVelocity(t)) return false;
+    // Galerkin projection of the second derivative: K Y = sum_i b_i psi(c_i) (-a_0) h ... for unit mass, with
+    // p_0 -> v_0.
+    for (int k = 0; k < d(); ++k) {
+        const Table<T>& own = table(k);
+        auto R = R_.segment(offset(k), m(k));
+        for (int a = 0; a < m(k); ++a) R(a) = -h_ * own.weight.dot(own.testValue.col(a)) * a0_(k);
+        R(m(k) - 1) -= v0_(k);
+        Y_.segment(offset(k), m(k)).noalias() = functions(k).kineticInverse.lazyProduct(R);
+    }
+    return true;
+}
+
+/// Solves J delta = R, Newton's correction being -delta; returns its size relative to the unknowns.
+template <class T, int D>
+T GalerkinStep<T, D>::correction() {
+    using std::abs;
+    delta_ = lu_.solve(R_);
+    ++report_.linearSolves;
+    // Each coordinate is measured against its own increments and the round-off of its own value.
+    T worst(0);
+    for (int k = 0; k < d(); ++k) {
+        const T scale = Y_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
+        const T roundOff = std::numeric_limits<T>::epsilon() * abs(q0_(k));
+        const T size = delta_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
+        if (!(size <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
+        const T known = std::max(scale, roundOff);  // 0: at rest in 0 so far
+        if (size > roundOff * T(0.01)) worst = std::max(worst, known > T(0) ? T(size / known) : T(1));
+    }
+    return worst;
+}
+
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, StartingValue start,
+                                                                 const std::stop_token& stop) {
+    const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
+    const int limit = policy_.maxIterations;
+    T last = std::numeric_limits<T>::infinity();
+    int growing = 0, stalls = 0, sinceJacobian = 0;
+    placeNodes();
+    if (!assembleJacobian(t)) return Attempt::singular;
+    for (int iteration = 0; iteration < limit; ++iteration) {
+        if (stop.stop_requested()) return Attempt::stopped;
+        evaluateGradients(t);
+        residual();
+        const T size = correction();
+        ++report_.iterations;
+        report_.residual = static_cast<double>(size);
+        if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
+        if (iteration == 0 && start != StartingValue::fallback && size > T(1))
+            return Attempt::failed;  // rich curves swing far beyond their step
+        // At round-off, or no longer shrinking within a few digits of it: the forces at hand are those of the
+        // solution.
+        if (size <= tolerance_ || (size < stagnation && size >= last * T(0.25))) return Attempt::solved;
+        // An ill-conditioned step stays further from round-off, whatever the Jacobian.
+        if (size < 100 * stagnation && size >= last * T(0.25) && ++stalls >= 3) return Attempt::solved;
+        Y_ -= delta_;
+        placeNodes();
+        ++sinceJacobian;
+        growing = size >= last ? growing + 1 : 0;
+        if (growing >= 4) return Attempt::failed;
+        if (size > T(0.1) || (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation)) {
+            if (!assembleJacobian(t)) return Attempt::singular;
+            sinceJacobian = 0;
+        }
+        last = size;
+    }
+    return Attempt::failed;
+}
+
+template <class T, int D>
+typename GalerkinStep<T, D>::StartingValue GalerkinStep<T, D>::next(StartingValue start) const {
+    return start == StartingValue::extrapolated && tables_.front().smoothExtrapolation.size() > 0
+               ? StartingValue::previous
+               : StartingValue::fallback;
+}
+
+/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from a more
+/// cautious one.
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, const std::stop_token& stop) {
+    if (otherThanExtrapolatedFor_ > 0 && --otherThanExtrapolatedFor_ == 0)
+        first_ = StartingValue::extrapolated;
+    for (StartingValue start = hasPrevious_ ? first_ : StartingValue::fallback;; start = next(start)) {
+        if (!startFrom(t, start)) return Attempt::singular;
+        const Attempt result = iterate(t, start, stop);
+        if (result == Attempt::solved && fixedPointSolver_)
+            fixedPointSolver_->remember(gradient_.leftCols(d()));
+        if (result == Attempt::solved || result == Attempt::stopped || start == StartingValue::fallback)
+            return result;
+        first_ = next(start);
+        otherThanExtrapolatedFor_ = 16;
+    }
+}
+
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, const std::stop_token& stop) {
+    using Result = typename NodeIteration<T>::Result;
+    switch (fixedPointSolver_->solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(),
+                                     policy_.maxIterations, stop, report_)) {
+        case Result::solved: {
+            fixedPointSolver_->increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
+            return dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
+        }
+        case Result::stopped:
+            return Attempt::stopped;
+        case Result::notFinite:
+            return Attempt::notFinite;
+        case Result::slow:
+            break;
+    }
+    return Attempt::failed;
+}
+
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const std::stop_token& stop) {
+    isSolvedByFixedPoint_ = false;
+    if (fixedPointSolver_ && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
+        Attempt result = fixedPoint(t, stop);
+        // Forces continued from the step before may be a poor start where steps are large.
+        if (policy_.method == SolverMethod::fixedPoint && result != Attempt::solved &&
+            result != Attempt::stopped)
+            result = fixedPoint(t, stop);
+        isSolvedByFixedPoint_ = result == Attempt::solved;
+        hasPrevious_ = false;
+        if (isSolvedByFixedPoint_ || result == Attempt::stopped || policy_.method == SolverMethod::fixedPoint)
+            return result;
+        newtonSteps_ = 32;  // the fixed point is slow here: stay with Newton for a while
+    } else if (newtonSteps_ > 0) {
+        --newtonSteps_;
+    }
+    return newton(t, stop);
+}
+
+}  // namespace extremal
