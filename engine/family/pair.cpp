@@ -11,10 +11,11 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/galerkin/table_of.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/stability.hpp"
-#include "engine/family/galerkin/table_of.hpp"
+#include "engine/quadrature/catalog.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal {
@@ -97,14 +98,9 @@ PairProperties makeDescription(const Settings& space, const Settings& quadrature
     if (const PairFamily* family = familyOf(space); family && family->describe)
         return family->describe(space, quadrature);
     PairProperties p;
-    if (quadrature.type == "exact") {
-        p.refusal = "the integral of the action is not known";
-        p.hint = "quadrature auto";
-        return p;
-    }
-    if (isFilon(quadrature)) {
-        p.refusal = "a Filon rule integrates fast oscillations, and " + space.type + " has none";
-        p.hint = "take the space oscillatory, or another rule";
+    if (const RuleEntry* rule = findRule(quadrature.type); rule && !rule->make) {
+        p.refusal = rule->refusal;
+        p.hint = rule->hint;
         p.shortName = "-";
         return p;
     }
@@ -203,30 +199,10 @@ Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
     if (const PairFamily* family = familyOf(space); family && family->complete)
         return family->complete(space, quadrature);
     Settings q = quadrature;
-    const double degree = space.number("degree");
-    auto set = [&](const char* key, Value value) {
-        for (auto& m : q.keys)
-            if (m.first == key) {
-                if (m.second.isNull()) m.second = std::move(value);
-                return;
-            }
-        q.keys.emplace_back(key, std::move(value));
-    };
-    if (q.type.empty() || q.type == "auto") {
-        q = Settings{};
-        q.type = space.text("form") == "three-level" ? "exact" : "gauss";
-    }
-    if (q.type == "exact") return q;
-    if (isFilon(q)) {
-        set("nodes", degree + 2);
-        set("phases", 8.0);
-        return q;
-    }
-    if (q.type == "gauss" || q.type == "radau") set("nodes", degree);
-    if (q.type == "lobatto" || q.type == "clenshaw-curtis") set("nodes", degree + 1);
-    if (q.type == "radau") set("end", "right");
-    set("panels", space.type == "spline" ? std::max(1.0, space.number("cells")) : 1.0);
-    return q;
+    if (q.type.empty() || q.type == "auto")
+        q = {space.text("form") == "three-level" ? "exact" : "gauss", {}, {}};
+    const int cells = space.type == "spline" ? space.integer("cells") : 1;
+    return completeRule(q, {space.integer("degree"), cells});
 }
 
 std::optional<Discretization> namedScheme(std::string_view id) {

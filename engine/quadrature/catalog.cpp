@@ -1,102 +1,52 @@
 #include "engine/quadrature/catalog.hpp"
 
+#include <algorithm>
+
 namespace extremal {
-namespace {
 
-FieldInfo count(std::string key, std::string title, double min, std::string description) {
-    FieldInfo f = integerField(key, key, min, 1000, nullptr, std::move(description));
-    f.title = std::move(title);
-    return f;
+const std::vector<const RuleEntry*>& rulesByPlace() {
+    static const std::vector<const RuleEntry*> all = [] {
+        std::vector<const RuleEntry*> entries;
+        for (const RuleEntry& e : ruleEntries()) entries.push_back(&e);
+        std::stable_sort(entries.begin(), entries.end(),
+                         [](const RuleEntry* a, const RuleEntry* b) { return a->place < b->place; });
+        return entries;
+    }();
+    return all;
 }
-
-FieldInfo side() {
-    return choiceField("end", "end that is a node", {"right", "left"}, "Which end of the step is a node.");
-}
-
-FieldInfo filonNodes(double min) {
-    return count("nodes", "nodes", min,
-                 "Number of slow nodes; default: the highest degree in the space plus two.");
-}
-FieldInfo phases() {
-    return count("phases", "phases", 1,
-                 "Number of phases at each node; default: 4 H + 4, H the highest harmonic in the space.");
-}
-
-}  // namespace
 
 const std::vector<CatalogItem>& quadratureCatalog() {
-    const FieldInfo panels = count("panels", "panels", 1,
-                                   "The rule is repeated in equal panels; default: the cells of the space.");
-    const std::string default0 = "Number of nodes; default: the degree of the space.";
-    const std::string default1 = "Number of nodes; default: the degree of the space plus one.";
-    static const std::vector<CatalogItem> all = {
-        {"gauss",
-         "Gauss",
-         "Gauss-Legendre: n nodes inside the step, exact to degree 2n - 1.",
-         {count("nodes", "nodes", 1, default0), panels},
-         {},
-         ""},
-        {"lobatto",
-         "Lobatto",
-         "Gauss-Lobatto: both ends are nodes, exact to degree 2n - 3.",
-         {count("nodes", "nodes", 2, default1), panels},
-         {},
-         ""},
-        {"radau",
-         "Radau",
-         "Gauss-Radau: one end is a node, exact to degree 2n - 2; not symmetric.",
-         {count("nodes", "nodes", 1, default0), side(), panels},
-         {},
-         ""},
-        {"clenshaw-curtis",
-         "Clenshaw-Curtis",
-         "Chebyshev extrema: both ends are nodes, exact to degree n - 1 (n for odd n).",
-         {count("nodes", "nodes", 2, default1), panels},
-         {},
-         ""},
-        {"midpoint",
-         "midpoint",
-         "The middle of the step, or of each of several equal panels.",
-         {panels},
-         {},
-         ""},
-        {"trapezoid",
-         "trapezoid",
-         "The two ends of the step, or of each of several equal panels.",
-         {panels},
-         {},
-         ""},
-        {"exact",
-         "exact",
-         "The integral itself, where it is known: wave functions in three-level form.",
-         {},
-         {},
-         ""},
-        {"filon-lobatto",
-         "Filon-Lobatto",
-         "For oscillatory spaces: Lobatto's nodes times equally spaced phases, exact for each harmonic; the "
-         "cost does not "
-         "depend on the frequency.",
-         {filonNodes(2), phases()},
-         {},
-         "an oscillatory space"},
-        {"filon-gauss",
-         "Filon-Gauss",
-         "The same on Gauss' nodes: exact to a higher degree where nothing oscillates, and less "
-         "accurate by a factor step * frequency where it does.",
-         {filonNodes(1), phases()},
-         {},
-         "an oscillatory space"},
-        {"auto",
-         "automatic",
-         "Chosen for the space: Gauss with as many nodes as the degree; for an oscillatory space the cheaper "
-         "of Filon-Lobatto "
-         "and 24 Gauss points a period, Filon from some three periods a step on.",
-         {},
-         {},
-         ""},
-    };
+    static const std::vector<CatalogItem> all = [] {
+        std::vector<CatalogItem> items;
+        for (const RuleEntry* e : rulesByPlace()) items.push_back(e->item);
+        return items;
+    }();
     return all;
+}
+
+const RuleEntry* findRule(std::string_view id) {
+    for (const RuleEntry& e : ruleEntries())
+        if (e.item.id == id) return &e;
+    return nullptr;
+}
+
+Settings completeRule(const Settings& rule, const RuleDemand& demand) {
+    const RuleEntry* const entry = findRule(rule.type);
+    if (!entry) return rule;
+    Settings complete = rule;
+    for (const FieldInfo& field : entry->item.parameters) {
+        Value value = field.fallback;
+        if (field.key == "nodes" && entry->nodes) value = demand.nodes.value_or(entry->nodes(demand.degree));
+        if (field.key == "panels") value = std::max(1, demand.cells);
+        if (field.key == "phases") value = 4 * demand.harmonic + 4;
+        const auto there = std::find_if(complete.keys.begin(), complete.keys.end(),
+                                        [&](const Value::Member& m) { return m.first == field.key; });
+        if (there == complete.keys.end())
+            complete.keys.emplace_back(field.key, std::move(value));
+        else if (there->second.isNull())
+            there->second = std::move(value);
+    }
+    return complete;
 }
 
 }  // namespace extremal

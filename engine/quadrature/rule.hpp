@@ -31,11 +31,7 @@ Rule<T> gauss(int n);  ///< n >= 1, degree 2n - 1
 template <class T>
 Rule<T> lobatto(int n);  ///< n >= 2, both ends are nodes, degree 2n - 3
 template <class T>
-Rule<T> radau(int n, bool isRight);  ///< n >= 1, one end is a node, degree 2n - 2
-template <class T>
 Rule<T> clenshawCurtis(int n);  ///< n >= 2, Chebyshev extrema, degree n - 1 (n even) or n (n odd)
-template <class T>
-Rule<T> midpoint(int panels);  ///< the middles of equal panels, degree 1; one panel is gauss(1)
 template <class T>
 Rule<T> trapezoid(int panels);  ///< panels + 1 equally spaced nodes, degree 1
 
@@ -51,7 +47,8 @@ Rule<T> merged(const Rule<T>& rule);
 template <class T>
 void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share);
 
-/// The rule that a scene's "quadrature" names; its keys are checked and complete.
+/// The rule that a scene's "quadrature" names (quadrature/catalog.hpp); its keys are checked and complete.
+/// Throws InvalidScene where no rule has the name, or it has no nodes of its own.
 template <class T>
 Rule<T> makeRule(const Settings& quadrature);
 

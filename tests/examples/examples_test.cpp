@@ -6,6 +6,7 @@
 
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/family/scheme.hpp"
+#include "tests/examples/boole.cpp"
 #include "tests/examples/galerkin_fine.cpp"
 #include "tests/examples/quartic_oscillator.cpp"
 #include "tests/examples/trigonometric.cpp"
@@ -69,6 +70,39 @@ private slots:
                  qPrintable(QString::number(q)));
     }
 
+    void ruleHasTheDegreeItClaims() {
+        const RuleEntry entry = rules::boole();
+        for (const int panels : {1, 3}) {
+            const Settings settings = {"boole", {{"panels", panels}}, {}};
+            const auto rule = makeRule<boost::multiprecision::float128>(entry, settings);
+            QCOMPARE(rule.degree, 5);
+            QCOMPARE(makeRule<double>(entry, settings).size(), rule.size());
+            for (int degree = 0; degree <= 6; ++degree) {
+                boost::multiprecision::float128 sum = 0;
+                for (std::size_t i = 0; i < rule.c.size(); ++i) sum += rule.b[i] * pow(rule.c[i], degree);
+                const double error = static_cast<double>(abs(sum * (degree + 1) - 1));
+                QVERIFY2(degree == 6 ? error > 1e-6 : error < 1e-30, qPrintable(QString::number(error)));
+            }
+        }
+    }
+
+    void ruleMakesASchemeWithAnySpace() {
+        // Polynomials of degree 2 have order 4, and the rule of degree 5 keeps it.
+        const Rule<double> rule = makeRule<double>(rules::boole(), {"boole", {{"panels", 1}}, {}});
+        const Table<double> table =
+            makeTable(makeSpace({"polynomial", {{"degree", 2}, {"basis", "lobatto"}}, {}}), rule);
+        const System system = quartic();
+        const auto end = [&](int n) {
+            GalerkinStep<double, 1> integrator(system.mechanics, table, 3.0 / n, {});
+            double q = 1, p = 0;
+            for (int i = 0; i < n; ++i)
+                if (integrator.advance(i * 3.0 / n, &q, &p, {}).outcome != Outcome::converged) return 0.0;
+            return q;
+        };
+        const double finest = end(1280), order = std::log2((end(40) - finest) / (end(80) - finest));
+        QVERIFY2(std::abs(order - 4) < 0.1, qPrintable(QString::number(order)));
+    }
+
     void schemeClaimsAndHasTheOrderOfItsDegree() {
         const Discretization pair = schemes::galerkin_fine().make(2);
         QCOMPARE(describe(pair.space, pair.quadrature).claims.order, 4);
@@ -94,7 +128,7 @@ private slots:
 
     void handbookShowsTheseFiles() {
         const QString page = fileText("resources/handbook/extending.md");
-        for (const char* name : {"quartic_oscillator", "trigonometric", "galerkin_fine", "virial"}) {
+        for (const char* name : {"quartic_oscillator", "trigonometric", "boole", "galerkin_fine", "virial"}) {
             const QString code = fileText(QStringLiteral("tests/examples/%1.cpp").arg(name));
             QVERIFY(!code.isEmpty());
             QVERIFY2(page.contains("```cpp\n" + code + "```"), name);

@@ -5,11 +5,11 @@
 #include <QPainter>
 #include <QRegularExpression>
 #include <QVBoxLayout>
-#include <array>
 #include <cmath>
 
 #include "engine/family/elliptic/elliptic.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/quadrature/catalog.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -20,15 +20,6 @@ namespace extremal {
 
 namespace {
 
-struct RuleColumn {
-    const char *id, *heading, *letter;
-};
-constexpr std::array<RuleColumn, 6> columns = {{{"midpoint", "mid", "M"},
-                                                {"trapezoid", "trap", "T"},
-                                                {"gauss", "Gauss", "G"},
-                                                {"lobatto", "Lob", "L"},
-                                                {"radau", "Rad", "R"},
-                                                {"clenshaw-curtis", "C–C", "C"}}};
 struct SpaceRow {
     const char *id, *heading;
     int degree;
@@ -86,9 +77,8 @@ QString abbreviation(const QString& knownAs) {
 }
 
 QString letterOf(const std::string& rule) {
-    for (const RuleColumn& c : columns)
-        if (rule == c.id) return QString::fromUtf8(c.letter);
-    return {};
+    const RuleEntry* const entry = findRule(rule);
+    return entry ? QString::fromStdString(entry->letter) : QString();
 }
 
 }  // namespace
@@ -228,16 +218,18 @@ void Discretizer::fill(const std::string& space, bool isPeriodic) {
     if (isOfElements) return fillElements(*grid);
     const std::vector<SpaceRow> rows = rowsFor(space, isPeriodic);
     int column = 1;
-    for (const RuleColumn& rule : columns) {
-        QLabel* heading = makeLabel(QString::fromUtf8(rule.heading), "caption");
+    for (const RuleEntry* rule : rulesByPlace()) {
+        if (rule->heading.empty()) continue;
+        const std::string& id = rule->item.id;
+        QLabel* heading = makeLabel(QString::fromStdString(rule->heading), "caption");
         heading->setAlignment(Qt::AlignHCenter);
-        heading->setToolTip(ruleTitle(rule.id));
+        heading->setToolTip(ruleTitle(id));
         grid->addWidget(heading, 0, column);
         grid->setColumnStretch(column, 1);
         int row = 1;
         for (const SpaceRow& line : rows) {
             const Settings ofRow = spaceOfRow(line);
-            addCell(*grid, ofRow, ruleFor(rule.id, ofRow), row++, column);
+            addCell(*grid, ofRow, ruleFor(id, ofRow), row++, column);
         }
         ++column;
     }

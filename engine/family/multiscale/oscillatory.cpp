@@ -5,9 +5,10 @@
 #include <limits>
 #include <numbers>
 
-#include "engine/family/multiscale/oscillatory_table.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/multiscale/oscillatory_table.hpp"
+#include "engine/quadrature/catalog.hpp"
 
 namespace extremal {
 namespace {
@@ -196,7 +197,8 @@ Settings resolvingRule(double z, int degree) {
 
 bool isOscillatory(const Settings& space) { return space.type == "oscillatory"; }
 bool isFilon(const Settings& quadrature) {
-    return quadrature.type == "filon-lobatto" || quadrature.type == "filon-gauss";
+    const RuleEntry* const rule = findRule(quadrature.type);
+    return rule && rule->filon;
 }
 
 std::vector<OscillatoryBasis> oscillatoryBases(const Settings& space, const System& system) {
@@ -240,7 +242,7 @@ std::vector<Table<double>> oscillatoryTables(const System& system, const Discret
                                ": the phase after a step is lost to round-off beyond 1e15",
                            "a smaller step");
     const Settings rule = ruleFor(pair.quadrature, Extent(bases), z);
-    const FilonNodes nodes = rule.type == "filon-gauss" ? FilonNodes::gauss : FilonNodes::lobatto;
+    const FilonNodes nodes = isFilon(rule) ? *findRule(rule.type)->filon : FilonNodes::lobatto;
     std::vector<Table<double>> tables;
     for (std::size_t k = 0; k < bases.size(); ++k) {
         const auto same =
@@ -261,34 +263,22 @@ Settings completeOscillatoryRule(const Settings& space, const Settings& quadratu
     Settings q = quadrature;
     if (q.type.empty()) q.type = "auto";
     if (q.type == "auto") return {"auto", {}, {}};
-    int nodes = panelNodes, phases = 0;
+    RuleDemand demand;
+    if (!isFilon(q)) demand.nodes = panelNodes;
     try {
         const Extent extent(mentioned(space));
-        if (isFilon(q)) nodes = extent.filonNodes();
-        phases = extent.filonPhases();
+        demand.degree = extent.degree;
+        demand.harmonic = extent.highest();
     } catch (const InvalidScene&) {
         // Wrong keys are reported where the pair is made.
     }
-    const auto set = [&](const char* key, Value value) {
-        for (auto& member : q.keys)
-            if (member.first == key) {
-                if (member.second.isNull()) member.second = std::move(value);
-                return;
-            }
-        q.keys.emplace_back(key, std::move(value));
-    };
-    if (q.type != "midpoint" && q.type != "trapezoid") set("nodes", nodes);
-    if (q.type == "radau") set("end", "right");
-    if (isFilon(q))
-        set("phases", phases);
-    else
-        set("panels", 1.0);
-    return q;
+    return completeRule(q, demand);
 }
 
 PairProperties describeOscillatory(const Settings& space, const Settings& quadrature) {
     PairProperties p;
-    p.claims.isSymmetric = quadrature.type != "radau";
+    const RuleEntry* const rule = findRule(quadrature.type);
+    p.claims.isSymmetric = rule && rule->isSymmetric;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"momentum"};
     p.stabilityLimit = std::numeric_limits<double>::infinity();

@@ -2,6 +2,8 @@
 
 #include <boost/multiprecision/float128.hpp>
 
+#include "engine/core/problem.hpp"
+#include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "tests/tools/test.hpp"
 
@@ -9,18 +11,52 @@ namespace extremal::rule_test {
 
 using Quad = boost::multiprecision::float128;
 
+namespace {
+
+/// Every rule of the catalogue that has nodes, with n of them where it says how many, at every choice it
+/// offers.
+std::vector<Settings> rulesWith(int n) {
+    std::vector<Settings> all;
+    for (const RuleEntry& entry : ruleEntries()) {
+        if (!entry.make) continue;
+        std::vector<Settings> variants{{entry.item.id, {}, {}}};
+        for (const FieldInfo& field : entry.item.parameters) {
+            if (field.key == "nodes" && n < field.min) variants.clear();
+            if (field.key == "nodes")
+                for (Settings& variant : variants) variant.keys.emplace_back("nodes", n);
+            std::vector<Settings> chosen;
+            for (const std::string& choice : field.choices)
+                for (Settings variant : variants) {
+                    variant.keys.emplace_back(field.key, choice);
+                    chosen.push_back(variant);
+                }
+            if (!field.choices.empty()) variants = chosen;
+        }
+        all.insert(all.end(), variants.begin(), variants.end());
+    }
+    return all;
+}
+
+Problem problemOf(const std::string& rule) {
+    try {
+        (void)makeRule<double>({rule, {{"nodes", 2}}, {}});
+    } catch (const InvalidScene& e) {
+        return e.problems().front();
+    }
+    return {};
+}
+
+}  // namespace
+
 class RuleTest : public QObject {
     Q_OBJECT
     template <class F>
     void forAll(F f) {
-        for (const int n : {1, 2, 3, 5, 8, 13, 24, 60, 200}) {
-            f(gauss<double>(n), gauss<Quad>(n), "gauss");
-            f(radau<double>(n, true), radau<Quad>(n, true), "radau right");
-            f(radau<double>(n, false), radau<Quad>(n, false), "radau left");
-            if (n < 2) continue;
-            f(lobatto<double>(n), lobatto<Quad>(n), "lobatto");
-            f(clenshawCurtis<double>(n), clenshawCurtis<Quad>(n), "clenshaw-curtis");
-        }
+        for (const int n : {1, 2, 3, 5, 8, 13, 24, 60, 200})
+            for (const Settings& rule : rulesWith(n)) {
+                const std::string name = rule.type + " " + rule.text("end");
+                f(makeRule<double>(rule), makeRule<Quad>(rule), name.c_str());
+            }
     }
 
 private slots:
@@ -39,9 +75,13 @@ private slots:
     }
     void polynomialsAreExactToTheDegreeAndNotBeyond() {
         for (const int n : {1, 2, 3, 4, 5, 6, 7}) {
-            std::vector<Rule<Quad>> rules = {gauss<Quad>(n), radau<Quad>(n, true), radau<Quad>(n, false),
-                                             midpoint<Quad>(n), trapezoid<Quad>(n)};
-            if (n >= 2) rules.insert(rules.end(), {lobatto<Quad>(n), clenshawCurtis<Quad>(n)});
+            std::vector<Rule<Quad>> rules = {trapezoid<Quad>(n)};
+            for (Settings rule : rulesWith(n))
+                for (const int panels : {1, 2}) {
+                    Settings repeated = rule;
+                    repeated.keys.emplace_back("panels", panels);
+                    rules.push_back(makeRule<Quad>(repeated));
+                }
             for (const Rule<Quad>& rule : rules)
                 for (int degree = 0; degree <= rule.degree + 1; ++degree) {
                     Quad sum = 0;
@@ -50,16 +90,45 @@ private slots:
                     if (degree <= rule.degree)
                         QVERIFY(error < 1e-31);
                     else
-                        QVERIFY(error > 1e-12);
+                        QVERIFY(error > 1e-13);
                 }
         }
+    }
+    void catalogueHasTheRulesOfTheContract() {
+        for (const char* id : {"gauss", "lobatto", "radau", "clenshaw-curtis", "midpoint", "trapezoid",
+                               "exact", "filon-lobatto", "filon-gauss", "auto"})
+            QVERIFY2(findRule(id), id);
+        QVERIFY(!findRule("gaus"));
+    }
+    void unknownRuleIsAnErrorThatNamesTheNearest() {
+        const Problem problem = problemOf("gaus");
+        QCOMPARE(problem.pointer, std::string("/quadrature/type"));
+        QVERIFY2(problem.hint.find("\"gauss\"") != std::string::npos, problem.hint.c_str());
+    }
+    void ruleWithoutNodesOfItsOwnIsAnErrorWithARemedy() {
+        for (const RuleEntry& entry : ruleEntries()) {
+            if (entry.make) continue;
+            QVERIFY2(!entry.refusal.empty() && !entry.hint.empty(), entry.item.id.c_str());
+            QCOMPARE(problemOf(entry.item.id).message, entry.refusal);
+        }
+    }
+    void defaultsOfARuleFollowTheSpace() {
+        const auto complete = [](const char* id) { return completeRule({id, {}, {}}, {3, 2, 3}); };
+        QCOMPARE(complete("gauss"), (Settings{"gauss", {{"nodes", 3}, {"panels", 2}}, {}}));
+        QCOMPARE(complete("lobatto").integer("nodes"), 4);
+        QCOMPARE(complete("radau"), (Settings{"radau", {{"nodes", 3}, {"end", "right"}, {"panels", 2}}, {}}));
+        QCOMPARE(complete("midpoint"), (Settings{"midpoint", {{"panels", 2}}, {}}));
+        QCOMPARE(complete("filon-gauss"), (Settings{"filon-gauss", {{"nodes", 5}, {"phases", 16}}, {}}));
+        QCOMPARE(completeRule({"gauss", {{"nodes", 7}}, {}}, {3}).integer("nodes"), 7);
+        QCOMPARE(completeRule({"gauss", {{"nodes", nullptr}}, {}}, {3}).integer("nodes"), 3);
+        QCOMPARE(completeRule({"gauss", {}, {}}, {3, 1, 1, 12}).integer("nodes"), 12);
     }
     void compositeRulesAreAsExactAsTheirRule() {
         const Rule<double> three = composite(lobatto<double>(3), 3);
         QCOMPARE(three.size(), 9);
         QCOMPARE(merged(three).size(), 7);
-        for (const Rule<double>& rule :
-             {three, merged(three), composite(gauss<double>(2), 5), composite(radau<double>(2, true), 2)})
+        for (const Rule<double>& rule : {three, merged(three), composite(gauss<double>(2), 5),
+                                         composite(makeRule<double>({"radau", {{"nodes", 2}}, {}}), 2)})
             for (int degree = 0; degree <= rule.degree; ++degree) {
                 double sum = 0;
                 for (std::size_t i = 0; i < rule.c.size(); ++i)
