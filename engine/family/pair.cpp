@@ -16,6 +16,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal {
@@ -179,6 +180,13 @@ private:
 }  // namespace
 
 PairProperties describe(const Settings& space, const Settings& quadrature) {
+    if (isTensorRule(quadrature)) {
+        PairProperties p;
+        p.refusal = findRule(quadrature.type)->refusal;
+        p.hint = findRule(quadrature.type)->hint;
+        p.shortName = "-";
+        return p;
+    }
     if (!hasOneTable(space)) return familyOf(space)->describe(space, quadrature);
     static Memory<PairProperties> known;
     return known.get(space, quadrature, [&] { return makeDescription(space, quadrature); });
@@ -196,6 +204,7 @@ Table<double> tableOf(const Settings& space, const Settings& quadrature) {
 }
 
 Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
+    if (isTensorRule(quadrature)) return quadrature;  // complete since it was read
     if (const PairFamily* family = familyOf(space); family && family->complete)
         return family->complete(space, quadrature);
     Settings q = quadrature;

@@ -8,6 +8,7 @@
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
@@ -57,9 +58,14 @@ std::string joinPointer(const std::vector<std::string>& place) {
 
 std::vector<std::string> schemeKeys(const Value& object, const std::vector<std::string>& inScheme) {
     if (inScheme.empty()) return format::scheme;
+    if (inScheme[0] == "quadrature") {
+        const bool isTensor =
+            inScheme.size() == 1 && (object.find(tensorParts[0]) || object.find(tensorParts[1]));
+        return isTensor ? std::vector<std::string>{"type", tensorParts[0], tensorParts[1]}
+                        : typedKeys(object, quadratureCatalog());
+    }
     if (inScheme.size() > 1) return {};
     if (inScheme[0] == "space") return typedKeys(object, spaceCatalog());
-    if (inScheme[0] == "quadrature") return typedKeys(object, quadratureCatalog());
     if (inScheme[0] == "baseline") return typedKeys(object, baselineCatalog());
     if (inScheme[0] == "composition") return typedKeys(object, compositionCatalog());
     return inScheme[0] == "solver" ? format::solver : std::vector<std::string>{};

@@ -24,6 +24,11 @@ void readStart(Reader& reader, const System& system, Scene& scene);
 /// each of scene.schemes stands.
 std::vector<std::size_t> readSchemes(Reader& reader, const Value& document, Scene& scene);
 std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const std::string& pointer);
+/// The rule of a scheme, complete for its space; null: not given.
+std::optional<Settings> readRule(Reader& reader, const Value* given, const std::string& pointer,
+                                 const Settings& space);
+/// The rule as a scene writes it: a tensor product has no type.
+Value ruleValue(const Settings& rule);
 /// Gives the schemes without a label one made from their parts, unique among all.
 void fillLabels(std::vector<SchemeSpec>& schemes);
 

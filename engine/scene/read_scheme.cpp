@@ -6,7 +6,7 @@
 #include "engine/core/text.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/family/scheme.hpp"
-#include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
@@ -29,28 +29,14 @@ std::vector<const CatalogItem*> itemsOf(const Entries& entries) {
     return items;
 }
 
-/// What a rule leaves to the space, as its number of nodes.
-std::optional<Value> fitToSpace(std::string_view rule, std::string_view key, const Settings& space) {
-    const Settings fitting = completeQuadrature(space, {std::string(rule), {}, {}});
-    const Value* value = fitting.find(key);
-    return value ? std::optional(*value) : std::nullopt;
-}
-
-bool isAutomatic(const Value* quadrature) {
-    if (!quadrature) return true;
-    const Value* type = quadrature->isString() ? quadrature : quadrature->find("type");
-    return type && *type == Value("auto");
-}
-
 void readSpaceAndQuadrature(Reader& reader, const Value& scheme, const std::string& pointer,
                             SchemeSpec& spec) {
     const auto space = readSettings(reader, *scheme.find("space"), childPointer(pointer, "space"), "space",
                                     itemsOf(spaceCatalog()));
     if (space) spec.space = *space;
-    const Value automatic("auto"), *given = scheme.find("quadrature");
-    const auto rule = readSettings(reader, given ? *given : automatic, childPointer(pointer, "quadrature"),
-                                   "quadrature", itemsOf(quadratureCatalog()), fitToSpace, spec.space);
-    if (rule) spec.quadrature = isAutomatic(given) ? completeQuadrature(spec.space, {}) : *rule;
+    const auto rule =
+        readRule(reader, scheme.find("quadrature"), childPointer(pointer, "quadrature"), spec.space);
+    if (rule) spec.quadrature = *rule;
 }
 
 std::vector<std::string> schemeNames() {
@@ -214,7 +200,11 @@ std::string innerLabel(const SchemeSpec& scheme) {
     if (scheme.kind == SchemeSpec::Kind::baseline) return text(scheme.baseline, "stages");
     std::string basis = scheme.space.text("basis");
     basis = basis.empty() || basis == "lobatto" ? "" : " " + basis;
-    return text(scheme.space, "degree") + basis + ", " + text(scheme.quadrature, "nodes");
+    std::string rule = text(scheme.quadrature, "nodes");
+    if (isTensorRule(scheme.quadrature))
+        rule = text(tensorPart(scheme.quadrature, "space"), "nodes") + " x " +
+               text(tensorPart(scheme.quadrature, "time"), "nodes");
+    return text(scheme.space, "degree") + basis + ", " + rule;
 }
 
 std::string partsLabel(const SchemeSpec& scheme) {

@@ -11,6 +11,7 @@
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal {
@@ -133,6 +134,21 @@ Value typedChoice(const Entries& entries) {
     return anyOf(std::move(choices));
 }
 
+/// One rule, or one for each direction.
+Value quadratureChoice() {
+    Value product{Value::Object{}};
+    for (const char* direction : tensorParts) product.set(direction, reference("rule"));
+    return anyOf({reference("rule"), object(product, {tensorParts[0], tensorParts[1]},
+                                            findRule("product")->item.description.c_str())});
+}
+
+Value ruleDefinition() {
+    std::vector<CatalogItem> single;
+    for (const CatalogItem& item : quadratureCatalog())
+        if (!isTensorRule({item.id, {}, {}})) single.push_back(item);
+    return typedChoice(single);
+}
+
 Value namedSchemes() {
     std::string pattern;
     for (const SchemeEntry& entry : schemeCatalog()) {
@@ -156,7 +172,7 @@ Value schemeDefinition() {
     p.set("step", reference("number"));
     p.set("tolerance", reference("number"));
     p.set("space", typedChoice(spaceCatalog()));
-    p.set("quadrature", typedChoice(quadratureCatalog()));
+    p.set("quadrature", quadratureChoice());
     p.set("baseline", typedChoice(baselineCatalog()));
     p.set("scheme", namedSchemes());
     p.set("composition", typedChoice(compositionCatalog()));
@@ -197,6 +213,7 @@ Value definitions() {
     Value d{Value::Object{}};
     d.set("number", number);
     d.set("vector", anyOf({arrayOf(reference("number")), byName}));
+    d.set("rule", ruleDefinition());
     d.set("scheme", schemeDefinition());
     return d;
 }

@@ -76,7 +76,7 @@ Value schemeValue(const SchemeSpec& scheme) {
     switch (scheme.kind) {
         case SchemeSpec::Kind::pair:
             value.set("space", settingsValue(scheme.space));
-            value.set("quadrature", settingsValue(scheme.quadrature));
+            value.set("quadrature", ruleValue(scheme.quadrature));
             break;
         case SchemeSpec::Kind::baseline:
             value.set("baseline", scheme.baseline.keys.empty() ? Value(scheme.baseline.type)

@@ -6,6 +6,7 @@
 #include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/space/catalog.hpp"
 
 namespace extremal::tools {
@@ -55,6 +56,7 @@ std::string pairsTable() {
     std::string text = "\n| degree |";
     std::vector<std::string> rules;
     for (const CatalogItem& rule : quadratureCatalog()) {
+        if (isTensorRule({rule.id, {}, {}})) continue;  // of one direction each
         const Settings space{"polynomial", {{"degree", 2.0}, {"basis", "lobatto"}}, {}};
         const Settings complete = completeQuadrature(space, {rule.id, {}, {}});
         if (complete.type != rule.id) continue;  // "auto" is one of the others

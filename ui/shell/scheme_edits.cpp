@@ -9,6 +9,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/space/catalog.hpp"
@@ -266,6 +267,7 @@ Settings spaceOf(const std::string& id, int degree) {
 
 std::string fittingRule(const std::string& rule, const Settings& space) {
     if (isElliptic(space)) return "auto";
+    if (isTensorRule({rule, {}, {}})) return fittingRule("gauss", space);
     const bool isFast = space.type == "oscillatory", isForFast = rule == "auto" || rule.starts_with("filon-");
     if (isFast) return isForFast || rule == "gauss" || rule == "lobatto" ? rule : "auto";
     return isForFast ? "gauss" : rule;
