@@ -35,7 +35,7 @@ public:
     };
 
     BodyMethod(const System& system, const Clock& clock)
-        : body_(system.body),
+        : body_(system.body()),
           clock_(clock),
           rate_(system.rate),
           size_(static_cast<std::size_t>(body_.stateSize())) {

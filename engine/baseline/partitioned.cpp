@@ -142,7 +142,7 @@ BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage
     e.item = std::move(item);
     e.stabilityLimit = 2;
     e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
-        return makePartitioned(system.mechanics, options.clock, stages);
+        return makePartitioned(system.mechanics(), options.clock, stages);
     };
     return e;
 }

@@ -34,14 +34,15 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
               Claims{splitting.order, true, true, {"momentum"}},
               splitting.isNystrom ? "a separable Lagrangian" : ""};
     e.applies = [isNystrom = splitting.isNystrom](const System& system) {
-        return system.hasWave() || (isNystrom ? system.mechanics.isSeparable : system.hasMechanics());
+        if (isWave(system)) return true;
+        return isMechanical(system) && (!isNystrom || system.mechanics().isSeparable);
     };
     // At z = pi these products come near -1 and leave the unit circle in intervals as short as 0.001.
     e.stabilityLimit = firstInstability([&](double z) { return halfTrace(splitting.stages, z); }, 0.0005);
     e.make = [splitting](const System& system, const BaselineOptions& options) {
-        if (system.hasWave()) return makeWaveSplitting(system, options.clock, splitting);
-        return makePartitioned(system.mechanics, options.clock,
-                               partitionedStages(splitting, system.mechanics.isSeparable));
+        if (isWave(system)) return makeWaveSplitting(system, options.clock, splitting);
+        return makePartitioned(system.mechanics(), options.clock,
+                               partitionedStages(splitting, system.mechanics().isSeparable));
     };
     return e;
 }

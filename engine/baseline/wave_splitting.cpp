@@ -94,7 +94,7 @@ std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock&
                                               const Splitting& splitting) {
     requireSplit(system, "/baseline", "split-step",
                  "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
-    return std::make_unique<WaveSplitting>(system.wave, clock, splitting);
+    return std::make_unique<WaveSplitting>(system.hamiltonian(), clock, splitting);
 }
 
 BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
@@ -106,7 +106,7 @@ BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::stri
               {},
               Claims{splitting.order, true, true, {"norm"}},
               "a wave function"};
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         return makeWaveSplitting(system, options.clock, splitting);

@@ -244,7 +244,7 @@ bool isPairFor(const Discretization& pair, const System& system) {
 
 Discretization settled(const Discretization& pair, const System& system, const State& start) {
     Discretization known = pair;
-    if (isOscillatory(pair.space) && pair.space.text("omega") == "estimate" && system.hasMechanics())
+    if (isOscillatory(pair.space) && pair.space.text("omega") == "estimate" && isMechanical(system))
         for (auto& [key, value] : known.space.keys)
             if (key == "omega") value = estimateFrequency(system, start);
     return known;
@@ -252,12 +252,12 @@ Discretization settled(const Discretization& pair, const System& system, const S
 
 Discretization trustedPair(const System& system) {
     Discretization pair;
-    if (system.hasBody()) {
+    if (isBody(system)) {
         pair.space = {"lie-polynomial", {{"degree", 8.0}, {"symmetric", false}, {"reduced", true}}, {}};
         pair.quadrature = {"gauss", {{"nodes", 8.0}}, {}};
         return pair;
     }
-    if (system.hasWave()) {
+    if (isWave(system)) {
         pair.space = {"fourier",
                       {{"degree", 8.0}, {"energy_shift", "mean"}, {"form", "one-step"}, {"start", "gauss"}},
                       {}};
@@ -271,15 +271,15 @@ Discretization trustedPair(const System& system) {
 }
 
 std::string trustedName(const System& system) {
-    if (system.hasWave()) return "Gauss of degree 8";
-    return system.hasBody() ? "Lie group Gauss of degree 8" : "Gauss collocation of degree 12";
+    if (isWave(system)) return "Gauss of degree 8";
+    return isBody(system) ? "Lie group Gauss of degree 8" : "Gauss collocation of degree 12";
 }
 
 double highestFrequency(const System& system, const State& state) {
     if (system.frequency) return system.frequency(state.t, state.x.data());
-    if (!system.hasMechanics()) return 0;
+    if (!isMechanical(system)) return 0;
     const int d = system.dimension();
-    const auto& m = system.mechanics;
+    const auto& m = system.mechanics();
     Eigen::VectorXd v(d), gradient(2 * d);
     Eigen::MatrixXd H(2 * d, 2 * d);
     const double* q = state.x.data();

@@ -24,7 +24,8 @@ Figure columnFigure(const FigureContext& context, const std::string& x, const st
         addAgainstTime(figure, context, y, Take::value);
     else
         addCurves(figure, context, x, y);
-    if (context.system && context.system->elliptic && y == "u_exact" && !figure.series.empty()) {
+    if (context.system && kindOf<BoundaryProblem>(*context.system) && y == "u_exact" &&
+        !figure.series.empty()) {
         figure.y.title = "u";
         figure.series.resize(1);  // the same for all schemes
         figure.series[0].label = "exact solution";

@@ -152,8 +152,23 @@ double bodyPotential(const BodyMechanics<double>& body, const double* x) {
     return value;
 }
 
-void describeBody(System& system) {
-    const BodyMechanics<double> body = system.body;
+void addCasimir(System& system, EnergyFunction casimir) {
+    system.measures.push_back({"casimir", {{"casimir", "", "C", ""}}, -1, [casimir](const State&) {
+                                   return [casimir](double t, const double* x, double* values) {
+                                       values[0] = casimir(t, x);
+                                   };
+                               }});
+}
+
+void describeBody(System& system, const Body& body) {
+    system.kind = body;
+    system.measures.push_back(
+        {"orthogonality", {{"orthogonality", "", "|RᵀR - 1|", ""}}, -1, [](const State&) {
+             return [](double, const double* q, double* values) {
+                 const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+                 values[0] = std::sqrt(3.0) * std::abs(square - 1) * (square + 1);
+             };
+         }});
     system.timeUnit = "s";
     system.energyUnit = "J";
     system.columns = columnsOf(body);

@@ -9,10 +9,16 @@
 
 namespace extremal {
 
-/// Fills in what follows from system.body, which must be set (state: model/body.hpp). The error is the angle
-/// of R_ref^T R in rad; error.p the norm of the difference of the momenta in the body; on SE(3)
-/// error.position.
-void describeBody(System& system);
+/// Makes the system that of a body (state: model/body.hpp) and fills in what follows from it. The error is
+/// the angle of R_ref^T R in rad; error.p the norm of the difference of the momenta in the body; on SE(3)
+/// error.position. Its measure "orthogonality" is how far the attitude is from a rotation: |R^T R - 1|
+/// (Frobenius) of the matrix that the quaternion gives as it stands, which is the square of its length times
+/// a rotation.
+void describeBody(System& system, const Body& body);
+
+/// Adds the measure "casimir": the Casimir of the body's bracket, kept by every exact solution; schemes that
+/// rotate the momentum keep it too.
+void addCasimir(System& system, EnergyFunction casimir);
 
 /// Keys of /initial: attitude, and exactly one of momentum and omega, in body axes; on SE(3) position, and at
 /// most one of velocity and linear_momentum, in space axes.

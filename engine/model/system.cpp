@@ -5,6 +5,12 @@
 
 namespace extremal {
 
+const Measure* measureOf(const System& system, std::string_view observable) {
+    const auto found = std::find_if(system.measures.begin(), system.measures.end(),
+                                    [&](const Measure& m) { return m.observable == observable; });
+    return found == system.measures.end() ? nullptr : &*found;
+}
+
 std::vector<Quantity> stateColumns(const System& system) {
     if (!system.columns.empty()) return system.columns;
     std::vector<Quantity> columns;
@@ -17,7 +23,8 @@ std::vector<Quantity> stateColumns(const System& system) {
 
 EnergyFunction energyOf(const System& system) {
     if (system.energy) return system.energy;
-    const Mechanics<double> m = system.mechanics;
+    if (!isMechanical(system)) return {};
+    const Mechanics<double> m = system.mechanics();
     return [m](double t, const double* x) { return m.energy(m.model.get(), t, x, x + m.dimension); };
 }
 
@@ -42,7 +49,8 @@ ErrorMeasure errorMeasure(const System& system, const State& initial) {
 
 bool rateOf(const System& system, double t, const double* x, double* dx) {
     if (system.rate) return system.rate(t, x, dx);
-    const Mechanics<double>& m = system.mechanics;
+    if (!isMechanical(system)) return false;
+    const Mechanics<double>& m = system.mechanics();
     return m.flow && m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
 }
 

@@ -13,6 +13,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "engine/core/catalog.hpp"
@@ -75,6 +77,31 @@ struct FieldSampling {
 };
 
 class Hamiltonian;
+struct EllipticProblem;
+
+/// What kind of problem a system is: what schemes are made for. Families and baselines ask for it; whoever
+/// shows, measures or writes a system asks for the capabilities of System below.
+using Mechanical = Mechanics<double>;  ///< a Lagrangian in coordinates: x = (q, p)
+using Body = BodyMechanics<double>;    ///< a Lagrangian on a group
+/// A wave function: the operator that moves it (model/wave/hamiltonian.hpp).
+struct Wave {
+    std::shared_ptr<const Hamiltonian> hamiltonian;
+};
+/// No motion, but a boundary-value problem along x (model/elliptic.hpp).
+struct BoundaryProblem {
+    std::shared_ptr<const EllipticProblem> problem;
+};
+using SystemKind = std::variant<std::monostate, Mechanical, Body, Wave, BoundaryProblem>;
+
+/// What a system measures of its own states, for the observable of that id.
+struct Measure {
+    std::string observable;  ///< "norm"
+    std::vector<Quantity> columns;
+    int extreme = -1;  ///< the column that is 0 where all is well; -1: none
+    /// One value per column at (t, x). The function may keep buffers: each run has its own.
+    using Evaluate = std::function<void(double t, const double* x, double* values)>;
+    std::function<Evaluate(const State& initial)> bind;
+};
 
 /// A fast oscillation that a system knows of itself.
 struct FastMotion {
@@ -102,29 +129,21 @@ struct ReducedModel {
     std::function<ReducedMotion(const State& initial)> make;
 };
 
-struct EllipticProblem;
-
 struct System {
     std::string id;
     std::string independent = "t";  ///< what the schemes go along: time, or a place
     std::string timeUnit;           ///< "s", or empty if dimensionless
     std::string energyUnit;
 
-    // Systems with coordinates: x = (q, p).
-    std::vector<Coordinate> coordinates;
-    Mechanics<double> mechanics;
-
-    /// Rigid bodies.
-    BodyMechanics<double> body;
-
-    /// Wave functions: the operator that moves the state (wave/hamiltonian.hpp).
-    std::shared_ptr<const Hamiltonian> wave;
+    SystemKind kind;
+    std::vector<Coordinate> coordinates;  ///< of systems with coordinates: x = (q, p)
 
     // Systems with another state.
     std::vector<Quantity> columns;  ///< what the first entries of x are: the state columns of every row
     EnergyFunction energy;
-    EnergyFunction casimir;  ///< of the bracket; kept by exact solutions
-    ErrorMeasure error;      ///< evaluate empty: the usual one of coordinates
+    std::vector<Measure> measures;  ///< what else it measures of its states
+    ErrorMeasure phaseError;        ///< of the phase, where a state has one; evaluate empty: none
+    ErrorMeasure error;             ///< evaluate empty: the usual one of coordinates
     std::function<bool(double t, const double* x, double* dx)> rate;  ///< xdot, to draw what is between rows
     std::function<double(double t, const double* x)>
         frequency;  ///< of the fastest motion, rad per unit of time
@@ -136,9 +155,6 @@ struct System {
     /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be
     /// empty.
     std::function<std::string(const double* x)> caution;
-
-    /// No motion, but a boundary-value problem along x (elliptic.hpp).
-    std::shared_ptr<const EllipticProblem> elliptic;
 
     FastMotion fast;
     std::vector<ReducedModel> reduced;
@@ -158,14 +174,26 @@ struct System {
     std::vector<std::string> timePlots;
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
-    bool hasMechanics() const { return mechanics.dimension > 0; }
-    bool hasBody() const { return body.dimension > 0; }
-    bool hasWave() const { return wave != nullptr; }
+    // What a system of the kind is moved by; others have none (std::bad_variant_access).
+    const Mechanical& mechanics() const { return std::get<Mechanical>(kind); }
+    const Body& body() const { return std::get<Body>(kind); }
+    const std::shared_ptr<const Hamiltonian>& hamiltonian() const { return std::get<Wave>(kind).hamiltonian; }
 };
+
+/// The system as one of a kind, or null: kindOf<Body>(system).
+template <class Kind>
+const Kind* kindOf(const System& system) {
+    return std::get_if<Kind>(&system.kind);
+}
+inline bool isMechanical(const System& system) { return kindOf<Mechanical>(system) != nullptr; }
+inline bool isBody(const System& system) { return kindOf<Body>(system) != nullptr; }
+inline bool isWave(const System& system) { return kindOf<Wave>(system) != nullptr; }
+/// The measure for an observable, or null.
+const Measure* measureOf(const System& system, std::string_view observable);
 
 /// Names of the first entries of the state: the system's own, else q.<name>, then p.<name>.
 std::vector<Quantity> stateColumns(const System& system);
-/// The energy, of the system itself or of its mechanics. It keeps what it needs.
+/// The energy, of the system itself or of its mechanics; empty where there is none. It keeps what it needs.
 EnergyFunction energyOf(const System& system);
 /// The usual measure of d coordinates: |q - q_ref|, |p - p_ref| and each q_i - q_ref,i.
 inline void coordinateError(std::size_t d, const double* x, const double* reference, double* values) {
@@ -206,7 +234,7 @@ const ModelEntry* findModel(std::string_view id);
 /// coordinates.
 template <class Entry>
 bool appliesTo(const Entry& entry, const System& system) {
-    return entry.applies ? entry.applies(system) : system.hasMechanics();
+    return entry.applies ? entry.applies(system) : isMechanical(system);
 }
 
 }  // namespace extremal

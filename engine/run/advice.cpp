@@ -19,7 +19,7 @@ std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, co
         if (const std::string caution = describe(pair->space, pair->quadrature).caution; !caution.empty())
             return "The scheme " + caution + ".";
     // A state that has blown up says nothing of frequencies: the start counts as well.
-    if (system.hasWave() && outcome == Outcome::notFinite)
+    if (isWave(system) && outcome == Outcome::notFinite)
         return "Beyond its stability limit a three-level scheme grows without bound. Try a smaller step.";
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
     const double limit = stabilityLimitOf(scheme);

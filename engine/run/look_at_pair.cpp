@@ -11,7 +11,7 @@ bool showsView(const Scene& scene, const char* id) {
 }
 
 std::shared_ptr<ExactActions> exactActionsOf(const Scene& scene, const System& system, const State& initial) {
-    if (!system.hasMechanics() || !showsView(scene, "discrete-lagrangian")) return nullptr;
+    if (!isMechanical(system) || !showsView(scene, "discrete-lagrangian")) return nullptr;
     double largest = 0;
     for (const SchemeSpec& s : scene.schemes)
         if (s.isEnabled && pairOf(s)) largest = std::max(largest, 2 * s.step.value);
@@ -21,7 +21,7 @@ std::shared_ptr<ExactActions> exactActionsOf(const Scene& scene, const System& s
 void lookAtPair(SchemeResult& result, const Scene& scene, const System& system, const State& start,
                 ExactActions* exact, const std::stop_token& stop) {
     const auto pair = pairOf(result.spec);
-    if (!pair || !system.hasMechanics() || !isPairFor(*pair, system)) return;
+    if (!pair || !isMechanical(system) || !isPairFor(*pair, system)) return;
     if (showsView(scene, "sparsity"))
         result.pattern =
             std::make_shared<const KktPattern>(kktPattern(system, *pair, start, result.spec.step.value));

@@ -75,12 +75,12 @@ double distance(const ExactSolution& a, const ExactSolution& b, double step, con
     const double length = scene.end.value - scene.start.value;
     const ErrorMeasure measure = errorMeasure(system, initial);
     const long long nodes = std::max(1LL, static_cast<long long>(length / step * (1 + 1e-12)));
-    const auto samples = system.hasWave() ? static_cast<int>(std::min<long long>(most, nodes)) : most;
+    const auto samples = isWave(system) ? static_cast<int>(std::min<long long>(most, nodes)) : most;
     std::vector<double> x(initial.x.size()), y(x), values(measure.columns.size());
     double worst = 0;
     for (int i = 1; i <= samples && !stop.stop_requested(); ++i) {
-        const double t = system.hasWave() ? Clock{initial.t, step}.at(nodes * i / samples)
-                                          : scene.start.value + length * i / samples;
+        const double t = isWave(system) ? Clock{initial.t, step}.at(nodes * i / samples)
+                                        : scene.start.value + length * i / samples;
         a(t, x);
         b(t, y);
         measure.evaluate(x.data(), y.data(), values.data());
@@ -95,7 +95,7 @@ double distance(const ExactSolution& a, const ExactSolution& b, double step, con
 Reference bySeries(const Scene& scene, const System& system, const State& initial,
                    const std::stop_token& stop) {
     const double length = scene.end.value - scene.start.value;
-    const Hamiltonian& h = *system.wave;
+    const Hamiltonian& h = *system.hamiltonian();
     const double products = length * (h.highest() - h.lowest()) / (2 * h.hbar());
     constexpr double perStep = 60;
     const double step = length / std::ceil(std::max(1.0, products / perStep));
@@ -114,7 +114,7 @@ Reference bySeries(const Scene& scene, const System& system, const State& initia
 
 Reference computed(const Scene& scene, const System& system, const State& initial,
                    const std::stop_token& stop) {
-    if (system.hasWave() && system.wave->isPlane() && !system.wave->isTimeDependent())
+    if (isWave(system) && system.hamiltonian()->isPlane() && !system.hamiltonian()->isTimeDependent())
         return bySeries(scene, system, initial, stop);
     constexpr double maxSteps = 2e6;
     const Discretization pair = trustedPair(system);
@@ -242,7 +242,7 @@ Reference makeReference(const Scene& scene, const System& system, const State& i
             for (const double v : initial.x) scale = std::max(scale, std::abs(v));
             Reference reference;
             // An angle that grows by w t cannot be known better than to round-off of w t.
-            const bool turnsInPhase = system.hasBody() || system.hasWave();
+            const bool turnsInPhase = isBody(system) || isWave(system);
             const double turns = turnsInPhase ? 0.25 * highestFrequency(system, initial) *
                                                     (scene.end.value - scene.start.value)
                                               : 0;

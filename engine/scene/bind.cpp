@@ -34,7 +34,7 @@ State initialState(const Scene& scene, const System& system) {
     if (scene.initial.second == Initial::Second::velocity) {
         const std::vector<double> v(state.x.begin() + static_cast<std::ptrdiff_t>(d), state.x.end());
         std::vector<double> gradient(2 * d);
-        const auto& m = system.mechanics;
+        const auto& m = system.mechanics();
         m.gradient(m.model.get(), state.t, state.x.data(), v.data(), gradient.data());
         for (std::size_t i = 0; i < d; ++i) state.x[d + i] = gradient[d + i];
     }

@@ -122,12 +122,12 @@ void checkResonance(Reader& reader, const System& system, const Scene& scene, co
 void checkTurn(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                const Discretization& pair, const std::string& pointer) {
     constexpr double farthest[] = {1.25, 2.25, 3};  // of degrees 2, 3, 4
-    if (!system.hasBody() || pair.space.type != "lie-polynomial" || !scheme.composition.type.empty()) return;
+    if (!isBody(system) || pair.space.type != "lie-polynomial" || !scheme.composition.type.empty()) return;
     const int degree = pair.space.integer("degree");
     if (degree < 2 || degree > 4) return;
     const std::vector<double> x = initialState(scene, system).x;
     double rate = 0;
-    for (std::size_t i = 0; i < 3; ++i) rate = std::hypot(rate, x[4 + i] / system.body.inertia[i]);
+    for (std::size_t i = 0; i < 3; ++i) rate = std::hypot(rate, x[4 + i] / system.body().inertia[i]);
     const double limit = farthest[degree - 2] * (pair.space.flag("symmetric") ? 2 : 1), h = scheme.step.value;
     if (!(h * rate > limit) || !std::isfinite(h * rate)) return;
     const double perUnit = std::pow(10, 1 - std::floor(std::log10(limit / rate)));  // two digits
@@ -170,7 +170,8 @@ std::string durationText(double seconds) {
 void checkCost(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
                const std::string& pointer) {
     constexpr double longest = 60;
-    const double slowestStep = 5e-3 * (system.hasWave() ? std::max(1.0, system.wave->size() / 1024.0) : 1);
+    const double slowestStep =
+        5e-3 * (isWave(system) ? std::max(1.0, system.hamiltonian()->size() / 1024.0) : 1);
     const double duration = scene.end.value - scene.start.value;
     if (!scheme.isEnabled || (!scheme.tolerance && duration / scheme.step.value * slowestStep < longest))
         return;
@@ -191,7 +192,7 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
         return;
     }
-    if (system.hasWave())
+    if (isWave(system))
         checkWaveStep(reader, system, scene, scheme, innerPairOf(scheme), stabilityLimitOf(scheme), pointer);
     else
         checkStability(reader, system, scene, scheme, stabilityLimitOf(scheme), pointer);

@@ -38,8 +38,8 @@ State stateOf(const Scene& scene, const Eigen::VectorXd& p0) {
 ActionBetween<double> solveExact(const Scene& scene, const System& system) {
     Eigen::MatrixXd ends(system.dimension(), 2);
     ends << valuesOf(scene.initial.q), valuesOf(scene.initial.pOrV);
-    return exactDiscreteLagrangian<double>(system.mechanics, scene.start.value, scene.initial.at->value, ends,
-                                           1e-15);
+    return exactDiscreteLagrangian<double>(system.mechanics(), scene.start.value, scene.initial.at->value,
+                                           ends, 1e-15);
 }
 
 ActionBetween<double> exactBetween(const Scene& scene, const System& system) {
@@ -122,7 +122,7 @@ State schemeStart(const Scene& scene, const System& system, const SchemeSpec& sc
     Outcome outcome = Outcome::converged;
     const auto pair = pairOf(scheme);
     if (pair && hasOneTable(pair->space) && n <= mostElements) {
-        const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(pair->space, pair->quadrature));
+        const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(pair->space, pair->quadrature));
         const ActionBetween<double> motion = Ld.between(scene.start.value, at / n, sampled(exact.nodes, n));
         outcome = motion.outcome;
         p0 = motion.startMomentum;

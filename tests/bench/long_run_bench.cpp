@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     constexpr int samples = 1000, orbits = 8;
     constexpr double h = 0.25, energy = 0.13;
     const System s = findModel("henon-heiles")->make({"henon-heiles", {{"lambda", 1.0}}, {}});
-    const auto& m = s.mechanics;
+    const auto& m = s.mechanics();
     const Discretization pair = *namedScheme("galerkin-gauss-8");
     std::vector<double> spread(samples + 1), mean(samples + 1);
     for (int orbit = 0; orbit < orbits; ++orbit) {

@@ -64,7 +64,7 @@ void benchmark(const System& typed, const System& builtIn, const State& start, d
     std::vector<double> gradient(2 * d), hessian(4 * d * d);
     const auto calls = [&](const System& s, bool wantsHessian) {
         return [&, wantsHessian] {
-            const auto& m = s.mechanics;
+            const auto& m = s.mechanics();
             std::vector<double> x = start.x;
             double value = 0;
             for (int i = 0; i < n; ++i) {

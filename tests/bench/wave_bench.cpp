@@ -32,7 +32,7 @@ State packet(const System& system, double kappa, double k) {
 }
 
 std::vector<double> bareSrkn14a(const Problem& p, int n) {
-    const Hamiltonian& h = *p.system.wave;
+    const Hamiltonian& h = *p.system.hamiltonian();
     const auto size = static_cast<std::size_t>(h.size());
     const double dt = p.T / n;
     std::vector<std::vector<Complex>> phases;
@@ -111,7 +111,7 @@ std::vector<double> referenceA(const System& system) {
         if (fields >> x >> re >> im) psi.emplace_back(re, im);
     }
     psi.resize(256);
-    system.wave->fourier().toCoefficients(psi.data(), c.data());
+    system.hamiltonian()->fourier().toCoefficients(psi.data(), c.data());
     const double* numbers = reinterpret_cast<const double*>(c.data());
     return {numbers, numbers + 512};
 }

@@ -45,7 +45,7 @@ class ExamplesTest : public QObject {
 private slots:
     void systemIsIntegratedWithItsEnergyBounded() {
         const System system = quartic();
-        const Mechanics<double>& m = system.mechanics;
+        const Mechanics<double>& m = system.mechanics();
         State state{0, 0, {1, 0}};
         const double start = m.energy(m.model.get(), 0, &state.x[0], &state.x[1]);
         QCOMPARE(start, 0.25);
@@ -62,7 +62,7 @@ private slots:
         const SpaceEntry entry = spaces::trigonometric();
         const Rule<double> rule = gauss<double>(24);
         const Table<double> table = makeTable(entry.make({"trigonometric", {{"z", step}}, {}}), rule);
-        GalerkinStep<double, 1> integrator(harmonic().mechanics, table, step, {});
+        GalerkinStep<double, 1> integrator(harmonic().mechanics(), table, step, {});
         double q = 1, p = 0;
         for (int i = 0; i < 20; ++i)
             QVERIFY(integrator.advance(i * step, &q, &p, {}).outcome == Outcome::converged);

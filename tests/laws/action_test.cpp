@@ -122,7 +122,7 @@ private slots:
             constexpr int n = 3;
             const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, n);
             QVERIFY(path.q.cols() == n + 1);
-            const SaddlePoint glued(system.mechanics, tableOf(c.pair), h, n);
+            const SaddlePoint glued(system.mechanics(), tableOf(c.pair), h, n);
             // The element-wise system with explicit multipliers, from the same start: no momentum formula in
             // it.
             const GluedElements from = solveFrom(glued, 0, path.q, path.p.col(0));
@@ -144,7 +144,7 @@ private slots:
         onBoth([&](const System& system, const State& start, double h) {
             constexpr int n = 6;
             const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, n);
-            const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(c.pair));
+            const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(c.pair));
             // Discrete Euler-Lagrange equations at the nodes of the element-wise run.
             const double residual =
                 Ld.eulerLagrange(0, h, path.q).cwiseAbs().maxCoeff() / path.p.cwiseAbs().maxCoeff();
@@ -173,7 +173,8 @@ private slots:
         // Teeth: the comparison above would notice a wrong condition of stationarity.
         const Path path =
             pathOf(*makeIntegrator(kepler_, polynomialPair(2, {"gauss", {}, {}}), {0, 0.05}), keplerStart, 3);
-        const SaddlePoint other(kepler_.mechanics, tableOf(polynomialPair(2, {"lobatto", {}, {}})), 0.05, 3);
+        const SaddlePoint other(kepler_.mechanics(), tableOf(polynomialPair(2, {"lobatto", {}, {}})), 0.05,
+                                3);
         const GluedElements between = solveBetween(other, 0, path.q);
         QVERIFY(between.outcome == Outcome::converged);
         QVERIFY(relative(between.multipliers, path.p) > 1e-7);
@@ -183,7 +184,7 @@ private slots:
         constexpr int n = 5;
         constexpr double h = 0.05;
         const Path path = pathOf(*makeIntegrator(kepler_, pair, {0, h}), keplerStart, n);
-        const DiscreteLagrangian<double> Ld(kepler_.mechanics, tableOf(pair));
+        const DiscreteLagrangian<double> Ld(kepler_.mechanics(), tableOf(pair));
         const ActionBetween<double> nodal = Ld.between(0, h, path.q);
         double sum = 0;
         for (int k = 0; k < n; ++k) sum += Ld(k * h, h, path.q.col(k), path.q.col(k + 1)).action;
@@ -195,7 +196,7 @@ private slots:
         const PairCase c = current();
         onBoth([&](const System& system, const State& start, double h) {
             const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, 1);
-            const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(c.pair));
+            const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(c.pair));
             const auto found = Ld(0, h, path.q.col(0), path.q.col(1));
             QVERIFY(found.outcome == Outcome::converged);
             const double p0 = (found.startMomentum - path.p.col(0)).norm() / path.p.col(0).norm();
@@ -207,7 +208,7 @@ private slots:
 
     void derivativesOfTheDiscreteLagrangianAreTheMomenta() {
         // By differences of the action alone: the momenta and the Hessian come from other formulas.
-        const DiscreteLagrangian<double> Ld(kepler_.mechanics,
+        const DiscreteLagrangian<double> Ld(kepler_.mechanics(),
                                             tableOf(polynomialPair(3, {"lobatto", {}, {}})));
         const Eigen::Vector2d q0(0.4, 0), q1(0.33, 0.3);
         const auto here = Ld(0, 0.2, q0, q1);
@@ -278,7 +279,7 @@ private slots:
                 guess.col(k) << x[0], x[1];
             }
             solution(h, x);
-            const auto exact = exactDiscreteLagrangian<double>(kepler_.mechanics, 0, h, guess, 1e-15);
+            const auto exact = exactDiscreteLagrangian<double>(kepler_.mechanics(), 0, h, guess, 1e-15);
             QVERIFY(exact.outcome == Outcome::converged);
             const double p0 = (exact.startMomentum - Eigen::Vector2d(0, 2)).norm();
             const double p1 = (exact.endMomentum - Eigen::Vector2d(x[2], x[3])).norm();

@@ -32,7 +32,7 @@ private slots:
         for (const System& s :
              {systemNamed("rigid-body"), systemNamed("heavy-top"), systemNamed("body-in-potential"),
               systemNamed("rigid-body-se3"), systemNamed("rigid-body-se3", {{"potential", pull}})}) {
-            const State start{0, 0, s.body.dimension == 3 ? turning : moving};
+            const State start{0, 0, s.body().dimension == 3 ? turning : moving};
             for (const Case& c : everyScheme(8, s)) {
                 const auto integrator = c.make(s, {0, 0.02});
                 State state = start;

@@ -116,7 +116,7 @@ double momentumDefect(const Subject& on, const Case& scheme) {
     double worst = 0;
     const auto integrator = scheme.make(on.system, {on.start.t, on.time / 24});
     State state = on.start;
-    const std::size_t p = on.system.hasBody() ? 0 : on.half();
+    const std::size_t p = isBody(on.system) ? 0 : on.half();
     for (int k = 0; k < 100; ++k) {
         if (integrator->advance(state).outcome != Outcome::converged)
             return std::numeric_limits<double>::quiet_NaN();
@@ -124,7 +124,7 @@ double momentumDefect(const Subject& on, const Case& scheme) {
             const double before = map.value(on.start.x.data(), on.start.x.data() + p),
                          now = map.value(state.x.data(), state.x.data() + p);
             worst = std::max(worst, std::abs(now - before) /
-                                        (on.system.hasBody() ? 1 : std::max(1.0, on.scaleQ) * on.scaleP));
+                                        (isBody(on.system) ? 1 : std::max(1.0, on.scaleQ) * on.scaleP));
         }
     }
     return worst;
@@ -171,7 +171,7 @@ void look(Findings& f, const Subject& on, const Case& scheme) {
     f.momenta += std::isfinite(momentum) ? 1 : 0;
     if (momentum > f.largestMomentum) f.largestMomentum = momentum;
     if (claimsMomentum(f.claims) && momentum > 1e-11) note(f, on, "momentum", momentum);
-    if (on.system.hasBody()) return;  // not in coordinates: laws.body_claims
+    if (isBody(on.system)) return;  // not in coordinates: laws.body_claims
     const double defect = symplecticDefect(on, scheme);
     f.derivatives += std::isfinite(defect) ? 1 : 0;
     if (defect > f.largestSymplectic) f.largestSymplectic = defect;
@@ -221,7 +221,7 @@ private slots:
         f.claims = cases.front().second.claims;
         bool isOnBodies = true;
         for (const auto& [i, scheme] : cases) {
-            isOnBodies = isOnBodies && systems_[i].system.hasBody();
+            isOnBodies = isOnBodies && isBody(systems_[i].system);
             look(f, systems_[i], scheme);
         }
         lookAtModesty(f, isOnBodies);
@@ -257,7 +257,7 @@ private slots:
         };
         bool isFound = false;
         for (const Subject& s : systems_) {
-            if (s.system.hasBody()) continue;
+            if (isBody(s.system)) continue;
             Findings f;
             const auto cases = everyScheme(1, s.system);
             Case broken =

@@ -94,7 +94,7 @@ private slots:
         if (isFilon) pair.quadrature = completeQuadrature(pair.space, {"filon-lobatto", {}, {}});
         const auto integrator = makeIntegrator(s, pair, {0, row.h});
         State state{0, 0, {0.05 * std::sqrt(1e4 / row.k), 1, 0, 0}};
-        const auto& m = s.mechanics;
+        const auto& m = s.mechanics();
         const auto H = [&] { return m.energy(m.model.get(), state.t, state.x.data(), state.x.data() + 2); };
         const double H0 = H();
         const auto known = motion(row.k);

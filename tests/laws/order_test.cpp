@@ -48,7 +48,7 @@ private slots:
         rule.b = {0.51, 0.49};
         const Table<double> broken = makeTable(polynomialSpace<double>(2, PolynomialBasis::lobatto), rule);
         const Orders o = measure(s, keplerStart, 3, 1e-1, [&](double h) {
-            return [h, step = std::make_shared<GalerkinStep<double, 2>>(s.mechanics, broken, h,
+            return [h, step = std::make_shared<GalerkinStep<double, 2>>(s.mechanics(), broken, h,
                                                                         SolverPolicy{})](State& state) {
                 const Outcome o_ = step->advance(state.t, state.x.data(), state.x.data() + 2, {}).outcome;
                 state.t = h * static_cast<double>(++state.node);

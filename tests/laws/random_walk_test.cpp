@@ -19,7 +19,7 @@ struct Walk {
 };
 Walk walkOf(double tolerance, int steps) {
     const System system = systemNamed("henon-heiles");
-    const auto& m = system.mechanics;
+    const auto& m = system.mechanics();
     Discretization pair = *namedScheme("galerkin-gauss-8");
     if (tolerance > 0) pair.solver = {"fixed-point", {{"tolerance", tolerance}}, {}};
     constexpr int orbits = 8, samples = 1000;

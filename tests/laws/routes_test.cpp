@@ -54,7 +54,7 @@ std::vector<double> partitionedRungeKutta(const Rule<double>& rule, const System
             }
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) Ahat[i][j] = rule.b[j] * (1 - A[j][i] / rule.b[i]);
-    const auto& mech = system.mechanics;
+    const auto& mech = system.mechanics();
     std::vector<double> Q(n * d), P(n * d), F(n * d);
     for (std::size_t i = 0; i < n * d; ++i) {
         Q[i] = x[i % d];
@@ -90,7 +90,7 @@ private slots:
     void degreeOneWithTheMidpointIsTheMidpointRule() {
         for (const ModelEntry& e : modelCatalog()) {
             const System s = systemNamed(e.item.id);
-            if (!s.hasMechanics()) continue;
+            if (!isMechanical(s)) continue;
             const auto pair = makeIntegrator(s, polynomialPair(1, {"midpoint", {}, {}}), {0, 0.02});
             const auto rule = findBaseline("implicit-midpoint")->make(s, {{0, 0.02}, 0, 0, {}});
             const double difference = stepDifference(s, *pair, *rule);
@@ -200,7 +200,7 @@ private slots:
     void gaussPairsAreGaussCollocationOfHamiltonsEquations_data() {
         QTest::addColumn<QString>("model");
         for (const ModelEntry& e : modelCatalog())
-            if (systemNamed(e.item.id).hasMechanics())
+            if (isMechanical(systemNamed(e.item.id)))
                 QTest::newRow(e.item.id.c_str()) << QString::fromStdString(e.item.id);
     }
     void gaussPairsAreGaussCollocationOfHamiltonsEquations() {

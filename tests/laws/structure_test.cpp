@@ -60,7 +60,7 @@ struct EnergyRun {
 };
 EnergyRun energyRun(const Case& scheme, const System& system, const State& start, double h, double T) {
     EnergyRun r;
-    const auto& m = system.mechanics;
+    const auto& m = system.mechanics();
     auto H = [&](const State& s) {
         return m.energy(m.model.get(), s.t, s.x.data(), s.x.data() + m.dimension);
     };

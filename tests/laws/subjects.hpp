@@ -27,7 +27,7 @@ struct Subject {
     std::array<State, 4> exact;     ///< at the quarters of `time`
 
     std::size_t half() const { return start.x.size() / 2; }
-    double scaleOf(std::size_t i) const { return system.hasBody() || i < half() ? scaleQ : scaleP; }
+    double scaleOf(std::size_t i) const { return isBody(system) || i < half() ? scaleQ : scaleP; }
 };
 
 /// Scaled to the sizes of positions and momenta.
@@ -57,7 +57,7 @@ inline Subject subjectOf(const std::string& name, const Scene& scene) {
         if (k % (referenceSteps / 4) == 0)
             s.exact[static_cast<std::size_t>(4 * k / referenceSteps - 1)] = state;
         for (std::size_t i = 0; i < state.x.size(); ++i) {
-            double& scale = s.system.hasBody() || i < s.half() ? s.scaleQ : s.scaleP;
+            double& scale = isBody(s.system) || i < s.half() ? s.scaleQ : s.scaleP;
             scale = std::max(scale, std::abs(state.x[i]));
             s.own[i] = std::max(s.own[i], std::abs(state.x[i]));
         }
@@ -77,7 +77,7 @@ inline std::vector<Subject> everySystem() {
         const Scene scene = readScene(preset.json).scene;
         const bool isTyped = scene.model.type == "lagrangian";
         if (!seen.insert(isTyped ? std::string(preset.id) : scene.model.type).second) continue;
-        if (const System system = makeSystem(scene); !system.hasMechanics() && !system.hasBody()) continue;
+        if (const System system = makeSystem(scene); !isMechanical(system) && !isBody(system)) continue;
         subjects.push_back(subjectOf(std::string(preset.id), scene));
     }
     return subjects;

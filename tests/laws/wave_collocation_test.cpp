@@ -15,7 +15,7 @@ State run(Integrator& integrator, const State& start, int n) {
 }
 
 double normError(const System& system, const State& state) {
-    return std::abs(std::sqrt(squaredNorm(coefficients(state.x.data()), system.wave->size())) - 1);
+    return std::abs(std::sqrt(squaredNorm(coefficients(state.x.data()), system.hamiltonian()->size())) - 1);
 }
 
 std::unique_ptr<Integrator> chebyshev(const System& system, int degree, const char* nodes, double h) {
@@ -36,7 +36,8 @@ private slots:
         const System system = systemA(64);
         const State start = startA(system);
         for (const int s : {1, 2, 5, 8}) {
-            const auto whole = makeCollocationWave(system.wave, {0, 0.02}, 40, gauss<double>(s), 1e-14, 600);
+            const auto whole =
+                makeCollocationWave(system.hamiltonian(), {0, 0.02}, 40, gauss<double>(s), 1e-14, 600);
             const auto factors = makeIntegrator(system, wavePair(s, "dense", 40.0), {0, 0.02});
             const double apart = waveDistance(run(*whole, start, 50), run(*factors, start, 50));
             qInfo("degree %d: %.2g", s, apart);

@@ -32,8 +32,8 @@ State exactAt(const System& system, const State& start, double t) {
     return end;
 }
 std::vector<Complex> valuesOf(const System& system, const State& state) {
-    std::vector<Complex> psi(static_cast<std::size_t>(system.wave->size()));
-    system.wave->toNodes(coefficients(state.x.data()), psi.data());
+    std::vector<Complex> psi(static_cast<std::size_t>(system.hamiltonian()->size()));
+    system.hamiltonian()->toNodes(coefficients(state.x.data()), psi.data());
     return psi;
 }
 /// In the norm of the nodes.
@@ -60,7 +60,7 @@ class WaveConvolutionTest : public QObject {
 private slots:
     void valuesAndCoefficientsBelongTogether() {
         const System system = systemOf(16, "convolution");
-        const Hamiltonian& h = *system.wave;
+        const Hamiltonian& h = *system.hamiltonian();
         std::vector<Complex> c(16), psi(16), back(16);
         for (std::size_t i = 0; i < 16; ++i)
             c[i] = std::polar(1.0 / (1 + static_cast<double>(i)), static_cast<double>(i));
@@ -71,7 +71,7 @@ private slots:
         for (int j = 0; j < 16; ++j) psi[static_cast<std::size_t>(j)] = j % 2 == 0 ? 1 : -1;
         h.toCoefficients(psi.data(), c.data());
         QVERIFY(std::abs(squaredNorm(c.data(), 16) - std::numbers::pi) < 1e-14);
-        systemOf(16, "nodes").wave->toCoefficients(psi.data(), c.data());
+        systemOf(16, "nodes").hamiltonian()->toCoefficients(psi.data(), c.data());
         QVERIFY(std::abs(squaredNorm(c.data(), 16) - 2 * std::numbers::pi) < 1e-14);
     }
     /// H in the run's coordinates is the convolution of the time-independent problem: the same energies, also
@@ -80,22 +80,24 @@ private slots:
         const Value random = Value::Object{{"name", "random"}, {"amplitude", 30.0}, {"correlation", 0.4}};
         for (const Value& potential : {Value("20*exp(cos(x))"), random}) {
             const System system = systemOf(32, "convolution", potential);
-            const ConvolutionProblem given = convolutionGalerkin(*systemOf(32, "nodes", potential).wave);
+            const ConvolutionProblem given =
+                convolutionGalerkin(*systemOf(32, "nodes", potential).hamiltonian());
             const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> expected(
                 given.H, given.W.cast<Complex>().asDiagonal().toDenseMatrix());
-            const auto& energies = Eigenstates::of(system.wave)->energies();
+            const auto& energies = Eigenstates::of(system.hamiltonian())->energies();
             double worst = 0;
             for (std::size_t k = 0; k < 32; ++k)
                 worst = std::max(
                     worst, std::abs(energies[k] - expected.eigenvalues()(static_cast<Eigen::Index>(k))));
             qInfo("%.2g", worst);
             QVERIFY(worst < 1e-11);
-            QVERIFY(system.wave->lowest() <= energies.front() && energies.back() <= system.wave->highest());
+            QVERIFY(system.hamiltonian()->lowest() <= energies.front() &&
+                    energies.back() <= system.hamiltonian()->highest());
             // apply() is the same operator.
             const State start = waveStart(system, 5);
             std::vector<Complex> Hc(32), work(32), real(32), image(32);
-            system.wave->apply(nullptr, coefficients(start.x.data()), Hc.data(), work.data());
-            const ConvolutionProblem p = convolutionGalerkin(*system.wave);
+            system.hamiltonian()->apply(nullptr, coefficients(start.x.data()), Hc.data(), work.data());
+            const ConvolutionProblem p = convolutionGalerkin(*system.hamiltonian());
             Eigen::VectorXcd v = Eigen::Map<const Eigen::VectorXcd>(coefficients(start.x.data()), 32);
             const Eigen::VectorXd root = p.W.cwiseSqrt().cwiseInverse();
             const Eigen::VectorXcd direct = root.asDiagonal() * (p.H * (root.asDiagonal() * v));
@@ -132,7 +134,7 @@ private slots:
         QVERIFY(energy < 1e-11);
         // Seen failing: the printed equation keeps one of the two rows at k = +-N/2, and is not Hermitian.
         // Crank-Nicolson with it.
-        const ConvolutionProblem right = convolutionGalerkin(*system.wave);
+        const ConvolutionProblem right = convolutionGalerkin(*system.hamiltonian());
         Eigen::MatrixXcd printed = right.H;
         printed.row(8) /= 2;
         const Eigen::VectorXd root = right.W.cwiseSqrt().cwiseInverse();

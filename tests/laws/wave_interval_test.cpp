@@ -44,7 +44,7 @@ Complex boxWave(double x, double t) {
 }
 
 State boxState(const System& system, double t) {
-    const Hamiltonian& h = *system.wave;
+    const Hamiltonian& h = *system.hamiltonian();
     std::vector<Complex> psi, c(h.x().size());
     for (const double x : h.x()) psi.push_back(boxWave(x, t));
     h.toCoefficients(psi.data(), c.data());
@@ -53,7 +53,7 @@ State boxState(const System& system, double t) {
 }
 
 double normOf(const System& system, const State& state) {
-    return std::sqrt(squaredNorm(coefficients(state.x.data()), system.wave->size()));
+    return std::sqrt(squaredNorm(coefficients(state.x.data()), system.hamiltonian()->size()));
 }
 
 State run(const System& system, int degree, const State& start, double T, int n) {
@@ -65,9 +65,9 @@ State run(const System& system, int degree, const State& start, double T, int n)
 /// Largest difference from the sines at the nodes.
 double errorAtNodes(const System& system, const State& state, double t) {
     double worst = 0;
-    for (int j = 0; j < system.wave->size(); ++j)
+    for (int j = 0; j < system.hamiltonian()->size(); ++j)
         worst = std::max(worst, std::abs(atNode(system, state, j) -
-                                         boxWave(system.wave->x()[static_cast<std::size_t>(j)], t)));
+                                         boxWave(system.hamiltonian()->x()[static_cast<std::size_t>(j)], t)));
     return worst;
 }
 
@@ -104,7 +104,7 @@ private slots:
     }
 
     void levelsOfTheBoxAndOfTheOscillator() {
-        const auto box = Eigenstates::of(between(48).wave);
+        const auto box = Eigenstates::of(between(48).hamiltonian());
         for (int n = 1; n <= 12; ++n) {
             const double off = box->energies()[static_cast<std::size_t>(n - 1)] / levelOfBox(n) - 1;
             QVERIFY2(std::abs(off) < 1e-11, qPrintable(QString("level %1 off by %2").arg(n).arg(off)));
@@ -118,8 +118,9 @@ private slots:
             double worst = 0;
             for (int n = 0; n < 10; ++n)
                 worst = std::max(
-                    worst, std::abs(Eigenstates::of(system.wave)->energies()[static_cast<std::size_t>(n)] -
-                                    n - 0.5));
+                    worst,
+                    std::abs(Eigenstates::of(system.hamiltonian())->energies()[static_cast<std::size_t>(n)] -
+                             n - 0.5));
             qInfo("%d modes: %.2g", modes, worst);
             QVERIFY(worst < before);
             before = worst / 100;
@@ -209,7 +210,7 @@ private slots:
         // matrix.
         constexpr int n = 32;
         const System system = between(n);
-        const Interval& I = system.wave->interval();
+        const Interval& I = system.hamiltonian()->interval();
         const Eigen::MatrixXd D = chebyshev::differentiation(chebyshev::extrema(n + 1)) * (2 / length);
         const Eigen::MatrixXd H = -hbar * hbar / (2 * mass) * (D * D).block(1, 1, n, n);
         const Eigen::MatrixXcd forward = Eigen::MatrixXcd::Identity(n, n) + Complex(0, 0.025 / hbar) * H;
@@ -241,7 +242,7 @@ private slots:
         const auto position = [&](double t) {
             State s = start;
             exact(t, s.x);
-            return nodeMeans(*system.wave, coefficients(s.x.data()), work.data()).x;
+            return nodeMeans(*system.hamiltonian(), coefficients(s.x.data()), work.data()).x;
         };
         const double d = 1e-3;
         State now = start;
@@ -249,19 +250,20 @@ private slots:
         const double velocity =
             (8 * (position(0.4 + d) - position(0.4 - d)) - (position(0.4 + 2 * d) - position(0.4 - 2 * d))) /
             (12 * d);
-        const double momentum = meanMomentum(*system.wave, coefficients(now.x.data())).x;
+        const double momentum = meanMomentum(*system.hamiltonian(), coefficients(now.x.data())).x;
         qInfo("m d<x>/dt = %.12g, <p> = %.12g", mass * velocity, momentum);
         QVERIFY(std::abs(mass * velocity - momentum) < 1e-9);  // 4e-11 measured, the differences' own
-        QVERIFY(std::abs(momentum - meanMomentum(*system.wave, coefficients(start.x.data())).x) > 0.01);
+        QVERIFY(std::abs(momentum - meanMomentum(*system.hamiltonian(), coefficients(start.x.data())).x) >
+                0.01);
         // Current and position by the sines: Im(conj psi psi_x) by differences, <x> by a fine midpoint rule.
         const double middle = left + length / 2, e = 1e-3;
         const Complex derivative = (8.0 * (boxWave(middle + e, 0.4) - boxWave(middle - e, 0.4)) -
                                     (boxWave(middle + 2 * e, 0.4) - boxWave(middle - 2 * e, 0.4))) /
                                    (12 * e);
         const double current = hbar / mass * (std::conj(boxWave(middle, 0.4)) * derivative).imag();
-        QVERIFY(
-            std::abs(currentInTheMiddle(*system.wave, coefficients(now.x.data()), work.data(), slope.data()) -
-                     current) < 1e-9);
+        QVERIFY(std::abs(currentInTheMiddle(*system.hamiltonian(), coefficients(now.x.data()), work.data(),
+                                            slope.data()) -
+                         current) < 1e-9);
         double mean = 0;
         for (int k = 0; k < 1000; ++k) {
             const double x = left + length * (k + 0.5) / 1000;
@@ -275,7 +277,7 @@ private slots:
         const State start = boxState(system, 0);
         std::vector<double> values(60);
         system.field.sample(start.x.data(), values.data());
-        const EvenSamples even = evenSamples(*system.wave, values.data(), 256);
+        const EvenSamples even = evenSamples(*system.hamiltonian(), values.data(), 256);
         double worst = 0;
         for (std::size_t j = 0; j < even.x.size(); ++j)
             worst = std::max(worst, std::abs(Complex(even.re[j], even.im[j]) - boxWave(even.x[j], 0)));
@@ -285,7 +287,7 @@ private slots:
         // The coefficients of the view `spectrum` sum up to it.
         double sum = 0;
         for (int k = 0; k <= 31; ++k)
-            sum += chebyshevCoefficient(*system.wave, coefficients(start.x.data()), k).real() *
+            sum += chebyshevCoefficient(*system.hamiltonian(), coefficients(start.x.data()), k).real() *
                    std::cos(k * std::acos(0.3));
         QVERIFY(std::abs(sum - boxWave(left + 0.65 * length, 0).real()) < 1e-12);
         // A packet on the interval is one packet, not the sum of its copies on a circle.
@@ -311,7 +313,7 @@ private slots:
             qInfo("%s: %.2g", id, waveDistance(*end, exact));
             QVERIFY(waveDistance(*end, exact) < (id[1] == 'h' ? 1e-10 : 1e-4));
         }
-        QVERIFY(spectrumTail(*system.wave, coefficients(start.x.data())) < 1e-7);
+        QVERIFY(spectrumTail(*system.hamiltonian(), coefficients(start.x.data())) < 1e-7);
         QVERIFY(system.caution(start.x.data()).empty());
         QVERIFY(!between(8).caution(boxState(between(8), 0).x.data()).empty());
     }

@@ -86,7 +86,7 @@ State run(const Discretization& pair, const System& system, const State& start, 
     return run(*makeIntegrator(system, pair, {0, T / n}), start, n);
 }
 double norm(const System& system, const State& state) {
-    return std::sqrt(squaredNorm(coefficients(state.x.data()), system.wave->size()));
+    return std::sqrt(squaredNorm(coefficients(state.x.data()), system.hamiltonian()->size()));
 }
 
 constexpr const char* potentialX = "6*(1 - cos((x + 1)/2 - 2.5))";
@@ -103,7 +103,7 @@ private slots:
     void transformsAreUnitaryAndThere() {
         const System system = rectangle(32, 20, 0.0);
         const State start = packetOn(system);
-        const Hamiltonian& h = *system.wave;
+        const Hamiltonian& h = *system.hamiltonian();
         const auto n = static_cast<std::size_t>(h.size());
         std::vector<Complex> psi(n), back(n);
         h.toNodes(coefficients(start.x.data()), psi.data());
@@ -287,12 +287,12 @@ private slots:
                                        {"wave_number_y", 1.5}});
         QVERIFY(std::abs(system.energy(0, state.x.data()) - (1 + 2 + 1.5 * 1.5 / 2)) < 1e-12);
         const auto integrator = makeIntegrator(system, wavePair(6), {0, 0.1});
-        std::vector<Complex> work(static_cast<std::size_t>(system.wave->size()));
+        std::vector<Complex> work(static_cast<std::size_t>(system.hamiltonian()->size()));
         double worst = 0;
         for (int k = 0; k < 40; ++k) {
             QVERIFY(integrator->advance(state).outcome == Outcome::converged);
-            const NodeMeans at = nodeMeans(*system.wave, coefficients(state.x.data()), work.data());
-            const MeanMomentum p = meanMomentum(*system.wave, coefficients(state.x.data()));
+            const NodeMeans at = nodeMeans(*system.hamiltonian(), coefficients(state.x.data()), work.data());
+            const MeanMomentum p = meanMomentum(*system.hamiltonian(), coefficients(state.x.data()));
             for (const double d : {at.x - 2 * std::cos(state.t), at.y - 1.5 * std::sin(state.t),
                                    p.x + 2 * std::sin(state.t), p.y - 1.5 * std::cos(state.t)})
                 worst = std::max(worst, std::abs(d));
@@ -305,7 +305,7 @@ private slots:
         // period is nothing here.
         const System system = rectangle(256, 64, sum);
         const State start = packetOn(system);
-        const Hamiltonian& h = *system.wave;
+        const Hamiltonian& h = *system.hamiltonian();
         const auto n = static_cast<std::size_t>(h.size());
         std::vector<Complex> work(n), slope(n);
         const auto rightOf = [&](const State& state) {
@@ -339,7 +339,7 @@ private slots:
     }
     void tailLooksAlongBothDirections() {
         const System good = rectangle(64, 64, 0.0), poor = rectangle(64, 8, 0.0);
-        QVERIFY(spectrumTail(*good.wave, coefficients(packetOn(good).x.data())) < 1e-6);
+        QVERIFY(spectrumTail(*good.hamiltonian(), coefficients(packetOn(good).x.data())) < 1e-6);
         const std::string caution = poor.caution(packetOn(poor).x.data());
         QVERIFY2(caution.find("64 x 8") != std::string::npos, caution.c_str());
     }
@@ -359,7 +359,7 @@ private slots:
         qInfo("%.2g", error);
         QVERIFY(error < 1e-9);
         // Energies by the matrix of 22 x 22 nodes: n + 1/2 along either direction.
-        const auto& energies = Eigenstates::of(oscillator(22).wave)->energies();
+        const auto& energies = Eigenstates::of(oscillator(22).hamiltonian())->energies();
         const double known[] = {1.05, 2.05, 2.15, 3.05, 3.15, 3.25};
         for (std::size_t k = 0; k < 6; ++k) QVERIFY(std::abs(energies[k] - known[k]) < 1e-4);
     }

@@ -28,7 +28,7 @@ struct Norms {
 template <class Step>
 Norms drift(const System& system, State state, int n, Step&& step) {
     Norms worst;
-    const int size = system.wave->size();
+    const int size = system.hamiltonian()->size();
     const double norm = std::sqrt(squaredNorm(coefficients(state.x.data()), size)),
                  E = system.energy(0, state.x.data());
     for (int k = 1; k <= n; ++k) {
@@ -84,7 +84,7 @@ private slots:
         QFETCH(int, degree);
         // Two eigenstates: the energies of a packet reach so high that the last digits come before the order.
         const System system = systemA(64);
-        const auto states = Eigenstates::of(system.wave);
+        const auto states = Eigenstates::of(system.hamiltonian());
         State start = startA(system);
         for (int i = 0; i < 64; ++i)
             coefficients(start.x.data())[i] = (states->coefficients(0)[static_cast<std::size_t>(i)] +
@@ -121,7 +121,7 @@ private slots:
     void aWrongResidueLosesTheNorm() {
         // Teeth: the factor 2 Re(zeta) off by a part in 10^10 shows in a thousand steps.
         const System system = systemA(64);
-        const auto states = Eigenstates::of(system.wave);
+        const auto states = Eigenstates::of(system.hamiltonian());
         State state = startA(system);
         std::vector<std::complex<double>> turn;
         for (const double E : states->energies()) {
@@ -136,7 +136,7 @@ private slots:
     void problemAHasItsReferenceValues() {
         const System system = systemA();
         const State start = startA(system);
-        const Hamiltonian& h = *system.wave;
+        const Hamiltonian& h = *system.hamiltonian();
         std::vector<Complex> work(256);
         QVERIFY(std::abs(system.energy(0, start.x.data()) - 49.5471373850640867) < 2e-13);
         QVERIFY(std::abs(nodeMeans(h, coefficients(start.x.data()), work.data()).cosine -
@@ -178,8 +178,9 @@ private slots:
         std::vector<Complex> work(512);
         QVERIFY(std::abs(system.energy(0, start.x.data()) - 0.765702344001459086) < 1e-14);
         const State end = run(system, wavePair(8), start, 2, 128);
-        const double cosine = nodeMeans(*system.wave, coefficients(end.x.data()), work.data()).cosine;
-        const double momentum = meanMomentum(*system.wave, coefficients(end.x.data())).x;
+        const double cosine =
+            nodeMeans(*system.hamiltonian(), coefficients(end.x.data()), work.data()).cosine;
+        const double momentum = meanMomentum(*system.hamiltonian(), coefficients(end.x.data())).x;
         qInfo("cos x off by %.2g, p by %.2g", cosine - 0.933818313189556394, momentum + 1.18094822084357600);
         QVERIFY(std::abs(cosine - 0.933818313189556394) < 1e-12);
         QVERIFY(std::abs(momentum + 1.18094822084357600) < 1e-12);

@@ -27,7 +27,7 @@ struct Run {
 };
 
 Run run(const System& system, const Discretization& pair, const State& start, double h, long long n) {
-    const Hamiltonian& H = *system.wave;
+    const Hamiltonian& H = *system.hamiltonian();
     const auto integrator = makeIntegrator(system, pair, {0, h});
     const double alpha = threeLevelAlpha(pair.quadrature);
     const double shift = pair.space.find("energy_shift")->isNumber() ? pair.space.number("energy_shift")

@@ -145,7 +145,8 @@ void ScenePanel::rebuild() {
     lagrangian_->setVisible(isTyped(*entry));
     lagrangian_->refresh();
     for (QWidget* part : std::initializer_list<QWidget*>{initialTitle_, initial_, timeTitle_, time_})
-        part->setVisible(!system.elliptic);  // solved at once, from nothing but its boundary values
+        part->setVisible(
+            !kindOf<BoundaryProblem>(system));  // solved at once, from nothing but its boundary values
     initial_->setFields(initialFields(workspace_, system));
     time_->setFields(
         {{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
@@ -155,7 +156,7 @@ void ScenePanel::rebuild() {
 void ScenePanel::startFromTwoPositions() {
     const Scene& scene = workspace_.scene();
     const System system = makeSystem(scene);
-    if (scene.initial.second == Initial::Second::position || !system.hasMechanics()) return;
+    if (scene.initial.second == Initial::Second::position || !isMechanical(system)) return;
     for (const SchemeSpec& spec : scene.schemes) {
         if (spec.tolerance) continue;
         State state = initialState(scene, system);
@@ -180,7 +181,7 @@ void ScenePanel::startFromTwoPositions() {
 void ScenePanel::startFromMomentum() {
     const Scene& scene = workspace_.scene();
     const System system = makeSystem(scene);
-    if (scene.initial.second == Initial::Second::momentum || !system.hasMechanics()) return;
+    if (scene.initial.second == Initial::Second::momentum || !isMechanical(system)) return;
     const State start = initialState(scene, system);
     const auto half = start.x.begin() + system.dimension();
     Value initial{Value::Object{}};

@@ -210,7 +210,8 @@ void CompareView::refresh() {
     if (!(systemModel_ == results->scene.model) || system_.id.empty()) {
         system_ = makeSystem(results->scene);
         systemModel_ = results->scene.model;
-        if (const bool draws = !system_.elliptic; draws != hasStage_) {  // nothing moves there
+        if (const bool draws = !kindOf<BoundaryProblem>(system_);
+            draws != hasStage_) {  // nothing moves there
             hasStage_ = draws;
             columns_ = 0;
             arrange();

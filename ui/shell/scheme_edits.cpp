@@ -187,7 +187,7 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         const bool fits = pair ? isPairFor(*pair, system) : baseline && appliesTo(*baseline, system);
         if (!fits && !pair) continue;
         Value scheme = fits ? document.find("schemes")->asArray()[i] : Value();
-        if (!fits && (isElliptic(pair->space) || system.elliptic) && !schemes.empty())
+        if (!fits && (isElliptic(pair->space) || kindOf<BoundaryProblem>(system)) && !schemes.empty())
             continue;  // one stands for all
         if (!fits) {
             const std::string space = pairSpace(next);

@@ -69,7 +69,7 @@ BaselineEntry bulirsch_stoer() {
               "smooth forces"};
     e.isAdaptive = true;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        return std::make_unique<BulirschStoer>(system.mechanics, options);
+        return std::make_unique<BulirschStoer>(system.mechanics(), options);
     };
     return e;
 }

@@ -107,19 +107,20 @@ BaselineEntry chebyshev_propagation() {
               {},
               Claims{0, true, false, {"norm", "energy"}},
               "a wave function"};
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        if (system.wave->isTimeDependent())
+        if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline",
                                "chebyshev-propagation needs a potential that does not depend on t", "strang");
-        const double R =
-            options.clock.step * (system.wave->highest() - system.wave->lowest()) / (2 * system.wave->hbar());
+        const double R = options.clock.step *
+                         (system.hamiltonian()->highest() - system.hamiltonian()->lowest()) /
+                         (2 * system.hamiltonian()->hbar());
         if (R > 1e6)
             throw InvalidScene(
                 "/step", "needs " + formatNumber(R, 2) + " products with H for each step, the limit is 1e6",
                 "a smaller step, or fewer modes");
-        return std::make_unique<ChebyshevWave>(system.wave, options.clock);
+        return std::make_unique<ChebyshevWave>(system.hamiltonian(), options.clock);
     };
     return e;
 }

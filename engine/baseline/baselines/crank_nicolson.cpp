@@ -15,7 +15,7 @@ BaselineEntry crank_nicolson() {
               {},
               Claims{2, true, true, {"norm", "energy"}},
               "a wave function"};
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) {
         Discretization pair;

@@ -43,7 +43,7 @@ class Dopri5Quaternion final : public Integrator {
 
 public:
     Dopri5Quaternion(const System& system, const BaselineOptions& options)
-        : body_(system.body),
+        : body_(system.body()),
           isProjected_(options.settings.flag("projection")),
           y_{0, 0, std::vector<double>(QuaternionEquation{body_}.size())},
           inner_(QuaternionEquation{body_}, y_.x.size(), options) {}
@@ -97,7 +97,7 @@ BaselineEntry dopri5_quaternion() {
               Claims{5, false, false, {}},
               "a rigid body"};
     e.isAdaptive = true;
-    e.applies = [](const System& system) { return system.hasBody(); };
+    e.applies = [](const System& system) { return isBody(system); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Dopri5Quaternion>(system, options);
     };

@@ -14,7 +14,7 @@ BaselineEntry fehlberg78() {
               "smooth forces"};
     e.isAdaptive = true;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Adaptive<Stepper>>(system.mechanics, options);
+        return std::make_unique<Adaptive<Stepper>>(system.mechanics(), options);
     };
     return e;
 }

@@ -267,7 +267,7 @@ BaselineEntry gauss_collocation() {
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.claims = [](const Settings& settings) { return claims(settings.integer("stages")); };
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<GaussCollocation>(system.mechanics, options.clock,
+        return makeFlowMethod<GaussCollocation>(system.mechanics(), options.clock,
                                                 options.settings.integer("stages"));
     };
     return e;

@@ -113,7 +113,7 @@ BaselineEntry implicit_midpoint() {
               ""};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<ImplicitMidpoint>(system.mechanics, options.clock);
+        return makeFlowMethod<ImplicitMidpoint>(system.mechanics(), options.clock);
     };
     return e;
 }

@@ -14,16 +14,16 @@ BaselineEntry leapfrog() {
               {},
               Claims{2, true, true, {"bilinear form"}},
               "a wave function"};
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = 1;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        if (system.wave->isTimeDependent())
+        if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline", "leapfrog needs a potential that does not depend on t", "strang");
         requirePeriodic(system, "/baseline", "leapfrog",
                         "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
         const Settings space{"fourier", {{"degree", 2.0}}, {}};
         return makeThreeLevelWave(
-            system.wave, options.clock, 0,
+            system.hamiltonian(), options.clock, 0,
             {0, WaveStart::gauss, planWave(system, space, {}, options.clock.step).solver, 1e-14, 600});
     };
     return e;

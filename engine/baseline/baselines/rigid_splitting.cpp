@@ -86,7 +86,7 @@ BaselineEntry rigid_splitting() {
         return Claims{settings.integer("order"), true, true, {"momentum"}};
     };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.applies = [](const System& system) { return system.hasBody(); };
+    e.applies = [](const System& system) { return isBody(system); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<RigidSplitting>(system, options);
     };

@@ -50,7 +50,7 @@ BaselineEntry rk4() {
               ""};
     e.stabilityLimit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<Rk4>(system.mechanics, options.clock);
+        return makeFlowMethod<Rk4>(system.mechanics(), options.clock);
     };
     return e;
 }

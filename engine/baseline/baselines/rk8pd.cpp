@@ -97,7 +97,7 @@ BaselineEntry rk8pd() {
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
 #if EXTREMAL_HAS_GSL
-        return std::make_unique<Rk8pd>(system.mechanics, options);
+        return std::make_unique<Rk8pd>(system.mechanics(), options);
 #else
         refuseWithout("rk8pd", "the GNU Scientific Library", "libgsl-dev");
 #endif

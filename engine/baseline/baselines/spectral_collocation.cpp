@@ -39,7 +39,7 @@ BaselineEntry spectral_collocation() {
               {degree, nodes},
               Claims{8, false, false, {}},
               "a wave function"};
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     e.claims = [](const Settings& settings) {
         const int s = settings.integer("degree");
         const bool isExtrema = settings.text("nodes") != "roots";
@@ -52,7 +52,7 @@ BaselineEntry spectral_collocation() {
         requireSplit(system, "/baseline", "spectral-collocation",
                      "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
         return makeCollocationWave(
-            system.wave, options.clock, std::nan(""),
+            system.hamiltonian(), options.clock, std::nan(""),
             nodesOf(options.settings.integer("degree"), options.settings.text("nodes") != "roots"), 1e-13,
             600);
     };

@@ -140,7 +140,7 @@ BaselineEntry stiff() {
     e.make = []([[maybe_unused]] const System& system,
                 [[maybe_unused]] const BaselineOptions& options) -> std::unique_ptr<Integrator> {
 #if EXTREMAL_HAS_SUNDIALS
-        return std::make_unique<Stiff>(system.mechanics, options);
+        return std::make_unique<Stiff>(system.mechanics(), options);
 #else
         refuseWithout("stiff", "SUNDIALS", "libsundials-dev");
 #endif

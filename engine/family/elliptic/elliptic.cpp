@@ -61,7 +61,7 @@ PairProperties describeElliptic(const Settings& space) {
 
 std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
                                                    const Clock& clock) {
-    if (!system.elliptic)
+    if (!kindOf<BoundaryProblem>(system))
         throw InvalidScene(
             "/space/type",
             "elliptic-elements are for the model multiscale-elliptic, and " + system.id + " is another",
@@ -72,7 +72,7 @@ std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const D
                            "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(clock.step),
                            "leave it out: it is 1/elements");
     const bool isLinear = pair.space.text("functions") == "linear";
-    return std::make_unique<Elliptic>(*system.elliptic, static_cast<int>(n),
+    return std::make_unique<Elliptic>(*std::get<BoundaryProblem>(system.kind).problem, static_cast<int>(n),
                                       isLinear ? EllipticElements::linear : EllipticElements::multiscale);
 }
 

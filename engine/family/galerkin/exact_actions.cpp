@@ -67,7 +67,7 @@ ExactActions::Entry ExactActions::at(int i) {
     entry->h = largest_ * std::pow(2.0, -0.5 * i);
     if (const Eigen::MatrixXd path = exactPath(system_, start_, entry->h); path.size() > 0) {
         const auto exact =
-            exactDiscreteLagrangian<double>(system_.mechanics, start_.t, entry->h, path, 1e-15);
+            exactDiscreteLagrangian<double>(system_.mechanics(), start_.t, entry->h, path, 1e-15);
         entry->isKnown = exact.outcome == Outcome::converged;
         entry->action = exact.action;
         entry->estimatedError = exact.estimatedError;
@@ -86,7 +86,7 @@ ActionDefect actionDefect(const System& system, const Discretization& pair, doub
         result.failure = "its functions change with the step";
         return result;
     }
-    const DiscreteLagrangian<double> Ld(system.mechanics, tableOf(pair.space, pair.quadrature));
+    const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(pair.space, pair.quadrature));
     for (int i = 0; i < mostSteps && !stop.stop_requested(); ++i) {
         const ExactActions::Entry known = exact.at(i);
         if (!known.isKnown) continue;

@@ -48,7 +48,7 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
     if (solver.type == "newton") policy.method = SolverMethod::newton;
     if (solver.type == "fixed-point") {
         policy.method = SolverMethod::fixedPoint;
-        if (system.hasMechanics() && !system.mechanics.isSeparable)
+        if (isMechanical(system) && !system.mechanics().isSeparable)
             throw InvalidScene(
                 "/solver/method",
                 "fixed-point iteration needs a separable Lagrangian, and that of " + system.id + " is not",
@@ -64,7 +64,7 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 std::unique_ptr<Integrator> makeGalerkin(const System& system, std::vector<Table<double>> tables,
                                          const Clock& clock, const SolverPolicy& policy) {
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics, std::move(tables), clock,
+        return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics(), std::move(tables), clock,
                                                               policy);
     });
 }
@@ -72,13 +72,13 @@ std::unique_ptr<Integrator> makeGalerkin(const System& system, std::vector<Table
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& pair,
                                            const Clock& clock) {
     const PairFamily* const family = familyOf(pair.space);
-    const bool needsCoordinates = !family || !(family->hasOneTable || system.elliptic);
-    if (needsCoordinates && !system.hasMechanics())
+    const bool needsCoordinates = !family || !(family->hasOneTable || kindOf<BoundaryProblem>(system));
+    if (needsCoordinates && !isMechanical(system))
         throw InvalidScene("/space/type",
                            pair.space.type + " needs coordinates, and " + system.id + " has none",
-                           system.hasBody()   ? "take lie-polynomial"
-                           : system.hasWave() ? "take fourier"
-                                              : "another space: extremal list spaces");
+                           isBody(system)   ? "take lie-polynomial"
+                           : isWave(system) ? "take fourier"
+                                            : "another space: extremal list spaces");
     if (family) return family->make(system, pair, clock, solverPolicy(pair.solver, system));
     return makeGalerkin(system, {tableOf(pair.space, pair.quadrature)}, clock,
                         solverPolicy(pair.solver, system));

@@ -80,7 +80,7 @@ KktPattern kktPattern(const System& system, const Discretization& pair, const St
             return p;
         }
     }
-    const SaddlePoint problem(system.mechanics, table, step, p.elements);
+    const SaddlePoint problem(system.mechanics(), table, step, p.elements);
     const Eigen::VectorXd p0 = Eigen::Map<const Eigen::VectorXd>(start.x.data() + d, d);
     const GluedElements motion = solveFrom(problem, start.t, nodes, p0);
     Eigen::VectorXd gradient;

@@ -45,7 +45,7 @@ private:
 
 std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair,
                                               const Clock& clock, const SolverPolicy& policy) {
-    if (!system.hasBody())
+    if (!isBody(system))
         throw InvalidScene("/space/type", "lie-polynomial needs a rigid body, and " + system.id + " is none",
                            "take polynomial");
     if (policy.method == SolverMethod::fixedPoint)
@@ -53,7 +53,7 @@ std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discre
                            "use newton or auto");
     const Table<double> table = tableOf(pair.space, pair.quadrature);
     const bool isReduced = pair.space.flag("reduced"), isSymmetrised = pair.space.flag("symmetric");
-    const BodyMechanics<double>& body = system.body;
+    const BodyMechanics<double>& body = system.body();
     if (body.dimension == 3)
         return std::make_unique<Lie<RotationGroup<double>>>(body, table, clock, isReduced, isSymmetrised,
                                                             policy);

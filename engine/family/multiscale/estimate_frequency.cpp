@@ -14,7 +14,7 @@ constexpr int periods = 6, stepsPerPeriod = 4, samplesPerStep = 10;
 /// The coordinate whose own oscillation, the others held, is fastest.
 int fastestCoordinate(const System& system, const State& start) {
     const int d = system.dimension();
-    const auto& m = system.mechanics;
+    const auto& m = system.mechanics();
     const double* q = start.x.data();
     std::vector<double> v(static_cast<std::size_t>(d)), gradient(static_cast<std::size_t>(2 * d));
     std::vector<double> H(static_cast<std::size_t>(4 * d * d));

@@ -73,7 +73,7 @@ class Product final : public Integrator {
 public:
     Product(const System& system, std::vector<ProductCurve> curves, const Rule<double>& rule,
             const Clock& clock, const SolverPolicy& policy, std::unique_ptr<Integrator> additive)
-        : mechanics_(system.mechanics),
+        : mechanics_(system.mechanics()),
           curves_(std::move(curves)),
           rule_(rule),
           clock_(clock),

@@ -107,9 +107,9 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
 
 }  // namespace
 
-bool isBetweenWalls(const System& system) { return system.hasWave() && !system.wave->isPeriodic(); }
+bool isBetweenWalls(const System& system) { return isWave(system) && !system.hamiltonian()->isPeriodic(); }
 
-bool hasFullMatrix(const System& system) { return system.hasWave() && !system.wave->isSplit(); }
+bool hasFullMatrix(const System& system) { return isWave(system) && !system.hamiltonian()->isSplit(); }
 
 void requirePeriodic(const System& system, const std::string& pointer, const std::string& what,
                      const std::string& hint) {
@@ -129,7 +129,7 @@ void requireSplit(const System& system, const std::string& pointer, const std::s
 }
 
 WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step) {
-    const Hamiltonian& h = *system.wave;
+    const Hamiltonian& h = *system.hamiltonian();
     const int degree = space.integer("degree");
     WavePlan plan;
     for (const WaveSolver s : {WaveSolver::banded, WaveSolver::dense, WaveSolver::krylov})
@@ -154,12 +154,12 @@ WavePlan planWave(const System& system, const Settings& space, const Settings& s
 }
 
 double waveFrequency(const System& system, const Settings& space, const State& start) {
-    const Hamiltonian& h = *system.wave;
+    const Hamiltonian& h = *system.hamiltonian();
     double shift = shiftOf(space);
     if (std::isnan(shift)) shift = h.energy(start.t, coefficients(start.x.data()));
     double low = h.lowest(), high = h.highest();
     if (h.size() <= Eigenstates::denseLimit && !h.isTimeDependent()) {
-        const auto& energies = Eigenstates::of(system.wave)->energies();
+        const auto& energies = Eigenstates::of(system.hamiltonian())->energies();
         low = energies.front();
         high = energies.back();
     }
@@ -172,7 +172,7 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
                                    WaveSolver solver) {
     const int degree = pair.space.integer("degree");
     const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
-    if (system.wave->isTimeDependent() && pair.space.text("form") == "three-level")
+    if (system.hamiltonian()->isTimeDependent() && pair.space.text("form") == "three-level")
         throw InvalidScene("/space/form", "three-level needs a potential that does not depend on t",
                            "one-step");
     if (pair.space.text("form") == "three-level")
@@ -182,7 +182,7 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
     const double tolerance = given > 0 ? given : 1e-14;
     if (pair.space.text("form") == "three-level") {
         const std::string start = pair.space.text("start");
-        return makeThreeLevelWave(system.wave, clock, shift,
+        return makeThreeLevelWave(system.hamiltonian(), clock, shift,
                                   {threeLevelAlpha(pair.quadrature),
                                    start == "variational" ? WaveStart::variational
                                    : start == "exact"     ? WaveStart::exact
@@ -190,25 +190,26 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
                                    solver, tolerance, iterations});
     }
     // A potential that depends on time has no factors: its stages are solved together.
-    if (system.wave->isTimeDependent())
-        return makeCollocationWave(system.wave, clock, shift, gauss<double>(degree), tolerance, iterations);
+    if (system.hamiltonian()->isTimeDependent())
+        return makeCollocationWave(system.hamiltonian(), clock, shift, gauss<double>(degree), tolerance,
+                                   iterations);
     switch (solver) {
         case WaveSolver::banded:
             // Pairs keep the norm to round-off; fours are faster, and good to 1e-11 or so.
-            return makeBandedWave(system.wave, clock, shift, degree, given >= 1e-11 ? 4 : 2);
+            return makeBandedWave(system.hamiltonian(), clock, shift, degree, given >= 1e-11 ? 4 : 2);
         case WaveSolver::dense:
-            return makeDenseWave(system.wave, clock, shift, degree);
+            return makeDenseWave(system.hamiltonian(), clock, shift, degree);
         case WaveSolver::krylov:
             break;
     }
-    return makeKrylovWave(system.wave, clock, shift, degree, tolerance, iterations);
+    return makeKrylovWave(system.hamiltonian(), clock, shift, degree, tolerance, iterations);
 }
 
 }  // namespace
 
 std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair,
                                                const Clock& clock) {
-    if (!system.hasWave())
+    if (!isWave(system))
         throw InvalidScene("/space/type",
                            pair.space.type + " needs a wave function, and " + system.id + " has none",
                            "another space: extremal list spaces");
@@ -218,10 +219,10 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
     const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
     const auto make = [system, pair, plan, slabs](const Clock& of) -> std::unique_ptr<Integrator> {
         const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
-        auto step = isChebyshev
-                        ? makeCollocationWave(system.wave, of, std::numeric_limits<double>::quiet_NaN(),
-                                              chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
-                        : makeWave(system, pair, of, plan.solver);
+        auto step = isChebyshev ? makeCollocationWave(
+                                      system.hamiltonian(), of, std::numeric_limits<double>::quiet_NaN(),
+                                      chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
+                                : makeWave(system, pair, of, plan.solver);
         step->setAbout(isChebyshev ? "all stages together by GMRES"
                                    : std::string(name(plan.solver)) +
                                          (plan.isForced ? " as wanted, about " : ", about ") +

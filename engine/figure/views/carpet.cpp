@@ -31,9 +31,10 @@ std::vector<double> marginal(const wave::Grid& grid, const std::vector<double>& 
 HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, double end) {
     const FieldSampling& field = system.field;
     const auto& frames = scheme.frames;
-    const bool isUneven = system.hasWave() && !system.wave->isPeriodic();
+    const bool isUneven = isWave(system) && !system.hamiltonian()->isPeriodic();
     const std::size_t n = isUneven ? interpolatedRows : field.x.size();
-    const Eigen::MatrixXd to = isUneven ? system.wave->resampling(interpolatedRows) : Eigen::MatrixXd();
+    const Eigen::MatrixXd to =
+        isUneven ? system.hamiltonian()->resampling(interpolatedRows) : Eigen::MatrixXd();
     HeatMap heat;
     heat.columns = static_cast<int>(std::min<std::size_t>(frames.size(), mostColumns));
     heat.rows = static_cast<int>(std::min<std::size_t>(n, mostRows));
@@ -43,10 +44,10 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
     heat.bottom = field.x.front();
     heat.top = field.x.back() + step;
     if (isUneven) {
-        heat.bottom = system.wave->domain().left;
-        heat.top = heat.bottom + system.wave->domain().length;
+        heat.bottom = system.hamiltonian()->domain().left;
+        heat.top = heat.bottom + system.hamiltonian()->domain().length;
     }
-    const bool isPlane = system.hasWave() && system.wave->isPlane();
+    const bool isPlane = isWave(system) && system.hamiltonian()->isPlane();
     const bool isComplex = field.components.size() == 2 && field.components[0] == "re" && !isPlane;
     const double last = frames.back().t, seconds = end - start;
     for (int column = 0; column < heat.columns; ++column) {
@@ -56,7 +57,7 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
         if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
         const bool isThere = t <= last + seconds / heat.columns;
         const std::vector<double> made = isUneven  ? resampled(to, *after->values)
-                                         : isPlane ? marginal(system.wave->grid(), *after->values)
+                                         : isPlane ? marginal(system.hamiltonian()->grid(), *after->values)
                                                    : std::vector<double>();
         const std::vector<double>& values = made.empty() ? *after->values : made;
         for (int row = 0; row < heat.rows; ++row) {

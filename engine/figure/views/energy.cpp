@@ -23,7 +23,8 @@ Figure makeEnergy(const FigureContext& context) {
         bounded +=
             scheme->summary.status != RunStatus::failed && isBounded(error, 1e3 * figure.floor.value_or(0));
     }
-    const bool isForced = context.system && context.system->mechanics.isTimeDependent;
+    const bool isForced =
+        context.system && isMechanical(*context.system) && context.system->mechanics().isTimeDependent;
     if (known > 0) figure.subtitle = "bounded: " + std::to_string(bounded) + " of " + std::to_string(known);
     if (known > 0 && isForced) figure.subtitle = "no invariant: the Lagrangian depends on time";
     std::vector<std::pair<double, std::string>> largest;

@@ -43,7 +43,7 @@ Figure makeLevels(const FigureContext& context) {
     Figure figure = startFigure(context, "Energy levels");
     figure.x.title = "x";
     figure.y.title = "E";
-    const auto h = context.system ? context.system->wave : nullptr;
+    const auto h = context.system && isWave(*context.system) ? context.system->hamiltonian() : nullptr;
     if (!h) {
         if (context.system) figure.message = "The model is no wave function";
     } else if (h->isPlane()) {

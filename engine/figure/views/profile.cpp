@@ -86,7 +86,7 @@ Figure makePlaneProfile(const FigureContext& context) {
             schemeOf(context, [](const SchemeResult& s) { return !s.frames.empty(); })) {
         const Frame& last = scheme->frames.back();
         figure.title = "Profile of " + scheme->spec.label;
-        figure.heat = heatOver(*context.system->wave, *last.values, shown.part);
+        figure.heat = heatOver(*context.system->hamiltonian(), *last.values, shown.part);
         figure.x.range = {figure.heat->left, figure.heat->right};
         figure.y.range = {figure.heat->bottom, figure.heat->top};
         figure.subtitle = std::string(shown.symbol) +
@@ -98,11 +98,11 @@ Figure makePlaneProfile(const FigureContext& context) {
 }
 
 Figure makeProfile(const FigureContext& context) {
-    if (context.system && context.system->hasWave() && context.system->wave->isPlane())
+    if (context.system && extremal::isWave(*context.system) && context.system->hamiltonian()->isPlane())
         return makePlaneProfile(context);
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";
-    const bool isWave = context.system && context.system->hasWave();
+    const bool isWave = context.system && extremal::isWave(*context.system);
     const std::vector<Shown> parts = isWave ? shownParts(context.view) : std::vector<Shown>(1);
     figure.y.title = !isWave ? "u" : parts.size() > 1 ? "ψ" : parts.front().symbol;
     double height = 0;
@@ -111,9 +111,9 @@ Figure makeProfile(const FigureContext& context) {
         const FieldSampling& field = context.system->field;
         const auto& values = *scheme->frames.back().values;
         const std::size_t n = field.x.size();
-        const bool isUneven = isWave && !context.system->wave->isPeriodic();
+        const bool isUneven = isWave && !context.system->hamiltonian()->isPeriodic();
         const EvenSamples even =
-            isUneven ? evenSamples(*context.system->wave, values.data(), 400) : EvenSamples{};
+            isUneven ? evenSamples(*context.system->hamiltonian(), values.data(), 400) : EvenSamples{};
         const double* const re = isUneven ? even.re.data() : values.data();
         const double* const im = isUneven ? even.im.data() : values.data() + n;
         for (const Shown& shown : parts) {
@@ -132,7 +132,7 @@ Figure makeProfile(const FigureContext& context) {
     }
     if (context.system && !context.system->field) figure.message = "The model is no field";
     if (isWave && height > 0 && !context.system->field.x.empty())
-        addPotential(figure, *context.system->wave, height);
+        addPotential(figure, *context.system->hamiltonian(), height);
     finishFigure(figure, context, "Profile over space");
     return figure;
 }

@@ -16,14 +16,15 @@ Figure makeShapeFunction(const FigureContext& context) {
     double left = 1, right = 0;
     for (const auto& scheme : context.comparison.schemes) {
         const auto pair = pairOf(scheme->spec);
-        if (!context.system || !context.system->elliptic || !pair || pair->space.type != "elliptic-elements")
+        if (!context.system || !kindOf<BoundaryProblem>(*context.system) || !pair ||
+            pair->space.type != "elliptic-elements")
             continue;
         const int elements = static_cast<int>(std::lround(1 / scheme->spec.step.value));
         const int node = context.view.node ? static_cast<int>(context.view.node->value) : elements / 2;
         if (node < 1 || node >= elements) continue;
         const bool isLinear = pair->space.text("functions") == "linear";
         EllipticHat hat =
-            ellipticHat(*context.system->elliptic,
+            ellipticHat(*std::get<BoundaryProblem>(context.system->kind).problem,
                         isLinear ? EllipticElements::linear : EllipticElements::multiscale, elements, node);
         left = std::min(left, hat.x.front());
         right = std::max(right, hat.x.back());
@@ -38,7 +39,7 @@ Figure makeShapeFunction(const FigureContext& context) {
         figure.series.push_back(std::move(s));
     }
     if (right > left) figure.x.range = {left, right};
-    if (context.system && !context.system->elliptic)
+    if (context.system && !kindOf<BoundaryProblem>(*context.system))
         figure.message = "Only schemes of the elliptic problem have shape functions";
     finishFigure(figure, context, "Shape function " + figure.subtitle);
     figure.failures.clear();

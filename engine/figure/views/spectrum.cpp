@@ -62,8 +62,8 @@ Figure makeSpectrum(const FigureContext& context) {
     figure.x.title = "wave number";
     figure.y = logAxis("|c|");
     for (const auto& scheme : context.comparison.schemes)
-        if (context.system && context.system->hasWave() && !scheme->frames.empty()) {
-            const Hamiltonian& h = *context.system->wave;
+        if (context.system && isWave(*context.system) && !scheme->frames.empty()) {
+            const Hamiltonian& h = *context.system->hamiltonian();
             if (!h.isPlane()) {
                 figure.series.push_back(spectrumOf(*scheme, h));
                 continue;
@@ -74,11 +74,12 @@ Figure makeSpectrum(const FigureContext& context) {
             figure.subtitle = "the largest along x; along y pale";
         }
     figure.floor = 0x1p-52;
-    if (context.system && context.system->hasWave()) {
-        const wave::Grid& grid = context.system->wave->grid();
-        const double half = (context.system->wave->isPlane() ? std::max(grid.nx, grid.ny) : grid.nx) / 2.0;
+    if (context.system && isWave(*context.system)) {
+        const wave::Grid& grid = context.system->hamiltonian()->grid();
+        const double half =
+            (context.system->hamiltonian()->isPlane() ? std::max(grid.nx, grid.ny) : grid.nx) / 2.0;
         figure.x.range = {-half, half};
-        if (!context.system->wave->isPeriodic()) {
+        if (!context.system->hamiltonian()->isPeriodic()) {
             figure.x.title = "degree";
             figure.x.range = {0, 2 * half + 1};
         }

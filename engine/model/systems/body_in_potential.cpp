@@ -27,17 +27,18 @@ void drawBodyInPotential(const BodyShape& shape, const double* x, Drawing& drawi
 System makeBodyInPotential(const Settings& settings) {
     System s;
     s.id = "body-in-potential";
-    s.body.dimension = 3;
+    Body body;
+    body.dimension = 3;
     const std::vector<double> inertia = settings.numbers("inertia");
-    std::copy(inertia.begin(), inertia.end(), s.body.inertia.begin());
-    s.momenta = setTypedPotential(s.body, settings);
-    describeBody(s);
-    if (s.body.isFree()) addPolhode(s);
-    if (s.body.isFree())
+    std::copy(inertia.begin(), inertia.end(), body.inertia.begin());
+    s.momenta = setTypedPotential(body, settings);
+    describeBody(s, body);
+    if (body.isFree()) addPolhode(s);
+    if (body.isFree())
         s.exact = [I = std::array<double, 3>{inertia[0], inertia[1], inertia[2]}](const State& initial) {
             return freeBodyMotion(I, initial);
         };
-    s.draw = [shape = shapeOf(s.body, settings)](const double* x, Drawing& drawing) {
+    s.draw = [shape = shapeOf(body, settings)](const double* x, Drawing& drawing) {
         drawBodyInPotential(shape, x, drawing);
     };
     return s;

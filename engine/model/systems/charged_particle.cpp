@@ -187,8 +187,8 @@ System makeChargedParticle(const Settings& settings) {
         s.coordinates.push_back({axis, std::string("position ") + axis, axis, "m", "kg m/s"});
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.mechanics = made.mechanics;
-    if (isAxisymmetric(s.mechanics))
+    s.kind = made.mechanics;
+    if (isAxisymmetric(s.mechanics()))
         s.momenta.push_back({"z", "L_z", "kg m²/s",
                              [](const double* q, const double* p) { return q[0] * p[1] - q[1] * p[0]; }});
     for (const int i : made.cyclic) {
@@ -196,8 +196,8 @@ System makeChargedParticle(const Settings& settings) {
         s.momenta.push_back({std::string("linear.") + axes[k], std::string("p_") + axes[k], "kg m/s",
                              [k](const double*, const double* p) { return p[k]; }});
     }
-    if (const auto fields = uniformFields(s.mechanics))
-        s.exact = [m = s.mechanics, fields = *fields, mass = settings.number("m")](const State& initial) {
+    if (const auto fields = uniformFields(s.mechanics()))
+        s.exact = [m = s.mechanics(), fields = *fields, mass = settings.number("m")](const State& initial) {
             return exactMotion(m, fields, mass, initial);
         };
     s.draw = [](const double* x, Drawing& drawing) {
@@ -214,7 +214,7 @@ System makeChargedParticle(const Settings& settings) {
 }
 
 void checkPotentials(const Settings& settings, const System& system, const State& initial) {
-    const auto fault = typed::faultAt(formulaOf(settings), system.mechanics, initial.t, initial.x.data(),
+    const auto fault = typed::faultAt(formulaOf(settings), system.mechanics(), initial.t, initial.x.data(),
                                       initial.x.data() + system.dimension());
     if (fault) throw InvalidScene("", "the Lagrangian of these potentials " + *fault);
 }

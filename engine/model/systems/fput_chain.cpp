@@ -120,7 +120,7 @@ System makeFputChain(const Settings& settings) {
     for (int i = 1; i <= model.dimension(); ++i)
         s.coordinates.push_back(
             {std::to_string(i), "displacement " + std::to_string(i), "q_" + std::to_string(i), "", ""});
-    s.mechanics = bindRuntime(model);
+    s.kind = bindRuntime(model);
     // Every displacement has a slow part as well.
     s.fast = {std::sqrt(2 * model.kStiff / model.m),
               {},

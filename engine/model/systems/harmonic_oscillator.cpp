@@ -56,7 +56,7 @@ System makeHarmonicOscillator(const Settings& settings) {
     s.coordinates = {{"x", "position", "x", "m", "kg m/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.mechanics = bindMechanics<double>(model);
+    s.kind = bindMechanics<double>(model);
     s.fast = {std::sqrt(model.k / model.m), {0}};
     s.exact = [model](const State& initial) { return exactSolution(model, initial); };
     s.draw = drawHarmonicOscillator;

@@ -54,21 +54,22 @@ void drawHeavyTop(const Top& top, const BodyShape& shape, const double* x, Drawi
 System makeHeavyTop(const Settings& settings) {
     System s;
     s.id = "heavy-top";
-    s.body.dimension = 3;
+    Body body;
+    body.dimension = 3;
     const std::vector<double> inertia = settings.numbers("inertia"), centre = settings.numbers("centre");
-    std::copy(inertia.begin(), inertia.end(), s.body.inertia.begin());
+    std::copy(inertia.begin(), inertia.end(), body.inertia.begin());
     auto top = std::make_shared<Top>();
     top->weight = settings.number("weight");
     std::copy(centre.begin(), centre.end(), top->centre.begin());
-    s.body.potential = potential;
-    s.body.model = top;
-    describeBody(s);
+    body.potential = potential;
+    body.model = top;
+    describeBody(s, body);
     s.momenta = {{"vertical", "π_z", "kg m²/s", [](const double* x, const double*) { return x[9]; }}};
-    s.casimir = [](double, const double* x) {
+    addCasimir(s, [](double, const double* x) {
         const so3::Matrix<double> R = so3::matrix(so3::Quaternion<double>(x[0], x[1], x[2], x[3]));
         return R(2, 0) * x[4] + R(2, 1) * x[5] + R(2, 2) * x[6];
-    };
-    BodyShape shape = shapeOf(s.body, settings);
+    });
+    BodyShape shape = shapeOf(body, settings);
     for (double& h : shape.half) h *= 0.6;
     s.draw = [top = *top, shape](const double* x, Drawing& drawing) { drawHeavyTop(top, shape, x, drawing); };
     return s;

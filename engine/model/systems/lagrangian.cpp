@@ -49,7 +49,7 @@ System makeLagrangian(const Settings& settings) {
     s.id = "lagrangian";
     for (const std::string& name : formula.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
-    s.mechanics = std::move(made.mechanics);
+    s.kind = std::move(made.mechanics);
     const auto d = formula.coordinates.size();
     for (const int i : made.cyclic) {
         const auto k = static_cast<std::size_t>(i);
@@ -70,7 +70,7 @@ System makeLagrangian(const Settings& settings) {
 }
 
 void checkLagrangian(const Settings& settings, const System& system, const State& initial) {
-    const auto fault = typed::faultAt(typed::formulaOf(settings), system.mechanics, initial.t,
+    const auto fault = typed::faultAt(typed::formulaOf(settings), system.mechanics(), initial.t,
                                       initial.x.data(), initial.x.data() + system.dimension());
     if (fault) throw InvalidScene("/lagrangian", *fault);
 }

@@ -44,7 +44,7 @@ System makeMultiscaleElliptic(const Settings& settings) {
     s.id = "multiscale-elliptic";
     s.independent = "x";
     s.columns = {{"u", "solution", "u", ""}, {"u_exact", "exact solution", "u_exact", ""}};
-    s.elliptic = std::make_shared<const EllipticProblem>(problem);
+    s.kind = BoundaryProblem{std::make_shared<const EllipticProblem>(problem)};
     // Positive everywhere, or there is no solution: seen at the places of the quadrature.
     const auto exact = std::make_shared<const EllipticSolution>(problem, 16);
     double size = 0;

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::size_t bodies = 6;
 
-struct Body {
+struct Planet {
     const char* name;
     const char* title;
     double mass;
     std::array<double, 3> position, velocity;
     double radius;  ///< on the stage, pixels
 };
-constexpr std::array<Body, bodies> table = {{
+constexpr std::array<Planet, bodies> table = {{
     {"sun", "Sun", 1.00000597682, {0, 0, 0}, {0, 0, 0}, 10},
     {"jupiter",
      "Jupiter",
@@ -133,14 +133,14 @@ std::vector<MomentumMap> momenta() {
 System makeOuterSolarSystem(const Settings& settings) {
     System s;
     s.id = "outer-solar-system";
-    for (const Body& body : table)
+    for (const Planet& body : table)
         for (const char* axis : axisNames)
             s.coordinates.push_back({std::string(body.name) + "." + axis,
                                      std::string(body.title) + " " + axis,
                                      std::string(axis) + "_" + body.title, "au", "M☉ au/d"});
     s.timeUnit = "d";
     s.energyUnit = "M☉ au²/d²";
-    s.mechanics = bindMechanics<double>(withParameters(settings, outerSolarSystemFields()));
+    s.kind = bindMechanics<double>(withParameters(settings, outerSolarSystemFields()));
     s.momenta = momenta();
     s.draw = [](const double* x, Drawing& drawing) {
         for (std::size_t i = 0; i < bodies; ++i)
@@ -165,7 +165,7 @@ ModelEntry outer_solar_system() {
               infos(outerSolarSystemFields()),
               {},
               ""};
-    for (const Body& body : table)
+    for (const Planet& body : table)
         for (std::size_t k = 0; k < 3; ++k) {
             e.exampleQ.push_back(body.position[k]);
             e.exampleP.push_back(body.mass * body.velocity[k]);

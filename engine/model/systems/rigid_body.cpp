@@ -78,10 +78,11 @@ void drawRigidBody(const BodyMechanics<double>& body, const BodyShape& shape, co
 System makeRigidBody(const Settings& settings) {
     System s;
     s.id = "rigid-body";
-    s.body.dimension = 3;
+    Body body;
+    body.dimension = 3;
     const std::vector<double> inertia = settings.numbers("inertia");
-    std::copy(inertia.begin(), inertia.end(), s.body.inertia.begin());
-    describeBody(s);
+    std::copy(inertia.begin(), inertia.end(), body.inertia.begin());
+    describeBody(s, body);
     addPolhode(s);
     const char* names[] = {"space.x", "space.y", "space.z"};
     const char* symbols[] = {"π_x", "π_y", "π_z"};
@@ -91,8 +92,8 @@ System makeRigidBody(const Settings& settings) {
     s.exact = [I = Three{inertia[0], inertia[1], inertia[2]}](const State& initial) {
         return freeBodyMotion(I, initial);
     };
-    s.casimir = [](double, const double* x) { return x[4] * x[4] + x[5] * x[5] + x[6] * x[6]; };
-    s.draw = [shape = shapeOf(s.body, settings), body = s.body](const double* x, Drawing& drawing) {
+    addCasimir(s, [](double, const double* x) { return x[4] * x[4] + x[5] * x[5] + x[6] * x[6]; });
+    s.draw = [shape = shapeOf(body, settings), body](const double* x, Drawing& drawing) {
         drawRigidBody(body, shape, x, drawing);
     };
     return s;

@@ -41,17 +41,17 @@ ExactSolution freeMotion(const BodyMechanics<double>& body, const State& initial
 System makeRigidBodySe3(const Settings& settings) {
     System s;
     s.id = "rigid-body-se3";
-    s.body.dimension = 6;
+    Body body;
+    body.dimension = 6;
     const std::vector<double> inertia = settings.numbers("inertia");
-    std::copy(inertia.begin(), inertia.end(), s.body.inertia.begin());
-    std::fill(s.body.inertia.begin() + 3, s.body.inertia.end(), settings.number("mass"));
-    s.momenta = setTypedPotential(s.body, settings);
-    describeBody(s);
-    if (s.body.isFree()) addPolhode(s);
-    if (s.body.isFree())
-        s.exact = [body = s.body](const State& initial) { return freeMotion(body, initial); };
-    s.draw = [shape = shapeInMetres(s.body, settings), isFree = s.body.isFree()](const double* x,
-                                                                                 Drawing& drawing) {
+    std::copy(inertia.begin(), inertia.end(), body.inertia.begin());
+    std::fill(body.inertia.begin() + 3, body.inertia.end(), settings.number("mass"));
+    s.momenta = setTypedPotential(body, settings);
+    describeBody(s, body);
+    if (body.isFree()) addPolhode(s);
+    if (body.isFree()) s.exact = [body](const State& initial) { return freeMotion(body, initial); };
+    s.draw = [shape = shapeInMetres(body, settings), isFree = body.isFree()](const double* x,
+                                                                             Drawing& drawing) {
         drawing.tracer = onStage(x[10], x[11], x[12]);
         if (drawing.isTracerOnly) return;
         drawSpaceAxes(1, drawing);

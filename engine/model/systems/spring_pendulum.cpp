@@ -134,7 +134,7 @@ System makeSpringPendulum(const Settings& settings) {
     s.coordinates = {{"a", "extension", "a", "m", "kg m/s"}, {"theta", "angle", "θ", "rad", "kg m²/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.mechanics = bindMechanics<double>(model);
+    s.kind = bindMechanics<double>(model);
     s.fast = {std::sqrt(model.k / model.m),
               {0},
               [model](double, const double* x) { return model.oscillation(x); },

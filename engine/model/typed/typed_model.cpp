@@ -53,7 +53,8 @@ Formula formulaOf(const Settings& settings) {
 TypedMechanics mechanicsOf(const Formula& formula) {
     try {
         TypedMechanics made = makeMechanics(formula);
-        if (const auto fault = degeneracy(formula, made.mechanics)) throw InvalidScene("/lagrangian", *fault);
+        if (const auto fault = degeneracy(formula, made.mechanics))
+            throw InvalidScene("/lagrangian", *fault);
         return made;
     } catch (const ExpressionError& e) {
         throw InvalidScene("/lagrangian", std::string(e.what()) + "\n" + caretLines(formula.text, e.position),

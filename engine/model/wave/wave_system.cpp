@@ -9,6 +9,7 @@
 #include "engine/core/recent.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/measures.hpp"
 #include "engine/model/wave/packet.hpp"
 #include "engine/model/wave/spectrum.hpp"
 
@@ -65,7 +66,9 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     s.id = settings.type;
     static Recent<Settings, Shared> recent(6);
     const Shared h = recent.get(settings, [&] { return make(settings); });
-    s.wave = h;
+    s.kind = Wave{h};
+    s.measures = waveMeasures(h);
+    s.phaseError = wavePhaseError(h->size());
     s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };
     s.error = errorOf(h->size());
     s.field = samplingOf(h);

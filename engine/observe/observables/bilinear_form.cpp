@@ -38,7 +38,7 @@ ObservableEntry bilinear_form() {
               {},
               {},
               "a wave function"};
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"bilinear_form", "J", "", {}, {}}, {"bilinear_form_error", "J - J(0)", "", {}, {}}};
@@ -51,7 +51,7 @@ ObservableEntry bilinear_form() {
             return o;
         }
         Form form;
-        form.h = context.system.wave;
+        form.h = context.system.hamiltonian();
         form.dt = context.step;
         if (isThreeLevel) {
             form.alpha = threeLevelAlpha(context.pair->quadrature);

@@ -8,13 +8,12 @@ ObservableEntry energy() {
     ObservableEntry e;
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.",
               {},       {},       ""};
-    e.applies = [](const System& system) { return system.hasMechanics() || system.energy; };
+    e.applies = [](const System& system) { return isMechanical(system) || system.energy; };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"energy", "H", context.system.energyUnit, {}, {}},
                      {"energy_error", "H - H(0)", context.system.energyUnit, {}, {}}};
         o.extreme = 1;
-        const Mechanics<double> m = context.system.mechanics;
         const EnergyFunction energy = energyOf(context.system);
         const double start = energy(context.initial.t, context.initial.x.data());
         if (context.system.energy)
@@ -25,7 +24,8 @@ ObservableEntry energy() {
                 }
             };
         else
-            o.evaluate = [m, start](const NodeBlock& nodes, double* values, std::size_t stride) {
+            o.evaluate = [m = context.system.mechanics(), start](const NodeBlock& nodes, double* values,
+                                                                 std::size_t stride) {
                 for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
                     values[0] = m.energy(m.model.get(), nodes.t(i), nodes.x(i), nodes.x(i) + m.dimension);
                     values[1] = values[0] - start;

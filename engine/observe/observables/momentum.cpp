@@ -2,31 +2,10 @@
 /// column of the state already is not written twice.
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
-#include "engine/observe/catalog.hpp"
-#include "engine/model/wave/spectrum.hpp"
+#include "engine/observe/measured.hpp"
 
 namespace extremal::observables {
-namespace {
-
-/// <p>, which a potential changes.
-Observer meanOfWave(const std::shared_ptr<const Hamiltonian>& h) {
-    Observer o;
-    o.columns = {{"momentum", h->isPlane() ? "⟨p x⟩" : "⟨p⟩", "", {}, {}}};
-    if (h->isPlane()) o.columns.push_back({"momentum_y", "⟨p y⟩", "", {}, {}});
-    o.evaluate = [h](const NodeBlock& nodes, double* values, std::size_t stride) {
-        for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
-            const MeanMomentum mean = meanMomentum(*h, coefficients(nodes.x(i)));
-            values[0] = mean.x;
-            if (h->isPlane()) values[1] = mean.y;
-        }
-    };
-    return o;
-}
-
-}  // namespace
-
 ObservableEntry momentum() {
     ObservableEntry e;
     e.item = {"momentum",
@@ -35,9 +14,10 @@ ObservableEntry momentum() {
               {},
               {},
               "a symmetry"};
-    e.applies = [](const System& system) { return !system.momenta.empty() || system.hasWave(); };
+    e.applies = [](const System& system) { return !system.momenta.empty() || measureOf(system, "momentum"); };
     e.bind = [](const ObserveContext& context) {
-        if (context.system.hasWave()) return meanOfWave(context.system.wave);
+        if (const Measure* mean = measureOf(context.system, "momentum"))
+            return bindMeasure(*mean, context.initial);
         Observer o;
         const auto& momenta = context.system.momenta;
         const auto d = static_cast<std::size_t>(context.system.dimension());

@@ -24,7 +24,7 @@ public:
         : system_(system),
           pair_(pair),
           step_(step),
-          glued_(system.mechanics, tableOf(pair.space, pair.quadrature), step, 1) {}
+          glued_(system.mechanics(), tableOf(pair.space, pair.quadrature), step, 1) {}
 
     /// |lambda|, |lambda - p| and lambda; NaN where the step fails.
     void operator()(const State& state, const StepReport&, double* values) const {

@@ -1,9 +1,7 @@
-/// The phase by which a wave function is ahead of the reference, arg <psi_ref, psi>, in (-pi, pi].
-#include <complex>
+/// The phase by which a state is ahead of the reference (System::phaseError).
 #include <vector>
 
 #include "engine/observe/catalog.hpp"
-#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal::observables {
 
@@ -16,19 +14,18 @@ ObservableEntry phase_error() {
               {},
               "a wave function and a reference"};
     e.needsReference = true;
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return static_cast<bool>(system.phaseError.evaluate); };
     e.bind = [](const ObserveContext& context) {
+        const ErrorMeasure& measure = context.system.phaseError;
         Observer o;
-        o.columns = {{"phase_error", "arg⟨ψ ref, ψ⟩", "rad", {}, {}}};
-        const int n = context.system.wave->size();
-        const auto width = static_cast<std::size_t>(2 * n);
-        o.evaluate = [n, width, reference = context.reference, exact = std::vector<double>()](
+        for (const Quantity& c : measure.columns) o.columns.push_back({c.name, c.symbol, c.unit, {}, {}});
+        o.evaluate = [width = context.initial.x.size(), evaluate = measure.evaluate,
+                      reference = context.reference, exact = std::vector<double>()](
                          const NodeBlock& nodes, double* values, std::size_t stride) mutable {
             exact.resize(width * nodes.size());
             reference(nodes.times(), exact.data(), width);
             for (std::size_t i = 0; i < nodes.size(); ++i, values += stride)
-                values[0] = std::arg(
-                    innerProduct(coefficients(exact.data() + i * width), coefficients(nodes.x(i)), n));
+                evaluate(nodes.x(i), exact.data() + i * width, values);
         };
         return o;
     };

@@ -48,7 +48,7 @@ private slots:
         for (const std::array<double, 3> I : {std::array<double, 3>{1, 2, 3}, {1, 1, 1.8}, {2, 2, 2}}) {
             const System system = body("ellipsoid", I);
             const std::vector<double> x = whole(startState());
-            const BodyShape shape = poinsotEllipsoid(system.body, x.data(), 1.25);
+            const BodyShape shape = poinsotEllipsoid(system.body(), x.data(), 1.25);
             Drawing drawing;
             system.draw(x.data(), drawing);
             const Vector tip = fromStage(drawing.tracer), along = Vector(x[7], x[8], x[9]).normalized();
@@ -138,7 +138,7 @@ private slots:
     void thinRodsKeepAVisibleThickness() {
         const System system = body("ellipsoid", {1e-10, 1, 1});
         const std::vector<double> x = whole(startState());
-        for (const double a : poinsotEllipsoid(system.body, x.data(), 1.25).half)
+        for (const double a : poinsotEllipsoid(system.body(), x.data(), 1.25).half)
             QVERIFY(a >= 0.07 && a <= 2.5);
         Drawing drawing;
         system.draw(std::vector<double>{1, 0, 0, 0, 0, 0, 0, 0, 0, 0}.data(), drawing);  // at rest

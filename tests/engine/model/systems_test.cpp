@@ -42,7 +42,7 @@ private slots:
         QFETCH(QString, id);
         const ModelEntry& entry = *findModel(id.toStdString());
         const System s = laws::systemNamed(id.toStdString());
-        const auto& m = s.mechanics;
+        const auto& m = s.mechanics();
         const auto d = static_cast<std::size_t>(s.dimension()), n = 2 * d;
         std::mt19937 random(7);
         for (int trial = 0; trial < 5; ++trial) {
@@ -77,7 +77,7 @@ private slots:
     void forcesOfManyNodesAreThoseOfEach() {
         for (const char* id : {"kepler", "henon-heiles", "outer-solar-system"}) {
             const System s = laws::systemNamed(id);
-            const auto& m = s.mechanics;
+            const auto& m = s.mechanics();
             QVERIFY(m.forces);
             const auto d = static_cast<std::size_t>(s.dimension());
             constexpr std::size_t nodes = 24;
@@ -115,7 +115,7 @@ private slots:
     }
     void aLinearChainIsASumOfNormalModes() {
         const System s = laws::systemNamed("fput-chain", {{"beta", 0.0}, {"k_soft", 3.0}, {"k_stiff", 40.0}});
-        const auto& m = s.mechanics;
+        const auto& m = s.mechanics();
         const int d = s.dimension();
         const std::vector<double> zero(static_cast<std::size_t>(d));
         std::vector<double> g(2 * zero.size()), H(4 * zero.size() * zero.size());
@@ -137,7 +137,7 @@ private slots:
     }
     void theStarEscapesAtOneSixth() {
         const System s = laws::systemNamed("henon-heiles");
-        const auto& m = s.mechanics;
+        const auto& m = s.mechanics();
         const double q[2] = {0, 1}, p[2] = {0, 0};
         double f[2];
         QVERIFY(std::abs(m.energy(m.model.get(), 0, q, p) - 1.0 / 6) < 1e-15);
@@ -150,7 +150,7 @@ private slots:
         const ModelEntry& entry = *findModel("outer-solar-system");
         State start{0, 0, entry.exampleQ};
         start.x.insert(start.x.end(), entry.exampleP.begin(), entry.exampleP.end());
-        const auto& m = s.mechanics;
+        const auto& m = s.mechanics();
         const auto energy = [&](const State& at) {
             return m.energy(m.model.get(), at.t, at.x.data(), at.x.data() + 18);
         };

@@ -105,8 +105,8 @@ private slots:
             const Scene scene = sceneFrom(kepler, keplerData, "5", R"({"scheme":"midpoint","step":0.01})",
                                           asks ? R"(,"observe":["energy"])" : R"(,"observe":["momentum"])");
             System system = makeSystem(scene);
-            realEnergy = system.mechanics.energy;
-            system.mechanics.energy = &countedEnergy;
+            realEnergy = system.mechanics().energy;
+            std::get<Mechanical>(system.kind).energy = &countedEnergy;
             energyCalls = 0;
             SchemeRun task(scene, scene.schemes[0], 0);
             task.run(system, initialState(scene, system), {}, nullptr, {});

@@ -19,13 +19,14 @@ inline System swing() {
     s.id = "swing";
     s.coordinates = {{"theta", "angle", "θ", "rad", ""}};
     s.timeUnit = "s";
-    s.mechanics.dimension = 1;
-    s.mechanics.flow = [](const void*, const double&, const double* q, const double* p, double* v,
-                          double* f) {
+    Mechanical mechanics;
+    mechanics.dimension = 1;
+    mechanics.flow = [](const void*, const double&, const double* q, const double* p, double* v, double* f) {
         v[0] = p[0];
         f[0] = -4 * q[0];
         return true;
     };
+    s.kind = mechanics;
     s.draw = [](const double* x, Drawing& drawing) {
         const Point bob{std::sin(x[0]), -std::cos(x[0]), 0};
         drawing.shapes.push_back(Support{{0, 0, 0}, 0.5});

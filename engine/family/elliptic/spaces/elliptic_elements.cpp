@@ -19,7 +19,7 @@ SpaceEntry elliptic_elements() {
               {},
               "the elliptic problem"};
     e.make = [](const Settings&) { return polynomialSpace<double>(1, PolynomialBasis::lobatto); };
-    e.applies = [](const System& system) { return system.elliptic != nullptr; };
+    e.applies = [](const System& system) { return kindOf<BoundaryProblem>(system) != nullptr; };
     return e;
 }
 

@@ -23,7 +23,7 @@ SpaceEntry lie_polynomial() {
     e.make = [](const Settings& settings) {
         return polynomialSpace<double>(settings.integer("degree"), PolynomialBasis::lobatto);
     };
-    e.applies = [](const System& system) { return system.hasBody(); };
+    e.applies = [](const System& system) { return isBody(system); };
     return e;
 }
 

@@ -28,7 +28,7 @@ SpaceEntry fourier() {
     e.make = [](const Settings& settings) {
         return polynomialSpace<double>(settings.integer("degree"), PolynomialBasis::lobatto);
     };
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     return e;
 }
 

@@ -25,7 +25,7 @@ SpaceEntry space_time() {
     e.make = [](const Settings& settings) {
         return polynomialSpace<double>(std::min(24, settings.integer("degree")), PolynomialBasis::lobatto);
     };
-    e.applies = [](const System& system) { return system.hasWave(); };
+    e.applies = [](const System& system) { return isWave(system); };
     return e;
 }
 

@@ -86,7 +86,7 @@ private slots:
             std::vector<Table<double>> tables;
             for (const OscillatoryBasis& basis : {known.a, known.theta})
                 tables.push_back(makeOscillatoryTable(basis, {z, 0}, FilonNodes::lobatto, 8, {12, 1}));
-            GalerkinStep<double, 2> step(s.mechanics, tables, known.h, {});
+            GalerkinStep<double, 2> step(s.mechanics(), tables, known.h, {});
             double q[2] = {0.05 * std::sqrt(1e4 / known.k), 1}, p[2] = {0, 0};
             int iterations = 0;
             for (int i = 0; i < known.steps; ++i) {

@@ -60,7 +60,7 @@ std::vector<double> randomNumbers(std::mt19937& random, const System& builtIn) {
 std::vector<double> jetOf(const System& system, const std::vector<double>& x) {
     const int d = system.dimension();
     const auto n = static_cast<std::size_t>(2 * d);
-    const auto& m = system.mechanics;
+    const auto& m = system.mechanics();
     std::vector<double> all(1 + n + n * n);
     m.jet(m.model.get(), 0.3, x.data(), x.data() + d, &all[0], &all[1], &all[1 + n]);
     return all;
@@ -117,21 +117,21 @@ private slots:
             const auto x = randomNumbers(random, b);
             std::vector<double> g(n), ga(n), gb(n);
             const auto all = jetOf(a, x);
-            a.mechanics.gradient(a.mechanics.model.get(), 0.3, x.data(), x.data() + d, g.data());
+            a.mechanics().gradient(a.mechanics().model.get(), 0.3, x.data(), x.data() + d, g.data());
             QVERIFY(largestDifference(
                         std::vector<double>(all.begin() + 1, all.begin() + 1 + static_cast<long>(n)), g) <
                     1e-14);
-            QVERIFY(a.mechanics.flow(a.mechanics.model.get(), 0.3, x.data(), x.data() + d, ga.data(),
-                                     ga.data() + d));
-            QVERIFY(b.mechanics.flow(b.mechanics.model.get(), 0.3, x.data(), x.data() + d, gb.data(),
-                                     gb.data() + d));
+            QVERIFY(a.mechanics().flow(a.mechanics().model.get(), 0.3, x.data(), x.data() + d, ga.data(),
+                                       ga.data() + d));
+            QVERIFY(b.mechanics().flow(b.mechanics().model.get(), 0.3, x.data(), x.data() + d, gb.data(),
+                                       gb.data() + d));
             QVERIFY(largestDifference(ga, gb) < 1e-14);
-            const double ea = a.mechanics.energy(a.mechanics.model.get(), 0.3, x.data(), x.data() + d);
-            const double eb = b.mechanics.energy(b.mechanics.model.get(), 0.3, x.data(), x.data() + d);
+            const double ea = a.mechanics().energy(a.mechanics().model.get(), 0.3, x.data(), x.data() + d);
+            const double eb = b.mechanics().energy(b.mechanics().model.get(), 0.3, x.data(), x.data() + d);
             QVERIFY(std::abs(ea - eb) < 1e-12 * std::max(1.0, std::abs(eb)));
         }
-        QCOMPARE(a.mechanics.isSeparable, b.mechanics.isSeparable);
-        QVERIFY(!a.mechanics.isTimeDependent);
+        QCOMPARE(a.mechanics().isSeparable, b.mechanics().isSeparable);
+        QVERIFY(!a.mechanics().isTimeDependent);
     }
     void stepsAgree_data() { addTwins(); }
     void stepsAgree() {

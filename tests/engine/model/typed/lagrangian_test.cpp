@@ -31,8 +31,8 @@ struct Jet2 {
 Jet2 jetAt(const System& s, double t, std::vector<double> q, std::vector<double> v) {
     const auto n = 2 * q.size();
     Jet2 j{0, std::vector<double>(n), std::vector<double>(n * n)};
-    s.mechanics.jet(s.mechanics.model.get(), t, q.data(), v.data(), &j.value, j.gradient.data(),
-                    j.hessian.data());
+    s.mechanics().jet(s.mechanics().model.get(), t, q.data(), v.data(), &j.value, j.gradient.data(),
+                      j.hessian.data());
     return j;
 }
 
@@ -143,7 +143,7 @@ private slots:
     }
     void separableLagrangiansAreRecognised() {
         const auto isSeparable = [](const char* L) {
-            return typedSystem({"x", "y"}, {{"m", 2}}, L).mechanics.isSeparable;
+            return typedSystem({"x", "y"}, {{"m", 2}}, L).mechanics().isSeparable;
         };
         QVERIFY(isSeparable("m*x_t^2/2 + 3*y_t^2 - sin(x*y)*t"));
         QVERIFY(isSeparable("(x_t + y_t)^2 + (x_t - y_t)^2 - x"));
@@ -154,13 +154,13 @@ private slots:
         QVERIFY(!isSeparable("x_t^2 + y_t^2 + x_t*y_t"));
         QVERIFY(!isSeparable("t*x_t^2 + x_t^2 + y_t^2"));
         const System s = typedSystem({"x", "y"}, {{"m", 2}}, "m*x_t^2/2 + 3*y_t^2 - sin(x*y)*t");
-        QCOMPARE(s.mechanics.masses[0], 2.0);
-        QCOMPARE(s.mechanics.masses[1], 6.0);
+        QCOMPARE(s.mechanics().masses[0], 2.0);
+        QCOMPARE(s.mechanics().masses[1], 6.0);
         double f[2];
         const double q[2] = {0.5, 0.25};
-        s.mechanics.force(s.mechanics.model.get(), 2, q, f);
+        s.mechanics().force(s.mechanics().model.get(), 2, q, f);
         QCOMPARE(f[0], -2 * 0.25 * std::cos(0.125));
-        QVERIFY(s.mechanics.isTimeDependent);
+        QVERIFY(s.mechanics().isTimeDependent);
     }
     void cyclicCoordinatesHaveMomenta() {
         const auto momentaOf = [](const char* L, Value::Object parameters = {}) {
@@ -181,7 +181,7 @@ private slots:
         for (const char* L : {"x_t^2*(1 + y^2)/2 + y_t^2 + 3*x*y_t", "x_t^2 + y_t^2 + cos(x)*x_t*y_t + x_t",
                               "-4*sqrt(4 - x_t^2 - y_t^2) + x", "cosh(x_t) + y_t^2 + y_t^4/4"}) {
             const System s = typedSystem({"x", "y"}, {}, L);
-            const auto& m = s.mechanics;
+            const auto& m = s.mechanics();
             const double q[2] = {0.4, -0.7}, v[2] = {0.9, -0.3};
             double g[4], found[2];
             m.gradient(m.model.get(), 0, q, v, g);
@@ -195,7 +195,7 @@ private slots:
         const System bounded = typedSystem({"x"}, {}, "atan(x_t)*x_t + x_t^2/1e6 - x_t^4");
         double v = 0;
         const double q = 0, p = 1e9;
-        (void)bounded.mechanics.velocity(bounded.mechanics.model.get(), 0, &q, &p, &v);
+        (void)bounded.mechanics().velocity(bounded.mechanics().model.get(), 0, &q, &p, &v);
     }
     void mistakesAreShownWhereTheyAre_data() {
         QTest::addColumn<QString>("text");

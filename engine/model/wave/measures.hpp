@@ -1,0 +1,24 @@
+/// What a wave function measures of itself, for the observables of these ids:
+///     norm            sqrt(h sum |psi_j|^2) and its change: kept by every unitary scheme;
+///     momentum        <p>, which a potential changes; on a rectangle along x and y;
+///     position        <x>, and <cos x>, which a periodic domain knows without a cut; on a rectangle <x>,
+///     <y>; current         j = (hbar/m) Im(conj(psi) psi_x) through the middle of the domain: what passes a
+///     barrier
+///                     there in a unit of time. The sign is that of d/dt |psi|^2 + d/dx j = 0; the printed
+///                     one is opposite (Leok 2004, sec. 8.2);
+///     spectrum-tail   the share of the upper eighth of its modes: far above round-off, N is too small.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+std::vector<Measure> waveMeasures(const std::shared_ptr<const Hamiltonian>& h);
+
+/// The phase by which psi is ahead of the reference, arg <psi_ref, psi>, in (-pi, pi].
+ErrorMeasure wavePhaseError(int size);
+
+}  // namespace extremal
