@@ -44,17 +44,9 @@
 #include "engine/integrator/node_iteration.hpp"
 #include "engine/integrator/small_product.hpp"
 #include "engine/model/mechanics.hpp"
+#include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
-
-enum class SolverMethod { automatic, newton, fixedPoint };
-
-struct SolverPolicy {
-    SolverMethod method = SolverMethod::automatic;
-    double tolerance = 0;    ///< relative size of the last correction; 0: round-off
-    int maxIterations = 50;  ///< Newton or fixed-point iterations in one step
-    bool operator==(const SolverPolicy&) const = default;
-};
 
 template <class T, int D>
 class GalerkinStep {
@@ -86,9 +78,6 @@ private:
     using Accumulator = std::conditional_t<std::is_same_v<T, double>, long double, T>;
 
     enum class Attempt { solved, failed, notFinite, singular, stopped };
-    /// What the iteration starts from: the previous step's curve extrapolated; the smooth part of that curve,
-    /// which varies less beyond its step; or what is known without it.
-    enum class StartingValue { extrapolated, previous, fallback };
 
     /// The functions of a table, node by node and function by function. The equations are the gradient of one
     /// sum of numbers, S = sum_i w_i L(q_0 + sum_a phi_a(c_i) Y_a, sum_a phi_a'(c_i) Y_a): test and trial
@@ -125,7 +114,6 @@ private:
     void applyHessian(int k, int l, bool isSlope);
     bool assembleJacobian(const T& t);
     bool startFrom(const T& t, StartingValue start);
-    StartingValue next(StartingValue start) const;
     bool startVelocity(const T& t);
     T correction();
     Attempt iterate(const T& t, StartingValue start, const std::stop_token& stop);
@@ -160,11 +148,10 @@ private:
     Square applied_;               ///< (i, c): a row of the Hessian applied to function c
     Square jacobian_;
     Eigen::PartialPivLU<Square> lu_;
-    bool hasPrevious_ = false;                           ///< Y_ of Newton's last step can be extrapolated
-    std::optional<NodeIteration<T>> fixedPointSolver_;   ///< separable Lagrangians
-    bool isSolvedByFixedPoint_ = false;                  ///< it solved the last step
-    StartingValue first_ = StartingValue::extrapolated;  ///< to begin with,
-    int otherThanExtrapolatedFor_ = 0;                   ///< for that many steps, after a better one was poor
+    bool hasPrevious_ = false;                          ///< Y_ of Newton's last step can be extrapolated
+    std::optional<NodeIteration<T>> fixedPointSolver_;  ///< separable Lagrangians
+    bool isSolvedByFixedPoint_ = false;                 ///< it solved the last step
+    StartingLadder ladder_;
     int newtonSteps_ = 0;  ///< steps for which Newton is preferred after the fixed point was slow
     StepReport report_;
 };

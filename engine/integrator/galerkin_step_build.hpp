@@ -18,8 +18,7 @@ template <class T, int D>
 GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step,
                                  SolverPolicy policy)
     : mechanics_(std::move(mechanics)), tables_(std::move(tables)), h_(step), policy_(policy) {
-    const T epsilon = std::numeric_limits<T>::epsilon();
-    tolerance_ = policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
+    tolerance_ = toleranceOf<T>(policy);
     int size = 0, widest = 0;
     for (int k = 0; k < d(); ++k) {
         offset_.push_back(size);

@@ -76,82 +76,57 @@ bool GalerkinStep<T, D>::startFrom(const T& t, StartingValue start) {
 /// Solves J delta = R, Newton's correction being -delta; returns its size relative to the unknowns.
 template <class T, int D>
 T GalerkinStep<T, D>::correction() {
-    using std::abs;
     delta_ = lu_.solve(R_);
     ++report_.linearSolves;
-    // Each coordinate is measured against its own increments and the round-off of its own value.
     T worst(0);
     for (int k = 0; k < d(); ++k) {
-        const T scale = Y_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
-        const T roundOff = std::numeric_limits<T>::epsilon() * abs(q0_(k));
-        const T size = delta_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
-        if (!(size <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
-        const T known = std::max(scale, roundOff);  // 0: at rest in 0 so far
-        if (size > roundOff * T(0.01)) worst = std::max(worst, known > T(0) ? T(size / known) : T(1));
+        const T increments = Y_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
+        const T change = delta_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
+        worst = std::max(worst, relativeCorrection(change, increments, T(q0_(k))));
     }
     return worst;
 }
 
+/// Newton's method from the starting value in Y. At its end the forces at hand are those of the solution.
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, StartingValue start,
                                                                  const std::stop_token& stop) {
-    const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
-    const int limit = policy_.maxIterations;
-    T last = std::numeric_limits<T>::infinity();
-    int growing = 0, stalls = 0, sinceJacobian = 0;
+    using Verdict = typename NewtonPolicy<T>::Verdict;
+    NewtonPolicy<T> policy(NewtonLimits<T>::condensedStep(tolerance_, start == StartingValue::fallback));
     placeNodes();
     if (!assembleJacobian(t)) return Attempt::singular;
-    for (int iteration = 0; iteration < limit; ++iteration) {
+    for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop.stop_requested()) return Attempt::stopped;
         evaluateGradients(t);
         residual();
         const T size = correction();
         ++report_.iterations;
         report_.residual = static_cast<double>(size);
-        if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
-        if (iteration == 0 && start != StartingValue::fallback && size > T(1))
-            return Attempt::failed;  // rich curves swing far beyond their step
-        // At round-off, or no longer shrinking within a few digits of it: the forces at hand are those of the
-        // solution.
-        if (size <= tolerance_ || (size < stagnation && size >= last * T(0.25))) return Attempt::solved;
-        // An ill-conditioned step stays further from round-off, whatever the Jacobian.
-        if (size < 100 * stagnation && size >= last * T(0.25) && ++stalls >= 3) return Attempt::solved;
+        const Verdict verdict = policy.judge(size);
+        if (verdict == Verdict::converged) return Attempt::solved;
+        if (verdict == Verdict::notFinite) return Attempt::notFinite;
+        if (verdict == Verdict::diverged) return Attempt::failed;
         Y_ -= delta_;
         placeNodes();
-        ++sinceJacobian;
-        growing = size >= last ? growing + 1 : 0;
-        if (growing >= 4) return Attempt::failed;
-        if (size > T(0.1) || (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation)) {
-            if (!assembleJacobian(t)) return Attempt::singular;
-            sinceJacobian = 0;
-        }
-        last = size;
+        if (verdict == Verdict::proceed) continue;
+        if (!assembleJacobian(t)) return Attempt::singular;
+        policy.jacobianIsNew();
     }
     return Attempt::failed;
 }
 
-template <class T, int D>
-typename GalerkinStep<T, D>::StartingValue GalerkinStep<T, D>::next(StartingValue start) const {
-    return start == StartingValue::extrapolated && tables_.front().smoothExtrapolation.size() > 0
-               ? StartingValue::previous
-               : StartingValue::fallback;
-}
-
-/// Guess and iterate; where the continued curve was a poor guess (large steps), once more from a more
-/// cautious one.
+/// Newton's method down the ladder of starting values.
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, const std::stop_token& stop) {
-    if (otherThanExtrapolatedFor_ > 0 && --otherThanExtrapolatedFor_ == 0)
-        first_ = StartingValue::extrapolated;
-    for (StartingValue start = hasPrevious_ ? first_ : StartingValue::fallback;; start = next(start)) {
+    StartingValue start = ladder_.begin(hasPrevious_);
+    for (;;) {
         if (!startFrom(t, start)) return Attempt::singular;
         const Attempt result = iterate(t, start, stop);
         if (result == Attempt::solved && fixedPointSolver_)
             fixedPointSolver_->remember(gradient_.leftCols(d()));
         if (result == Attempt::solved || result == Attempt::stopped || start == StartingValue::fallback)
             return result;
-        first_ = next(start);
-        otherThanExtrapolatedFor_ = 16;
+        start = ladder_.below(start, tables_.front().smoothExtrapolation.size() > 0);
     }
 }
 
@@ -187,7 +162,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const
         hasPrevious_ = false;
         if (isSolvedByFixedPoint_ || result == Attempt::stopped || policy_.method == SolverMethod::fixedPoint)
             return result;
-        newtonSteps_ = 32;  // the fixed point is slow here: stay with Newton for a while
+        newtonSteps_ = stepsWithNewton;
     } else if (newtonSteps_ > 0) {
         --newtonSteps_;
     }

@@ -240,7 +240,7 @@ bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
         if (!(pivot >= smallest)) smallest = pivot;
         if (pivot > largest) largest = pivot;
     }
-    return smallest > std::numeric_limits<T>::epsilon() * T(1e-3) * largest;
+    return isRegular(smallest, largest);
 }
 
 }  // namespace extremal

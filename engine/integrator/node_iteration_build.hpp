@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "engine/integrator/node_iteration.hpp"
+#include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 namespace detail {
@@ -168,18 +169,13 @@ void NodeIteration<T>::startFromConstantForce(const T& t, const T* q) {
         for (int i = 0; i < n_; ++i) F_[at(k, i)] = force_[static_cast<std::size_t>(k)];
 }
 
-/// Size of the last sweep's change: each coordinate against its own increments and the round-off of its own
-/// value.
+/// Size of the last sweep's change.
 template <class T>
 T NodeIteration<T>::largestChange(const T* q) const {
-    using std::abs;
     T worst(0);
     for (int k = 0; k < d_; ++k) {
         const SweepSize<T>& size = size_[static_cast<std::size_t>(k)];
-        const T roundOff = std::numeric_limits<T>::epsilon() * abs(q[k]);
-        if (!(size.change <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
-        if (size.change > roundOff * T(0.01))
-            worst = std::max(worst, T(size.change / std::max(size.scale, roundOff)));
+        worst = std::max(worst, relativeCorrection(size.change, size.scale, q[k]));
     }
     return worst;
 }
@@ -188,7 +184,8 @@ template <class T>
 typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ,
                                                           const T* carryP, int maxIterations,
                                                           const std::stop_token& stop, StepReport& report) {
-    const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
+    using Verdict = typename NewtonPolicy<T>::Verdict;
+    NewtonPolicy<T> policy(NewtonLimits<T>::fixedPoint(tolerance_));
     place(t, p, carryQ, carryP);
     Sweep<T> s{d_,        n_,        stride_,         start_.data(),       base_.data(),
                F_.data(), nullptr,   impulse_.data(), inverseMass_.data(), q,
@@ -204,8 +201,6 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
     }
     sweep_(s);
     useImpulses();
-    T last = std::numeric_limits<T>::infinity();
-    int growing = 0;
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
         if (stop.stop_requested()) return Result::stopped;
         evaluateForces();
@@ -215,26 +210,19 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         const T size = largestChange(q);
         report.residual = static_cast<double>(size);
         hasForces_ = false;
-        if (!(size < std::numeric_limits<T>::infinity())) return Result::notFinite;
-        // One more sweep would change less than is lost to round-off anyway, or the changes no longer shrink
-        // within a few digits of it. Then the forces are taken where that sweep has put the nodes: left where
-        // the nodes were, or had we stopped at round-off itself, they would have a bias that adds up over
-        // millions of steps.
-        const T coming = iteration > 0 ? size * std::min(T(1), T(size / last)) : size;
-        const bool isEnough = isExact_ ? coming <= T(0.01) * tolerance_ : size <= tolerance_;
-        if (isEnough || (size < stagnation && size >= last * T(0.25))) {
-            if (isExact_) {
-                evaluateForces();
-                weigh();
-                report.evaluations += n_;
-            }
-            hasForces_ = true;
-            return Result::solved;
+        const Verdict verdict = policy.judge(size);
+        if (verdict == Verdict::notFinite) return Result::notFinite;
+        if (verdict == Verdict::slow || verdict == Verdict::diverged) return Result::slow;
+        if (verdict == Verdict::proceed) continue;
+        // The forces are taken where the last sweep has put the nodes: left where the nodes were they would
+        // have a bias that adds up over millions of steps.
+        if (isExact_) {
+            evaluateForces();
+            weigh();
+            report.evaluations += n_;
         }
-        growing = size >= last ? growing + 1 : 0;
-        if (growing >= 4 || (iteration >= 3 && size > last * T(0.1) && size > stagnation))
-            return Result::slow;
-        last = size;
+        hasForces_ = true;
+        return Result::solved;
     }
     return Result::slow;
 }

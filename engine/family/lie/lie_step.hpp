@@ -30,9 +30,9 @@
 
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
-#include "engine/integrator/galerkin_step.hpp"
 #include "engine/family/lie/lie_groups.hpp"
 #include "engine/model/body.hpp"
+#include "engine/solve/newton_policy.hpp"
 #include "engine/solve/small_lu.hpp"
 
 namespace extremal {

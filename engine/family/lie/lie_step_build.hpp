@@ -22,8 +22,7 @@ LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& st
       hasPotential_(!body.isFree() || !isReduced),
       isAdjoint_(isAdjoint),
       policy_(policy) {
-    const T epsilon = std::numeric_limits<T>::epsilon();
-    tolerance_ = policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
+    tolerance_ = toleranceOf<T>(policy);
     for (int i = 0; i < n; ++i) inertia_(i) = body.inertia[static_cast<std::size_t>(i)];
     for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(n, m());
     for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(n, nodes());
@@ -259,11 +258,12 @@ void LieStep<T, G>::updateImpulse() {
     report_->evaluations += nodes();
 }
 
+/// Newton's method from the predicted curve. Light axes stop further away from round-off than others: with a
+/// new Jacobian, floor() is what they can reach.
 template <class T, class G>
 typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& stop) {
-    const T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
-    T last = std::numeric_limits<T>::infinity();
-    int growing = 0, sinceJacobian = 0;
+    using Verdict = typename NewtonPolicy<T>::Verdict;
+    NewtonPolicy<T> policy(NewtonLimits<T>::lieStep(tolerance_));
     placeNodes();
     Attempt attempt = assembleJacobian();
     if (attempt != Attempt::solved) return attempt;
@@ -275,24 +275,22 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& st
         report_->residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
         correct();
-        // At round-off, or no longer shrinking within a few digits of it, or so fast that the next correction
-        // would be. Light axes stop further away from it: there a new Jacobian must not have helped either.
-        const bool isStalled = size >= last * T(0.25), isAtFloor = sinceJacobian == 0 && size < floor();
-        const bool isSmall = size <= tolerance_ || (isStalled && (size < stagnation || isAtFloor));
-        const bool isNextSmall = iteration > 0 && size < last && size * (size / last) < T(0.25) * tolerance_;
-        if (isSmall || isNextSmall) {
-            updateImpulse();
-            return Attempt::solved;
+        switch (policy.judge(size, policy.isJacobianNew() ? floor() : T(0))) {
+            case Verdict::converged:
+                updateImpulse();
+                return Attempt::solved;
+            case Verdict::diverged:
+                return Attempt::failed;
+            case Verdict::notFinite:
+                return Attempt::notFinite;
+            case Verdict::proceed:
+                break;
+            case Verdict::slow:
+                attempt = assembleJacobian();
+                if (attempt != Attempt::solved)
+                    return attempt == Attempt::notFinite ? Attempt::failed : attempt;
+                policy.jacobianIsNew();
         }
-        ++sinceJacobian;
-        growing = size >= last ? growing + 1 : 0;
-        if (growing >= 4) return Attempt::failed;
-        if (size > last * T(0.1) && sinceJacobian >= 2 && size > stagnation) {
-            attempt = assembleJacobian();
-            if (attempt != Attempt::solved) return attempt == Attempt::notFinite ? Attempt::failed : attempt;
-            sinceJacobian = 0;
-        }
-        last = size;
     }
     return Attempt::failed;
 }

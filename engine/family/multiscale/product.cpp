@@ -181,8 +181,8 @@ private:
 
     Outcome solve(const State& state, StepReport& report) {
         guess(state);
-        const double epsilon = std::numeric_limits<double>::epsilon();
-        double last = std::numeric_limits<double>::infinity();
+        using Verdict = NewtonPolicy<double>::Verdict;
+        NewtonPolicy<double> policy(NewtonLimits<double>::productStep());
         for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
             if (stop().stop_requested()) return Outcome::stopped;
             if (!assemble(state, report)) return Outcome::notFinite;
@@ -198,12 +198,11 @@ private:
             ++report.iterations;
             ++report.linearSolves;
             const double size = correction(state);
-            if (!std::isfinite(size)) return Outcome::notFinite;
+            const Verdict verdict = policy.judge(size);
+            if (verdict == Verdict::notFinite) return Outcome::notFinite;
             report.residual = size;
-            // Amplitudes over a small mean are ill-conditioned: their last digits never settle.
-            if (size <= 4 * epsilon || (size < 1e-7 && size >= last / 4))
+            if (verdict == Verdict::converged)
                 return assemble(state, report) ? Outcome::converged : Outcome::notFinite;
-            last = size;
         }
         return Outcome::diverged;
     }

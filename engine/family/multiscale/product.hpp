@@ -22,8 +22,8 @@
 
 #include <memory>
 
-#include "engine/integrator/galerkin_step.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
 

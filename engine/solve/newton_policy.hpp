@@ -1,0 +1,209 @@
+/// The one policy of the iterations that solve a step: when they are done, when they want a new Jacobian,
+/// when they are given up, and what they start from. Every number is named here, with its reason.
+///
+/// An iteration says how large its correction is relative to the unknowns, e_j = |delta_j| / |x|, and is told
+/// what to do. Corrections go on to round-off, so that symplecticity and momentum maps hold to round-off: a
+/// tolerance is for those who want less. Users: the condensed Galerkin step and its fixed point over all
+/// nodes (integrator/), the Lie group step and the product form (family/), small dense systems
+/// (solve/newton.hpp).
+///
+/// T: scalar of the step. epsilon: unit of its last place.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+namespace extremal {
+
+enum class SolverMethod { automatic, newton, fixedPoint };
+
+/// What a scene says of the solver.
+struct SolverPolicy {
+    SolverMethod method = SolverMethod::automatic;
+    double tolerance = 0;    ///< relative size of the last correction; 0: round-off
+    int maxIterations = 50;  ///< Newton or fixed-point iterations in one step
+    bool operator==(const SolverPolicy&) const = default;
+};
+
+/// The relative correction that ends an iteration: that of the scene, and at least a unit of the last place.
+template <class T>
+T toleranceOf(const SolverPolicy& policy) {
+    const T epsilon = std::numeric_limits<T>::epsilon();
+    return policy.tolerance > 0 ? std::max(T(policy.tolerance), epsilon) : epsilon;
+}
+
+template <class T>
+struct NewtonLimits {
+    /// A correction of at most this ends the iteration.
+    T tolerance = std::numeric_limits<T>::epsilon();
+    /// So does one after which the next, e_{j+1} = e_j^2 / e_{j-1} if the contraction stays as it is, would
+    /// be at most this; 0: never. Saves the evaluation that would only confirm it.
+    T predicted = T(0);
+    /// Below this, a correction that no longer shrinks is the round-off of the equations, and the end: four
+    /// digits, as a residual is a sum of many terms that cancel, divided by a Jacobian of modest condition.
+    T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
+    /// Below this, it is so after it has not shrunk three times, whatever the Jacobian; 0: never. Steps of
+    /// stiff systems are ill-conditioned, and stay two digits further from round-off.
+    T illConditioned = T(0);
+    /// A first correction larger than this belongs to a poor starting value that is not worth improving.
+    T largestFirst = std::numeric_limits<T>::infinity();
+    /// After a larger correction the Jacobian belongs to another place.
+    T refreshAbove = std::numeric_limits<T>::infinity();
+    /// Corrections with the same Jacobian before a slow contraction counts: the first one says nothing of it,
+    /// as it is that of the starting value.
+    int patience = 2;
+    /// So many corrections in a row, none smaller than the one before, do not come back: one or two happen
+    /// where the starting value is far away.
+    int mostGrowing = 4;
+
+    static constexpr int never = std::numeric_limits<int>::max();
+
+    /// Newton's method of the condensed step, with a Jacobian that is kept while it contracts. Beyond a tenth
+    /// of the unknowns a correction has moved the nodes to where forces are others.
+    static NewtonLimits condensedStep(const T& tolerance, bool isFallback) {
+        NewtonLimits l;
+        l.tolerance = tolerance;
+        l.illConditioned = 100 * l.stagnation;
+        // Curves with many functions swing far beyond their step: then the next rung of the ladder is better.
+        if (!isFallback) l.largestFirst = T(1);
+        l.refreshAbove = T(0.1);
+        return l;
+    }
+    /// The fixed point over all nodes. Solved to round-off it ends where one more sweep would change a
+    /// hundredth of the last place: left at round-off itself the forces have a bias that adds up over
+    /// millions of steps. It has no Jacobian to renew: where it is still slow after four sweeps, Newton's
+    /// method is cheaper.
+    static NewtonLimits fixedPoint(const T& tolerance) {
+        NewtonLimits l;
+        const bool isExact = tolerance <= std::numeric_limits<T>::epsilon();
+        l.tolerance = isExact ? T(0) : tolerance;
+        l.predicted = isExact ? T(0.01) * tolerance : T(0);
+        l.patience = 4;
+        return l;
+    }
+    /// Newton's method of the Lie group step, whose evaluations are dear: the last is not made where the next
+    /// correction would be a quarter of the tolerance, as contractions vary by less than that.
+    static NewtonLimits lieStep(const T& tolerance) {
+        NewtonLimits l;
+        l.tolerance = tolerance;
+        l.predicted = T(0.25) * tolerance;
+        return l;
+    }
+    /// The product form, with a new Jacobian in every iteration. Amplitudes over a small mean are
+    /// ill-conditioned: their last digits never settle, and half of the digits is what can be had.
+    /// Corrections may grow for a while, as the first guess is one of another space.
+    static NewtonLimits productStep() {
+        NewtonLimits l;
+        l.tolerance = 4 * std::numeric_limits<T>::epsilon();
+        l.stagnation = T(1e-7);
+        l.mostGrowing = never;
+        return l;
+    }
+    /// A small dense system with a new Jacobian in every iteration and damping, which sees to it that
+    /// residuals shrink where corrections do not.
+    static NewtonLimits dense() {
+        NewtonLimits l;
+        l.mostGrowing = never;
+        return l;
+    }
+};
+
+template <class T>
+class NewtonPolicy {
+public:
+    enum class Verdict { converged, proceed, slow, diverged, notFinite };
+
+    explicit NewtonPolicy(const NewtonLimits<T>& limits) : limits_(limits) {}
+
+    /// What to do after a correction of this relative size: it is the last one; go on; go on with a new
+    /// Jacobian; give up. `floor`: what round-off in the equations leaves of corrections, where that is
+    /// known.
+    Verdict judge(const T& size, const T& floor = T(0)) {
+        if (!(size < std::numeric_limits<T>::infinity())) return Verdict::notFinite;
+        const bool isFirst = !(last_ < std::numeric_limits<T>::infinity());
+        if (isFirst && size > limits_.largestFirst) return Verdict::diverged;
+        const bool isStalled = size >= last_ * T(stall);
+        if (size <= limits_.tolerance || isNextSmall(size, isFirst)) return Verdict::converged;
+        if (isStalled && (size < limits_.stagnation || (isJacobianNew() && size < floor)))
+            return Verdict::converged;
+        if (isStalled && size < limits_.illConditioned && ++stalls_ >= mostStalls) return Verdict::converged;
+        ++sinceJacobian_;
+        growing_ = size >= last_ ? growing_ + 1 : 0;
+        const bool isSlow = sinceJacobian_ >= limits_.patience && size > last_ * T(slowContraction) &&
+                            size > limits_.stagnation;
+        last_ = size;
+        if (growing_ >= limits_.mostGrowing) return Verdict::diverged;
+        return isSlow || size > limits_.refreshAbove ? Verdict::slow : Verdict::proceed;
+    }
+    void jacobianIsNew() { sinceJacobian_ = 0; }
+    bool isJacobianNew() const { return sinceJacobian_ == 0; }
+
+private:
+    /// Corrections at round-off vary by less than a factor of four; those that shrink by less are at it.
+    static constexpr double stall = 0.25;
+    /// A tenth: then round-off is 16 corrections away, and a new Jacobian costs less than what it saves.
+    static constexpr double slowContraction = 0.1;
+    static constexpr int mostStalls = 3;
+
+    bool isNextSmall(const T& size, bool isFirst) const {
+        if (!(limits_.predicted > T(0))) return false;
+        return (isFirst ? size : T(size * std::min(T(1), T(size / last_)))) <= limits_.predicted;
+    }
+
+    NewtonLimits<T> limits_;
+    T last_ = std::numeric_limits<T>::infinity();
+    int growing_ = 0, stalls_ = 0, sinceJacobian_ = 0;
+};
+
+/// Size of a correction of one coordinate: against its increments in the step, or the round-off of its own
+/// value, whichever is larger. A hundredth of that round-off is no correction at all.
+template <class T>
+T relativeCorrection(const T& change, const T& increments, const T& value) {
+    using std::abs;
+    if (!(change <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
+    const T roundOff = std::numeric_limits<T>::epsilon() * abs(value), known = std::max(increments, roundOff);
+    if (!(change > roundOff * T(0.01))) return T(0);
+    return known > T(0) ? T(change / known) : T(1);  // 0: at rest in 0 so far
+}
+
+/// Whether the pivots of a factorised Jacobian tell that it is regular: a thousand times closer to singular
+/// than round-off, as stiff and soft directions of one step legitimately differ by that much.
+template <class T>
+bool isRegular(const T& smallestPivot, const T& largestPivot) {
+    return smallestPivot > std::numeric_limits<T>::epsilon() * T(1e-3) * largestPivot;
+}
+
+/// What Newton's method starts from: the previous step's curve extrapolated; the smooth part of that curve,
+/// which varies less beyond its step; or what is known without it, a Taylor step.
+enum class StartingValue { extrapolated, previous, fallback };
+
+/// The ladder of starting values: down a rung where one was poor, and back to the first after some steps.
+class StartingLadder {
+public:
+    /// The rung to begin a step with.
+    StartingValue begin(bool hasPrevious) {
+        if (pause_ > 0 && --pause_ == 0) best_ = StartingValue::extrapolated;
+        return hasPrevious ? best_ : StartingValue::fallback;
+    }
+    /// The rung below one that failed, and where the next steps begin.
+    StartingValue below(StartingValue failed, bool hasSmoothPart) {
+        best_ = failed == StartingValue::extrapolated && hasSmoothPart ? StartingValue::previous
+                                                                       : StartingValue::fallback;
+        pause_ = stepsBelow;
+        return best_;
+    }
+
+private:
+    /// What made extrapolation poor, a turning point or a large force, lasts for some steps; each attempt
+    /// that fails costs an assembly.
+    static constexpr int stepsBelow = 16;
+
+    StartingValue best_ = StartingValue::extrapolated;
+    int pause_ = 0;  ///< steps until extrapolation is tried again
+};
+
+/// Steps for which Newton's method is preferred after the fixed point was slow: it is so while forces are
+/// stiff, and each trial costs some sweeps over the nodes.
+inline constexpr int stepsWithNewton = 32;
+
+}  // namespace extremal
