@@ -93,7 +93,7 @@ private slots:
             makeTable(makeSpace({"polynomial", {{"degree", 2}, {"basis", "lobatto"}}, {}}), rule);
         const System system = quartic();
         const auto end = [&](int n) {
-            GalerkinStep<double, 1> integrator(system.mechanics, table, 3.0 / n, {});
+            GalerkinStep<double, 1> integrator(system.mechanics(), table, 3.0 / n, {});
             double q = 1, p = 0;
             for (int i = 0; i < n; ++i)
                 if (integrator.advance(i * 3.0 / n, &q, &p, {}).outcome != Outcome::converged) return 0.0;
