@@ -5,16 +5,17 @@
 
 namespace extremal {
 
-ConvolutionProblem convolutionGalerkin(const Hamiltonian& h) {
-    const int n = h.size(), half = n / 2;
+ConvolutionProblem convolutionGalerkin(const FourierBasis& basis, const PotentialHarmonics& potential) {
+    const int n = basis.size(), half = n / 2;
     const auto weight = [half](int a) { return std::abs(a) == half ? 0.5 : 1.0; };
     const auto place = [n](int a) { return (a + n) % n; };  // identifies N/2 with -N/2
     ConvolutionProblem p{Eigen::MatrixXcd::Zero(n, n), Eigen::VectorXd::Zero(n)};
     for (int a = -half; a <= half; ++a) {
         for (int b = std::max(-half, a - half); b <= std::min(half, a + half); ++b)
             p.H(place(a), place(b)) += weight(a) * weight(b) * weight(a - b) *
-                                       h.potentialHarmonics()[static_cast<std::size_t>(place(a - b))];
-        p.H(place(a), place(a)) += weight(a) * weight(a) * h.kinetic()[static_cast<std::size_t>(place(a))];
+                                       potential.coefficients[static_cast<std::size_t>(place(a - b))];
+        p.H(place(a), place(a)) +=
+            weight(a) * weight(a) * basis.kinetic()[static_cast<std::size_t>(place(a))];
         p.W(place(a)) += weight(a) * weight(a);
     }
     return p;

@@ -4,7 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "engine/model/wave/hamiltonian.hpp"
+#include "engine/model/wave/fourier_basis.hpp"
+#include "engine/model/wave/potential_harmonics.hpp"
 
 namespace extremal {
 
@@ -16,9 +17,8 @@ struct ConvolutionProblem {
 
 /// The convolution is taken over a, b = -N/2 .. N/2 with weights 1/2 at the ends of all three sums; then the
 /// coefficients at N/2 and -N/2 are identified, by adding both rows and both columns. Hermitian, with W = 1/2
-/// there; the printed equation keeps one of the rows and is not. Of the Hamiltonian, the kinetic energies and
-/// the harmonics of V count.
-ConvolutionProblem convolutionGalerkin(const Hamiltonian& hamiltonian);
+/// there; the printed equation keeps one of the rows and is not.
+ConvolutionProblem convolutionGalerkin(const FourierBasis& basis, const PotentialHarmonics& potential);
 
 /// W^{-1/2} H W^{-1/2} in the coordinates of the inverse transform: real and symmetric, as complex
 /// conjugation commutes with it.

@@ -16,32 +16,11 @@ using ConstMatrix = Eigen::Map<const Matrix>;
 using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 
-bool isSame(const Hamiltonian& a, const Hamiltonian& b) {
-    return a.grid() == b.grid() && a.basis() == b.basis() && a.matrix() == b.matrix() &&
-           a.kinetic() == b.kinetic() && a.potential() == b.potential();
-}
-
 }  // namespace
-
-Matrix nodalMatrix(const Hamiltonian& h) {
-    if (!h.isSplit()) return h.matrix();
-    const int n = h.size(), nx = h.grid().nx;
-    const auto size = static_cast<std::size_t>(n);
-    std::vector<Complex> T(size), row(size);
-    for (std::size_t i = 0; i < size; ++i) T[i] = h.kinetic()[i] / n;
-    h.fourier().rawToNodes(T.data(), row.data());
-    Matrix H(n, n);
-    for (int j = 0; j < n; ++j)
-        for (int l = 0; l <= j; ++l)
-            H(j, l) = H(l, j) =
-                row[static_cast<std::size_t>(h.fourier().placeOf(j % nx - l % nx, j / nx - l / nx))].real();
-    for (int j = 0; j < n; ++j) H(j, j) += h.potential()[static_cast<std::size_t>(j)];
-    return H;
-}
 
 Eigenstates::Eigenstates(const Hamiltonian& h) : hamiltonian_(h) {
     const auto n = static_cast<std::size_t>(h.size());
-    const auto [values, vectors] = dense::symmetricEigen<double>(nodalMatrix(h));
+    const auto [values, vectors] = dense::symmetricEigen<double>(h.realMatrix());
     energies_.assign(values.data(), values.data() + n);
     states_.assign(vectors.data(), vectors.data() + n * n);
     for (std::size_t k = 0; k < n; ++k) {
@@ -57,7 +36,7 @@ std::shared_ptr<const Eigenstates> Eigenstates::of(const std::shared_ptr<const H
     static Recent<std::shared_ptr<const Hamiltonian>, std::shared_ptr<const Eigenstates>> recent(8);
     return recent.get(
         hamiltonian, [&] { return std::make_shared<const Eigenstates>(*hamiltonian); },
-        [](const auto& a, const auto& b) { return isSame(*a, *b); });
+        [](const auto& a, const auto& b) { return a->isSameAs(*b); });
 }
 
 std::vector<Complex> Eigenstates::coefficients(int n) const {

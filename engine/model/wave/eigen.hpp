@@ -38,10 +38,6 @@ private:
     std::vector<double> energies_, states_;
 };
 
-/// H in the coordinates of Hamiltonian::toReal; of a split one the nodes times sqrt(h):
-/// K_jl = (1/N) sum_a T_a exp(i k_a (x_j - x_l)), which depends on x_j - x_l alone, and V on the diagonal.
-Eigen::MatrixXd nodalMatrix(const Hamiltonian& hamiltonian);
-
 /// The exact motion of the discrete problem from a state.
 ExactSolution exactWave(const std::shared_ptr<const Hamiltonian>& hamiltonian, const State& initial);
 

@@ -1,17 +1,19 @@
-/// The Schroedinger operator i hbar c' = H c. On a periodic domain, an interval or a rectangle, on a Fourier
-/// grid, pseudo-spectrally (WaveBasis::fourier),
-///     H = diag(hbar^2 |k|^2/2m) + F diag(V(x_j, t)) F^{-1},   F unitary (wave/fourier.hpp),
-/// Hermitian at any N, the coefficient at k = -N/2 included (the printed Nyquist rows of the seed are not).
-/// hbar^2 k^2/2m is the right kinetic term; the printed one lacks the mass.
-///
-/// WaveBasis::convolution is the seed's own: V psi by the exact convolution of their coefficients
-/// (wave/convolution.hpp), on an interval; made Hermitian by c = W^{1/2} v/sqrt(2 pi), which halves the
-/// square at k = -N/2. It differs from the former by aliasing alone, which vanishes spectrally with N, and
-/// its H is a full matrix.
-///
-/// Between walls (WaveBasis::walls, psi = 0 at both ends) there are polynomials instead, with mass and
-/// stiffness from the action (wave/interval.hpp): H is a real symmetric matrix in c, and V enters through its
-/// values at the points of the rule.
+/// The Schroedinger operator i hbar c' = H c, in one of three forms (WaveBasis):
+///     fourier      a periodic interval or rectangle on a Fourier grid (wave/fourier_basis.hpp), in two parts
+///                  (wave/split_operator.hpp). Hermitian at any N, the coefficient at k = -N/2 included (the
+///                  printed Nyquist rows are not). hbar^2 k^2/2m is the right kinetic term; the printed one
+///                  lacks the mass.
+///     convolution  a periodic interval with V psi by the exact convolution of their coefficients
+///                  (wave/convolution.hpp), made Hermitian by c = W^{1/2} v/sqrt(2 pi), which halves the
+///                  square at k = -N/2. It differs from the former by aliasing alone, which vanishes
+///                  spectrally with N, and its H is a full matrix.
+///     walls        Dirichlet boundaries, psi = 0 at both ends of an interval: polynomials
+///     (wave/dirichlet_basis.hpp),
+///                  with mass and stiffness from the action; H is a real symmetric matrix in c, and V enters
+///                  through its values at the points of the rule.
+/// A form is a basis and what H is in it: two parts, or a matrix. What schemes, observables and views need of
+/// it is four things: the way between coefficients and nodes, H applied, the coordinates in which H is real,
+/// and mean values (wave/spectrum.hpp).
 ///
 /// The state of a run is c, as 2N numbers (re, im in turn): |c|^2 is the norm squared, h sum |psi_j|^2 or u*
 /// M u. A Hamiltonian is immutable and shared; work arrays come from the caller and hold N numbers.
@@ -20,15 +22,16 @@
 #include <Eigen/Core>
 
 #include <memory>
-#include <optional>
+#include <variant>
 #include <vector>
 
-#include "engine/model/wave/fourier.hpp"
+#include "engine/model/wave/dirichlet_basis.hpp"
+#include "engine/model/wave/fourier_basis.hpp"
 #include "engine/model/wave/potential.hpp"
+#include "engine/model/wave/potential_harmonics.hpp"
 
 namespace extremal {
 
-class Interval;
 enum class WaveBasis { fourier, convolution, walls };
 
 class Hamiltonian {
@@ -41,25 +44,30 @@ public:
     int size() const { return grid_.size(); }
     const wave::Grid& grid() const { return grid_; }
     bool isPlane() const { return grid_.isPlane(); }
-    WaveBasis basis() const { return basis_; }
-    bool isPeriodic() const { return basis_ != WaveBasis::walls; }
+    WaveBasis basis() const { return form_; }
+    bool isPeriodic() const { return std::holds_alternative<FourierBasis>(basis_); }
     /// Whether H is a part diagonal in c and a part diagonal at the nodes, each of which moves psi by phases
     /// alone.
-    bool isSplit() const { return basis_ == WaveBasis::fourier; }
+    bool isSplit() const { return form_ == WaveBasis::fourier; }
     double hbar() const { return hbar_; }
     double mass() const { return mass_; }
     /// Along x.
     const wave::Domain& domain() const { return grid_.x; }
-    /// Of a periodic domain alone, as are kinetic() and the harmonics of V.
-    const Fourier& fourier() const { return *fourier_; }
-    /// Between walls alone: the reference element.
-    const Interval& interval() const { return *interval_; }
-    /// H in the coordinates of toReal(), where it is not split.
-    const Eigen::MatrixXd& matrix() const { return matrix_; }
+    /// f(basis), with a FourierBasis or a DirichletBasis.
+    template <class F>
+    auto inBasis(F&& f) const {
+        return std::visit(std::forward<F>(f), basis_);
+    }
     /// The nodes along x; between walls those inside.
-    const std::vector<double>& x() const { return x_; }
+    const std::vector<double>& x() const;
     /// The nodes along y; 0 on an interval.
-    const std::vector<double>& y() const { return y_; }
+    const std::vector<double>& y() const;
+    bool isTimeDependent() const { return potential_.isTimeDependent(); }
+    /// V at the nodes, at t = 0 where it depends on time.
+    const std::vector<double>& potential() const { return V_; }
+    /// V at the nodes and t.
+    void potentialAt(double t, double* V) const;
+
     /// Values of psi at the nodes from c, and back; not in place.
     void toNodes(const Complex* c, Complex* psi) const;
     void toCoefficients(const Complex* psi, Complex* c) const;
@@ -67,24 +75,8 @@ public:
     /// is split), or c itself between walls; and back, which uses v up.
     void toReal(const Complex* c, Complex* v) const;
     void fromReal(Complex* v, Complex* c) const;
-    /// Values at the middles of `rows` equal cells from those at the nodes, between walls: (row, node).
-    Eigen::MatrixXd resampling(int rows) const;
-    /// hbar^2 |k|^2/2m by place in c.
-    const std::vector<double>& kinetic() const { return kinetic_; }
-    bool isTimeDependent() const { return potential_.isTimeDependent(); }
-    /// V at the nodes, at t = 0 where it depends on time.
-    const std::vector<double>& potential() const { return V_; }
-    /// V at the nodes and t.
-    void potentialAt(double t, double* V) const;
-    /// On an interval: the largest a for which V has a harmonic exp(2 pi i a x/L) above round-off; of the
-    /// samples, so at most N/2.
-    int harmonics() const { return harmonics_; }
-    /// Coefficients of V: V(x_j) = sum_a Vhat_a exp(2 pi i a j/N), in FFT order.
-    const std::vector<Complex>& potentialHarmonics() const { return Vhat_; }
-
-    /// The same operator on another grid of the same domain.
-    std::shared_ptr<const Hamiltonian> withModes(int nx, int ny = 1) const;
-
+    /// H in these coordinates: known where it is not split, made where it is.
+    Eigen::MatrixXd realMatrix() const;
     /// out = H c with these values of V, or where H is a matrix with its own.
     void apply(const double* V, const Complex* c, Complex* out, Complex* work) const;
     /// <H>/<1> at t.
@@ -93,23 +85,37 @@ public:
     double lowest() const { return lowest_; }
     double highest() const { return highest_; }
 
+    // Of a periodic domain alone.
+    const FourierBasis& fourierBasis() const { return std::get<FourierBasis>(basis_); }
+    const Fourier& fourier() const { return fourierBasis().fourier(); }
+    /// hbar^2 |k|^2/2m by place in c.
+    const std::vector<double>& kinetic() const { return fourierBasis().kinetic(); }
+    /// Of a periodic interval alone.
+    const PotentialHarmonics& potentialSeries() const { return harmonics_; }
+    int harmonics() const { return harmonics_.highest; }
+    const std::vector<Complex>& potentialHarmonics() const { return harmonics_.coefficients; }
+    // Between walls alone.
+    const DirichletBasis& dirichletBasis() const { return std::get<DirichletBasis>(basis_); }
+    const Interval& interval() const { return dirichletBasis().interval(); }
+    Eigen::MatrixXd resampling(int rows) const { return dirichletBasis().resampling(rows); }
+
+    /// The same operator on another grid of the same domain.
+    std::shared_ptr<const Hamiltonian> withModes(int nx, int ny = 1) const;
+    /// Whether both have the same matrix.
+    bool isSameAs(const Hamiltonian& other) const;
+
 private:
     void onGrid();
     void onInterval();
-    void findHarmonics();
-    void convolve();
 
     wave::Grid grid_;
     double hbar_, mass_;
     wave::Potential potential_;
-    WaveBasis basis_;
-
-    std::optional<Fourier> fourier_;
-    std::shared_ptr<const Interval> interval_;
-    Eigen::MatrixXd matrix_;
-    std::vector<double> x_, y_, kinetic_, V_;
-    std::vector<Complex> Vhat_;
-    int harmonics_ = 0;
+    WaveBasis form_;
+    std::variant<FourierBasis, DirichletBasis> basis_;
+    std::vector<double> V_;
+    PotentialHarmonics harmonics_;
+    Eigen::MatrixXd matrix_;  ///< in the coordinates of toReal(); empty where H is split
     double lowest_ = 0, highest_ = 0;
 };
 

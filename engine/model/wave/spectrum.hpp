@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/model/wave/hamiltonian.hpp"
+#include "engine/model/wave/means.hpp"
 
 namespace extremal {
 
@@ -18,19 +19,7 @@ double spectrumTail(const Hamiltonian& h, const Complex* c);
 /// What to say of a wave function that its grid does not resolve (a tail above 1e-4); empty where it does.
 std::string resolutionCaution(const Hamiltonian& h, const Complex* c);
 
-/// <p>/<1>, along x and y; the coefficient at k = -N/2, which is half of either sign, counts as standing
-/// still. Between walls the mean of -i hbar d/dx by the rule: it exists there too (m d<x>/dt = <p>), but the
-/// walls push.
-struct MeanMomentum {
-    double x = 0, y = 0;
-};
 MeanMomentum meanMomentum(const Hamiltonian& h, const Complex* c);
-
-/// sum_j f(x_j) |psi_j|^2/sum_j |psi_j|^2 for some functions of the node at once.
-struct NodeMeans {
-    double x = 0, y = 0,
-           cosine = 0;  ///< of x, of y, and of 2 pi (x - left)/L + left, which is x itself where L = 2 pi
-};
 NodeMeans nodeMeans(const Hamiltonian& h, const Complex* c, Complex* work);
 
 /// The probability current (hbar/m) Im(conj(psi) psi_x) at the node next to the middle of the domain, between
