@@ -10,7 +10,7 @@
 #include "engine/family/wave/wave_slabs.hpp"
 #include "engine/family/wave/wave_step.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
-#include "engine/quadrature/rule.hpp"
+#include "engine/quadrature/catalog.hpp"
 #include "engine/solve/banded_poles.hpp"
 #include "engine/model/wave/eigen.hpp"
 
@@ -86,6 +86,12 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
     if (space.integer("degree") != 1) {
         p.refusal = "the three-level form has degree 1, got " + std::to_string(space.integer("degree"));
         p.hint = "degree 1, or the one-step form";
+        return p;
+    }
+    if (const RuleEntry* rule = findRule(quadrature.type);
+        rule && !rule->make && quadrature.type != "exact") {
+        p.refusal = rule->refusal;
+        p.hint = "exact, trapezoid or midpoint";
         return p;
     }
     const double alpha = threeLevelAlpha(quadrature);

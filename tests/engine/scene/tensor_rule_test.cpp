@@ -101,6 +101,20 @@ private slots:
                      ->asNumber(),
                  4.0);
     }
+    void rulesThatASpaceLacksAreErrorsOfTheScene() {
+        const auto errors = [](const char* form, const char* rule) {
+            return readScene(
+                       std::string(
+                           R"({"extremal":1,"model":{"type":"schrodinger"},"time":{"end":1},"schemes":)") +
+                       R"([{"step":0.1,"space":{"type":"fourier","degree":1,"form":")" + form +
+                       R"("},"quadrature":")" + rule + R"("}]})")
+                .errors;
+        };
+        for (const char* form : {"one-step", "three-level"})
+            for (const char* rule : {"filon-gauss", "filon-lobatto"})
+                QCOMPARE(errors(form, rule).size(), std::size_t{1});
+        QCOMPARE(errors("one-step", "exact").size(), std::size_t{1});
+    }
     void spacesOfTimeAloneRefuseThem_data() {
         QTest::addColumn<QString>("model");
         QTest::addColumn<QString>("space");
