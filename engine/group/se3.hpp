@@ -8,7 +8,7 @@
 ///     dexp(omega, rho) (v, w) = (dexp(omega) v, dexp(omega) w + D_omega [dexp(omega) v] . rho)
 /// A momentum (angular, linear) pairs with a twist as m . omega + p . rho: it is the dual vector p + e m,
 /// with the parts swapped, and the pairing is the dual part of the product. Trivialisation and signs as in
-/// so3.hpp (Leok 2004, sec. 4, with the same corrections).
+/// so3.hpp (Leok 2004, sec. 3.2, with the same corrections).
 #pragma once
 
 #include <Eigen/Core>

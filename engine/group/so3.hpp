@@ -5,7 +5,7 @@
 ///     dexp(xi) v = v - a xi x v + b xi x (xi x v)
 ///     a = (1 - cos theta) / x,  b = (theta - sin theta) / theta^3,  s = sin theta / theta = 1 - x b
 /// dexp is left trivialised: along g(t) = g_0 exp(xi(t)) the body rate is g^{-1} g' = dexp(xi) xi' =
-/// dexp_{-ad xi} xi' (Leok 2004, sec. 4; the printed T_xi exp = T L dexp_{ad xi} has the wrong sign of ad,
+/// dexp_{-ad xi} xi' (Leok 2004, sec. 3.2; the printed T_xi exp = T L dexp_{ad xi} has the wrong sign of ad,
 /// and the printed xi' = g^{-1} g' lacks dexp altogether). dexp(xi)^T = dexp(-xi) is the right-trivialised
 /// one. dexp^{-1} = 1 + [xi]/2 + c [xi]^2 with c = (1 - (theta/2) cot(theta/2)) / x = -a'/a, singular at
 /// theta = 2 pi.

@@ -12,7 +12,7 @@
 /// All integrals go over panels that end at the nodes, each at most epsilon/4 wide, by Gauss' rule with 12
 /// nodes; R and G are sums of panels in extended precision. `a` has period 1 or any other scale of order 1 in
 /// s = x/epsilon, and must be positive. Throws InvalidScene (pointers below /model) where it is not, or where
-/// the panels would be too many. Source: Leok 2004, sec. 6.1.
+/// the panels would be too many. Source: Leok 2004, sec. 7.1.
 #pragma once
 
 #include <functional>

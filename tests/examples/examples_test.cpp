@@ -1,4 +1,4 @@
-/// The worked examples of the handbook ("Adding to it"): each is one file, and does what the handbook says.
+/// The worked examples of the handbook ("Adding to the program"): each is one file, and does what the handbook says.
 #include <QFile>
 #include <QTest>
 

@@ -1,4 +1,4 @@
-/// The seed's exact convolution as a choice: its own norm is kept, and it differs from products at the nodes
+/// Leok's exact convolution as a choice: its own norm is kept, and it differs from products at the nodes
 /// by aliasing alone.
 #include <QTest>
 

@@ -30,7 +30,7 @@ std::string powerText(double z) {
 
 constexpr const char* head = R"(# Filon's rules, measured
 
-This page is written by the program: `ninja handbook.filon` measures everything anew and draws the picture, and a test compares every number.
+This page is generated: `ninja handbook.filon` repeats all measurements and draws the picture, and a test compares every number.
 
 The integral of a smooth function times a fast oscillation, with u nodes c_i of the Gauss or Lobatto rule:
 
@@ -38,27 +38,27 @@ The integral of a smooth function times a fast oscillation, with u nodes c_i of 
 ∫₀ʰ f(x) e^(iωx) dx ≈ h Σ_i b_i(hω) f(c_i h),   b_i(z) = ∫₀¹ l_i(x) e^(izx) dx
 ```
 
-f is replaced by the polynomial through its values at the nodes, and the oscillation is integrated exactly: what is left is the error of the polynomial,
-however fast the oscillation. The program computes the weights from spherical Bessel functions ([Multiscale](multiscale.md)) with an error below 10⁻¹⁵ for every hω.
+The function f is replaced by its interpolation polynomial at the nodes, and the oscillation is integrated exactly: only the interpolation error remains,
+however fast the oscillation is. The program computes the weights from spherical Bessel functions ([Multiscale](multiscale.md)) with an error below 10⁻¹⁵ for every hω.
 The rules `filon-gauss` and `filon-lobatto` ([quadratures](quadratures.md)) apply them to each harmonic of an action.
 
 ## Four regimes
 
-How the error falls for f(x) = eˣ: with the step h at a fixed hω, and with hω at h = 1. In brackets what theory says: for a slow oscillation the order of
-the plain rule, and else one more than the number of nodes. Lobatto's rule has the ends of the step as nodes; there the boundary terms of integration by parts
-are exact, and the error falls like 1/(hω)² in place of 1/(hω).
+Exponents of the error for f(x) = eˣ: in the step h for a fixed hω, and in hω for h = 1. The theoretical values are in parentheses: for a slow oscillation the order of
+the classical rule plus one, and otherwise the number of nodes plus one. The nodes of the Lobatto rule include the ends of the step; the boundary terms of integration by parts
+are then exact, and the error decreases like 1/(hω)² instead of 1/(hω).
 
 | rule | h, hω → 0 | h, hω = 1 | h, hω = 1000 | hω, from 10³ to 10⁵ |
 | --- | --- | --- | --- | --- |
 )";
 
 constexpr const char* middle = R"(
-Measured in quadruple precision from h = 1/16 and 1/32, with weights by another route: cardinal polynomials multiplied out, and integrals of powers by series or
-by parts. The last column compares the largest errors over a whole turn of the phase.
+Measured in quadruple precision from h = 1/16 and 1/32, with independently computed weights: expanded cardinal polynomials, and integrals of powers by series or
+by parts. The last column compares the largest errors over one period of the phase.
 
 ## The error against hω
 
-|Q - I| for f(x) = eˣ and h = 1, by the program's own rule in double precision; below 10⁻¹⁵ is round-off. The values go up and down with the phase of the
+|Q - I| for f(x) = eˣ and h = 1, by the rule of the program in double precision; values below 10⁻¹⁵ are round-off. The values vary with the phase of the
 oscillation.
 
 )";
@@ -66,9 +66,9 @@ oscillation.
 constexpr const char* after = R"(
 ![Error of six Filon rules against h times omega, double logarithmic](filon.svg)
 
-In the picture each error is the largest within 15 % of hω, so that the phase does not show. Up to hω of a third or so the errors are those of the plain rules: Gauss
-wins with the same number of nodes. Then the polynomial decides, and all rules lose accuracy as the oscillation enters, most at hω of some ten. Beyond that they gain
-with every further period, and Lobatto gains twice as fast: with five nodes it is at round-off by hω = 10⁶. A rule that must resolve the
+In the picture each error is the largest within 15 % of hω, so that the dependence on the phase is not visible. Up to hω of about 0.3 the errors are those of the classical rules: Gauss
+is more accurate with the same number of nodes. Then the interpolation error dominates, and all rules lose accuracy as hω grows, most at about hω = 10. Beyond that their accuracy increases
+with hω, and that of Lobatto twice as fast: with five nodes its error is at round-off level at hω = 10⁶. A rule that resolves the
 oscillation would need a thousand times more nodes at hω = 10⁵ than at 100.
 )";
 

@@ -41,34 +41,34 @@ std::string rowText(const OrderRow& row) {
 
 namespace {
 
-constexpr const char* head = R"(# Orders of the pairs, measured
+constexpr const char* head = R"(# Measured orders
 
-This page is written by the program: `ninja handbook.orders` measures every row anew, and a test measures some of them again
+This page is generated: `ninja handbook.orders` repeats all measurements, and a test repeats some of them
 and compares.
 
-A pair of a [space](spaces.md) and a [quadrature](quadratures.md) claims the order
+A discretization ([space](spaces.md) and [quadrature](quadratures.md)) claims the order
 
 ```
 min( 2 s,  order of the rule,  2 k )
 ```
 
-- `2 s`: the space contains the polynomials of degree s; their error in the velocity, h^s, enters the action squared, because the
+- `2 s`: the space contains the polynomials of degree s; their error in the velocity, h^s, enters the action as its square, because the
   action is stationary.
 - *order of the rule*: the rule integrates the Lagrangian along the true motion; a rule exact for degree g has order g + 1.
-- `2 k`: the rule also stands in the conditions of stationarity. k is the smallest number for which it is not exact
-  for all `d/dτ (P_k φ)`, P_k a polynomial of degree k and φ a function of the space that vanishes at both ends. For polynomials and one
-  panel, k = g - s + 2. The curve is then off by h^k, and the action by h^(2k). With s Gauss or s + 1 Lobatto nodes k does not
-  matter; with Clenshaw-Curtis it often decides: degree 5 with six nodes has order 4, although the rule has order 6. At k = 0 not
-  even a free particle keeps its speed, and the pair is an error.
+- `2 k`: the rule also appears in the stationarity conditions. Condition D(k) is the exactness of discrete integration by parts: k is the smallest number for which the rule is not exact
+  for all `d/dτ (P_k φ)`, where P_k is a polynomial of degree k and φ a function of the space that vanishes at both ends. For polynomials and one
+  panel, k = g - s + 2. The error of the curve is then O(h^k), and that of the action O(h^(2k)). With s Gauss or s + 1 Lobatto nodes k is not
+  restrictive; with Clenshaw-Curtis it often is: degree 5 with six nodes has order 4, although the rule has order 6. If k = 0, not
+  even a free particle keeps its velocity, and the discretization is an error.
 
-Between the nodes the step has a curve of its own. Its q has the order min(s + 1, k + 1) where the nodes are that good. Its p comes from the
-momentum equation, integrated through the nodes of the rule. Dense rows, plots of few steps and the stage follow this curve.
+Between the nodes, the trial curve of the step is its dense output. The order of its q is min(s + 1, k + 1), unless the nodes are less accurate. Its p follows from the
+momentum equation, integrated through the nodes of the rule. Dense rows, plots of runs with few steps and the stage use the dense output.
 
 **How it is measured.** In quadruple precision, on two nonlinear problems: Kepler's orbit of eccentricity 0.6 from its perihelion (exact by
 Kepler's equation), and a pendulum from θ = 1, p = 0.7 (against Gauss collocation of degree 14 with 480 steps), both up to T = 3. The error is the largest at
-twelve times, of q and p each; the curve's is the largest over five places inside twelve steps. The order is the least-squares slope over
-the four finest step sizes whose errors exceed 1e-28. The linear oscillator is not used: on it many pairs do better than
-in general. *stable to h ω*: the largest step times frequency on the oscillator.
+twelve times, of q and p each; that of the dense output is the largest at five points inside each of twelve steps. The order is the least-squares slope over
+the four finest step sizes whose errors exceed 1e-28. The linear oscillator is not used: many discretizations have a higher order on it than
+in general. *stable to h ω*: the largest stable step times frequency on the oscillator.
 )";
 
 }  // namespace
@@ -120,8 +120,8 @@ std::string ordersPage(const std::vector<OrderRow>& rows) {
         if (row.spaceText != section) {
             section = row.spaceText;
             text += "\n## " + section +
-                    "\n\n| rule | claimed | q, Kepler | p, Kepler | q, pendulum | p, pendulum | curve "
-                    "claimed | curve q | curve p | "
+                    "\n\n| rule | claimed | q, Kepler | p, Kepler | q, pendulum | p, pendulum | dense "
+                    "claimed | dense q | dense p | "
                     "symmetric | stable to h ω | known as |\n|" +
                     [] {
                         std::string dashes;

@@ -39,7 +39,7 @@ std::string keysOf(const std::vector<CatalogItem>& items) {
     for (const CatalogItem& item : items) {
         text += "\n### " + item.id + "\n\n" + item.description + "\n";
         if (item.parameters.empty()) continue;
-        text += "\n| key | value | if left out | meaning |\n| --- | --- | --- | --- |\n";
+        text += "\n| key | value | default | meaning |\n| --- | --- | --- | --- |\n";
         for (const FieldInfo& f : item.parameters)
             text +=
                 "| `" + f.key + "` | " + rangeOf(f) + " | " + fallbackOf(f) + " | " + f.description + " |\n";
@@ -83,17 +83,15 @@ std::string pairsTable() {
 }  // namespace
 
 std::string parametersPage() {
-    return "# Keys of spaces and quadratures\n\nThis page is written by the program from the descriptors "
-           "that also check scenes and make the forms of "
-           "the window; a test compares the two. What spaces and rules are is in [Spaces](spaces.md) and "
-           "[Quadratures](quadratures.md).\n\n"
+    return "# Keys of spaces and quadratures\n\nThis page is generated from the descriptors that also "
+           "define the checks of scenes and the forms of the window; a test compares the two. Spaces and "
+           "rules are explained in [Spaces](spaces.md) and [Quadratures](quadratures.md).\n\n"
            "## Spaces\n" +
            keysOf(spaceCatalog()) + "\n## Quadratures\n" + keysOf(quadratureCatalog()) +
-           "\n## What their pairs claim\n\nPolynomials of a degree with each rule and its default number of "
-           "nodes: the order, and the largest stable step times "
-           "frequency on the harmonic oscillator (∞: every step). A dash is a pair that is refused, with the "
-           "reason in the discretizer. The orders are "
-           "[measured](orders.md).\n" +
+           "\n## Claims of the discretizations\n\nPolynomials of each degree with each rule and its default "
+           "number of nodes: the order, and the largest stable step times frequency on the harmonic "
+           "oscillator (∞: every step). A dash marks a discretization that is refused; the discretizer "
+           "shows the reason. The orders are [measured](orders.md).\n" +
            pairsTable();
 }
 

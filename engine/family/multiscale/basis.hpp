@@ -4,7 +4,7 @@
 /// P_j Legendre's polynomials in 2 tau - 1, phase = z tau with z = step * frequency; k are multiples of the
 /// frequencies, such as (1, 0), (0, 1) and the combination (1, -1). The amplitudes are unknowns of their own,
 /// linear and additive; the printed product (sum p_j t^j)(1 + a_0 sin + a_1 cos) ties the fast amplitude to
-/// the slow mean, and fails where the mean passes through 0 (Leok 2004, sec. 6.2).
+/// the slow mean, and fails where the mean passes through 0 (Leok 2004, sec. 7.2).
 ///
 /// Between two nodes of a Filon grid (quadrature/filon.hpp) position and phases are independent: functions
 /// are evaluated at (tau, phase), and differentiated along the curve, d/dtau + z . d/dphase.

@@ -1,4 +1,4 @@
-/// The printed multiscale space (Leok 2004, sec. 6.2): in each coordinate a slow polynomial times one
+/// The printed multiscale space (Leok 2004, sec. 7.2): in each coordinate a slow polynomial times one
 /// oscillation,
 ///     q(t) = P(t) F(t),   P = sum_{j <= n} p_j P_j(2t/h - 1),   F = 1 + alpha sin wt + beta cos wt,
 /// with alpha and beta, and if asked for w, unknown in every step. It is kept to be looked at: it fails, and

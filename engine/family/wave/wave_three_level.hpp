@@ -1,4 +1,4 @@
-/// The seed's scheme for wave functions, linear in time with the action of each slab integrated by a rule, in
+/// Leok's scheme for wave functions, linear in time with the action of each slab integrated by a rule, in
 /// three levels:
 ///     (i hbar/2)(v^{l+1} - v^{l-1}) = dt H (alpha v^{l-1} + (1 - 2 alpha) v^l + alpha v^{l+1}),
 ///     alpha = sum_i b_i c_i (1 - c_i):  1/6 exact (Milne-Simpson), 0 trapezoidal (leapfrog), 1/4 midpoint.

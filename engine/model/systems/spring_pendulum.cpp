@@ -1,4 +1,4 @@
-/// Planar pendulum on a stiff spring (Leok 2004, sec. 6.2), in polar coordinates: extension a, angle theta
+/// Planar pendulum on a stiff spring (Leok 2004, sec. 7.2), in polar coordinates: extension a, angle theta
 /// from the downward vertical,
 ///     L = m/2 (a_t^2 + (l + a)^2 theta_t^2) + m g (l + a) cos theta - k/2 a^2.
 /// Not separable. The spring is fast: a oscillates with about sqrt(k/m) around the mean

@@ -1,4 +1,4 @@
-/// The seed's Galerkin method for wave functions on an interval: the product with V by the exact convolution
+/// Leok's Galerkin method for wave functions on an interval: the product with V by the exact convolution
 /// of coefficients.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace extremal {
 
-/// i hbar W v' = H v in the seed's coefficients v, in FFT order.
+/// i hbar W v' = H v in the paper's coefficients v, in FFT order.
 struct ConvolutionProblem {
     Eigen::MatrixXcd H;
     Eigen::VectorXd W;  ///< diagonal

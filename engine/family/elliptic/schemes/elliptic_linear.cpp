@@ -11,7 +11,7 @@ SchemeEntry elliptic_linear() {
               {},
               Claims{2, false, false, {}},
               "the elliptic problem"};
-    e.source = "Leok 2004, sec. 6.1";
+    e.source = "Leok 2004, sec. 7.1";
     e.make = [](int) {
         Discretization pair;
         pair.space = {"elliptic-elements", {{"functions", "linear"}}, {}};

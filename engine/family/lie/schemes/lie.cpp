@@ -12,7 +12,7 @@ SchemeEntry lie() {
               {},
               Claims{2, true, true, {"momentum"}},
               "a rigid body"};
-    e.source = "Leok 2004, sec. 4";
+    e.source = "Leok 2004, sec. 3.2";
     e.minDegree = 1;
     e.maxDegree = 8;
     e.make = [](int degree) {

@@ -12,7 +12,7 @@ SchemeEntry lie_symmetric() {
               {},
               Claims{2, true, true, {"momentum"}},
               "a rigid body"};
-    e.source = "Leok 2004, sec. 4; Hairer, Lubich and Wanner 2006, II.3";
+    e.source = "Leok 2004, sec. 3.2; Hairer, Lubich and Wanner 2006, II.3";
     e.minDegree = 1;
     e.maxDegree = 8;
     e.make = [](int degree) {

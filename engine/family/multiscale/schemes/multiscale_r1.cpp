@@ -12,7 +12,7 @@ SchemeEntry multiscale_r1() {
               {},
               Claims{0, true, true, {"momentum"}},
               "a fast frequency of its own"};
-    e.source = "Leok 2004, sec. 6.2, with additive fast parts";
+    e.source = "Leok 2004, sec. 7.2, with additive fast parts";
     e.make = [](int) { return multiscalePair(4, 2, {1}); };
     return e;
 }

@@ -11,7 +11,7 @@ SchemeEntry multiscale_r2() {
               {},
               Claims{0, true, true, {"momentum"}},
               "a fast frequency of its own"};
-    e.source = "Leok 2004, sec. 6.2, with additive fast parts";
+    e.source = "Leok 2004, sec. 7.2, with additive fast parts";
     e.make = [](int) { return multiscalePair(6, 4, {3, 1}); };
     return e;
 }

@@ -11,7 +11,7 @@ SchemeEntry product_form() {
               {},
               Claims{0, false, true, {}},
               "a fast frequency of its own"};
-    e.source = "Leok 2004, sec. 6.2, as printed";
+    e.source = "Leok 2004, sec. 7.2, as printed";
     e.make = [](int) {
         Discretization pair;
         pair.space = {"oscillatory-product",

@@ -12,7 +12,7 @@ SchemeEntry schrodinger_gauss() {
         {},
         Claims{2, true, true, {"norm", "energy"}},
         "a wave function"};
-    e.source = "Leok 2004, sec. 6";
+    e.source = "Leok 2004, sec. 8.2";
     e.minDegree = 1;
     e.maxDegree = 16;
     e.make = [](int degree) {

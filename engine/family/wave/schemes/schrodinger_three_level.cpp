@@ -1,4 +1,4 @@
-/// The seed's scheme for wave functions: Fourier in space, linear in time, the action integrated exactly.
+/// Leok's scheme for wave functions: Fourier in space, linear in time, the action integrated exactly.
 #include "engine/family/scheme.hpp"
 
 namespace extremal::schemes {
@@ -12,7 +12,7 @@ SchemeEntry schrodinger_three_level() {
               {},
               Claims{4, true, true, {"bilinear form"}},
               "a wave function"};
-    e.source = "Leok 2004, sec. 6";
+    e.source = "Leok 2004, sec. 8.2";
     e.minDegree = 0;
     e.maxDegree = 0;
     e.make = [](int) {
