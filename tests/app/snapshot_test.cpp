@@ -1,5 +1,6 @@
 /// `extremal snapshot` run as a user runs it.
 #include <QFile>
+#include <QPainter>
 #include <QTest>
 
 #include <QImage>
@@ -74,6 +75,13 @@ private slots:
         const Answer other = snapshot(
             common + QStringList{"--out", path("new.png"), "--compare", path("base.png"), "--time", "3"});
         QCOMPARE(other.code, 1);
+        // One mark of 6 x 6 pixels is 0.03 % of the picture, but is seen.
+        QImage marked(path("base.png"));
+        QPainter(&marked).fillRect(QRect(200, 20, 6, 6), Qt::red);
+        marked.save(path("marked.png"));
+        const QStringList withMark = {"--out", path("new.png"), "--compare", path("marked.png")};
+        QCOMPARE(snapshot(common + withMark).code, 1);
+        QCOMPARE(snapshot(common + withMark + QStringList{"--tolerance", "0.5"}).code, 0);
         QVERIFY(!QImage(path("new.png.diff.png")).isNull());
         QCOMPARE(snapshot(common + QStringList{"--out", path("new.png"), "--compare", path("base.png"),
                                                "--time", "3", "--tolerance", "50"})

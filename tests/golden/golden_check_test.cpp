@@ -1,4 +1,4 @@
-/// The comparison with kept pictures must itself be able to fail.
+/// The comparison with golden images must itself be able to fail.
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"
 

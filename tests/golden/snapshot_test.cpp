@@ -1,4 +1,4 @@
-/// Kept pictures of whole snapshots: stage, plots, cards and words together.
+/// Golden images of whole snapshots: stage, plots, cards and text together.
 #include <QTest>
 
 #include "tests/golden/golden_check.hpp"
@@ -12,9 +12,8 @@ class SnapshotGoldenTest : public QObject {
     Q_OBJECT
 
     static void check(const fake::Film& film, const SnapshotRequest& request, const QString& name) {
-        // Stricter than the stage alone: words and plots are to the pixel.
         const GoldenResult result =
-            checkGolden(snapshotImage(fake::comparison(film), request), name, {16, 0.4, 0.98});
+            checkGolden(snapshotImage(fake::comparison(film), request), name, GoldenLimits::stage());
         QVERIFY2(result.isEqual, qPrintable(result.message));
     }
     static SnapshotRequest request(const std::string& view, int width, int height, double time) {

@@ -3,7 +3,6 @@
 #include <QPainter>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <vector>
 
@@ -12,51 +11,53 @@
 namespace extremal {
 namespace {
 
-std::vector<double> luminance(const QImage& image) {
-    std::vector<double> y;
-    y.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
-    for (int row = 0; row < image.height(); ++row) {
-        const auto* line = reinterpret_cast<const QRgb*>(image.constScanLine(row));
-        for (int x = 0; x < image.width(); ++x)
-            y.push_back(0.299 * qRed(line[x]) + 0.587 * qGreen(line[x]) + 0.114 * qBlue(line[x]));
-    }
-    return y;
-}
-
-double windowSsim(const std::vector<double>& a, const std::vector<double>& b, int stride, int x0, int y0,
-                  int w, int h) {
-    double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-    for (int y = y0; y < y0 + h; ++y)
-        for (int x = x0; x < x0 + w; ++x) {
-            const auto i =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(x);
-            sa += a[i];
-            sb += b[i];
-            saa += a[i] * a[i];
-            sbb += b[i] * b[i];
-            sab += a[i] * b[i];
-        }
-    const double n = w * h, c1 = 0.01 * 255 * 0.01 * 255, c2 = 0.03 * 255 * 0.03 * 255;
-    const double ma = sa / n, mb = sb / n;
-    const double va = saa / n - ma * ma, vb = sbb / n - mb * mb, cov = sab / n - ma * mb;
-    return (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
-}
-
-double meanSsim(const QImage& actual, const QImage& expected) {
-    const auto a = luminance(actual), b = luminance(expected);
-    const int width = actual.width(), height = actual.height();
-    const int w = std::min(8, width), h = std::min(8, height);
-    double sum = 0;
-    long long count = 0;
-    for (int y = 0; y + h <= height; y += 4)
-        for (int x = 0; x + w <= width; x += 4, ++count) sum += windowSsim(a, b, width, x, y, w, h);
-    return count > 0 ? sum / static_cast<double>(count) : 1;
-}
-
 int channelDifference(QRgb a, QRgb b) {
     return std::max({std::abs(qRed(a) - qRed(b)), std::abs(qGreen(a) - qGreen(b)),
                      std::abs(qBlue(a) - qBlue(b)), std::abs(qAlpha(a) - qAlpha(b))});
 }
+
+/// Counts of differing pixels in blocks of 8 x 8 pixels; a tile is 2 x 2 blocks.
+class Blocks {
+public:
+    explicit Blocks(QSize picture)
+        : picture_(picture),
+          columns_((picture.width() + side - 1) / side),
+          rows_((picture.height() + side - 1) / side),
+          counts_(static_cast<std::size_t>(columns_ + 1) * static_cast<std::size_t>(rows_ + 1)) {}
+
+    void add(int x, int y) {
+        ++counts_[place(x / side, y / side)];
+        ++total_;
+    }
+    void summarise(ImageDifference& result) const {
+        int most = 0;
+        for (int row = 0; row < rows_; ++row)
+            for (int column = 0; column < columns_; ++column) {
+                const int count = counts_[place(column, row)] + counts_[place(column + 1, row)] +
+                                  counts_[place(column, row + 1)] + counts_[place(column + 1, row + 1)];
+                if (count <= most) continue;
+                most = count;
+                result.worstTile = QRect(column * side, row * side, 2 * side, 2 * side)
+                                       .intersected(QRect(QPoint(0, 0), picture_));
+            }
+        const double all = static_cast<double>(picture_.width()) * picture_.height();
+        result.differingPercent = 100.0 * static_cast<double>(total_) / all;
+        result.worstTilePercent =
+            100.0 * most / (std::min(2 * side, picture_.width()) * std::min(2 * side, picture_.height()));
+    }
+
+private:
+    static constexpr int side = 8;
+    /// One more row and column, which are empty, for the tiles at the edges.
+    std::size_t place(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ + 1) +
+               static_cast<std::size_t>(column);
+    }
+    QSize picture_;
+    int columns_, rows_;
+    std::vector<int> counts_;
+    long long total_ = 0;
+};
 
 }  // namespace
 
@@ -68,7 +69,7 @@ ImageDifference compareImages(const QImage& actual, const QImage& expected, int 
     const QImage b = expected.convertToFormat(QImage::Format_ARGB32);
     result.picture = QImage(a.size(), QImage::Format_RGB32);
     result.largest = 0;
-    long long differing = 0;
+    Blocks blocks(a.size());
     for (int y = 0; y < a.height(); ++y) {
         const auto* la = reinterpret_cast<const QRgb*>(a.constScanLine(y));
         const auto* lb = reinterpret_cast<const QRgb*>(b.constScanLine(y));
@@ -78,12 +79,10 @@ ImageDifference compareImages(const QImage& actual, const QImage& expected, int 
             result.largest = std::max(result.largest, difference);
             const int faint = 200 + qGray(la[x]) * 55 / 255;
             out[x] = difference > threshold ? qRgb(220, 20, 40) : qRgb(faint, faint, faint);
-            if (difference > threshold) ++differing;
+            if (difference > threshold) blocks.add(x, y);
         }
     }
-    result.differingPercent =
-        100.0 * static_cast<double>(differing) / (static_cast<double>(a.width()) * a.height());
-    result.ssim = meanSsim(a, b);
+    blocks.summarise(result);
     return result;
 }
 
@@ -91,17 +90,18 @@ QImage sideBySide(const QImage& actual, const QImage& expected, const ImageDiffe
     const Theme theme = Theme::light();
     const int caption = 28, gap = 12;
     const QImage pictures[] = {actual, expected, difference.picture};
-    const QString words[] = {QStringLiteral("actual"), QStringLiteral("expected"),
-                             difference.hasSameSize
-                                 ? QStringLiteral("difference: %1 % of the pixels, largest %2, SSIM %3")
-                                       .arg(difference.differingPercent, 0, 'f', 3)
-                                       .arg(difference.largest)
-                                       .arg(difference.ssim, 0, 'f', 4)
-                                 : QStringLiteral("the sizes differ: %1x%2 and %3x%4")
-                                       .arg(actual.width())
-                                       .arg(actual.height())
-                                       .arg(expected.width())
-                                       .arg(expected.height())};
+    const QString words[] = {
+        QStringLiteral("actual"), QStringLiteral("expected"),
+        difference.hasSameSize
+            ? QStringLiteral("difference: %1 % of the pixels, %2 % of the worst tile, largest %3")
+                  .arg(difference.differingPercent, 0, 'f', 3)
+                  .arg(difference.worstTilePercent, 0, 'f', 1)
+                  .arg(difference.largest)
+            : QStringLiteral("the sizes differ: %1x%2 and %3x%4")
+                  .arg(actual.width())
+                  .arg(actual.height())
+                  .arg(expected.width())
+                  .arg(expected.height())};
     int width = gap, height = 0;
     for (const QImage& p : pictures) {
         width += std::max(p.width(), 320) + gap;

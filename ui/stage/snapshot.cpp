@@ -126,11 +126,15 @@ void compareWithBase(const QImage& picture, const SnapshotRequest& request, Snap
     const ImageDifference difference = compareImages(picture, base);
     result.isCompared = true;
     result.differingPercent = difference.differingPercent;
-    result.isEqual = difference.hasSameSize && difference.differingPercent <= request.tolerance;
+    const double tileTolerance = std::min(100.0, 50 * request.tolerance);  // by default 12 of 256 pixels
+    result.isEqual = difference.hasSameSize && difference.differingPercent <= request.tolerance &&
+                     difference.worstTilePercent <= tileTolerance;
     result.differenceFile = request.file + QStringLiteral(".diff.png");
     if (difference.hasSameSize)
         result.verdict = formatNumber(difference.differingPercent, 4) + " % of the pixels differ, " +
-                         formatNumber(request.tolerance) + " % may";
+                         formatNumber(request.tolerance) + " % may; " +
+                         formatNumber(difference.worstTilePercent, 4) + " % of the worst tile, " +
+                         formatNumber(tileTolerance) + " % may";
     else
         result.verdict = "the sizes differ: " + std::to_string(picture.width()) + "x" +
                          std::to_string(picture.height()) + " and " + std::to_string(base.width()) + "x" +

@@ -29,7 +29,9 @@ struct SnapshotRequest {
     std::string view = "all";
     std::optional<double> time;  ///< the nearest row is shown; default: the end of the run
     QString compareWith;         ///< a picture to compare with; empty: none
-    double tolerance = 0.1;      ///< percent of the pixels that may differ by more than 8 of 255
+    /// Percent of the pixels that may differ by more than 8 of 255; of any tile of 16 x 16 pixels, 50 times
+    /// as many.
+    double tolerance = 0.1;
 };
 
 struct SnapshotResult {
