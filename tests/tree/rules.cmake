@@ -2,13 +2,25 @@
 #
 #     extremal_tree_violations(ROOT OUT)    OUT: a list of "FILE:LINE: WHAT", empty if the tree is sound
 #
-# Includes point down the order of the folders; the engine knows no Qt and no OpenGL; a file is one idea.
+# Includes point down the order of the folders; the engine does not use Qt or OpenGL; a file is one idea; a family of
+# schemes is named in its own folder only.
 
 # A folder may include itself and every folder before it.
 set(levels
     core mesh group quadrature model space action solve integrator family baseline trajectory observe scene run figure study
     ui app)
 set(max_lines 500)
+
+# What belongs to one family: the types of its spaces, keys and values that no other family has. Quoted, they occur in
+# engine/family/<family> alone, and in tests. Polynomials and splines are tables as well: engine/space may name them.
+set(families galerkin multiscale lie wave elliptic)
+set(names_of_galerkin polynomial spline)
+set(names_of_multiscale oscillatory oscillatory-product harmonics)
+set(names_of_lie lie-polynomial reduced)
+set(names_of_wave fourier space-time energy_shift time_basis slabs three-level)
+set(names_of_elliptic elliptic-elements)
+# Files that still name a family that is not theirs. A file that no longer does must leave the list.
+set(list_of_family_names tests/tree/family_names_today.txt)
 
 set(level 0)
 foreach(folder ${levels})
@@ -44,8 +56,38 @@ function(extremal_includes_of file out)
     set(${out} "${found}" PARENT_SCOPE)
 endfunction()
 
+# Where a file of engine, ui or app names a family to which it does not belong, or includes its headers. Baselines may
+# include headers of a family: Crank-Nicolson is Gauss of degree 1 and shares the linear solvers of the wave family.
+function(extremal_family_violations root path includes out)
+    set(violations "")
+    file(READ ${root}/${path} text)
+    foreach(family ${families})
+        if(path MATCHES "^engine/family/${family}/" OR (family STREQUAL "galerkin" AND path MATCHES "^engine/space/"))
+            continue()
+        endif()
+        list(JOIN names_of_${family} "|" names)
+        if(text MATCHES "\"(${names})\"")
+            list(APPEND violations "${path}:1: names \"${CMAKE_MATCH_1}\", which belongs to engine/family/${family}")
+        endif()
+    endforeach()
+    foreach(entry ${includes})
+        if(NOT path MATCHES "^engine/baseline/" AND entry MATCHES "^([0-9]+):(\"engine/family/([^/]+)/.*)$")
+            set(where "${path}:${CMAKE_MATCH_1}")
+            set(name "${CMAKE_MATCH_2}")
+            if(NOT path MATCHES "^engine/family/${CMAKE_MATCH_3}/")
+                list(APPEND violations "${where}: includes ${name} of a family that is not its own")
+            endif()
+        endif()
+    endforeach()
+    set(${out} "${violations}" PARENT_SCOPE)
+endfunction()
+
 function(extremal_tree_violations root out)
     set(violations "")
+    set(tolerated "")
+    if(EXISTS ${root}/${list_of_family_names})
+        file(STRINGS ${root}/${list_of_family_names} tolerated REGEX "^[^#]")
+    endif()
     file(GLOB_RECURSE files RELATIVE ${root}
         ${root}/engine/*.hpp ${root}/engine/*.cpp ${root}/ui/*.hpp ${root}/ui/*.cpp
         ${root}/app/*.hpp ${root}/app/*.cpp ${root}/tests/*.hpp ${root}/tests/*.cpp)
@@ -76,6 +118,15 @@ function(extremal_tree_violations root out)
         endif()
 
         extremal_includes_of(${root}/${path} includes)
+        if(NOT path MATCHES "^tests/")
+            extremal_family_violations(${root} ${path} "${includes}" named)
+            if(NOT path IN_LIST tolerated)
+                list(APPEND violations ${named})
+            elseif(NOT named)
+                list(APPEND violations "${path}:1: names no other family any more: take it off ${list_of_family_names}")
+            endif()
+            list(REMOVE_ITEM tolerated ${path})
+        endif()
         foreach(entry ${includes})
             string(REGEX MATCH "^([0-9]+):(.*)$" _ "${entry}")
             set(where "${path}:${CMAKE_MATCH_1}")
@@ -100,6 +151,9 @@ function(extremal_tree_violations root out)
                 list(APPEND violations "${where}: ${folder} includes ${name}, which is above it")
             endif()
         endforeach()
+    endforeach()
+    foreach(path ${tolerated})
+        list(APPEND violations "${path}:1: does not exist: take it off ${list_of_family_names}")
     endforeach()
     set(${out} "${violations}" PARENT_SCOPE)
 endfunction()
