@@ -43,17 +43,19 @@ install_packages() {
     fi
 }
 
-# Configures build/ once; afterwards the build itself notices what changed. A folder that was configured for
-# another place (a copied or moved project) is configured anew.
+# configure [FOLDER OPTION...]: configures FOLDER (build, with batches of files, which are faster to build from scratch)
+# once; afterwards the build itself notices changes. A folder that was configured for another place (a copied or moved
+# project) is configured anew.
 configure() {
-    local home=""
-    if [ -f "$root/build/CMakeCache.txt" ]; then
-        home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$root/build/CMakeCache.txt")
+    local folder=${1:-build} home=""
+    [ $# -gt 0 ] || set -- build -DEXTREMAL_UNITY=ON
+    if [ -f "$root/$folder/CMakeCache.txt" ]; then
+        home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$root/$folder/CMakeCache.txt")
     fi
-    if [ "$home" = "$root" ] && [ -f "$root/build/build.ninja" ]; then
+    if [ "$home" = "$root" ] && [ -f "$root/$folder/build.ninja" ]; then
         return 0
     fi
     local fresh=()
     [ -z "$home" ] || fresh=(--fresh)
-    cmake "${fresh[@]}" -S "$root" -B "$root/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >&2
+    cmake "${fresh[@]}" -S "$root" -B "$root/$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "${@:2}" >&2
 }
