@@ -191,7 +191,6 @@ MapRun::MapRun(const Scene& scene) : scene_(scene) {
 }
 
 void MapRun::run(std::size_t task, const std::stop_token& stop) {
-    if (stop.stop_requested()) return;
     const auto [first, column] = tasks_[task];
     const MapGrid& grid = maps_[first].grid;
     const std::size_t rows = grid.steps.size(), schemes = mappedSchemes(scene_).size();
@@ -209,7 +208,7 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
         else
             unknown.push_back(s);
     }
-    if (unknown.empty()) return;
+    if (unknown.empty() || stop.stop_requested()) return;
 
     const ReadScene read = readScene(document);
     const ObservableEntry* observable = read.errors.empty() ? observableOf(read.scene, grid.column) : nullptr;

@@ -22,7 +22,8 @@ public:
     explicit MapRun(const Scene& scene);
 
     std::size_t tasks() const { return tasks_.size(); }
-    /// Callable from any thread, once each. Returns early when stopped: its cells then wait.
+    /// Callable from any thread, once each. Returns early when stopped: cells that are not known
+    /// from before then wait.
     void run(std::size_t task, const std::stop_token& stop);
 
     /// What there is now.

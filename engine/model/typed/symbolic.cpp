@@ -37,7 +37,6 @@ using GiNaC::ex_to;
 using GiNaC::exvector;
 using GiNaC::is_a;
 
-constexpr double maxSeconds = 5;
 /// Formulas larger than this are opaque to GiNaC where they are operands: a derivative then refers to them
 /// instead of repeating them, as in automatic differentiation, and no product of many factors explodes.
 constexpr int maxOpenSize = 64;
@@ -96,8 +95,13 @@ struct HashEx {
 /// One differentiation, from the formula to the graph; everything of GiNaC lives and dies in here.
 class Engine {
 public:
-    Engine(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop)
-        : formula_(formula), resolved_(resolved), stop_(stop) {
+    Engine(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop,
+           double maxSeconds)
+        : formula_(formula),
+          resolved_(resolved),
+          stop_(stop),
+          deadline_(std::chrono::steady_clock::now() +
+                    std::chrono::milliseconds(static_cast<long long>(1000 * maxSeconds))) {
         const int symbols = formula.firstParameter() + static_cast<int>(formula.parameters.size());
         for (int i = 0; i < symbols; ++i) symbols_.push_back(Leaf(*this, Leaf::Kind::symbol, i));
     }
@@ -318,8 +322,7 @@ private:
     const Formula& formula_;
     const ResolvedFormula& resolved_;
     std::stop_token stop_;
-    std::chrono::steady_clock::time_point deadline_ =
-        std::chrono::steady_clock::now() + std::chrono::milliseconds(static_cast<long>(1000 * maxSeconds));
+    std::chrono::steady_clock::time_point deadline_;
     long ticks_ = 0;
     exvector symbols_, parts_;
     std::map<double, ex> numbers_;
@@ -339,9 +342,11 @@ struct Finding {
     std::optional<ExpressionError> error;
 };
 
-Finding find(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop) {
+Finding find(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop,
+             double maxSeconds) {
     try {
-        return {std::make_shared<const SymbolicLagrangian>(Engine(formula, resolved, stop).run()), {}};
+        return {std::make_shared<const SymbolicLagrangian>(Engine(formula, resolved, stop, maxSeconds).run()),
+                {}};
     } catch (const ExpressionError& e) {
         return {nullptr, e};
     } catch (const Stopped&) {
@@ -389,7 +394,8 @@ private:
 
 }  // namespace
 
-std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, const std::stop_token& stop) {
+std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, const std::stop_token& stop,
+                                                        double maxSeconds) {
     static Memory memory;
     static std::mutex working;
 
@@ -402,7 +408,7 @@ std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, 
         const std::lock_guard lock(working);
         finding = memory.recall(key);  // another thread may have been at it
         if (!finding) {
-            finding = find(formula, resolved, stop);
+            finding = find(formula, resolved, stop, maxSeconds);
             if (finding->result || finding->error) memory.keep(key, *finding);
         }
     }

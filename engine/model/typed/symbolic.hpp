@@ -5,8 +5,8 @@
 /// flattened to one graph with parameters left as symbols: moving a parameter differentiates nothing anew.
 /// abs' = sign and sign' = 0, also at 0.
 ///
-/// Errors: ExpressionError; more than 5 s or too much memory is one. GiNaC knows no threads: calls take
-/// turns. What was found for the last formulas is remembered, errors included.
+/// Errors: ExpressionError; more than `maxSeconds` or too much memory is one. GiNaC knows no threads: calls
+/// take turns. What was found for the last formulas is remembered, errors included.
 #pragma once
 
 #include <memory>
@@ -29,6 +29,7 @@ struct SymbolicLagrangian {
 
 /// Coordinates and parameters must have valid, different names. Null if a stop was requested on the way.
 std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula,
-                                                        const std::stop_token& stop = {});
+                                                        const std::stop_token& stop = {},
+                                                        double maxSeconds = 5);
 
 }  // namespace extremal::typed

@@ -4,14 +4,14 @@
 #include <QTest>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
+#include <stop_token>
 
 #include "engine/run/export.hpp"
+#include "engine/run/map_run.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/tools/test.hpp"
@@ -167,18 +167,22 @@ private slots:
     void whatWasComputedIsRemembered() {
         const std::string view =
             R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0203,0.16],"cells":[12,12],"duration":4})";
-        const auto begin = std::chrono::steady_clock::now();
         QCOMPARE(runStiff(view).maps.size(), std::size_t(4));
-        const auto middle = std::chrono::steady_clock::now();
         // Another title, another step of the scene itself, one scheme less: the same cells.
         const ReadScene changed =
             readScene(stiffScene(view),
                       {{"/title", "other"}, {"/schemes/1/step", 0.02}, {"/schemes/0/enabled", false}});
-        QCOMPARE(run(changed.scene).maps.size(), std::size_t(3));
-        const auto end = std::chrono::steady_clock::now();
-        qInfo("%g ms, then %g ms", std::chrono::duration<double, std::milli>(middle - begin).count(),
-              std::chrono::duration<double, std::milli>(end - middle).count());
-        QVERIFY((end - middle) * 4 < middle - begin);
+        // A run that is stopped before it starts computes nothing, but has what is remembered.
+        std::stop_source stopped;
+        stopped.request_stop();
+        const auto fractionOf = [&](const Scene& scene) {
+            MapRun map(scene);
+            for (std::size_t task = 0; task < map.tasks(); ++task) map.run(task, stopped.get_token());
+            return map.fraction();
+        };
+        QCOMPARE(fractionOf(changed.scene), 1.0);
+        const ReadScene other = readScene(stiffScene(view), {{"/model/m", 1.01}});
+        QCOMPARE(fractionOf(other.scene), 0.0);
     }
     void stoppingKeepsWhatIsDone() {
         const ReadScene read = readStiff(
@@ -193,11 +197,9 @@ private slots:
                                    [](const MapCell& c) { return c.end != MapCell::End::waiting; });
             return n;
         };
-        while (doneCells() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        const auto before = std::chrono::steady_clock::now();
+        QTRY_VERIFY_WITH_TIMEOUT(doneCells() > 0, 60000);
         r.stop();
         r.wait();
-        QVERIFY(std::chrono::steady_clock::now() - before < std::chrono::milliseconds(500));
         QVERIFY(doneCells() > 0 && doneCells() < 4 * 60 * 30);
         QVERIFY(r.fraction() > 0 && r.fraction() < 1);
         QVERIFY(r.isFinished());

