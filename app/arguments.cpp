@@ -39,7 +39,7 @@ CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const c
 void addSnapshot(CLI::App& app, Arguments& arguments) {
     SnapshotOptions& snapshot = arguments.snapshot;
     CLI::App& verb =
-        addVerb(app, arguments, "snapshot", "draw what the window would show, without a display", true);
+        addVerb(app, arguments, "snapshot", "draw the contents of the window, without a display", true);
     verb.add_option("--out", snapshot.out, "the picture: .png, .pdf or .svg")->required()->type_name("FILE");
     verb.add_option("--size", snapshot.size, "pixels, sides 64 to 8192; 1200x800 by default")
         ->type_name("WxH");
@@ -48,7 +48,8 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
     verb.add_option("--compare", snapshot.compareWith,
                     "exit 1 if the picture differs, and write FILE.diff.png")
         ->type_name("BASE.png");
-    verb.add_option("--tolerance", snapshot.tolerance, "percent of the pixels that may differ")
+    verb.add_option("--tolerance", snapshot.tolerance,
+                    "percent of the pixels that may differ, of any tile 50 times as many")
         ->type_name("PERCENT")
         ->check(CLI::Range(0.0, 100.0).description(""));
     addCommon(verb, arguments.common);
@@ -59,7 +60,7 @@ void addWisdom(CLI::App& app, Arguments& arguments) {
     CLI::App& verb =
         addVerb(app, arguments, "wisdom",
                 "measure the fastest Fourier transforms of this machine, for EXTREMAL_WISDOM", false);
-    verb.add_option("--out", arguments.wisdom.out, "the file; what it knows already is kept")
+    verb.add_option("--out", arguments.wisdom.out, "the file; an existing one is extended")
         ->required()
         ->type_name("FILE");
     verb.add_option("--modes", arguments.wisdom.modes, "a number of modes, or NxM in the plane; repeatable")
@@ -99,14 +100,14 @@ std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
     addCommon(app, arguments.common);
     CLI::App& run =
         addVerb(app, arguments, "run", "integrate every enabled scheme; write CSV files and a summary", true);
-    run.add_option("--out", arguments.folder, "folder for the files, made if missing")
+    run.add_option("--out", arguments.folder, "folder for the files, created if missing")
         ->required()
         ->type_name("DIR");
     addCommon(run, arguments.common);
     addSnapshot(app, arguments);
-    addCommon(addVerb(app, arguments, "check", "name every error and warning of a scene", true),
+    addCommon(addVerb(app, arguments, "check", "report every error and warning of a scene", true),
               arguments.common);
-    CLI::App& list = addVerb(app, arguments, "list", "name what scenes are made of", false);
+    CLI::App& list = addVerb(app, arguments, "list", "list what a scene may contain", false);
     list.add_option("KIND", arguments.kind,
                     "models, spaces, quadratures, schemes, baselines, observables, studies, views, profiles "
                     "or presets")

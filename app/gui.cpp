@@ -21,7 +21,7 @@ int tellMissingDisplay() {
 /// Qt ends the program when it finds no display; it shall do so with our words and exit code.
 void tellFatal(QtMsgType type, const QMessageLogContext&, const QString& text) {
     if (type == QtFatalMsg && text.contains("platform plugin")) ::_exit(tellMissingDisplay());
-    // Before that it names the display it tried; other messages are for those who look for them.
+    // The message before it names the display that was tried; other messages are not shown.
     const bool isAboutDisplay =
         text.contains("could not connect to display") || text.contains("platform plugin");
     if (!isAboutDisplay && (type == QtFatalMsg || std::getenv("EXTREMAL_DEBUG")))

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
     // A file that grows beyond a limit is an error of its write, with a message, and not the end of the
     // program.
     std::signal(SIGXFSZ, SIG_IGN);
-    // What stands in a PDF comes out of hash tables: the same picture shall give the same bytes.
+    // The contents of a PDF depend on the order of hash tables: the same picture must give the same bytes.
     QHashSeed::setDeterministicGlobalSeed();
     try {
         return dispatch(argc, argv);

@@ -14,7 +14,7 @@ InterruptWatch::InterruptWatch() {
 }
 
 InterruptWatch::~InterruptWatch() {
-    // What came after the work was done is dropped: the results are there.
+    // A signal that arrives after the work is done is ignored: the results are complete.
     while (wait(0)) {
     }
     pthread_sigmask(SIG_SETMASK, &previous_, nullptr);

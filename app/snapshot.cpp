@@ -16,8 +16,8 @@
 namespace extremal::app {
 namespace {
 
-/// Qt's remarks on the machine are no news to somebody who wants a picture; what is wrong with it, we say
-/// ourselves.
+/// Suppresses Qt's remarks about the system, which do not concern the picture; errors are reported by this
+/// program.
 void dropRemarks(QtMsgType type, const QMessageLogContext&, const QString& text) {
     if (type == QtCriticalMsg || type == QtFatalMsg) printProblem("", text.toStdString());
 }

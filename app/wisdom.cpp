@@ -72,14 +72,15 @@ int wisdomVerb(const WisdomOptions& options, const CommonOptions& common) {
             {"modes", options.modes[i]}, {"estimated", gain.estimated}, {"measured", gain.measured}});
     }
     if (!write(options.out, wisdom())) {
-        printProblem(options.out, "could not be written", "a folder that is there and may be written to");
+        printProblem(options.out, "could not be written", "choose an existing folder with write permission");
         return unwritable;
     }
     if (common.isJson)
         return print(writeJson(Value::Object{{"file", options.out}, {"transforms", rows}}), done);
     if (common.isQuiet) return done;
-    return print(table.text() + "\nMicroseconds there and back. Used where EXTREMAL_WISDOM=" + options.out +
-                     " is in the environment.\n",
+    return print(table.text() +
+                     "\nMicroseconds per forward and backward transform. Used if EXTREMAL_WISDOM=" +
+                     options.out + " is in the environment.\n",
                  done);
 }
 

@@ -11,14 +11,14 @@ namespace {
 
 using Quad = boost::multiprecision::float128;
 
-/// The twin of a space in quadruple precision, from its evaluateWide.
-Space<Quad> wideTwin(const Space<double>& space) {
+/// The twin of a space in quadruple precision, from its evaluateQuadruple.
+Space<Quad> quadrupleTwin(const Space<double>& space) {
     Space<Quad> twin;
     twin.size = space.size;
     twin.degree = space.degree;
     twin.hasKinks = space.hasKinks;
-    twin.evaluate = [evaluate = space.evaluateWide](const Quad& tau, std::span<Quad> value,
-                                                    std::span<Quad> derivative) {
+    twin.evaluate = [evaluate = space.evaluateQuadruple](const Quad& tau, std::span<Quad> value,
+                                                         std::span<Quad> derivative) {
         std::vector<__float128> v(value.size()), d(value.size());
         evaluate(tau.backend().value(), v, d);
         for (std::size_t a = 0; a < value.size(); ++a) {
@@ -29,7 +29,7 @@ Space<Quad> wideTwin(const Space<double>& space) {
     return twin;
 }
 
-Rule<Quad> widened(const Rule<double>& rule) {
+Rule<Quad> inQuadruple(const Rule<double>& rule) {
     Rule<Quad> wide;
     wide.c.assign(rule.c.begin(), rule.c.end());
     wide.b.assign(rule.b.begin(), rule.b.end());
@@ -73,9 +73,9 @@ template bool tellsFunctionsApart(const Table<Quad>&);
 template <class T>
 Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
     if constexpr (std::is_same_v<T, double>) {
-        if (space.evaluateWide) {
+        if (space.evaluateQuadruple) {
             const Rule<double> once = space.hasKinks ? rule : merged(rule);
-            return rounded(detail::buildTable(wideTwin(space), widened(once)), space, once);
+            return rounded(detail::buildTable(quadrupleTwin(space), inQuadruple(once)), space, once);
         }
     }
     return detail::buildTable(space, rule);

@@ -1,4 +1,4 @@
-/// What the codes that choose their own steps share: one accepted step per advance(), the end hit exactly, a
+/// What adaptive codes share: one accepted step per advance(), the end hit exactly, a
 /// curve.
 ///
 /// They integrate x' = f(t, x): x = (q, p) and Hamilton's vector field, or any other. Both relative and

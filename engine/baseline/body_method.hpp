@@ -76,8 +76,8 @@ public:
 protected:
     /// Moves m by h and adds to report_.
     virtual void step(Motion& m, double h) = 0;
-    /// True where a step does nothing to the momentum but turn it with the body: that in space is then
-    /// carried on as it is, and the body's is it, turned back.
+    /// True if a step only rotates the momentum with the body: the momentum in space is then left unchanged,
+    /// and that in body axes is computed from it.
     virtual bool turnsMomentum() const { return false; }
 
     Motion read(const double* x) const {

@@ -2,8 +2,8 @@
 /// number, and B the potential, a phase at each node. Unitary for every step; explicit; V may depend on time,
 /// which moves with A.
 ///
-/// A kick costs two transforms. Where a step ends with a kick and the next begins with one, the values at the
-/// nodes are kept in between, and the second kick costs one.
+/// A kick costs two transforms. If a step ends with a kick and the next begins with one, the values at the
+/// nodes are reused, and the second kick costs one.
 #pragma once
 
 #include <memory>

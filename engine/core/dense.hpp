@@ -1,6 +1,7 @@
-/// Dense linear algebra for what is made once a scheme or once a view, never for a step: factorizations of
+/// Dense linear algebra for set-up, once per scheme or per view and never in a step: factorisations of
 /// matrices of any size, in double, complex, extended and quadruple precision. They are compiled in a few
-/// files of their own, because each file that has Eigen make them anew takes seconds longer.
+/// separate files, because every further file in which Eigen instantiates them takes seconds longer to
+/// compile.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +15,7 @@ template <class T>
 using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 template <class T>
 using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
-/// Any expression with entries T; what is no column-major block of memory is copied.
+/// Any expression with entries T; it is copied unless it is a column-major block of memory.
 template <class T>
 using Given = const std::type_identity_t<Eigen::Ref<const Matrix<T>>>&;
 

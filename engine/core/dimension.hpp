@@ -1,5 +1,5 @@
-/// Turns a dimension known at run time into one known at compile time, where it pays: a fixed dimension makes
-/// a step two to seven times faster. Larger systems use Eigen::Dynamic.
+/// Converts a dimension known at run time into one known at compile time, for small dimensions: a fixed
+/// dimension makes a step two to seven times faster. Larger systems use Eigen::Dynamic.
 #pragma once
 
 #include <Eigen/Core>

@@ -8,7 +8,7 @@
 ///
 /// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign. `pi` is a constant;
 /// names are [A-Za-z][A-Za-z0-9_]*. dot(x), the velocity of x, is read as a call of "dot", and has a meaning
-/// in Lagrangians only. Parsing and meaning are apart: the tree knows nothing of which names exist.
+/// in Lagrangians only. Parsing is independent of meaning: the tree does not depend on which names exist.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@
 
 namespace extremal {
 
-/// At most this many characters, and this many operators, functions and brackets inside each other.
+/// At most this many characters, and this many operators, functions and brackets nested in each other.
 inline constexpr std::size_t maxExpressionLength = 10000;
 inline constexpr int maxExpressionDepth = 200;
 

@@ -30,10 +30,10 @@ struct FieldInfo {
         choices;  ///< for FieldType::choice; the values allowed of a FieldType::integer, if any
     std::vector<std::string>
         components;           ///< for FieldType::numbers: what each number is called; gives their count
-    bool isOptional = false;  ///< a key without a default that may be left out
+    bool isOptional = false;  ///< a key without a default that may be omitted
     std::string description;  ///< one line
-    std::string whyLimits;    ///< hint where a value is out of range; may be empty
-    Value example;            ///< what a new scene starts from where there is no default
+    std::string whyLimits;    ///< hint if a value is out of range; may be empty
+    Value example;            ///< the value in a new scene if there is no default
 
     const Value& firstValue() const { return example.isNull() ? fallback : example; }
 };
@@ -45,7 +45,7 @@ struct Field {
     FieldInfo info;
 };
 
-// Descriptors of the usual kinds. What they do not say (symbol, limits, unit, ...) is set on the result.
+// Descriptors of the usual kinds. Further properties (symbol, limits, unit, ...) are set on the result.
 
 /// A number without limits or a symbol.
 FieldInfo numberField(std::string key, std::string title, std::string unit, double fallback,

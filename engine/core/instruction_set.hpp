@@ -1,6 +1,6 @@
 /// Kernels compiled for several instruction sets and chosen at start.
 ///
-/// A release runs on any x86-64; loops over Lanes are compiled for AVX2 and AVX-512 besides. Contraction is
+/// A release runs on any x86-64; loops over Lanes are also compiled for AVX2 and AVX-512. Contraction is
 /// off everywhere, so all of them give the same bits.
 #pragma once
 

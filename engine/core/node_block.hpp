@@ -1,4 +1,4 @@
-/// A stretch of consecutive nodes of one run, as an integrator leaves them and observers look at them.
+/// Consecutive nodes of one run: filled by an integrator, read by observers.
 ///
 /// x(i) are the state columns at node i of the block (see State), contiguous and `width` apart. Everything is
 /// allocated once: push() never allocates.

@@ -17,7 +17,7 @@ struct Problem {
     std::string hint;     ///< the remedy, without brackets; may be empty
     std::string origin =
         {};             ///< the pointer of the override (--set) it comes from; empty: the document itself
-    Value remedy = {};  ///< a value for the pointer that would do, to be offered; null: none
+    Value remedy = {};  ///< a value for the pointer that resolves the problem; null: none
     bool operator==(const Problem&) const = default;
 };
 

@@ -1,4 +1,4 @@
-/// Small text helpers: numbers in files, names that are nearly right, and file names made from labels.
+/// Small text helpers: numbers in files, suggestions for misspelt names, and file names made from labels.
 ///
 /// Numbers go through std::to_chars and std::from_chars alone, so that no locale changes a file.
 #pragma once
@@ -27,7 +27,7 @@ std::optional<double> parseNumber(std::string_view text);
 /// upper and lower case alike.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-/// The candidate a user most likely meant, empty if none is near.
+/// The candidate that the user most likely meant; empty if none is similar.
 std::string nearestName(std::string_view name, const std::vector<std::string>& candidates);
 
 /// A hint for an unknown name: "did you mean \"gauss\"?", or the candidates where none is near.

@@ -1,4 +1,4 @@
-/// A JSON-like tree with the order of its keys kept: the common currency between scene files, descriptors and
+/// A JSON-like tree that preserves the order of its keys, shared by scene files, descriptors and
 /// forms. It is a value: comparable, copyable, cheap to include. Reading and writing text is in
 /// scene/json.hpp.
 #pragma once

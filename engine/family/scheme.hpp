@@ -32,7 +32,7 @@ struct PairProperties {
     std::string shortName;    ///< for a cell of a grid: "mid", "SV", "G4", "L6"
     bool isExplicit = false;  ///< for separable systems
     std::string shortfall;    ///< why the order is below that of the space; empty if it is not
-    std::string refusal;      ///< why the pair makes no sense (too few nodes, ...); empty if it does
+    std::string refusal;      ///< why the pair is refused (too few nodes, ...); empty if it is not
     std::string hint;         ///< the remedy for a refusal
     std::string caution;  ///< a warning of every scene that has it ("is an experiment: ..."); may be empty
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity if none

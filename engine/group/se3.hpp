@@ -169,7 +169,7 @@ template <class T>
 Vector<T> bracket(const Vector<T>& u, const Vector<T>& v) {
     return detail::fromTwist<T>(so3::cross(detail::twist(u), detail::twist(v)));
 }
-/// What the momentum m of a free body changes by in the body, moving at the twist u.
+/// The rate of change in body axes of the momentum m of a free body that moves with the twist u.
 template <class T>
 Vector<T> precession(const Vector<T>& m, const Vector<T>& u) {
     return detail::fromMomentum<T>(so3::cross(detail::momentum(m), detail::twist(u)));

@@ -58,8 +58,8 @@ template <class T>
 Vector<T> bracket(const Vector<T>& u, const Vector<T>& v) {
     return cross(u, v);
 }
-/// What the momentum m of a freely turning body changes by in the body, m x u at the rate u; (precession(m,
-/// u), v) = (m, [u, v]).
+/// The rate of change in body axes of the momentum m of a free body, m x u at the angular velocity u;
+/// (precession(m, u), v) = (m, [u, v]).
 template <class T>
 Vector<T> precession(const Vector<T>& m, const Vector<T>& u) {
     return cross(m, u);
@@ -205,7 +205,7 @@ public:
         return m + u * c_.a[0] + cross(xi_, u) * c_.b[0];
     }
     Matrix<T> dexpMatrix() const { return combination(-c_.a[0], c_.b[0]); }
-    /// dexp(-xi)^T m: a momentum at the foot of the chart, in the chart.
+    /// dexp(-xi)^T m: a momentum at the base point of the chart, in the chart.
     Vector<T> dexpRightTransposed(const Vector<T>& m) const { return dexp(m); }
     /// Singular at |xi| = 2 pi.
     Matrix<T> dexpInverseMatrix() const requires(K >= 1) {

@@ -1,5 +1,4 @@
-/// Names of what can be observed and seen; the observables themselves are in observe/observables, one file
-/// each.
+/// The catalogue of observables; the observables themselves are in observe/observables, one file each.
 #pragma once
 
 #include <functional>
@@ -17,7 +16,7 @@
 
 namespace extremal {
 
-/// What an observable may look at when it is bound to a run.
+/// What an observable may use when it is bound to a run.
 struct ObserveContext {
     const System& system;
     const State& initial;

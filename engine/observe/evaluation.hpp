@@ -1,8 +1,8 @@
 /// What an observer computes at nodes: one value per column.
 ///
-/// Made from a callable for one node, `(const State&, const StepReport&, double* values)`, or, for what every
-/// run looks at in every node, from one for a whole block, `(const NodeBlock&, double* values, std::size_t
-/// stride)`: the values of node i start at values + i * stride.
+/// Made from a callable for one node, `(const State&, const StepReport&, double* values)`, or, for
+/// observables that every run evaluates at every node, from one for a whole block, `(const NodeBlock&,
+/// double* values, std::size_t stride)`: the values of node i start at values + i * stride.
 #pragma once
 
 #include <algorithm>

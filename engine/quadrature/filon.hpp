@@ -10,8 +10,8 @@
 /// w_i the weights of the plain rule, gamma_n = 2n + 1, but nu - 1 for the last n of Lobatto's rule, which
 /// does not integrate P_{nu-1}^2. Absolute error of a weight below 1e-15 for |z| up to 1e12. Error with nu
 /// nodes: O(h^(nu+1)) at fixed h w; O(1/(h w)) for Gauss and O(1/(h w)^2) for Lobatto as h w grows, because
-/// only Lobatto has the ends as nodes; the order of the plain rule for small h w. Source: Leok 2004, sec. 7.2,
-/// with the corrections above; Iserles 2004.
+/// only Lobatto has the ends as nodes; the order of the plain rule for small h w. Source: Leok 2004,
+/// sec. 7.2, with the corrections above; Iserles 2004.
 #pragma once
 
 #include <array>

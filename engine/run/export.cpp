@@ -86,8 +86,8 @@ std::string cellText(const Value& value) {
 std::string fieldName(const std::string& csv) { return csv.substr(0, csv.size() - 4) + ".field.csv"; }
 
 /// t, the place (x, of a rectangle y too) and the components of the field: a row for each place of each
-/// frame. Of a rectangle as many frames, evenly spread, as make half a million rows: files of a gigabyte help
-/// nobody.
+/// frame. Of a rectangle as many frames, evenly spread, as make half a million rows, which keeps the file
+/// below 100 MB.
 template <class Sink>
 void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, Sink&& sink) {
     constexpr std::size_t blockSize = 1 << 16, mostRows = 1 << 19;

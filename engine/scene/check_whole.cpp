@@ -76,8 +76,9 @@ void checkWaveStep(Reader& reader, const System& system, const Scene& scene, con
     const double h = scheme.step.value, limit = stabilityLimit / frequency;
     if (!(h > limit)) return;
     const std::string message = formatNumber(h) + " is beyond the stability limit " + formatNumber(limit, 6) +
-                                ": the largest energy turns by " + formatNumber(h * frequency, 4) +
-                                " a step, the limit is " + formatNumber(stabilityLimit, 4);
+                                ": the phase of the largest energy advances by " +
+                                formatNumber(h * frequency, 4) + " per step, the limit is " +
+                                formatNumber(stabilityLimit, 4);
     if (scheme.allowsUnstable)
         reader.warning(pointer + "/step", message);
     else
@@ -133,10 +134,10 @@ void checkTurn(Reader& reader, const System& system, const Scene& scene, const S
     const double perUnit = std::pow(10, 1 - std::floor(std::log10(limit / rate)));  // two digits
     const double usual = std::floor(limit / rate * perUnit) / perUnit;
     reader.warning(pointer + "/step",
-                   formatNumber(h) + " turns the body by " + formatNumber(h * rate, 3) +
-                       " rad a step, at the start: beyond " + formatNumber(limit, 3) +
+                   formatNumber(h) + " rotates the body by " + formatNumber(h * rate, 3) +
+                       " rad per step initially: beyond " + formatNumber(limit, 3) +
                        " rad a scheme of degree " + std::to_string(degree) +
-                       " may lose a thousandth of what the body turns, or more",
+                       " may have a relative error of a thousandth or more",
                    "a higher degree, or the step " + formatNumber(usual, 2), usual);
 }
 
@@ -144,12 +145,12 @@ void checkTurn(Reader& reader, const System& system, const Scene& scene, const S
 bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
                const std::string& pointer) {
     if (!properties.refusal.empty()) {
-        reader.error(pointer, "makes no sense: " + properties.refusal,
+        reader.error(pointer, "unsupported combination: " + properties.refusal,
                      properties.hint.empty() ? "another quadrature, or auto" : properties.hint);
         return false;
     }
     if (properties.stabilityLimit <= 0 && !scheme.allowsUnstable) {
-        reader.error(pointer, "is unstable for every step, already on the harmonic oscillator",
+        reader.error(pointer, "is unstable for every step, even on the harmonic oscillator",
                      "another quadrature, or \"allow_unstable\": true");
         return false;
     }

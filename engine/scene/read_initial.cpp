@@ -110,8 +110,7 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
         reader.error("/initial", "has " + std::string(given.size() == 2 ? "both " : "") + joinNames(given),
                      q1 ? "give the momentum, the velocity or the second position"
                         : "give the momentum or the velocity");
-    if (at && !q1)
-        reader.error("/initial/at", "stands without q1", "q1 is the position that much after the start");
+    if (at && !q1) reader.error("/initial/at", "requires q1", "q1 is the position that much after the start");
     if (q || p || v) result.pOrV.assign(system.coordinates.size(), Number{});
     if (p) result.pOrV = readVector(reader, *p, "/initial/p", system);
     if (v && !p) {

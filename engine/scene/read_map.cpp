@@ -111,8 +111,7 @@ void checkGrid(Reader& reader, const std::string& pointer, const View& view, con
                                 formatNumber(duration),
                             "a larger \"duration\"");
     const auto mapped = mappedSchemes(scene);
-    if (mapped.empty())
-        return reader.warning(pointer, "shows nothing: no scheme that is switched on has a step");
+    if (mapped.empty()) return reader.warning(pointer, "has no cells: no enabled scheme has a fixed step");
     double total = 0;
     for (const double step : mapGridOf(scene, view).steps) total += cells[0] * duration / step;
     if (duration / steps[0] > scene.maxSteps || total > mostSteps)
@@ -156,7 +155,7 @@ void checkColumn(Reader& reader, const std::string& pointer, const View& view, c
         const bool isMissing = scene.reference.kind == ReferenceSpec::Kind::none &&
                                findObservable(column.observable)->needsReference;
         if (isMissing)
-            reader.warning(childPointer(pointer, "value"), "stays unknown: the reference is none",
+            reader.warning(childPointer(pointer, "value"), "remains unknown: there is no reference",
                            "set /reference to auto");
         return;
     }

@@ -135,12 +135,12 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
         else if (!contains(known, *name))
             reader.unknownName(pointer, "observable", *name, known);
         else if (contains(scene.observe, *name))
-            reader.error(pointer, "\"" + *name + "\" is there twice", "keep one of them");
+            reader.error(pointer, "\"" + *name + "\" is listed twice", "keep one of them");
         else
             scene.observe.push_back(*name);
     }
     if (contains(scene.observe, "error") && scene.reference.kind == ReferenceSpec::Kind::none)
-        reader.warning("/observe", "asks for the error, but the reference is none: the error stays unknown",
+        reader.warning("/observe", "requests the error, but there is no reference: the error remains unknown",
                        "set /reference to auto");
 }
 

@@ -104,7 +104,7 @@ bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, S
         return false;
     }
     if (scheme.find("quadrature") && !scheme.find("space")) {
-        reader.error(childPointer(pointer, "quadrature"), "stands without a space",
+        reader.error(childPointer(pointer, "quadrature"), "requires a space",
                      "add \"space\": { \"type\": \"polynomial\", \"degree\": 2 }");
         return false;
     }
@@ -136,7 +136,7 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
     auto composition = readSettings(reader, value, pointer, "composition", itemsOf(compositionCatalog()));
     if (!composition) return;
     if (isAdaptive)
-        return reader.error(pointer, "needs a fixed step, and " + spec.baseline.type + " chooses its own",
+        return reader.error(pointer, "requires a fixed step, and " + spec.baseline.type + " is adaptive",
                             "a scheme with a fixed step, or no composition");
     if (const auto pair = innerPairOf(spec); pair && !describe(pair->space, pair->quadrature).refusal.empty())
         return;
@@ -224,7 +224,7 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
         if (const auto text = reader.line(*label, place)) {
             spec.label = *text;
             if (text->find_first_not_of(' ') == std::string::npos)
-                reader.error(place, "is empty", "leave it out for a default");
+                reader.error(place, "is empty", "omit it for the default");
         }
     }
     const auto readFlag = [&](const char* key, bool& target) {

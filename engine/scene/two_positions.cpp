@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/recent.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/galerkin/table_of.hpp"
 #include "engine/scene/bind.hpp"
@@ -43,7 +43,7 @@ ActionBetween<double> solveExact(const Scene& scene, const System& system) {
 }
 
 ActionBetween<double> exactBetween(const Scene& scene, const System& system) {
-    static Recent<std::tuple<Settings, Initial, double>, ActionBetween<double>> last(1);
+    static MemoCache<std::tuple<Settings, Initial, double>, ActionBetween<double>> last(1);
     return last.get({scene.model, scene.initial, scene.start.value},
                     [&] { return solveExact(scene, system); });
 }
@@ -103,7 +103,7 @@ State exactStart(const Scene& scene, const System& system) {
         throw InvalidScene(
             "/initial/q1",
             "no motion from q to q1 in the time " + formatNumber(scene.initial.at->value) + " was found",
-            "positions closer to each other, another time, or p in place of q1");
+            "positions closer to each other, another time, or p instead of q1");
     return stateOf(scene, motion.startMomentum);
 }
 
@@ -116,7 +116,7 @@ State schemeStart(const Scene& scene, const System& system, const SchemeSpec& sc
         throw InvalidScene("/step",
                            formatNumber(step) + " does not reach the second position, at " +
                                formatNumber(at) + " after the start, by whole steps",
-                           "a whole part of /initial/at");
+                           "an integer fraction of /initial/at");
     const ActionBetween<double> exact = exactBetween(scene, system);
     Eigen::VectorXd p0 = exact.startMomentum;
     Outcome outcome = Outcome::converged;
@@ -130,7 +130,7 @@ State schemeStart(const Scene& scene, const System& system, const SchemeSpec& sc
         outcome = shoot(scene, system, scheme, step, n, p0);
     }
     if (outcome != Outcome::converged)
-        throw InvalidScene("/step", "finds no motion of the scheme from q to q1", "a smaller step");
+        throw InvalidScene("/step", "gives no motion of the scheme from q to q1", "a smaller step");
     return stateOf(scene, p0);
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/quadrature/rule.hpp"
-#include "engine/space/wide.hpp"
+#include "engine/space/quadruple.hpp"
 
 namespace extremal {
 namespace {
@@ -92,7 +92,7 @@ PolynomialBasis polynomialBasis(std::string_view name) {
 template <class T>
 Space<T> polynomialSpace(int degree, PolynomialBasis basis) {
     if constexpr (std::is_same_v<T, double>)
-        return withWide(inBasis<double>(degree, basis), inBasis<Quad>(degree, basis));
+        return withQuadruple(inBasis<double>(degree, basis), inBasis<Quad>(degree, basis));
     else
         return inBasis<T>(degree, basis);
 }

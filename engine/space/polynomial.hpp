@@ -3,8 +3,8 @@
 ///
 /// Nodal (Lagrange) bases are cardinal at s + 1 control points d_0 = 0 < ... < d_s = 1: Lobatto, Chebyshev
 /// extrema or equally spaced. Modal bases are shifted Legendre polynomials P_a(2 tau - 1) or Chebyshev
-/// polynomials T_a(2 tau - 1), a = 0..s; none of their functions is tied to an end point. Source: Leok 2004,
-/// sec. 2.1, with s + 1 control points q^0..q^s (the text numbers only s of them).
+/// polynomials T_a(2 tau - 1), a = 0..s; none of these functions is associated with an end point. Source:
+/// Leok 2004, sec. 2.1, with s + 1 control points q^0..q^s (the text numbers only s of them).
 #pragma once
 
 #include <string_view>

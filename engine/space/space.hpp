@@ -3,7 +3,7 @@
 ///
 /// The unknown curve is q(tau) = sum_a z_a phi_a(tau), one coefficient vector z_a in R^d per basis function.
 /// A space is data: a size and a function that evaluates the basis anywhere (also outside [0, 1]: the
-/// continuation of a curve beyond its step is the starting guess of the next one).
+/// extrapolated curve of a step is the starting value of the next one).
 #pragma once
 
 #include <functional>
@@ -20,10 +20,10 @@ struct Space {
     /// Fills value[a] = phi_a(tau) and derivative[a] = phi_a'(tau) (derivative by tau, not by t).
     std::function<void(const T& tau, std::span<T> value, std::span<T> derivative)> evaluate;
     bool hasKinks = false;  ///< the derivative jumps inside [0, 1]: rules keep a node on both sides
-    /// The same in quadruple precision, or empty: ill-conditioned bases then make tables without loss
-    /// (action/table.hpp).
+    /// The same in quadruple precision, or empty: with it the tables of ill-conditioned bases are computed
+    /// without loss of digits (action/table.hpp).
     std::function<void(__float128 tau, std::span<__float128> value, std::span<__float128> derivative)>
-        evaluateWide = {};
+        evaluateQuadruple = {};
 };
 
 /// The space that a scene's "space" names (space/catalog.hpp); its keys are checked and complete.

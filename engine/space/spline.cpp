@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/space/wide.hpp"
+#include "engine/space/quadruple.hpp"
 
 namespace extremal {
 namespace {
@@ -89,8 +89,8 @@ Space<T> bSplines(Knots<T> knots) {
 template <class T>
 Space<T> splineSpace(int degree, int cells) {
     if constexpr (std::is_same_v<T, double>)
-        return withWide(bSplines(equalCells<double, double>(degree, cells)),
-                        bSplines(equalCells<double, Quad>(degree, cells)));
+        return withQuadruple(bSplines(equalCells<double, double>(degree, cells)),
+                             bSplines(equalCells<double, Quad>(degree, cells)));
     else
         return bSplines(equalCells<T, T>(degree, cells));
 }

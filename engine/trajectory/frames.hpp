@@ -1,8 +1,8 @@
-/// Pictures of a field along a run, at most as many as fit into a fixed memory.
+/// Frames of a field along a run, within a fixed amount of memory.
 ///
-/// Every row is offered. While all fit, all are kept; beyond the budget every second one is dropped and from
-/// then on only every second (fourth, ..) row is taken, so that the frames stay evenly spread over the rows.
-/// The first row always stays, and the last one offered is always there.
+/// Every row is offered. As long as all fit, all are stored; when the budget is exceeded, every second one is
+/// dropped, and from then on only every second (fourth, ...) row is stored, so that the frames remain evenly
+/// spread over the rows. The first row and the last one offered are always among them.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Frame {
 
 class FrameKeeper {
 public:
-    /// In numbers: 8 MB a scheme, 64 MB of fields over a rectangle.
+    /// In numbers: 8 MB per scheme, 64 MB for fields over a rectangle.
     static constexpr std::size_t usual = std::size_t{1} << 20, large = std::size_t{1} << 23;
     explicit FrameKeeper(std::size_t budget = usual) : budget_(budget) {}
 

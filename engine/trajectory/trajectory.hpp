@@ -1,6 +1,6 @@
 /// Columns of samples of one run: t, the state, then the observables, at the sampled nodes.
 ///
-/// column(c)[r] is row r of column c. All columns have the same length. A value that is not known is NaN.
+/// column(c)[r] is row r of column c. All columns have the same length. An unknown value is NaN.
 #pragma once
 
 #include <cstddef>

@@ -41,7 +41,7 @@ private slots:
         QVERIFY(before > 2);
         QCOMPARE(extremalWith({}, {"wisdom", "--out", file, "--modes", "32x48", "--quiet"}).code, 0);
         QVERIFY(plans() > before);
-        // Half a file is left by nobody.
+        // No partial file is left.
         QCOMPARE(QDir(folder.path()).entryList(QDir::Files), QStringList{"wisdom"});
     }
     void runsWithTheSameWisdomAreTheSame() {

@@ -1,4 +1,5 @@
-/// The worked examples of the handbook ("Adding to the program"): each is one file, and does what the handbook says.
+/// The worked examples of the handbook ("Adding to the program"): each is one file, and does what the
+/// handbook says.
 #include <QFile>
 #include <QTest>
 

@@ -40,23 +40,23 @@ class PlotGoldenTest : public QObject {
     }
 
 private slots:
-    void energyLooksAsKept() { check(picture(figure("energy")), "plot-energy"); }
-    void errorLooksAsKept() { check(picture(figure("error"), Theme::dark()), "plot-error-dark"); }
-    void phaseLooksAsKept() { check(picture(figure("phase")), "plot-phase"); }
-    void theKktMatrixLooksAsKept() {
+    void energyMatchesItsImage() { check(picture(figure("energy")), "plot-energy"); }
+    void errorMatchesItsImage() { check(picture(figure("error"), Theme::dark()), "plot-error-dark"); }
+    void phaseMatchesItsImage() { check(picture(figure("phase")), "plot-phase"); }
+    void theKktMatrixMatchesItsImage() {
         const Figure nodal = frameworkFigure("sparsity", "Lobatto basis"),
                      modal = frameworkFigure("sparsity", "Legendre basis");
         check(picture(nodal), "plot-kkt-nodal");
         check(picture(modal, Theme::dark()), "plot-kkt-modal-dark");
         QVERIFY(!isWithin(compareImages(picture(nodal), picture(modal), 8), GoldenLimits::plot()));
     }
-    void theSectionLooksAsKept() {
+    void theSectionMatchesItsImage() {
         const Scene scene = readScene(loadSceneText("preset:poincare-section")).scene;
         const Comparison comparison = run(scene);
         const System system = makeSystem(scene);
         check(picture(makeFigure(comparison, scene.views[0], &system)), "plot-section");
     }
-    void theMapLooksAsKept() {
+    void theMapMatchesItsImage() {
         const Figure map = handmade::mapFigure("midpoint");
         check(picture(map), "plot-map");
         check(picture(map, Theme::dark()), "plot-map-dark");
@@ -65,12 +65,12 @@ private slots:
         QVERIFY(compareImages(picture(map), picture(wrong), 8).differingPercent >
                 GoldenLimits::plot().differingPercent);
     }
-    void theDiscreteLagrangianLooksAsKept() {
+    void theDiscreteLagrangianMatchesItsImage() {
         check(picture(frameworkFigure("discrete-lagrangian", "")), "plot-discrete-lagrangian");
         check(picture(frameworkFigure("discrete-lagrangian", ""), Theme::dark()),
               "plot-discrete-lagrangian-dark");
     }
-    void thePolhodeLooksAsKept() {
+    void thePolhodeMatchesItsImage() {
         const Scene scene = readScene(loadSceneText("preset:free-body")).scene;
         const System system = makeSystem(scene);
         View v;

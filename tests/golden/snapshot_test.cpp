@@ -26,7 +26,7 @@ class SnapshotGoldenTest : public QObject {
     }
 
 private slots:
-    void allViewsOfASceneLookAsKept() {
+    void allViewsOfASceneMatchTheirImages() {
         check(fake::springPendulum(), request("all", 900, 600, 6.2), "snapshot-all");
     }
     void oneViewFillsThePage() { check(fake::kepler(), request("stage", 600, 400, 6.2), "snapshot-stage"); }

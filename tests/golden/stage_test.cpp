@@ -1,4 +1,4 @@
-/// Kept pictures of the stage, through OSMesa.
+/// Golden images of the stage, through OSMesa.
 #include <QPainter>
 #include <QTest>
 
@@ -31,27 +31,29 @@ class StageGoldenTest : public QObject {
     }
 
 private slots:
-    void springPendulumLooksAsKept() {
+    void springPendulumMatchesItsImage() {
         check(stage(fake::springPendulum(), 3.2, Theme::light()), "stage-spring-pendulum");
     }
-    void springPendulumLooksAsKeptInTheDark() {
+    void springPendulumMatchesItsImageInTheDark() {
         check(stage(fake::springPendulum(), 6.2, Theme::dark()), "stage-spring-pendulum-dark");
     }
-    void pendulumLooksAsKept() { check(stage(fake::pendulum(), 2.6, Theme::light()), "stage-pendulum"); }
-    void keplerLooksAsKept() { check(stage(fake::kepler(), 11.3, Theme::light()), "stage-kepler"); }
-    void oscillatorLooksAsKept() { check(stage(fake::oscillator(), 2, Theme::light()), "stage-oscillator"); }
+    void pendulumMatchesItsImage() { check(stage(fake::pendulum(), 2.6, Theme::light()), "stage-pendulum"); }
+    void keplerMatchesItsImage() { check(stage(fake::kepler(), 11.3, Theme::light()), "stage-kepler"); }
+    void oscillatorMatchesItsImage() {
+        check(stage(fake::oscillator(), 2, Theme::light()), "stage-oscillator");
+    }
 
-    void aBodyLooksAsKept() { check(stage(fake::freeBody(), 6.2, Theme::light()), "stage-body"); }
-    void aBodyLooksAsKeptInTheDark() {
+    void aBodyMatchesItsImage() { check(stage(fake::freeBody(), 6.2, Theme::light()), "stage-body"); }
+    void aBodyMatchesItsImageInTheDark() {
         check(stage(fake::freeBody(), 3.1, Theme::dark()), "stage-body-dark");
     }
-    void anEllipsoidOfInertiaLooksAsKept() {
+    void anEllipsoidOfInertiaMatchesItsImage() {
         fake::Film film = fake::freeBody();
         film.model =
             fake::settings("rigid-body", {{"inertia", Value::Array{1.0, 2.0, 3.0}}, {"shape", "ellipsoid"}});
         check(stage(film, 6.2, Theme::light()), "stage-ellipsoid");
     }
-    void aTopLooksAsKept() { check(stage(fake::heavyTop(), 4.4, Theme::light()), "stage-top"); }
+    void aTopMatchesItsImage() { check(stage(fake::heavyTop(), 4.4, Theme::light()), "stage-top"); }
 
     void theLimitsSeeASwappedColourAndAMovedBody() {
         const QImage right = stage(fake::pendulum(), 2.6, Theme::light());

@@ -1,4 +1,4 @@
-/// Kept pictures of a wave function: stage, carpet, profile, spectrum, and errors against steps.
+/// Golden images of a wave function: stage, carpet, profile, spectrum, and errors against steps.
 #include <QTest>
 
 #include "engine/run/run.hpp"
@@ -47,7 +47,7 @@ class WaveGoldenTest : public QObject {
     }
 
 private slots:
-    void theStageLooksAsKept() {
+    void theStageMatchesItsImage() {
         SnapshotRequest request;
         request.view = "stage";
         request.width = 480;
@@ -56,9 +56,9 @@ private slots:
         check(snapshotImage(std::make_shared<const Comparison>(comparison()), request), "wave-stage",
               GoldenLimits::stage());
     }
-    void theCarpetLooksAsKept() { check(picture(figure("carpet")), "wave-carpet"); }
-    void theProfileLooksAsKept() { check(picture(figure("profile")), "wave-profile"); }
-    void bothPartsLookAsKept() {
+    void theCarpetMatchesItsImage() { check(picture(figure("carpet")), "wave-carpet"); }
+    void theProfileMatchesItsImage() { check(picture(figure("profile")), "wave-profile"); }
+    void bothPartsMatchTheirImages() {
         check(picture(figure("profile", "both")), "wave-parts");
         check(picture(figure("profile", "both"), Theme::dark()), "wave-parts-dark");
         Figure alike = figure("profile", "both");
@@ -66,13 +66,13 @@ private slots:
         QVERIFY(!isWithin(compareImages(picture(figure("profile", "both")), picture(alike), 8),
                           GoldenLimits::plot()));
     }
-    void theSpectrumLooksAsKept() { check(picture(figure("spectrum")), "wave-spectrum"); }
+    void theSpectrumMatchesItsImage() { check(picture(figure("spectrum")), "wave-spectrum"); }
     void theConjugateIsSeen() {
         Figure wrong = figure("carpet");
         for (double& turns : wrong.heat->hues) turns = -turns;
         QVERIFY(!isWithin(compareImages(picture(figure("carpet")), picture(wrong), 8), GoldenLimits::plot()));
     }
-    void theRectangleLooksAsKept() {
+    void theRectangleMatchesItsImage() {
         const Scene plane = readScene(std::string(R"J({"extremal": 1, "title": "A packet in the plane",
             "model": {"type": "schrodinger-2d", "potential": "4*(2 - cos(x) - cos(y + 0.5))", "modes": 32, "modes_y": 24, "domain_y": [0, 5]},
             "initial": {"psi": {"packet": "periodic-gaussian", "kappa": 6, "centre": 2, "wave_number": 3, "kappa_y": 4,
@@ -100,7 +100,7 @@ private slots:
         std::swap(wrong.heat->columns, wrong.heat->rows);
         QVERIFY(!isWithin(compareImages(picture(right), picture(wrong), 8), GoldenLimits::plot()));
     }
-    void errorsAgainstStepsLookAsKept() {
+    void errorsAgainstStepsMatchTheirImages() {
         Comparison made = handmade::comparison();
         for (auto& scheme : made.schemes) {
             auto counted = std::make_shared<SchemeResult>(*scheme);

@@ -1,8 +1,8 @@
 /// A discrete Lagrangian that is not invariant under rotations becomes so when it is averaged over the group:
 /// the mean is
 ///     Lbar_d(g_0, g_1) = int_G L_d(g g_0, g g_1) dg,   int_G dg = 1
-/// (Leok 2004, sec. 3.1, remark; the mean is invariant, not equivariant, and has to be divided by the volume of
-/// the group).
+/// (Leok 2004, sec. 3.1, remark; the mean is invariant, not equivariant, and has to be divided by the volume
+/// of the group).
 #include <QTest>
 
 #include <Eigen/LU>

@@ -84,8 +84,7 @@ private slots:
         const Value random = Value::Object{{"name", "random"}, {"amplitude", 30.0}, {"correlation", 0.4}};
         for (const Value& potential : {Value("20*exp(cos(x))"), random}) {
             const System system = systemOf(32, "convolution", potential);
-            const ConvolutionProblem given =
-                galerkinOf(*systemOf(32, "nodes", potential).hamiltonian());
+            const ConvolutionProblem given = galerkinOf(*systemOf(32, "nodes", potential).hamiltonian());
             const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> expected(
                 given.H, given.W.cast<Complex>().asDiagonal().toDenseMatrix());
             const auto& energies = Eigenstates::of(system.hamiltonian())->energies();

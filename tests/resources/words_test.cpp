@@ -18,6 +18,10 @@ struct Word {
 /// The paper is "Leok 2004", its scheme "Leok's scheme". Seeds of random numbers, and the ids of presets, are
 /// others.
 const Word words[] = {
+    {R"(Nothing is called that)", "No matching action"},
+    {R"(\bmakes? no sense\b)", "unsupported combination"},
+    {R"(\b[Nn]obody\b|\btidies\b)", "a plain statement, without persons"},
+    {R"(\b[Kk]ept pictures?\b|\bLookAsKept\b|\bLooksAsKept\b)", "golden image"},
     {R"(\b[Tt]he seed\b(?! of random)|\b[Ss]eed's\b|\b[Ss]eed paper\b)", "Leok 2004, or Leok's scheme"},
 };
 

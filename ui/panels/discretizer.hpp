@@ -1,5 +1,5 @@
 /// The discretizer: function spaces as rows, quadratures as columns. A cell says which scheme the pair is and
-/// its order; a click adds it to the comparison. Pairs that make no sense are grey and say why.
+/// its order; a click adds it to the comparison. Unsupported pairs are grey and show the reason.
 #pragma once
 
 #include <QAbstractButton>

@@ -75,7 +75,7 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     coordinates_->setObjectName("field.coordinates");
     coordinates_->setAccessibleName(tr("Coordinates"));
     coordinates_->setToolTip(
-        tr("Names with commas between them. A changed name is changed in the formula too."));
+        tr("Names separated by commas. A renamed coordinate is renamed in the formula as well."));
     auto* add = new QToolButton;
     add->setObjectName("addCoordinate");
     add->setText("+");
@@ -120,7 +120,7 @@ typed::Formula LagrangianEditor::formulaNow() const {
     return formulaIn(model);
 }
 
-/// Differentiates beside the window; what is found is remembered by the engine, so that taking it is fast.
+/// Differentiates in a background thread; the engine remembers the result, so that using it is fast.
 void LagrangianEditor::check() {
     if (!isVisibleTo(parentWidget()) || workspace_.scene().model.type != "lagrangian") return;
     stop_.request_stop();

@@ -1,7 +1,7 @@
 /// The editor of a typed Lagrangian: the formula, checked while it is typed, its equations of motion, the
 /// coordinates and the parameters.
 ///
-/// A formula that is sound becomes part of the scene by itself; one that is not stays in the editor, with the
+/// A valid formula becomes part of the scene automatically; one that is not stays in the editor, with the
 /// place underlined and a caret below it, while the scene keeps the last sound one. Differentiation runs
 /// beside the window.
 #pragma once

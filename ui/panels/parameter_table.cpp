@@ -96,7 +96,7 @@ void ParameterTable::addRow(const std::string& name) {
             false};
     row.nameEdit->setObjectName("name." + title);
     row.nameEdit->setAccessibleName(tr("Name of %1").arg(title));
-    row.nameEdit->setToolTip(tr("Another name here is used in the formula and in all numbers too."));
+    row.nameEdit->setToolTip(tr("A new name also replaces the old one in the formula and in all numbers."));
     row.nameEdit->setFixedWidth(62);
     row.valueEdit->setFixedWidth(72);
     row.slider->setObjectName("slider." + title);

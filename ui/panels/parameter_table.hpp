@@ -1,5 +1,5 @@
-/// The parameters of a typed Lagrangian: a row each with its name, value, a slider, and a button that removes
-/// it.
+/// The parameters of a typed Lagrangian: one row per parameter with its name, value, a slider, and a button
+/// that removes it.
 #pragma once
 
 #include <QWidget>

@@ -18,7 +18,7 @@ namespace extremal {
 
 namespace {
 
-/// Its coordinates are named by the user, and it has an editor of its own.
+/// Its coordinates are named by the user, and it has a separate editor.
 bool isTyped(const ModelEntry& entry) {
     return std::any_of(entry.item.parameters.begin(), entry.item.parameters.end(),
                        [](const FieldInfo& field) { return field.type == FieldType::names; });
@@ -152,7 +152,7 @@ void ScenePanel::rebuild() {
         {{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});
 }
 
-/// The second position is where the first scheme with a step goes in that step.
+/// The second position is the one that the first scheme with a fixed step reaches in one step.
 void ScenePanel::startFromTwoPositions() {
     const Scene& scene = workspace_.scene();
     const System system = makeSystem(scene);

@@ -127,8 +127,8 @@ void SchemeCard::makeFigures() {
     };
     cost_ = add(tr("cost"), tr("CPU time of the scheme's steps"));
     error_ = add(tr("error"), tr("Largest distance from the reference over the run"));
-    order_ = add(tr("order"), tr("Order: claimed, and ✓ where the measured one agrees"));
-    steps_ = add(tr("steps"), tr("Steps taken"));
+    order_ = add(tr("order"), tr("Claimed order; ✓ if the measured order agrees"));
+    steps_ = add(tr("steps"), tr("Number of steps"));
     layout_->addWidget(figures_);
 }
 
@@ -167,7 +167,7 @@ const Problem* cautionOf(const std::vector<Problem>& warnings, int index) {
 
 }  // namespace
 
-/// A warning of the scene's check stands in the row of its scheme; what would do is offered, never done.
+/// A warning is shown in the row of its scheme; a remedy is offered, but never applied automatically.
 void SchemeCard::showCaution() {
     const Problem* caution = spec().isEnabled ? cautionOf(workspace_.warnings(), index_) : nullptr;
     caution_->setVisible(caution);
@@ -221,7 +221,7 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
     error_.value->setText(shortNumber(summary.maxError));
     QString order = summary.orderClaimed > 0 ? QString::number(summary.orderClaimed) : QStringLiteral("–");
     QString orderTip =
-        summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claim");
+        summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claimed order");
     if (std::isfinite(summary.orderMeasured)) {
         const bool agrees = std::abs(summary.orderMeasured - summary.orderClaimed) < 0.3;
         order = QString::number(summary.orderMeasured, 'f', 1);

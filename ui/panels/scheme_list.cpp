@@ -57,7 +57,8 @@ void SchemeList::fillAddMenu() {
     addMenu_->clear();
     const std::string spaceId = pairSpace(workspace_.scene());
     QMenu* pairs = addMenu_->addMenu(tr("Space × quadrature"));
-    pairs->menuAction()->setVisible(!isElliptic({spaceId, {}, {}}));  // its pairs have names, all of them
+    pairs->menuAction()->setVisible(
+        !isElliptic({spaceId, {}, {}}));  // all of its discretizations are named schemes
     for (const char* rule : {"gauss", "lobatto", "radau", "clenshaw-curtis"}) {
         if (!pairs->menuAction()->isVisible()) break;
         QMenu* sub = pairs->addMenu(ruleTitle(rule));

@@ -58,8 +58,8 @@ void Autosave::writeNow() {
     if (!isWritten)
         notices_.post({Notice::Kind::warning,
                        "autosave",
-                       tr("The unsaved scene could not be kept: %1").arg(file.errorString()),
-                       tr("save it yourself with Ctrl+S"),
+                       tr("The unsaved scene could not be backed up: %1").arg(file.errorString()),
+                       tr("save it with Ctrl+S"),
                        {}});
 }
 
@@ -71,7 +71,7 @@ void Autosave::recover(const QString& path) {
         } catch (const InvalidScene&) {
             notices_.post({Notice::Kind::error,
                            "recovery",
-                           tr("The kept scene is damaged: %1").arg(path),
+                           tr("The backup of the scene is damaged: %1").arg(path),
                            tr("open it in an editor"),
                            {}});
         }
@@ -89,7 +89,7 @@ void Autosave::offerRecovery() {
         const QString path = info.absoluteFilePath();
         notices_.post({Notice::Kind::information,
                        "recovery",
-                       tr("An unsaved scene of %1 was kept when the program ended unexpectedly.")
+                       tr("The program ended unexpectedly; there is a backup of an unsaved scene of %1.")
                            .arg(info.lastModified().toString("d MMMM, HH:mm")),
                        {},
                        {{tr("Restore"), [this, path] { recover(path); }},

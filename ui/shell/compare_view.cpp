@@ -138,10 +138,10 @@ void CompareView::rebuild() {
 /// may replace it.
 void CompareView::addSceneActions(QMenu& menu, std::size_t slot) {
     QAction* all = menu.addAction(tr("Show all data"), this, [this, slot] { slots_[slot].plot->showAll(); });
-    QAction* keep = menu.addAction(tr("Keep this part in the scene"), this, [this, slot] {
+    QAction* keep = menu.addAction(tr("Store this range in the scene"), this, [this, slot] {
         keepPart(workspace_, slots_[slot].view, *slots_[slot].plot);
     });
-    QAction* forget = menu.addAction(tr("Keep all data in the scene"), this, [this, slot] {
+    QAction* forget = menu.addAction(tr("Remove the range from the scene"), this, [this, slot] {
         View after = slots_[slot].view;
         after.xRange = after.yRange = {};
         slots_[slot].plot->fit();

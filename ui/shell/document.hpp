@@ -1,6 +1,6 @@
 /// Edits of a scene as a tree: places are JSON pointers ("/schemes/1/step"), values are Values.
 ///
-/// Nothing here knows the format: a changed tree becomes a scene only through readScene().
+/// This code is independent of the format: a changed tree becomes a scene only through readScene().
 #pragma once
 
 #include <optional>
@@ -12,13 +12,13 @@
 
 namespace extremal {
 
-/// One change: a new value, or the removal of what is there.
+/// One change: a new value, or the removal of the present one.
 struct Edit {
     std::string pointer;  ///< "/schemes/-" appends
     std::optional<Value> value;
 };
 
-/// What stands at a place, or null.
+/// The value at a place, or null.
 const Value* valueAt(const Value& root, std::string_view pointer);
 
 /// The tree with the edits made, from the first to the last. Objects on the way are created; an edit whose

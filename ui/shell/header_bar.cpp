@@ -45,7 +45,7 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     wanted_->setMaximumWidth(190);
     wanted_->setAccessibleName(tr("Wanted error"));
     wanted_->setToolTip(
-        tr("The largest error you accept: names the cheapest scheme measured so far that reaches it"));
+        tr("The largest acceptable error: shows the cheapest scheme measured so far that reaches it"));
     choice_ = makeElidedLabel({}, "strong", this);
     row->addWidget(wantedLabel);
     row->addWidget(wanted_, 1);
@@ -54,8 +54,8 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     runButton_ = button(tr("Run"), tr("Compute everything again (R)"), this);
     runButton_->setProperty("kind", "primary");
     runButton_->setObjectName("run");
-    auto* step = button(tr("Step"), tr("One row further (Right)"), this);
-    auto* save = button(tr("Export"), tr("Everything into a folder (Ctrl+Shift+E)"), this);
+    auto* step = button(tr("Step"), tr("Next row (Right)"), this);
+    auto* save = button(tr("Export"), tr("Export everything into a folder (Ctrl+Shift+E)"), this);
     auto* palette = button(tr("Ctrl+K"), tr("Find an action or a preset"), this);
     for (QPushButton* b : {runButton_, step, save, palette}) row->addWidget(b);
     connect(runButton_, &QPushButton::clicked, this, [this] {
@@ -110,7 +110,7 @@ void HeaderBar::showChoice() {
                          shortTime(cheapest->summary.cpuSeconds));
     else if (nearest)
         text +=
-            tr("  →  none here; nearest %1 with %2")
+            tr("  →  no scheme; the closest is %1 with %2")
                 .arg(QString::fromStdString(nearest->summary.label), shortNumber(nearest->summary.maxError));
     choice_->setText(text);
 }

@@ -21,7 +21,7 @@ public:
     bool canRedo() const { return !future_.empty(); }
     QString undoText() const { return canUndo() ? past_.back().what : QString(); }
     QString redoText() const { return canRedo() ? future_.back().what : QString(); }
-    /// The document to return to; `now` is kept for the way back.
+    /// The document to return to; `now` is stored for redo.
     Value undo(Value now);
     Value redo(Value now);
 

@@ -126,7 +126,7 @@ void MainWindow::makePages() {
         notices_->post({Notice::Kind::information,
                         "case",
                         tr("Loaded from the map: %1.").arg(text),
-                        tr("the dot in each map is the scene; Ctrl+Z goes back"),
+                        tr("the dot in each map marks the scene; Ctrl+Z undoes this"),
                         {{tr("Undo"), [this] { workspace_->undo(); }}}});
     });
     connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {

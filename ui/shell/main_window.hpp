@@ -32,7 +32,7 @@ class Workspace;
 class MainWindow : public QMainWindow {
     Q_OBJECT
 public:
-    /// `isRemembered`: layout, theme and unsaved scenes are kept between starts; not for tests and
+    /// `isRemembered`: layout, theme and unsaved scenes are stored between sessions; not for tests and
     /// screenshots.
     explicit MainWindow(const Theme& theme, bool isRemembered = true);
     ~MainWindow() override;

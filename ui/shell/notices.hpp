@@ -1,4 +1,4 @@
-/// Things the user should know, shown as banners: trouble is never a modal box.
+/// Messages to the user, shown as banners: problems are never modal dialogs.
 #pragma once
 
 #include <QObject>

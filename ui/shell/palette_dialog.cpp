@@ -81,7 +81,7 @@ void PaletteDialog::filter(const QString& text) {
         if (!f.isEnabled) item->setFlags(item->flags() & ~Qt::ItemIsEnabled);
     }
     if (found.empty()) {
-        auto* item = new QListWidgetItem(tr("Nothing is called that"), list_);
+        auto* item = new QListWidgetItem(tr("No matching action"), list_);
         item->setFlags(Qt::NoItemFlags);
         return;
     }

@@ -1,4 +1,4 @@
-/// The time that is shown: a cursor of its own, apart from what is being computed.
+/// The time that is shown: a cursor independent of the running computation.
 #pragma once
 
 #include <QElapsedTimer>

@@ -64,7 +64,7 @@ void keepPart(Workspace& workspace, const View& view, const PlotWidget& plot) {
         after.xRange = roundedRange(plot.visibleRange(PlotAxis::x), plot.figure().x.isLog);
     if (plot.isUserZoomed(PlotAxis::y))
         after.yRange = roundedRange(plot.visibleRange(PlotAxis::y), plot.figure().y.isLog);
-    workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Keep the part a plot shows"));
+    workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Store the range of a plot"));
 }
 
 namespace {
@@ -91,9 +91,9 @@ public:
             const System system = makeSystem(workspace.scene());
             if (axesOf(before, system).variable != axesOf(after, system).variable) after.curve = {};
             workspace.edit(editsForPlot(workspace.scene(), before, after),
-                           QObject::tr("Choose what a plot shows"));
+                           QObject::tr("Change the contents of a plot"));
         };
-        // After the menu has closed: the card is made anew, and its menu with it.
+        // After the menu has closed: the card is created again, and its menu with it.
         QObject::connect(action, &QAction::triggered, &workspace_,
                          [&workspace = workspace_, choose] { QTimer::singleShot(0, &workspace, choose); });
     }
@@ -149,7 +149,7 @@ void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const 
 void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const ViewSource& view) {
     const System system = makeSystem(workspace.scene());
     const ViewKeys keys = keysOf(id, &system);
-    const QString usual = QObject::tr("as usual");
+    const QString usual = QObject::tr("default");
     using Names = std::function<std::vector<std::string>(const Scene&)>;
     const auto add = [&](const QString& title, std::string View::*member, const QString& none,
                          const Names& names) {
@@ -164,9 +164,9 @@ void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const Vi
         add(QObject::tr("Along y"), &View::y, usual, columns);
     }
     if (keys.hasZeros)
-        add(QObject::tr("Where zero"), &View::at, usual,
+        add(QObject::tr("Section at"), &View::at, usual,
             [](const Scene& scene) { return zerosFor(makeSystem(scene)); });
-    if (keys.hasScheme) add(QObject::tr("Of the scheme"), &View::scheme, QObject::tr("the first"), labelsOf);
+    if (keys.hasScheme) add(QObject::tr("Scheme"), &View::scheme, QObject::tr("the first"), labelsOf);
     if (keys.hasNode)
         menu.addAction(QObject::tr("Node..."), &menu, [&workspace, view, &menu] {
             const View before = view();
@@ -180,7 +180,7 @@ void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const Vi
             View after = before;
             after.node = Number{static_cast<double>(node), {}};
             workspace.edit(editsForPlot(workspace.scene(), before, after),
-                           QObject::tr("Choose what a plot shows"));
+                           QObject::tr("Change the contents of a plot"));
         });
 }
 
@@ -212,7 +212,7 @@ void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {
         if (workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Compare with a curve")))
             return dialog.accept();
         const auto problems = workspace.problemsAt("/views");
-        problem->setText(problems.empty() ? QObject::tr("This is refused.")
+        problem->setText(problems.empty() ? QObject::tr("The curve is not accepted.")
                                           : QString::fromStdString(problems.front().message));
         problem->show();
         workspace.dropDraft("/views");

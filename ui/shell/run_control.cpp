@@ -36,7 +36,7 @@ double mapStepsOf(const Scene& scene) {
     return steps;
 }
 
-/// What the cost of a step grows with: the nodes of a wave function, as one of 64 modes.
+/// The size that determines the cost of a step: the nodes of a wave function, relative to 64 modes.
 double sizeOf(const Settings& model) {
     const double modes = model.number("modes"), across = model.number("modes_y");
     return modes > 0 ? modes * std::max(1.0, across) / 64 : 1;
@@ -105,7 +105,7 @@ RunControl::RunControl(Workspace& workspace, Notices& notices, QObject* parent)
         results_.reset();
         lastScene_.reset();
         isStale_ = false;
-        debounce_.setInterval(0);  // a scene just opened has nothing to wait for
+        debounce_.setInterval(0);  // a scene that was just opened runs at once
         emit resultsChanged();
     });
 }
@@ -207,12 +207,12 @@ void RunControl::poll() {
         cost_.learn(*latest);
         notices_.dismiss("reference");
         for (const Problem& p : latest->reference.problems)
-            notices_.post(
-                {Notice::Kind::warning,
-                 "reference",
-                 tr("There is no reference, so no errors: %1").arg(QString::fromStdString(p.message)),
-                 QString::fromStdString(p.hint),
-                 {}});
+            notices_.post({Notice::Kind::warning,
+                           "reference",
+                           tr("There is no reference, so errors are unknown: %1")
+                               .arg(QString::fromStdString(p.message)),
+                           QString::fromStdString(p.hint),
+                           {}});
         run_.reset();
         setState(State::finished);
     }

@@ -1,5 +1,6 @@
-/// The run of the current scene: starts by itself after an edit, cancels what has become stale, and keeps the
-/// latest results. Nothing of the engine's work happens on this thread; results are fetched by a timer.
+/// The run of the current scene: starts automatically after an edit, cancels a run that has become stale, and
+/// keeps the latest results. Nothing of the engine's work happens on this thread; results are fetched by a
+/// timer.
 #pragma once
 
 #include <QObject>

@@ -5,7 +5,7 @@
 /// pictures do not depend on the resolution of a screen. All text colours reach a contrast of 4.5 : 1 on the
 /// grounds they are used on, all series colours 3 : 1.
 ///
-/// The style sheet knows these dynamic properties; nothing else needs a style of its own:
+/// The style sheet uses these dynamic properties; nothing else needs a separate style:
 ///     QFrame   card = true               panel ground, hairline, rounded corners;  selected = true: accent
 ///     line QFrame   banner = "warning"|"error" QLabel   role = "heading" | "title" | "strong" | "caption"
 ///     (no role: body text) QPushButton kind = "primary" | "flat" | "chip"                  (no kind:

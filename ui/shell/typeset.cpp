@@ -68,7 +68,7 @@ void typesetTable(QTextTable& table, const QPalette& palette) {
 }  // namespace
 
 void showMarkdown(QTextBrowser& browser, const QString& markdown) {
-    // Apart from the browser, which would lay out the text anew after every change; without a history of
+    // Separate from the browser, which would lay out the text again after every change; without a history of
     // them.
     auto* page = new QTextDocument(&browser);
     QTextDocument& document = *page;

@@ -1,7 +1,7 @@
 /// The part of OpenGL 3.3 core that the stage uses, as function pointers of our own.
 ///
 /// The table is filled by any getProcAddress: the window's context, OSMesa or EGL. Qt's function classes need
-/// a QOpenGLContext, and loaders that resolve by themselves find the wrong library beside OSMesa, so neither
+/// a QOpenGLContext, and loaders that search for it find the wrong library if OSMesa is present, so neither
 /// is used. A getProcAddress may hand out stubs for functions the context does not have; therefore the
 /// version decides and never a null pointer.
 #pragma once

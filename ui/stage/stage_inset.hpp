@@ -1,8 +1,8 @@
 /// The small picture in the corner of the stage, put into the large one.
 ///
-/// Every point of it is mapped by one turnless similarity, r -> C + s r, into the coordinates of the large
-/// picture, so that the same strokes draw both; s and C follow from the camera such that it stays in its
-/// corner at its size, and turns with the camera.
+/// Every point of it is mapped by one similarity without rotation, r -> C + s r, into the coordinates of the
+/// large picture, so that the same strokes draw both; s and C follow from the camera such that it stays in
+/// its corner at its size, and turns with the camera.
 #pragma once
 
 #include "ui/stage/camera.hpp"

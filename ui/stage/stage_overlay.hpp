@@ -1,5 +1,5 @@
 /// The words on the stage, drawn over its picture: the time shown, the length of the trail, failures so far
-/// and, where no list of schemes stands beside it, a legend.
+/// and, if there is no list of schemes beside it, a legend.
 #pragma once
 
 #include <QRectF>

@@ -8,7 +8,7 @@
 namespace extremal {
 
 QImage drawStage(const StageFrame& frame, const Camera& camera, QSizeF size, double pixelRatio) {
-    // Making a context and its shaders takes a tenth of a second; a context belongs to one thread.
+    // Creating a context and its shaders takes a tenth of a second; a context belongs to one thread.
     thread_local std::unique_ptr<StagePainter> painter;
     if (!painter) painter = std::make_unique<StagePainter>();
     const auto pixels = [&](double length) {

@@ -177,7 +177,7 @@ void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
         return;
     }
     const std::size_t width = stateColumns(system_).size();
-    // Where steps are few, along the scheme's own curve inside them.
+    // If there are few steps, along their dense output.
     const Trajectory& from = result->curve.columns.size() > width ? result->curve : result->trajectory;
     const auto& columns = from.columns;
     if (columns.size() < 1 + width) return;
@@ -360,7 +360,7 @@ std::string StagePlayer::failureNote(const Track& track, const std::string& labe
            (system_.timeUnit.empty() ? "" : " " + system_.timeUnit);
 }
 
-/// What is seen from a corner fits the picture closer than the box of what is there. An inset takes a part of
+/// The projection from a corner fits the picture more closely than the bounding box. An inset takes a part of
 /// the right, or of the bottom of what is tall.
 Camera StagePlayer::fittedCamera(double width, double height, double margin) const {
     // The picture of a field over a rectangle needs no room around it.

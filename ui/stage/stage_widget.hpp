@@ -31,7 +31,7 @@ public:
     void setComparison(std::shared_ptr<const Comparison> comparison);
     void setTime(double t);
     double time() const;
-    /// For places without a list of schemes beside the stage.
+    /// For use without a list of schemes beside the stage.
     void setLegendShown(bool isShown);
     void setGridShown(bool isShown);
     void fit();

@@ -11,7 +11,7 @@ namespace extremal {
 /// (family/multiscale/oscillatory.hpp).
 bool hasOneTable(const Settings& space);
 
-/// Keys must be checked and complete. Throws InvalidScene where the pair makes no sense. Any thread may ask.
+/// Keys must be checked and complete. Throws InvalidScene if the pair is refused. Any thread may ask.
 Table<double> tableOf(const Settings& space, const Settings& quadrature);
 
 }  // namespace extremal

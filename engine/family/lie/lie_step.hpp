@@ -13,10 +13,10 @@
 /// |xi_s| = 2 pi. No logarithm is ever taken. Momenta are updated by the last line and not by p_s, so that
 /// they are kept to round-off even where the iteration is not. For a free body g and W drop out: the reduced
 /// step. The adjoint step has its chart at the tip of the step: the same equations with -h from g_1 = g_0
-/// exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 3.2 and 4.2. Corrected: the
-/// body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is dexp_{-ad} l'/h + l D_xi[dexp_{-ad
-/// xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed inverted); the curve ends
-/// at g_1 (printed g_0^{-1} g_1).
+/// exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 3.2 and 4.2.
+/// Corrected: the body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is dexp_{-ad} l'/h + l
+/// D_xi[dexp_{-ad xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed inverted);
+/// the curve ends at g_1 (printed g_0^{-1} g_1).
 ///
 /// Newton with the Jacobian of the predicted curve, kept while it contracts well, to round-off.
 /// T: scalar; G: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp). All buffers are allocated in the

@@ -60,7 +60,7 @@ ModelEntry body_in_potential() {
     ModelEntry e;
     e.item = {"body-in-potential",
               "body in a potential",
-              "A body that turns about a fixed point in a potential of its attitude, typed as a formula.",
+              "A body that rotates about a fixed point in a potential of its attitude, typed as a formula.",
               bodyInPotentialFields(),
               {},
               ""};

@@ -81,7 +81,7 @@ ModelEntry double_pendulum() {
     ModelEntry e;
     e.item = {"double-pendulum",
               "double pendulum",
-              "A pendulum hanging from a pendulum: regular when it swings low, chaotic when it swings high.",
+              "A pendulum attached to a pendulum: regular at low energies, chaotic at high ones.",
               infos(doublePendulumFields()),
               {},
               ""};

@@ -77,12 +77,13 @@ std::vector<FieldInfo> rigidBodySe3Fields() {
 
 ModelEntry rigid_body_se3() {
     ModelEntry e;
-    e.item = {"rigid-body-se3",
-              "rigid body in space",
-              "A body that turns and moves in a potential of position and attitude, typed as a formula.",
-              rigidBodySe3Fields(),
-              {},
-              ""};
+    e.item = {
+        "rigid-body-se3",
+        "rigid body in space",
+        "A body that rotates and translates in a potential of position and attitude, typed as a formula.",
+        rigidBodySe3Fields(),
+        {},
+        ""};
     e.initial = bodyInitialFields(true);
     e.exampleInitial = {{"attitude", Value::Array{1.0, 0.0, 0.0, 0.0}},
                         {"momentum", Value::Array{0.45, 0.0, 0.9}},

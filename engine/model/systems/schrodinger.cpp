@@ -16,7 +16,7 @@ std::shared_ptr<const Hamiltonian> hamiltonianOf(const Settings& settings) {
     const bool hasWalls = settings.text("boundary") == "dirichlet",
                isConvolution = settings.text("product") == "convolution";
     if (hasWalls && isConvolution)
-        throw InvalidScene("/product", "convolution is for the boundary periodic",
+        throw InvalidScene("/product", "convolution requires the boundary periodic",
                            "nodes, or the boundary periodic");
     const int n = modesOf(settings, "modes", !hasWalls);
     // What needs a full matrix.

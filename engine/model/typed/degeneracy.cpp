@@ -47,7 +47,7 @@ std::string missingVelocity(const Formula& formula, const Matrix& mass) {
 std::string singularText(const Formula& formula, const Matrix& mass, const std::string& where) {
     const std::string missing = missingVelocity(formula, mass);
     return "is degenerate" + where + ": " +
-           (missing.empty() ? "the second derivatives by the velocities form a singular matrix"
+           (missing.empty() ? "the second derivatives with respect to the velocities form a singular matrix"
                             : "there is no square of " + missing + " or other curvature in it") +
            ", so momenta do not determine velocities";
 }

@@ -51,7 +51,7 @@ private:
         } else if (here.kind == Operator::call && here.name == "dot") {
             const int of = result_.symbol[place(here.left)];
             if (of < 0 || of >= formula_.dimension())
-                throw ExpressionError("has dot(...) of something else than a coordinate", here.position,
+                throw ExpressionError("has dot(...) of something other than a coordinate", here.position,
                                       "coordinates: " + joinNames(formula_.coordinates));
             result_.symbol[n] = formula_.dimension() + of;
         }

@@ -77,7 +77,8 @@ private:
         steps.resize(kept);
     }
     void joinSinesAndCosines() {
-        constexpr auto sine = static_cast<Register>(Function::sin), cosine = static_cast<Register>(Function::cos);
+        constexpr auto sine = static_cast<Register>(Function::sin),
+                       cosine = static_cast<Register>(Function::cos);
         std::map<Register, std::pair<std::size_t, std::size_t>> pairs;  // argument -> places of sin, cos
         constexpr std::size_t nowhere = std::numeric_limits<std::size_t>::max();
         for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -17,7 +17,7 @@ void checkName(const std::string& name, const std::string& pointer, const std::s
         problems.push_back({pointer, "the name \"" + name + "\" " + problem, {}});
     else if (taken.contains(name))
         problems.push_back(
-            {pointer, "the name \"" + name + "\" is there twice", "every name has one meaning"});
+            {pointer, "the name \"" + name + "\" is listed twice", "every name has one meaning"});
 }
 
 }  // namespace
@@ -53,8 +53,7 @@ Formula formulaOf(const Settings& settings) {
 TypedMechanics mechanicsOf(const Formula& formula) {
     try {
         TypedMechanics made = makeMechanics(formula);
-        if (const auto fault = degeneracy(formula, made.mechanics))
-            throw InvalidScene("/lagrangian", *fault);
+        if (const auto fault = degeneracy(formula, made.mechanics)) throw InvalidScene("/lagrangian", *fault);
         return made;
     } catch (const ExpressionError& e) {
         throw InvalidScene("/lagrangian", std::string(e.what()) + "\n" + caretLines(formula.text, e.position),

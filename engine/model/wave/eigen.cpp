@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/dense.hpp"
-#include "engine/core/recent.hpp"
+#include "engine/core/memo_cache.hpp"
 
 namespace extremal {
 namespace {
@@ -33,7 +33,7 @@ Eigenstates::Eigenstates(const Hamiltonian& h) : hamiltonian_(h) {
 }
 
 std::shared_ptr<const Eigenstates> Eigenstates::of(const std::shared_ptr<const Hamiltonian>& hamiltonian) {
-    static Recent<std::shared_ptr<const Hamiltonian>, std::shared_ptr<const Eigenstates>> recent(8);
+    static MemoCache<std::shared_ptr<const Hamiltonian>, std::shared_ptr<const Eigenstates>> recent(8);
     return recent.get(
         hamiltonian, [&] { return std::make_shared<const Eigenstates>(*hamiltonian); },
         [](const auto& a, const auto& b) { return a->isSameAs(*b); });

@@ -5,10 +5,11 @@
 ///     psi(x_j) = (1/sqrt L) sum_a c_a exp(i k_a (x_j - left)),   k_a = 2 pi a/L,  a = -N/2 .. N/2 - 1,
 /// so that (L/N) sum_j |psi_j|^2 = sum_a |c_a|^2. Coefficients stand in FFT order: a = 0, 1, .., N/2 - 1,
 /// -N/2, .., -1. On a rectangle the same along x and y, with the products of the exponentials (wave/grid.hpp
-/// for the order of places). With the v_k of Leok 2004, sec. 8.2, (psi = (1/2pi) sum v_k e^{ikx}, v_k = h sum_j e^{-ik x_j}
-/// psi_j: the printed 1/2pi in front of that sum is one too many) c_k = v_k/sqrt(2 pi); the two coefficients
-/// at k = +-N/2, which the paper keeps apart, are one. Plans are made once per N (FFTW; estimated where there
-/// is no wisdom, wave/wisdom.hpp) and shared by all threads. Arrays must be 16-byte aligned, as vectors are.
+/// for the order of places). With the v_k of Leok 2004, sec. 8.2, (psi = (1/2pi) sum v_k e^{ikx}, v_k = h
+/// sum_j e^{-ik x_j} psi_j: the printed 1/2pi in front of that sum is one too many) c_k = v_k/sqrt(2 pi); the
+/// two coefficients at k = +-N/2, which the paper keeps apart, are one. Plans are made once per N (FFTW;
+/// estimated where there is no wisdom, wave/wisdom.hpp) and shared by all threads. Arrays must be 16-byte
+/// aligned, as vectors are.
 #pragma once
 
 #include <complex>

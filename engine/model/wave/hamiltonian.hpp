@@ -1,8 +1,8 @@
 /// The Schroedinger operator i hbar c' = H c, in one of three forms (WaveBasis):
 ///     fourier      a periodic interval or rectangle on a Fourier grid (wave/fourier_basis.hpp), in two parts
 ///                  (wave/split_operator.hpp). Hermitian at any N, the coefficient at k = -N/2 included (the
-///                  printed Nyquist rows of Leok 2004, sec. 8.2, are not). hbar^2 k^2/2m is the right kinetic term; the printed one
-///                  lacks the mass.
+///                  printed Nyquist rows of Leok 2004, sec. 8.2, are not). hbar^2 k^2/2m is the right kinetic
+///                  term; the printed one lacks the mass.
 ///     convolution  a periodic interval with V psi by the exact convolution of their coefficients
 ///                  (wave/convolution.hpp), made Hermitian by c = W^{1/2} v/sqrt(2 pi), which halves the
 ///                  square at k = -N/2. It differs from the former by aliasing alone, which vanishes

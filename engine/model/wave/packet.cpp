@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/recent.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/wave/eigen.hpp"
 #include "engine/model/wave/stationary.hpp"
@@ -126,7 +126,7 @@ StationaryState refinedState(const Hamiltonian& h, int n) {
 /// Remembered: a scene is read more than once.
 std::vector<Complex> fineState(const std::shared_ptr<const Hamiltonian>& h, int n,
                                const std::string& pointer) {
-    static Recent<std::pair<std::shared_ptr<const Hamiltonian>, int>, StationaryState> recent(4);
+    static MemoCache<std::pair<std::shared_ptr<const Hamiltonian>, int>, StationaryState> recent(4);
     StationaryState state = recent.get({h, n}, [&] { return refinedState(*h, n); });
     if (!state.isConverged)
         throw InvalidScene(pointer,

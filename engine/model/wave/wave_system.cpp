@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
-#include "engine/core/recent.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/wave/eigen.hpp"
 #include "engine/model/wave/measures.hpp"
@@ -64,7 +64,7 @@ double frequencyOf(const Hamiltonian& h, double t, const double* x) {
 System makeWaveSystem(const Settings& settings, const std::function<Shared(const Settings&)>& make) {
     System s;
     s.id = settings.type;
-    static Recent<Settings, Shared> recent(6);
+    static MemoCache<Settings, Shared> recent(6);
     const Shared h = recent.get(settings, [&] { return make(settings); });
     s.kind = Wave{h};
     s.measures = waveMeasures(h);

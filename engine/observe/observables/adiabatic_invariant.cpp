@@ -1,5 +1,5 @@
-/// Energy of the fast oscillation over its frequency of the moment: slow motion changes it by a small
-/// periodic part only.
+/// Energy of the fast oscillation divided by its instantaneous frequency: the slow motion changes it only by
+/// a small periodic part.
 #include "engine/observe/catalog.hpp"
 
 namespace extremal::observables {

@@ -1,5 +1,5 @@
-/// The form that three-level schemes of wave functions keep, between the node before and this one, and its
-/// change since it was first known. Empty at the first node, and for one-step schemes, which keep the norm.
+/// The bilinear form that three-level schemes for wave functions conserve, between the previous node and this
+/// one, and its change. Empty at the first node, and for one-step schemes, which conserve the norm.
 #include <cmath>
 #include <limits>
 #include <vector>

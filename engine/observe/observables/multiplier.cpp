@@ -1,5 +1,5 @@
-/// The multiplier that glues the element beginning at the node to the one before it: lambda_k of the
-/// augmented action, from the whole saddle-point system with nothing condensed (solve/multipliers.hpp).
+/// The multiplier of continuity between the element that begins at the node and the one before it: lambda_k
+/// of the augmented action, from the full saddle-point system without condensation (solve/multipliers.hpp).
 ///
 /// From (q_k, p_k) one step of the pair gives q_{k+1}; the system is then solved between q_k and q_{k+1},
 /// without p_k, and its first multiplier is -D_1 L_d(q_k, q_{k+1}). That it equals the momentum is what

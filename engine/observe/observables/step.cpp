@@ -11,7 +11,7 @@ ObservableEntry step() {
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"step", "h", context.system.timeUnit, {}, {}}, {"outcome", "outcome", "", {}, {}}};
-        // A node that was reached was reached by a converged step: the word is there for readers of the file.
+        // A node that was reached was reached by a converged step: the column is for readers of the file.
         for (int i = 0; i < outcomeCount; ++i)
             o.columns[1].words.push_back(i == 0 ? "converged" : std::string(name(static_cast<Outcome>(i))));
         o.evaluate = [](const State& state, const StepReport& report, double* values) {

@@ -1,4 +1,4 @@
-/// Splines: smooth pieces of one degree inside each step.
+/// Splines: piecewise polynomials of one degree within each step.
 #include "engine/space/catalog.hpp"
 #include "engine/space/spline.hpp"
 

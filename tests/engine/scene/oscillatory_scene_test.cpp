@@ -54,14 +54,14 @@ private slots:
         row("degree", space(R"(,"fast":{"degree":0})"),
             "/schemes/0/space/fast/degree: the degree must be an integer from 1 to 24, got 0");
         row("nodes", space("", R"({"type":"filon-lobatto","nodes":4})"),
-            "/schemes/0: makes no sense: 4 nodes do not see");
+            "/schemes/0: unsupported combination: 4 nodes do not see");
         row("phases", space("", R"({"type":"filon-lobatto","phases":4})"),
-            "/schemes/0: makes no sense: 4 phases do not see");
+            "/schemes/0: unsupported combination: 4 phases do not see");
         row("unresolved", space("", R"({"type":"gauss","nodes":12})"),
             "/schemes/0/quadrature: 12 nodes do not resolve");
         row("polynomials",
             R"({"step":0.1,"space":{"type":"polynomial","degree":2},"quadrature":"filon-lobatto"})",
-            "/schemes/0: makes no sense: a Filon rule");
+            "/schemes/0: unsupported combination: a Filon rule");
         row("solver", R"({"step":0.2,"scheme":"multiscale-r1","solver":{"method":"fixed-point"}})",
             "/schemes/0/solver/method: fixed-point iteration");
     }

@@ -20,7 +20,8 @@ ReadScene body(const std::string& schemes) {
 }
 std::size_t turningWarnings(const ReadScene& scene) {
     std::size_t count = 0;
-    for (const Problem& p : scene.warnings) count += p.message.find("turns the body by") != std::string::npos;
+    for (const Problem& p : scene.warnings)
+        count += p.message.find("rotates the body by") != std::string::npos;
     return count;
 }
 

@@ -50,7 +50,7 @@ private slots:
                                         << "/initial/at: is required";
         QTest::newRow("momentum as well")
             << R"({"q":[0.4,0],"q1":[0.38,0.19],"p":[0,2]})" << one << "/initial: has both p and q1";
-        QTest::newRow("time alone") << R"({"q":[0.4,0],"at":0.1})" << one << "/initial/at: stands without q1";
+        QTest::newRow("time alone") << R"({"q":[0.4,0],"at":0.1})" << one << "/initial/at: requires q1";
         QTest::newRow("a time that is no time") << R"({"q":[0.4,0],"q1":[0.38,0.19],"at":-1})" << one
                                                 << "/initial/at: must be a positive finite number, got -1";
         QTest::newRow("a position too short")

@@ -1,5 +1,5 @@
-/// Gives a space in double precision its twin in quadruple precision, so that tables are made without
-/// round-off. Internal to engine/space: includes the heavy header of quadruple numbers.
+/// Adds to a space its evaluation in quadruple precision, so that tables are computed without round-off.
+/// Internal to engine/space: includes the large header of quadruple numbers.
 #pragma once
 
 #include <boost/multiprecision/float128.hpp>
@@ -11,10 +11,10 @@
 
 namespace extremal {
 
-inline Space<double> withWide(Space<double> space, Space<boost::multiprecision::float128> twin) {
+inline Space<double> withQuadruple(Space<double> space, Space<boost::multiprecision::float128> twin) {
     using Quad = boost::multiprecision::float128;
-    space.evaluateWide = [twin = std::move(twin)](__float128 tau, std::span<__float128> value,
-                                                  std::span<__float128> derivative) {
+    space.evaluateQuadruple = [twin = std::move(twin)](__float128 tau, std::span<__float128> value,
+                                                       std::span<__float128> derivative) {
         std::vector<Quad> v(value.size()), d(value.size());
         twin.evaluate(Quad(tau), v, d);
         for (std::size_t a = 0; a < value.size(); ++a) {

@@ -1,5 +1,5 @@
-/// The last few things made, for what takes long and is asked for again and again. Any thread may ask; each
-/// thing is made once, and others wait for it.
+/// The last few values that were computed, by their keys: for values that are expensive and needed
+/// repeatedly. Thread-safe; each value is computed once, while other threads wait for it.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 namespace extremal {
 
 template <class Key, class Made>
-class Recent {
+class MemoCache {
 public:
-    explicit Recent(std::size_t most) : most_(most) {}
+    explicit MemoCache(std::size_t most) : most_(most) {}
 
-    /// What was made from the same key, else make(); if that throws, nothing is kept.
+    /// The value of this key: the stored one, otherwise make(). If that throws, nothing is stored.
     template <class Make, class IsSame = std::equal_to<>>
     Made get(const Key& key, Make&& make, IsSame&& isSame = {}) {
         const std::lock_guard lock(mutex_);
