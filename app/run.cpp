@@ -36,7 +36,7 @@ std::string summaryTable(const Comparison& comparison) {
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         table.rows.push_back({s.label, name(s.status), std::to_string(s.steps), duration(s.cpuSeconds),
-                              std::to_string(s.evaluations), number(s.maxEnergyError),
+                              std::to_string(s.cost.evaluations), number(s.maxEnergyError),
                               number(s.maxMomentumError), number(s.maxError), number(s.finalError), order(s),
                               s.about});
     }

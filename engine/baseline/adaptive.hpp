@@ -26,7 +26,7 @@ public:
     Adaptive(Rate rate, std::size_t n, const BaselineOptions& options)
         : AdaptiveMethod(std::move(rate), n, options), stepper_(controlled(options)) {}
 
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         Stepper shorter;
         Vector y(size());
         const auto rhs = [&](const Vector& at, Vector& dx, double time) { flow(time, at.data(), dx.data()); };
@@ -42,7 +42,7 @@ private:
     Outcome take(double& t, Vector& x, StepReport& report, bool) override {
         bool isSingular = false;
         auto rhs = [&](const Vector& at, Vector& dx, double time) {
-            ++report.evaluations;
+            ++report.cost.evaluations;
             isSingular = isSingular || !flow(time, at.data(), dx.data());
         };
         if (step_ == 0) step_ = firstStep(t, x);
@@ -61,7 +61,7 @@ private:
                 if (isLast) t = end();
                 return Outcome::converged;
             }
-            ++report.rejected;
+            ++report.cost.rejected;
             if (!std::isfinite(h)) return Outcome::notFinite;
         }
         return Outcome::stepBudget;

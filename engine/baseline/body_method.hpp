@@ -61,7 +61,7 @@ public:
         return report_;
     }
 
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         rate_(startTime_, before_.data(), slopeBefore_.data());
         rate_(startTime_ + clock_.step, after_.data(), slopeAfter_.data());
         const double h = clock_.step;
@@ -104,7 +104,7 @@ protected:
         torque.setZero();
         force.setZero();
         if (body_.isFree()) return;
-        ++report_.evaluations;
+        ++report_.cost.evaluations;
         const so3::Matrix<double> R = so3::matrix(so3::normalised(m.q));
         std::array<double, 6> f{};
         body_.potential(body_.model.get(), R.data(), size_ > 10 ? m.position.data() : nullptr, nullptr,

@@ -26,7 +26,7 @@ public:
         for (Vector* v : {&q0_, &p0_, &q1_, &p1_}) *v = Vector::Zero(d());
     }
 
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         const double h = endTime_ - startTime_;
         Vector dq0 = q0_, dp0 = p0_, dq1 = q1_, dp1 = p1_;
         call(startTime_, q0_, p0_, dq0, dp0);
@@ -64,7 +64,7 @@ protected:
 
     /// Hamilton's vector field; sets the outcome where the Legendre transform fails.
     void flow(double t, const Vector& q, const Vector& p, Vector& dq, Vector& dp) {
-        ++report_.evaluations;
+        ++report_.cost.evaluations;
         if (!call(t, q, p, dq, dp)) report_.outcome = Outcome::singular;
     }
 

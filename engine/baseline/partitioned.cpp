@@ -36,14 +36,14 @@ public:
                p = typename Base::View(state.x.data() + d, this->d());
         bool isForceFresh = false;
         for (std::size_t i = 0; i + 1 < count; ++i) {
-            report.evaluations = 0;
+            report.cost.evaluations = 0;
             for (const PartitionedStage& stage : stages_) {
                 const double s = stage.fraction * this->h();
                 if (stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit) {
                     if (!isForceFresh) {
                         this->mechanics_.force(this->mechanics_.model.get(), state.t, q.data(),
                                                force_.data());
-                        ++report.evaluations;
+                        ++report.cost.evaluations;
                         isForceFresh = true;
                     }
                     p += s * force_;
@@ -85,7 +85,7 @@ private:
             if (m.isTimeDependent || forceAt_ != this->q1_) {
                 m.force(m.model.get(), t, this->q1_.data(), force_.data());
                 forceAt_ = this->q1_;
-                ++this->report_.evaluations;
+                ++this->report_.cost.evaluations;
             }
             this->p1_ += s * force_;
         } else {
@@ -111,7 +111,7 @@ private:
             }
             this->flow(t, this->q1_, this->p1_, dq_, dp_);
             if (this->report_.outcome != Outcome::converged) return;
-            ++this->report_.iterations;
+            ++this->report_.cost.iterations;
             change_ = start_ + s * (isKick ? dp_ : dq_) - x;
             x += change_;
             const double size = change_.cwiseAbs().maxCoeff(), scale = x.cwiseAbs().maxCoeff();

@@ -22,7 +22,7 @@ public:
         }
         before_ = y_;
         advanceTo(y_, clock_.step, stage_, rate_);
-        report.evaluations = 4;
+        report.cost.evaluations = 4;
         motion_->embed(y_.data(), left_.data());
         for (const double x : left_)
             if (!std::isfinite(x)) report.outcome = Outcome::notFinite;
@@ -31,7 +31,7 @@ public:
         state.t = clock_.at(++state.node);
         return report;
     }
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         std::vector<double> y = before_, stage = before_, rate = before_;
         advanceTo(y, tau * clock_.step, stage, rate);
         motion_->embed(y.data(), x.data());

@@ -55,7 +55,7 @@ private:
             if (k > 0 || !hasNodes_) shared()->fourier().rawToNodes(v, psi_.data());
             kick(k, t);
             shared()->fourier().rawToCoefficients(psi_.data(), v);
-            ++report.evaluations;
+            ++report.cost.evaluations;
         }
         hasNodes_ = stages.front().isKick && stages.back().isKick;
         // What goes through both transforms once more gains a factor N.

@@ -40,7 +40,7 @@ public:
 
     template <class Apply>
     Outcome solve(Apply&& apply, const Complex* v, Complex* u, double tolerance, int maxIterations,
-                  int& iterations, const std::stop_token& stop) {
+                  long long& iterations, const std::stop_token& stop) {
         std::fill(u, u + n_, Complex(0));
         const double target = tolerance * norm(v);
         if (!(target > 0)) return std::isfinite(target) ? Outcome::converged : Outcome::notFinite;

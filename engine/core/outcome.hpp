@@ -1,6 +1,8 @@
 /// How a step, or a whole run, ended: numerical trouble is a value and never an exception.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace extremal {
@@ -11,41 +13,62 @@ enum class Outcome {
     singular,          ///< a linear system of the step, or the Legendre transform, has no unique solution
     energyUnsolvable,  ///< the discrete energy equation has no root for this step
     notFinite,         ///< an infinity or NaN appeared
-    stepBudget,        ///< an adaptive code needs more steps than the scene allows
-    stopped,           ///< a stop was requested
+    stepBudget,  ///< more steps are needed than the scene allows, or an adaptive step shrank to round-off
+    lost,        ///< the solution left what is known of it: a root, a branch, a mesh that folded over
+    refused,     ///< the run turned out to ask for what the scheme cannot do
+    stopped,     ///< a stop was requested
 };
-constexpr int outcomeCount = 7;
 
 /// The spelling used in files and on the command line ("energy-unsolvable", ...); empty for converged.
 constexpr std::string_view name(Outcome outcome) {
-    switch (outcome) {
-        case Outcome::converged:
-            return "";
-        case Outcome::diverged:
-            return "diverged";
-        case Outcome::singular:
-            return "singular";
-        case Outcome::energyUnsolvable:
-            return "energy-unsolvable";
-        case Outcome::notFinite:
-            return "not-finite";
-        case Outcome::stepBudget:
-            return "step-budget";
-        case Outcome::stopped:
-            return "stopped";
-    }
-    return "";
+    constexpr std::array<std::string_view, 9> names = {
+        "",     "diverged", "singular", "energy-unsolvable", "not-finite", "step-budget",
+        "lost", "refused",  "stopped"};
+    return names[static_cast<std::size_t>(outcome)];
 }
+
+/// What a step did besides going on. Never silent: the run counts the events of a scheme and keeps them with
+/// their times.
+enum class StepEvent {
+    none,
+    energyReset,   ///< the discrete energy equation had no root; the step kept its size, and energy starts
+                   ///< anew
+    meshFallback,  ///< the mesh could not follow its equation and stayed as it was
+    halved,        ///< the step was refused and taken in two halves
+};
+constexpr int stepEventCount = 4;
+
+/// The spelling used in files ("energy-reset", ...); empty for none.
+constexpr std::string_view name(StepEvent event) {
+    constexpr std::array<std::string_view, stepEventCount> names = {"", "energy-reset", "mesh-fallback",
+                                                                    "halved"};
+    return names[static_cast<std::size_t>(event)];
+}
+
+/// What steps cost, counted.
+struct Cost {
+    long long iterations = 0;   ///< Newton or fixed-point iterations
+    long long evaluations = 0;  ///< calls of the Lagrangian or of the force
+    long long linearSolves =
+        0;                   ///< factorisations and back-substitutions count as one each time they are used
+    long long rejected = 0;  ///< refused trial steps of an adaptive code
+
+    Cost& operator+=(const Cost& other) {
+        iterations += other.iterations;
+        evaluations += other.evaluations;
+        linearSolves += other.linearSolves;
+        rejected += other.rejected;
+        return *this;
+    }
+    bool operator==(const Cost&) const = default;
+};
 
 /// What one call of Integrator::advance did.
 struct [[nodiscard]] StepReport {
     Outcome outcome = Outcome::converged;
-    int iterations = 0;   ///< Newton or fixed-point iterations
-    int evaluations = 0;  ///< calls of the Lagrangian or of the force
-    int linearSolves =
-        0;             ///< factorisations and back-substitutions count as one solve each time they are used
-    int rejected = 0;  ///< refused trial steps of an adaptive code
-    double step = 0;   ///< the time step taken
+    StepEvent event = StepEvent::none;
+    Cost cost = {};
+    double step = 0;      ///< the time step taken
     double residual = 0;  ///< last correction of the iteration, relative to the unknowns
 };
 

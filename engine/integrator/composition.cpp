@@ -38,7 +38,7 @@ public:
         return report;
     }
 
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         constexpr std::size_t most = 64;
         if (tau <= 0 || tau >= 1) {
             const std::vector<double>& at = tau <= 0 ? start_.x : end_.x;
@@ -74,10 +74,8 @@ private:
             scheme.restart();  // its last step ended elsewhere
             state.t = start + passed * clock_.step;
             const StepReport part = scheme.advance(state);
-            report.iterations += part.iterations;
-            report.evaluations += part.evaluations;
-            report.linearSolves += part.linearSolves;
-            report.rejected += part.rejected;
+            report.cost += part.cost;
+            if (part.event != StepEvent::none) report.event = part.event;
             report.residual = std::max(report.residual, part.residual);
             report.outcome = part.outcome;
             if (report.outcome != Outcome::converged) break;

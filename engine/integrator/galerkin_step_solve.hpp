@@ -35,7 +35,7 @@ bool GalerkinStep<T, D>::startVelocity(const T& t) {
     const int dim = d();
     mechanics_.jet(mechanics_.model.get(), t, q0_.data(), v0_.data(), &value, jetGradient_.data(),
                    jetHessian_.data());
-    ++report_.evaluations;
+    ++report_.cost.evaluations;
     const Eigen::Map<const Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> H(
         jetHessian_.data(), 2 * dim, 2 * dim);
     Square mass = H.bottomRightCorner(dim, dim);
@@ -77,7 +77,7 @@ bool GalerkinStep<T, D>::startFrom(const T& t, StartingValue start) {
 template <class T, int D>
 T GalerkinStep<T, D>::correction() {
     delta_ = lu_.solve(R_);
-    ++report_.linearSolves;
+    ++report_.cost.linearSolves;
     T worst(0);
     for (int k = 0; k < d(); ++k) {
         const T increments = Y_.segment(offset(k), m(k)).cwiseAbs().maxCoeff();
@@ -100,7 +100,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Sta
         evaluateGradients(t);
         residual();
         const T size = correction();
-        ++report_.iterations;
+        ++report_.cost.iterations;
         report_.residual = static_cast<double>(size);
         const Verdict verdict = policy.judge(size);
         if (verdict == Verdict::converged) return Attempt::solved;

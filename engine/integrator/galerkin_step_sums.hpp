@@ -60,7 +60,7 @@ void GalerkinStep<T, D>::placeNodes() {
 /// L_q and L_v at all nodes.
 template <class T, int D>
 void GalerkinStep<T, D>::evaluateGradients(const T& t) {
-    report_.evaluations += n();
+    report_.cost.evaluations += n();
     if (isVectorised_ && mechanics_.gradients) {
         times_ = node_ * h_;
         times_.array() += t;
@@ -111,7 +111,7 @@ typename GalerkinStep<T, D>::Accumulator GalerkinStep<T, D>::actionGradient(int 
 template <class T, int D>
 bool GalerkinStep<T, D>::evaluateHessians(const T& t) {
     const int size = 4 * d() * d();
-    report_.evaluations += n();
+    report_.cost.evaluations += n();
     if (isVectorised_ && mechanics_.hessians) {
         times_ = node_ * h_;
         times_.array() += t;
@@ -232,7 +232,7 @@ bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
         for (int i = 0; i < n(); ++i) assembleNode(i);
     }
     lu_.compute(jacobian_);
-    ++report_.linearSolves;
+    ++report_.cost.linearSolves;
     using std::abs;
     T smallest = abs(lu_.matrixLU()(0, 0)), largest = smallest;
     for (int k = 1; k < lu_.matrixLU().rows(); ++k) {

@@ -35,7 +35,7 @@ public:
 
     /// The scheme's own curve inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in
     /// State. Only valid after a converged advance().
-    virtual void curve(double tau, std::span<double> x) const = 0;
+    virtual void denseOutput(double tau, std::span<double> x) const = 0;
 
     /// How often the curve of a step oscillates by itself: what a picture of it must resolve. 0 where steps
     /// are to resolve the motion.

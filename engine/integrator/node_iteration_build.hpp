@@ -196,7 +196,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
     };
     if (!hasForces_) {
         startFromConstantForce(t, q);
-        ++report.evaluations;
+        ++report.cost.evaluations;
         useImpulses();
     }
     sweep_(s);
@@ -205,8 +205,8 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         if (stop.stop_requested()) return Result::stopped;
         evaluateForces();
         sweep_(s);
-        ++report.iterations;
-        report.evaluations += n_;
+        ++report.cost.iterations;
+        report.cost.evaluations += n_;
         const T size = largestChange(q);
         report.residual = static_cast<double>(size);
         hasForces_ = false;
@@ -219,7 +219,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         if (isExact_) {
             evaluateForces();
             weigh();
-            report.evaluations += n_;
+            report.cost.evaluations += n_;
         }
         hasForces_ = true;
         return Result::solved;

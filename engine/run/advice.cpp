@@ -12,6 +12,8 @@ namespace extremal {
 std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system,
                       const State& initial, const State& state) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
+    if (outcome == Outcome::lost)
+        return "The solution could not be followed any further. Try a smaller step, or an earlier end.";
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
                "earlier end.";

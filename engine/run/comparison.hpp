@@ -43,7 +43,8 @@ struct Summary {
     Outcome cause = Outcome::converged;
     double failedAt = unknown;  ///< t of the node from which the step failed
     double tEnd = unknown;
-    long long steps = 0, rejected = 0, newtonIterations = 0, evaluations = 0, linearSolves = 0;
+    long long steps = 0;
+    Cost cost = {};
     double cpuSeconds = 0;  ///< thread CPU time of the scheme's steps alone
     double maxEnergyError = unknown;
     double energyDrift = unknown;  ///< per unit time

@@ -61,10 +61,10 @@ Value summaryRow(const Summary& s) {
     row.set("failed_at", knownNumber(s.failedAt));
     row.set("t_end", knownNumber(s.tEnd));
     row.set("steps", static_cast<double>(s.steps));
-    row.set("rejected", static_cast<double>(s.rejected));
-    row.set("newton_iterations", static_cast<double>(s.newtonIterations));
-    row.set("evaluations", static_cast<double>(s.evaluations));
-    row.set("linear_solves", static_cast<double>(s.linearSolves));
+    row.set("rejected", static_cast<double>(s.cost.rejected));
+    row.set("newton_iterations", static_cast<double>(s.cost.iterations));
+    row.set("evaluations", static_cast<double>(s.cost.evaluations));
+    row.set("linear_solves", static_cast<double>(s.cost.linearSolves));
     row.set("cpu_seconds", knownNumber(s.cpuSeconds));
     row.set("max_energy_error", knownNumber(s.maxEnergyError));
     row.set("energy_drift_per_unit_time", knownNumber(s.energyDrift));

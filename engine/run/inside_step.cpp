@@ -99,7 +99,7 @@ void InsideStep::look(const Integrator& integrator, const State& before, const S
         const double place = isUneven ? j - std::fmod(j * golden, 1.0) : j, tau = place / points;
         at_.t = j < points ? before.t + tau * (after.t - before.t) : after.t;
         if (j < points)
-            integrator.curve(tau, at_.x);
+            integrator.denseOutput(tau, at_.x);
         else
             at_.x = after.x;
         keep(at_, report);
@@ -122,7 +122,7 @@ void InsideStep::cross(const Integrator& integrator, const State& before, const 
         Trajectory& events = result_.sections[section.index].events;
         if (!(first < 0 && last >= 0) || events.rows() >= mostPoints) continue;
         const auto value = [&](double tau) {
-            integrator.curve(tau, at_.x);
+            integrator.denseOutput(tau, at_.x);
             return at_.x[section.column];
         };
         double tau = 1;
@@ -134,7 +134,7 @@ void InsideStep::cross(const Integrator& integrator, const State& before, const 
                                                   boost::math::tools::eps_tolerance<double>(), evaluations);
             tau = (found.first + found.second) / 2;
         }
-        integrator.curve(tau, at_.x);
+        integrator.denseOutput(tau, at_.x);
         append(events, before.t + tau * (after.t - before.t), at_.x, width_);
     }
 }

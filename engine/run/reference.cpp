@@ -41,7 +41,7 @@ public:
         else if (t == state_.t)
             std::copy(state_.x.begin(), state_.x.end(), x.begin());
         else
-            integrator_->curve((t - before_) / (state_.t - before_), x);
+            integrator_->denseOutput((t - before_) / (state_.t - before_), x);
     }
 
 private:

@@ -208,13 +208,6 @@ struct SchemeRun::Pass {
         const double length = scene.end.value - scene.start.value;
         return length > 0 ? std::clamp((state.t - scene.start.value) / length, 0.0, 1.0) : 1;
     }
-    void count(const StepReport& r) {
-        Summary& s = result.summary;
-        s.newtonIterations += r.iterations;
-        s.evaluations += r.evaluations;
-        s.linearSolves += r.linearSolves;
-        s.rejected += r.rejected;
-    }
 
     /// Rows exactly at the multiples of output.every inside the last step, from the scheme's own curve.
     void lookDense(double before, const StepReport& report, long long& next) {
@@ -226,7 +219,7 @@ struct SchemeRun::Pass {
             double done = static_cast<double>(state.node);
             if (std::abs(t - state.t) > 1e-12 * (state.t - before)) {
                 const double part = (t - before) / (state.t - before);
-                integrator->curve(part, at.x);
+                integrator->denseOutput(part, at.x);
                 done += part - 1;
             }
             at.t = t;
@@ -275,7 +268,7 @@ struct SchemeRun::Pass {
             result.summary.cpuSeconds += used;
             if (used < 5e-4) blockSize = std::min(blockMax, 2 * blockSize);
             if (used > 5e-3) blockSize = std::max<std::size_t>(1, blockSize / 2);
-            if (outcome != Outcome::converged) count(report);
+            if (outcome != Outcome::converged) result.summary.cost += report.cost;
             if (const std::size_t finite = nodes.finiteNodes(); finite < nodes.size()) {
                 outcome = Outcome::notFinite;
                 nodes.truncate(finite);
@@ -285,7 +278,7 @@ struct SchemeRun::Pass {
                 look(nodes);
                 measure(nodes);
                 for (std::size_t i = 0; i < nodes.size(); ++i) {
-                    count(nodes.report(i));
+                    result.summary.cost += nodes.report(i).cost;
                     isLastNodeRow =
                         !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
                     if (isLastNodeRow) keep(nodes, i, static_cast<double>(nodes.node(i)));
@@ -393,7 +386,7 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
     } catch (const InvalidScene& e) {
         SchemeResult failed = *latest();
         failed.summary.status = RunStatus::failed;
-        failed.summary.cause = Outcome::singular;
+        failed.summary.cause = Outcome::refused;
         failed.summary.failedAt = initial.t;
         failed.summary.tEnd = initial.t;
         failed.summary.advice = e.problems().front().message;

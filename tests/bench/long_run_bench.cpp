@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
                     std::printf("orbit %d failed at t = %g\n", orbit, state.t);
                     return 1;
                 }
-                iterations += report.iterations;
+                iterations += report.cost.iterations;
             }
             const double e = H() - start;
             worst = std::max(worst, std::abs(e));

@@ -56,7 +56,7 @@ Cost run(const Problem& p, const Make& make, double step) {
     while (state.t < 10 - step / 2) {
         const StepReport report = integrator->advance(state);
         if (report.outcome != Outcome::converged) return cost;
-        cost.evaluations += report.evaluations;
+        cost.evaluations += report.cost.evaluations;
         if (state.node % stride == 0) nodes.push_back({state.t, state.x[0], state.x[1]});
     }
     cost.seconds = cpuSeconds() - begin;

@@ -37,7 +37,7 @@ AdaptiveRun runTo(const BaselineEntry& entry, const System& system, State state,
         r.error = std::max(r.error, distance(state.x, x, 0, x.size()));
         for (const double tau : {0.1, 0.5, 0.83}) {
             exact(before + tau * (state.t - before), x);
-            integrator->curve(tau, y);
+            integrator->denseOutput(tau, y);
             r.between = std::max(r.between, distance(x, y, 0, x.size()));
         }
     }
@@ -107,7 +107,7 @@ private slots:
             const ExactSolution local = kepler_.exact(start);
             for (std::size_t i = 0; i < 4; ++i) {
                 local(start.t + std::exp(h[i]) * (state.t - start.t), x);
-                integrator->curve(std::exp(h[i]), y);
+                integrator->denseOutput(std::exp(h[i]), y);
                 q[i] += std::log(1e-18 + distance(x, y, 0, 2));
                 p[i] += std::log(1e-18 + distance(x, y, 2, 4));
             }
@@ -130,9 +130,9 @@ private slots:
         while (state.t < 10) {
             const State before = state;
             QCOMPARE(integrator->advance(state).outcome, Outcome::converged);
-            integrator->curve(0, x);
+            integrator->denseOutput(0, x);
             QVERIFY(distance(x, before.x, 0, 4) < 100 * tolerance);
-            integrator->curve(1, x);
+            integrator->denseOutput(1, x);
             QVERIFY(distance(x, state.x, 0, 4) < 100 * tolerance);
         }
     }

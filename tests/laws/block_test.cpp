@@ -31,8 +31,8 @@ private slots:
                     }
                     QVERIFY(a.x == b.x && a.t == b.t && a.node == b.node);
                     std::vector<double> x(4), y(4);
-                    one->curve(0.3, x);
-                    many->curve(0.3, y);
+                    one->denseOutput(0.3, x);
+                    many->denseOutput(0.3, y);
                     QVERIFY2(x == y, (c.name + " on " + id).c_str());
                 }
             }

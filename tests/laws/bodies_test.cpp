@@ -222,14 +222,14 @@ private slots:
             State s = bodyState(body.start), f = s;
             std::vector<double> x(10);
             (void)integrator->advance(s);
-            integrator->curve(1, x);
+            integrator->denseOutput(1, x);
             QVERIFY(largestDifference(x, s.x) < 1e-14);
-            integrator->curve(0, x);
+            integrator->denseOutput(0, x);
             QVERIFY(largestDifference(x, bodyState(body.start).x) < 1e-14);
             double worst = 0;
             for (int k = 1; k < 20; ++k) {
                 (void)fine->advance(f);
-                integrator->curve(0.05 * k, x);
+                integrator->denseOutput(0.05 * k, x);
                 worst = std::max({worst, attitudeError(x, {f.x[0], f.x[1], f.x[2], f.x[3]}),
                                   momentumError(x, {f.x[4], f.x[5], f.x[6]})});
             }

@@ -36,7 +36,7 @@ Curve curveOf(const Integrator& integrator, const State& before, int degree) {
     const std::vector<double> d = lobatto<double>(degree + 1).c;
     std::vector<double> x(10);
     for (int k = 1; k <= degree; ++k) {
-        integrator.curve(d[static_cast<std::size_t>(k)], x);
+        integrator.denseOutput(d[static_cast<std::size_t>(k)], x);
         c.xi.push_back(so3::log(so3::Matrix<double>(c.foot.transpose() * rotation(x))));
     }
     return c;

@@ -185,7 +185,7 @@ private slots:
             for (int k = 0; k < static_cast<int>(std::lround(1 / h)); ++k) {
                 QVERIFY(step->advance(state).outcome == Outcome::converged);
                 for (const double tau : {0.0, 0.25, 0.5, 0.8, 1.0}) {
-                    step->curve(tau, x);
+                    step->denseOutput(tau, x);
                     exact(state.t - (1 - tau) * h, e);
                     worst = std::max(worst, distance(x, e, 0, 4));
                 }

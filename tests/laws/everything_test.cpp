@@ -250,7 +250,7 @@ private slots:
                 for (std::size_t i = state.x.size() / 2; i < state.x.size(); ++i) state.x[i] *= 1 - 1e-4;
                 return r;
             }
-            void curve(double tau, std::span<double> x) const override { inner_->curve(tau, x); }
+            void denseOutput(double tau, std::span<double> x) const override { inner_->denseOutput(tau, x); }
 
         private:
             std::unique_ptr<Integrator> inner_;

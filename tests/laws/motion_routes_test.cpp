@@ -63,7 +63,7 @@ Curve curveOf(const Integrator& integrator, const State& before, int degree) {
     const std::vector<double> d = lobatto<double>(degree + 1).c;
     std::vector<double> x(16);
     for (int k = 1; k <= degree; ++k) {
-        integrator.curve(d[static_cast<std::size_t>(k)], x);
+        integrator.denseOutput(d[static_cast<std::size_t>(k)], x);
         c.xi.push_back(se3::log(se3::product(se3::inverse(c.foot), placeOf(x))));
     }
     return c;

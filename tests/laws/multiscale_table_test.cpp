@@ -104,9 +104,9 @@ private slots:
         while (state.t < 100 - 1e-9) {
             const StepReport report = integrator->advance(state);
             QCOMPARE(report.outcome, Outcome::converged);
-            iterations += report.iterations;
-            solves += report.linearSolves - report.iterations;
-            mostIterations = std::max(mostIterations, report.iterations);
+            iterations += report.cost.iterations;
+            solves += report.cost.linearSolves - report.cost.iterations;
+            mostIterations = std::max(mostIterations, static_cast<int>(report.cost.iterations));
             const double dH = std::abs(H() - H0);
             worst[5] = std::max(worst[5], dH);
             if (state.t > 10 + 1e-9) continue;

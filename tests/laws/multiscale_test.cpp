@@ -272,13 +272,13 @@ private slots:
             QCOMPARE(scheme->advance(a).outcome, Outcome::converged);
             for (int i = 1; i <= 100; ++i) {
                 QCOMPARE(fine->advance(b).outcome, Outcome::converged);
-                scheme->curve(i / 100.0, x);
+                scheme->denseOutput(i / 100.0, x);
                 for (std::size_t j = 0; j < 4; ++j) worst[j] = std::max(worst[j], std::abs(x[j] - b.x[j]));
             }
-            scheme->curve(1, x);
+            scheme->denseOutput(1, x);
             for (std::size_t j = 0; j < 4; ++j)
                 QVERIFY(std::abs(x[j] - a.x[j]) < 1e-11 * (1 + std::abs(a.x[j])));
-            scheme->curve(0, x);
+            scheme->denseOutput(0, x);
         }
         qInfo("a %.1e, theta %.1e, p_a %.1e, p_theta %.1e", worst[0], worst[1], worst[2], worst[3]);
         QVERIFY(worst[0] < 1e-5 && worst[1] < 1e-5);

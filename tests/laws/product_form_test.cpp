@@ -54,7 +54,7 @@ private slots:
         for (int n = 0; n < 100; ++n) {
             QCOMPARE(integrator->advance(state).outcome, Outcome::converged);
             for (const double tau : {0.3, 1.0}) {
-                integrator->curve(tau, x);
+                integrator->denseOutput(tau, x);
                 const double t = (n + tau) * h, c = std::cos(100 * t), w = std::sin(100 * t);
                 worst = std::max({worst, std::abs(x[0] - (rest + (0.05 - rest) * c + 0.003 * w)),
                                   tau == 1 ? std::abs(x[1] - state.x[1]) : 0});

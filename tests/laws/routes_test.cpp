@@ -136,8 +136,8 @@ private slots:
                 std::vector<double> x(4), y(4);
                 double worst = 0;
                 for (double tau = 0; tau <= 1; tau += 0.01) {
-                    a->curve(tau, x);
-                    b->curve(tau, y);
+                    a->denseOutput(tau, x);
+                    b->denseOutput(tau, y);
                     worst = std::max(worst, distance(x, y, 0, 4));
                 }
                 qInfo("degree %d, %s: %.2e", degree, basis, worst);
@@ -227,8 +227,8 @@ private slots:
             (void)after(*collocation, start, 3).value();
             std::vector<double> x(4), y(4);
             for (const double tau : {0.0, 0.3, 0.77, 1.0}) {
-                pair->curve(tau, x);
-                collocation->curve(tau, y);
+                pair->denseOutput(tau, x);
+                collocation->denseOutput(tau, y);
                 qInfo("%s at %.2f: %.2e", id, tau, distance(x, y, 0, 4));
                 QVERIFY(distance(x, y, 0, 4) < 2e-14);  // measured: at most 1.8e-15
             }

@@ -66,7 +66,7 @@ private slots:
               "[\"1.618033988749895*sqrt(k/m)\", \"0.618033988749895*sqrt(k/m)\"], \"degree\": 7, "
               "\"harmonics\": [3] }"}});
         const auto evaluations = [](const Comparison& run) {
-            return static_cast<double>(run.schemes[0]->summary.evaluations);
+            return static_cast<double>(run.schemes[0]->summary.cost.evaluations);
         };
         const double soft = evaluations(asItIs_), stiff = evaluations(c);
         qInfo("error %.1e, evaluations %g against %g", largest(c, 0, "error"), stiff, soft);

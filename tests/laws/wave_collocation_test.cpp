@@ -112,7 +112,7 @@ private slots:
             QVERIFY(normError(system, a) < 1e-11);
             // Inside the step it is the same curve.
             State inside = start, there = start;
-            whole->curve(0.75, inside.x);
+            whole->denseOutput(0.75, inside.x);
             there = run(*makeIntegrator(system, pair, {0, 0.0625}), start, 11);
             QVERIFY(waveDistance(inside, there) < 1e-11);
         }

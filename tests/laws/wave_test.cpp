@@ -230,7 +230,7 @@ private slots:
             const auto integrator =
                 makeIntegrator(system, wavePair(1, "krylov", 0.0, {{"tolerance", 1e-12}}), {0, 1.0 / 64});
             int iterations = 0;
-            for (int k = 0; k < 64; ++k) iterations += integrator->advance(state).iterations;
+            for (int k = 0; k < 64; ++k) iterations += integrator->advance(state).cost.iterations;
             qInfo("N = %d: %.1f iterations a step", modes, iterations / 64.0);
             QVERIFY(iterations <= 18 * 64);  // 15.5 measured at every N
         }
@@ -266,7 +266,7 @@ private slots:
         const auto solution = system.exact(state);
         const auto integrator = makeIntegrator(system, wavePair(8), {0, 0.01});
         for (int k = 0; k < 5; ++k) (void)integrator->advance(state);
-        integrator->curve(0.3, middle.x);
+        integrator->denseOutput(0.3, middle.x);
         solution(0.043, exact.x);
         QVERIFY(waveDistance(middle, exact) < 1e-10);
     }

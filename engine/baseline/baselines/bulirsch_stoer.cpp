@@ -17,7 +17,7 @@ public:
     BulirschStoer(const Mechanics<double>& mechanics, const BaselineOptions& options)
         : AdaptiveMethod(mechanics, options), stepper_(options.tolerance, options.tolerance) {}
 
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         Vector y(size());
         stepper_.calc_state(startTime() + tau * (endTime() - startTime()), y);
         std::copy(y.begin(), y.end(), x.begin());
@@ -35,11 +35,11 @@ private:
         if (stepper_.current_time_step() >= remaining * (1 - 1e-12)) stepper_.initialize(x, t, remaining);
         double tried = stepper_.current_time_step();
         auto rhs = [&](const Vector& at, Vector& dx, double time) {
-            ++report.evaluations;
+            ++report.cost.evaluations;
             if (stop().stop_requested()) throw Trouble{Outcome::stopped};
             if (!flow(time, at.data(), dx.data())) throw Trouble{Outcome::singular};
             // A refusal shows only in the step of the next try.
-            report.rejected += stepper_.current_time_step() != tried;
+            report.cost.rejected += stepper_.current_time_step() != tried;
             tried = stepper_.current_time_step();
         };
         try {

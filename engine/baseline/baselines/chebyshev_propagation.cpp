@@ -70,7 +70,7 @@ private:
             }
             shared()->apply(shared()->potential().data(), k == 1 ? before_.data() : now_.data(), next_.data(),
                             work_.data());
-            ++report.evaluations;
+            ++report.cost.evaluations;
             power *= Complex(0, -1);
             const Complex weight = 2 * series_[k] * power;
             const double scale = (k == 1 ? 1 : 2) / width_;

@@ -61,9 +61,9 @@ public:
         ++state.node;
         return report;
     }
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         std::vector<double> y(y_.x.size());
-        inner_.curve(tau, y);
+        inner_.denseOutput(tau, y);
         normalise(y.data());
         write(y.data(), x.data());
     }

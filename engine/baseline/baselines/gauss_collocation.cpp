@@ -66,7 +66,7 @@ public:
     }
 
     /// The collocation polynomial.
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         const double h = this->h();
         for (int k = 0; k < this->d(); ++k) {
             double q = this->q0_(k), p = this->p0_(k);
@@ -137,7 +137,7 @@ private:
             Kq_.swap(newKq_);
             Kp_.swap(newKp_);
             if (!evaluate(t)) return Attempt::singular;
-            ++this->report_.iterations;
+            ++this->report_.cost.iterations;
             const double size = change();
             this->report_.residual = size;
             if (!(size < infinity)) return Attempt::notFinite;
@@ -179,7 +179,7 @@ private:
             q_ = Q_.row(i).transpose();
             if (isSeparable()) {
                 m.force(m.model.get(), t + c(i) * h, q_.data(), dp_.data());
-                ++this->report_.evaluations;
+                ++this->report_.cost.evaluations;
             } else {
                 p_ = P_.row(i).transpose();
                 this->flow(t + c(i) * h, q_, p_, dq_, dp_);

@@ -54,10 +54,10 @@ private:
             r_.head(d) = this->q0_ + half * dq_ - q_;
             r_.tail(d) = this->p0_ + half * dp_ - p_;
             r_ = lu_.solve(r_);
-            ++this->report_.linearSolves;
+            ++this->report_.cost.linearSolves;
             q_ += r_.head(d);
             p_ += r_.tail(d);
-            ++this->report_.iterations;
+            ++this->report_.cost.iterations;
             const double size = r_.cwiseAbs().maxCoeff();
             const double scale = std::max(q_.cwiseAbs().maxCoeff(), p_.cwiseAbs().maxCoeff());
             this->report_.residual = scale > 0 ? size / scale : size;
@@ -82,7 +82,7 @@ private:
         const int d = this->d();
         double value = 0;
         m.jet(m.model.get(), t, q_.data(), dq_.data(), &value, gradient_.data(), hessian_.data());
-        ++this->report_.evaluations;
+        ++this->report_.cost.evaluations;
         massLu_.compute(hessian_.bottomRightCorner(d, d));
         inverseMass_ = massLu_.solve(identity_);
         vq_.noalias() = -inverseMass_.lazyProduct(hessian_.bottomLeftCorner(d, d));

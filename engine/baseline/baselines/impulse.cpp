@@ -55,7 +55,7 @@ public:
         report.step = clock_.step;
         start_ = trial_ = state.x;
         for (const FastMotion::Flow& part : parts_) part(trial_.data());
-        report.evaluations = evaluations_;
+        report.cost.evaluations = evaluations_;
         for (const double x : trial_)
             if (!std::isfinite(x)) report.outcome = Outcome::notFinite;
         if (report.outcome != Outcome::converged) return report;
@@ -64,7 +64,7 @@ public:
         return report;
     }
     /// A shorter step of order 2 from the nearer end: the oscillation is in it.
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         const bool isLate = tau > 0.5;
         const double time = (isLate ? tau - 1 : tau) * clock_.step;
         std::copy((isLate ? trial_ : start_).begin(), (isLate ? trial_ : start_).end(), x.begin());

@@ -73,9 +73,9 @@ private:
                        (2 * slope * Jxi + 2 * c.a[1] * turned) * xi.transpose();
             const Vector change = D.partialPivLu().solve(F);
             xi -= change;
-            ++report_.iterations;
-            ++report_.evaluations;
-            ++report_.linearSolves;
+            ++report_.cost.iterations;
+            ++report_.cost.evaluations;
+            ++report_.cost.linearSolves;
             const double size = change.norm();
             report_.residual = size / std::max(xi.norm(), 1e-300);
             if (!std::isfinite(size)) {

@@ -51,7 +51,7 @@ private:
         if (body_.dimension == 6) m.linear += t * (so3::matrix(m.q) * force);
     }
     void step(Motion& m, double h) override {
-        report_.evaluations += 5 * static_cast<int>(substeps_.size());
+        report_.cost.evaluations += 5 * static_cast<int>(substeps_.size());
         for (const double fraction : substeps_) {
             const double s = fraction * h;
             if (!body_.isFree()) kick(m, s / 2);

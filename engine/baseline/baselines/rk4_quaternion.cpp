@@ -20,7 +20,7 @@ private:
     /// q' = q (0, omega) / 2, Pi' = Pi x omega + torque, x' = p / m, p' = R force.
     Motion rate(const Motion& m) {
         Vector torque, force;
-        if (body_.isFree()) ++report_.evaluations;
+        if (body_.isFree()) ++report_.cost.evaluations;
         forces(m, torque, force);
         const Vector w = omega(m.momentum);
         Motion d;

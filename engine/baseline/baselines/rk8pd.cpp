@@ -31,7 +31,7 @@ public:
           control_(gsl_odeiv2_control_y_new(options.tolerance, options.tolerance)),
           evolve_(gsl_odeiv2_evolve_alloc(size())) {}
 
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         const Step shorter(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size()));
         Watch watch{*this, {}, Outcome::converged};
         const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
@@ -62,13 +62,13 @@ private:
         const int status = gsl_odeiv2_evolve_apply(evolve_.get(), control_.get(), step_.get(), &system, &t,
                                                    end(), &h_, x.data());
         report = watch.report;
-        report.rejected = static_cast<int>(evolve_->failed_steps - refused);
+        report.cost.rejected = static_cast<int>(evolve_->failed_steps - refused);
         if (watch.trouble != Outcome::converged) return watch.trouble;
         return status == GSL_SUCCESS && t > start ? Outcome::converged : Outcome::stepBudget;
     }
     static int rate(double t, const double* x, double* dx, void* given) {
         auto& watch = *static_cast<Watch*>(given);
-        ++watch.report.evaluations;
+        ++watch.report.cost.evaluations;
         if (watch.method.stop().stop_requested())
             watch.trouble = Outcome::stopped;
         else if (!watch.method.flow(t, x, dx))

@@ -62,7 +62,7 @@ public:
         CVodeSetLinearSolver(memory_, solver_, jacobian_);
     }
 
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         const Owned<N_Vector, freeVector> y(N_VNew_Serial(static_cast<sunindextype>(size()), context_));
         CVodeGetDky(memory_, startTime() + tau * (endTime() - startTime()), 0, y);
         std::copy_n(N_VGetArrayPointer(y), size(), x.begin());
@@ -81,10 +81,10 @@ private:
         const double start = t;
         const int status = CVode(memory_, end(), x_, &t, CV_ONE_STEP);
         const Counters after = counters();
-        report.rejected = static_cast<int>(after.refused - before.refused);
-        report.iterations = static_cast<int>(after.iterations - before.iterations);
-        report.linearSolves =
-            report.iterations + static_cast<int>(after.factorisations - before.factorisations);
+        report.cost.rejected = static_cast<int>(after.refused - before.refused);
+        report.cost.iterations = static_cast<int>(after.iterations - before.iterations);
+        report.cost.linearSolves =
+            report.cost.iterations + static_cast<int>(after.factorisations - before.factorisations);
         if (trouble_ != Outcome::converged) return trouble_;
         if (status < 0 || !(t > start))
             return status == CV_CONV_FAILURE ? Outcome::diverged : Outcome::stepBudget;
@@ -108,7 +108,7 @@ private:
     /// Negative: CVODE gives up at once.
     static int rate(realtype t, N_Vector x, N_Vector dx, void* self) {
         auto& method = *static_cast<Stiff*>(self);
-        ++method.report_->evaluations;
+        ++method.report_->cost.evaluations;
         if (method.stop().stop_requested())
             method.trouble_ = Outcome::stopped;
         else if (!method.flow(t, N_VGetArrayPointer(x), N_VGetArrayPointer(dx)))

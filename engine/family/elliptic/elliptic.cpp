@@ -23,7 +23,7 @@ public:
             report.outcome = Outcome::stopped;
             return report;
         }
-        report.linearSolves = state.node == 0 ? 1 : 0;
+        report.cost.linearSolves = state.node == 0 ? 1 : 0;
         last_ = static_cast<int>(state.node);
         ++state.node;
         state.t = static_cast<double>(state.node) / n;
@@ -31,7 +31,7 @@ public:
         state.x[1] = solution_.u(state.t);
         return report;
     }
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         const double place = (last_ + tau) / solution_.elements();
         x[0] = solution_.between(kind_, nodal_, place);
         x[1] = solution_.u(place);

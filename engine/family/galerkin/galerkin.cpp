@@ -32,7 +32,7 @@ public:
         if (report.outcome == Outcome::converged) state.t = clock_.at(++state.node);
         return report;
     }
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         step_.denseOutput(tau, x.data(), x.data() + d_);
     }
     double periodsPerStep() const override { return periods_; }

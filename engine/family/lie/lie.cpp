@@ -30,9 +30,9 @@ public:
         state.t = clock_.at(++state.node);
         return report;
     }
-    void curve(double tau, std::span<double> x) const override {
-        if (!isSymmetrised_) return G::write(step_.curve(tau), x.data());
-        G::write(tau < 0.5 ? adjoint_.curve(2 * tau) : step_.curve(2 * tau - 1), x.data());
+    void denseOutput(double tau, std::span<double> x) const override {
+        if (!isSymmetrised_) return G::write(step_.denseOutput(tau), x.data());
+        G::write(tau < 0.5 ? adjoint_.denseOutput(2 * tau) : step_.denseOutput(2 * tau - 1), x.data());
     }
 
 private:

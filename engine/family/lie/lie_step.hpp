@@ -53,7 +53,7 @@ public:
     Outcome advance(Pose<T>& pose, StepReport& report, const std::stop_token& stop);
 
     /// The pose of the last step at tau in [0, 1] from its start.
-    Pose<T> curve(const T& tau) const;
+    Pose<T> denseOutput(const T& tau) const;
 
 private:
     using Columns = Eigen::Matrix<T, n, Eigen::Dynamic>;

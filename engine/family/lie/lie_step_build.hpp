@@ -117,7 +117,7 @@ void LieStep<T, G>::residual() {
         R_.col(m() - 1) -= end.dexpTransposed(mu_);
     else
         R_.col(m() - 1) -= end.dexpRightTransposed(mu_ - W_);
-    report_->evaluations += nodes();
+    report_->cost.evaluations += nodes();
 }
 
 /// Adds what the potential does to the second derivatives at node i; A = dexp(xi_i).
@@ -182,8 +182,8 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
     const int last = n * (m() - 1);
     jacobian.template block<n, n>(last, last) -=
         isAdjoint_ ? end.derivativeOfTransposed(mu_) : end.derivativeOfRightTransposed(mu_ - W_);
-    report_->evaluations += nodes();
-    ++report_->linearSolves;
+    report_->cost.evaluations += nodes();
+    ++report_->cost.linearSolves;
     // Inertias far apart make pivots far apart; only what is lost in round-off is singular.
     switch (lu_.factorise()) {
         case SmallLu<T>::Result::regular:
@@ -201,7 +201,7 @@ template <class T, class G>
 T LieStep<T, G>::correction() {
     for (int a = 0; a < m(); ++a) flat_.template segment<n>(n * a) = -R_.col(a);
     lu_.solve(flat_.data());
-    ++report_->linearSolves;
+    ++report_->cost.linearSolves;
     T size(0), scale(0);
     using std::abs;
     for (int a = 0; a < m(); ++a)
@@ -255,7 +255,7 @@ void LieStep<T, G>::updateImpulse() {
         force_.col(i) = at.rotateMomentum(f);
         W_ -= (h_ * table_.weight(i)) * force_.col(i);
     }
-    report_->evaluations += nodes();
+    report_->cost.evaluations += nodes();
 }
 
 /// Newton's method from the predicted curve. Light axes stop further away from round-off than others: with a
@@ -271,7 +271,7 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& st
         if (stop.stop_requested()) return Attempt::stopped;
         residual();
         const T size = correction();
-        ++report_->iterations;
+        ++report_->cost.iterations;
         report_->residual = static_cast<double>(size);
         if (!(size < std::numeric_limits<T>::infinity())) return Attempt::notFinite;
         correct();
@@ -330,7 +330,7 @@ Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::sto
 }
 
 template <class T, class G>
-Pose<T> LieStep<T, G>::curve(const T& tau) const {
+Pose<T> LieStep<T, G>::denseOutput(const T& tau) const {
     const T s = isAdjoint_ ? T(1) - tau : tau;
     std::vector<T> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
     table_.space.evaluate(s, value, slope);

@@ -67,7 +67,7 @@ double estimateFrequency(const System& system, const State& start) {
         if (integrator->advance(state).outcome != Outcome::converged) throw none();
         for (int i = 1; i <= samplesPerStep; ++i) {
             const double tau = static_cast<double>(i) / samplesPerStep;
-            integrator->curve(tau, x);
+            integrator->denseOutput(tau, x);
             t.push_back(before + tau * step);
             values.push_back(x[static_cast<std::size_t>(k)]);
         }

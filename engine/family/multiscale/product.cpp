@@ -115,7 +115,7 @@ public:
     }
 
     /// p by its equation, and what that misses of the multiplier spread over the step.
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         const std::size_t d = curves_.size();
         std::vector<double> share(rule_.c.size());
         partialWeights<double>(rule_, tau, share);
@@ -163,7 +163,7 @@ private:
         Eigen::MatrixXd samples(fitSamples, static_cast<Eigen::Index>(d));
         std::vector<double> x = state.x;
         for (int i = 0; i < fitSamples; ++i) {
-            if (isFound) additive_->curve((i + 0.5) / fitSamples, x);
+            if (isFound) additive_->denseOutput((i + 0.5) / fitSamples, x);
             for (std::size_t k = 0; k < d; ++k) samples(i, static_cast<Eigen::Index>(k)) = x[k];
         }
         for (std::size_t k = 0; k < d; ++k) {
@@ -195,8 +195,8 @@ private:
                     return Outcome::notFinite;
             }
             lu_.solve(residual_.data());
-            ++report.iterations;
-            ++report.linearSolves;
+            ++report.cost.iterations;
+            ++report.cost.linearSolves;
             const double size = correction(state);
             const Verdict verdict = policy.judge(size);
             if (verdict == Verdict::notFinite) return Outcome::notFinite;
@@ -247,7 +247,7 @@ private:
             double value = 0;
             mechanics_.jet(mechanics_.model.get(), state.t + rule_.c[i] * h, q_.data(), v_.data(), &value,
                            gradient_.data(), hessian_.data());
-            ++report.evaluations;
+            ++report.cost.evaluations;
             if (!std::isfinite(value)) return false;
             std::copy_n(gradient_.begin(), d, forces_.begin() + static_cast<std::ptrdiff_t>(i) * d);
             for (int k = 0; k < d; ++k) addNode(k, rule_.b[i] * h);

@@ -30,7 +30,7 @@ private:
     }
     void step(double, Complex* v, StepReport& report) override {
         for (const BandedPoles& g : groups_) g.apply(v);
-        report.linearSolves = degree_;
+        report.cost.linearSolves = degree_;
     }
     std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {
         return makeBandedWave(shared(), clock, shift, degree_, together_);

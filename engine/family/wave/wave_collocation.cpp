@@ -88,7 +88,7 @@ private:
                 for (std::size_t x = 0; x < size_; ++x)
                     psi_[x] = {-kick[x] * psi_[x].imag(), kick[x] * psi_[x].real()};
                 hamiltonian().fourier().rawToCoefficients(psi_.data(), image_.data() + j * size_);
-                ++report.evaluations;
+                ++report.cost.evaluations;
             }
             std::copy(z, z + size_ * stages_, out);
             for (std::size_t i = 0; i < stages_; ++i)
@@ -100,9 +100,9 @@ private:
                 }
         };
         report.outcome = gmres_.solve(apply, rhs_.data(), z_.data(), tolerance_, maxIterations_,
-                                      report.iterations, stop());
+                                      report.cost.iterations, stop());
         if (report.outcome != Outcome::converged) return;
-        ++report.linearSolves;
+        ++report.cost.linearSolves;
         precondition(z_.data(), u_.data());
         for (std::size_t k = 0; k < size_; ++k) {
             Complex sum = rest_ * v[k];

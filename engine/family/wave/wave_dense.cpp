@@ -45,7 +45,7 @@ private:
         states_->fromStates(d_.data(), parts_.data());
         for (std::size_t j = 0; j < size; ++j) psi_[j] = Complex(parts_[j], parts_[size + j]);
         hamiltonian().fromReal(psi_.data(), v);
-        report.linearSolves = degree_;
+        report.cost.linearSolves = degree_;
     }
     std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {
         return makeDenseWave(shared(), clock, shift, degree_);

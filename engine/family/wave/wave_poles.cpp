@@ -40,12 +40,12 @@ Outcome WavePoles::solve(std::size_t j, const Complex* v, Complex* w, StepReport
             psi_[i] = {-kick_[i] * psi_[i].imag(), kick_[i] * psi_[i].real()};
         hamiltonian_->fourier().rawToCoefficients(psi_.data(), out);
         for (std::size_t i = 0; i < size; ++i) out[i] += u[i];
-        ++report.evaluations;
+        ++report.cost.evaluations;
     };
     const Outcome outcome =
-        gmres_.solve(apply, v, u_.data(), tolerance_, maxIterations_, report.iterations, stop);
+        gmres_.solve(apply, v, u_.data(), tolerance_, maxIterations_, report.cost.iterations, stop);
     if (outcome != Outcome::converged) return outcome;
-    ++report.linearSolves;
+    ++report.cost.linearSolves;
     scale(u_.data(), w);
     return outcome;
 }

@@ -26,9 +26,7 @@ public:
         for (int k = 0; k < slabs_; ++k) {
             const StepReport one = slab_->advance(inner_);
             report.outcome = one.outcome;
-            report.iterations += one.iterations;
-            report.evaluations += one.evaluations;
-            report.linearSolves += one.linearSolves;
+            report.cost += one.cost;
             if (one.outcome != Outcome::converged) {
                 inner_ = start_;
                 return report;
@@ -39,13 +37,13 @@ public:
         inner_.t = state.t = clock_.at(++state.node);
         return report;
     }
-    void curve(double tau, std::span<double> x) const override {
+    void denseOutput(double tau, std::span<double> x) const override {
         // Once more from the start, as far as the slab that tau is in.
         const auto again = make_({clock_.start, clock_.step / slabs_});
         const int last = std::clamp(static_cast<int>(tau * slabs_), 0, slabs_ - 1);
         State state = start_;
         for (int k = 0; k <= last; ++k) (void)again->advance(state);
-        again->curve(tau * slabs_ - last, x);
+        again->denseOutput(tau * slabs_ - last, x);
     }
     std::string about() const override { return slab_->about(); }
 

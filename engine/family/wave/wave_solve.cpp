@@ -17,7 +17,7 @@ public:
         : poles_(cyclicBand(h, dt, shift), {zeta}, {Complex(1)}, 0) {}
     Outcome apply(Complex* v, StepReport& report, const std::stop_token&) override {
         poles_.apply(v);
-        ++report.linearSolves;
+        ++report.cost.linearSolves;
         return Outcome::converged;
     }
 
@@ -68,7 +68,7 @@ public:
         states_->fromStates(d_.data(), parts_.data());
         for (std::size_t j = 0; j < n; ++j) psi_[j] = {parts_[j], parts_[n + j]};
         h_->fromReal(psi_.data(), v);
-        ++report.linearSolves;
+        ++report.cost.linearSolves;
         return Outcome::converged;
     }
 

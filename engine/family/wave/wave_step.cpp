@@ -52,7 +52,7 @@ StepReport WaveStep::advance(State& state) {
     return report;
 }
 
-void WaveStep::curve(double tau, std::span<double> x) const {
+void WaveStep::denseOutput(double tau, std::span<double> x) const {
     State state;
     state.t = startTime_;
     state.x.resize(x.size());

@@ -22,7 +22,7 @@ public:
 
     StepReport advance(State& state) final;
     /// A shorter step from the state before: as accurate as the scheme itself. Makes it on first use.
-    void curve(double tau, std::span<double> x) const override;
+    void denseOutput(double tau, std::span<double> x) const override;
     /// Also called when the state was replaced from outside: what is remembered of the last step no longer
     /// belongs to it.
     void restart() override {}

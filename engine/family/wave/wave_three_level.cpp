@@ -71,9 +71,7 @@ private:
             first_.node = 0;
             std::copy_n(reinterpret_cast<const double*>(v), 2 * size, first_.x.begin());
             const StepReport own = starter_->advance(first_);
-            report.linearSolves += own.linearSolves;
-            report.iterations += own.iterations;
-            report.evaluations += own.evaluations;
+            report.cost += own.cost;
             const Complex back = std::polar(1.0, shift() * dt() / hamiltonian().hbar());
             for (std::size_t i = 0; i < size; ++i) next_[i] = back * coefficients(first_.x.data())[i];
             return own.outcome;
@@ -93,7 +91,7 @@ private:
     /// next_ <- Y v.
     void image(const Complex* v, StepReport& report) {
         hamiltonian().apply(hamiltonian().potential().data(), v, next_.data(), work_.data());
-        ++report.evaluations;
+        ++report.cost.evaluations;
         const double factor = dt() / hamiltonian().hbar();
         for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = factor * (next_[i] - shift() * v[i]);
     }

@@ -86,7 +86,7 @@ StationaryState refineState(const Hamiltonian& h, std::vector<Complex> guess) {
         s.isConverged = moved <= std::max(1e-13 * std::abs(s.energy), 4 * roundOff);
         if (s.isConverged || k == mostSteps || !std::isfinite(s.residual)) break;
         system.setEnergy(s.energy);
-        int iterations = 0;
+        long long iterations = 0;
         // Quadratic convergence asks for a relative error of the size of the residual and no less.
         const double tolerance = std::clamp(0.1 * s.residual / (1 + std::abs(s.energy)), 1e-9, 1e-2);
         const Outcome outcome = gmres.solve([&](const Complex* from, Complex* to) { system.apply(from, to); },

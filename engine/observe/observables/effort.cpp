@@ -14,8 +14,8 @@ ObservableEntry effort() {
         o.columns = {{"newton_iterations", "iterations", "", {}, {}},
                      {"evaluations", "evaluations", "", {}, {}}};
         o.evaluate = [](const State&, const StepReport& report, double* values) {
-            values[0] = report.iterations;
-            values[1] = report.evaluations;
+            values[0] = static_cast<double>(report.cost.iterations);
+            values[1] = static_cast<double>(report.cost.evaluations);
         };
         return o;
     };

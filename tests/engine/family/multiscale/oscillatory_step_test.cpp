@@ -92,7 +92,7 @@ private slots:
             for (int i = 0; i < known.steps; ++i) {
                 const StepReport report = step.advance(i * known.h, q, p, {});
                 QCOMPARE(report.outcome, Outcome::converged);
-                iterations += report.iterations;
+                iterations += report.cost.iterations;
             }
             const std::array<double, 4> x = {q[0], q[1], p[0], p[1]};
             double worst = 0;
