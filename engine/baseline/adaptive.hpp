@@ -22,9 +22,9 @@ template <class Stepper>
 class Adaptive final : public AdaptiveMethod {
 public:
     Adaptive(const Mechanics<double>& mechanics, const BaselineOptions& options)
-        : AdaptiveMethod(mechanics, options), stepper_(controlled(options)) {}
+        : AdaptiveMethod(mechanics), stepper_(controlled(options)) {}
     Adaptive(Rate rate, std::size_t n, const BaselineOptions& options)
-        : AdaptiveMethod(std::move(rate), n, options), stepper_(controlled(options)) {}
+        : AdaptiveMethod(std::move(rate), n), stepper_(controlled(options)) {}
 
     void denseOutput(double tau, std::span<double> x) const override {
         Stepper shorter;
@@ -34,29 +34,34 @@ public:
         std::copy(y.begin(), y.end(), x.begin());
     }
 
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Adaptive>(*this); }
+
 private:
     static auto controlled(const BaselineOptions& options) {
         return boost::numeric::odeint::make_controlled(options.tolerance, options.tolerance, Stepper());
     }
 
-    Outcome take(double& t, Vector& x, StepReport& report, bool) override {
+    Outcome take(double& t, Vector& x, double& next, StepReport& report, bool isContinued) override {
+        // What a formula keeps of its last step belongs to that.
+        if constexpr (requires { stepper_.reset(); })
+            if (!isContinued) stepper_.reset();
         bool isSingular = false;
         auto rhs = [&](const Vector& at, Vector& dx, double time) {
             ++report.cost.evaluations;
             isSingular = isSingular || !flow(time, at.data(), dx.data());
         };
-        if (step_ == 0) step_ = firstStep(t, x);
+        if (next == 0) next = firstStep(t, x);
         for (int refused = 0; refused < 500; ++refused) {
             if (stop().stop_requested()) return Outcome::stopped;
             const double remaining = end() - t;
-            const bool isLast = step_ >= remaining * (1 - 1e-12);
-            double h = isLast ? remaining : step_;
+            const bool isLast = next >= remaining * (1 - 1e-12);
+            double h = isLast ? remaining : next;
             if (h < 4e-16 * std::max(std::abs(t), 1e-300) && !isLast) return Outcome::stepBudget;
             const auto result = stepper_.try_step(rhs, x, t, h);
             if (isSingular) return Outcome::singular;
             const bool isDone = result == boost::numeric::odeint::success;
             // odeint proposes in h. A last step cut short says nothing against a larger one.
-            step_ = isLast && isDone ? std::max(step_, h) : h;
+            next = isLast && isDone ? std::max(next, h) : h;
             if (isDone) {
                 if (isLast) t = end();
                 return Outcome::converged;
@@ -67,7 +72,6 @@ private:
         return Outcome::stepBudget;
     }
 
-    double step_ = 0;
     decltype(boost::numeric::odeint::make_controlled(1.0, 1.0, Stepper())) stepper_;
 };
 

@@ -8,30 +8,38 @@
 
 namespace extremal {
 
-AdaptiveMethod::AdaptiveMethod(const Mechanics<double>& m, const BaselineOptions& options)
+AdaptiveMethod::AdaptiveMethod(const Mechanics<double>& m)
     : AdaptiveMethod(
           [m](double t, const double* x, double* dx) {
               return m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
           },
-          static_cast<std::size_t>(2 * m.dimension), options) {}
+          static_cast<std::size_t>(2 * m.dimension)) {}
 
-AdaptiveMethod::AdaptiveMethod(Rate rate, std::size_t n, const BaselineOptions& options)
-    : rate_(std::move(rate)), end_(options.end), before_(n, 0.0), x_(n, 0.0) {}
+AdaptiveMethod::AdaptiveMethod(Rate rate, std::size_t n)
+    : rate_(std::move(rate)), before_(n, 0.0), x_(n, 0.0) {}
 
-StepReport AdaptiveMethod::advance(State& state) {
+void AdaptiveMethod::begin(State& state) {
+    state.memory.assign(1, 0);
+    hasStepped_ = false;
+}
+
+StepReport AdaptiveMethod::advance(State& state, double until) {
     StepReport report;
+    if (state.memory.empty()) begin(state);
+    end_ = until;
     const bool isContinued = hasStepped_ && state.t == endTime_ && state.x == x_;
     before_ = x_ = state.x;
     startTime_ = state.t;
-    double t = state.t;
+    double t = state.t, next = state.memory[0];
     hasStepped_ = false;
-    report.outcome = take(t, x_, report, isContinued);
+    report.outcome = take(t, x_, next, report, isContinued);
     if (report.outcome == Outcome::converged &&
         !std::all_of(x_.begin(), x_.end(), [](double v) { return std::isfinite(v); }))
         report.outcome = Outcome::notFinite;
     if (report.outcome != Outcome::converged) return report;
     hasStepped_ = true;
     state.x = x_;
+    state.memory[0] = next;
     endTime_ = state.t = t;
     ++state.node;
     report.step = endTime_ - startTime_;

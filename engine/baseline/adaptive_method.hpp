@@ -1,8 +1,8 @@
-/// What adaptive codes share: one accepted step per advance(), the end hit exactly, a
-/// curve.
+/// What the codes that choose their own steps share: one accepted step per advance(), the end hit exactly,
+/// dense output.
 ///
 /// They integrate x' = f(t, x): x = (q, p) and Hamilton's vector field, or any other. Both relative and
-/// absolute tolerance are the scene's tolerance. The curve inside a step is the code's own interpolant where
+/// absolute tolerance are the scene's tolerance. Dense output is the code's own interpolant where
 /// it has one, else a shorter step of the same formula: steps are so long here that a polynomial through both
 /// ends would lose most digits.
 #pragma once
@@ -20,17 +20,21 @@ public:
     /// xdot = rate(t, x), both of length n; false where it is not defined.
     using Rate = std::function<bool(double t, const double* x, double* dx)>;
 
-    AdaptiveMethod(const Mechanics<double>& mechanics, const BaselineOptions& options);
-    AdaptiveMethod(Rate rate, std::size_t n, const BaselineOptions& options);
+    explicit AdaptiveMethod(const Mechanics<double>& mechanics);
+    AdaptiveMethod(Rate rate, std::size_t n);
 
-    StepReport advance(State& state) final;
+    TimeGrid grid() const final { return TimeGrid::landing; }
+    std::vector<MemoryPart> memoryParts() const final { return {{"next step", 1}}; }
+    void begin(State& state) final;
+    StepReport advance(State& state, double until) final;
 
 protected:
     using Vector = std::vector<double>;
 
     /// Takes one accepted step: moves t and x, by no more than to end(). Counts refused steps in `report`.
-    /// `isContinued`: t and x are where the last step left them.
-    virtual Outcome take(double& t, Vector& x, StepReport& report, bool isContinued) = 0;
+    /// `next`: the step to try, 0 where none is known; then the one to try next. `isContinued`: t and x are
+    /// where the last step left them.
+    virtual Outcome take(double& t, Vector& x, double& next, StepReport& report, bool isContinued) = 0;
 
     bool flow(double t, const double* x, double* dx) const { return rate_(t, x, dx); }
     /// A cautious first step: 1/1000 of the time scale |x| / |xdot|, at most a hundredth of what is left.
@@ -44,7 +48,7 @@ protected:
 
 private:
     Rate rate_;
-    double end_, startTime_ = 0, endTime_ = 0;
+    double end_ = 0, startTime_ = 0, endTime_ = 0;
     Vector before_, x_;
     bool hasStepped_ = false;
 };

@@ -1,8 +1,8 @@
-/// What the baselines of rigid bodies share: clock, state, and a curve between the nodes.
+/// What the baselines of rigid bodies share: the step, the state, and dense output.
 ///
 /// They see a body through its inertia and the force of its potential (model/body.hpp). A step moves the
 /// attitude q, the momentum in the body and, on SE(3), position and linear momentum; what follows from them
-/// is filled in afterwards. The curve is the cubic Hermite interpolant of the state, its attitude brought
+/// is filled in afterwards. Dense output is the cubic Hermite interpolant of the state, its attitude brought
 /// back to length 1.
 #pragma once
 
@@ -34,21 +34,24 @@ public:
         Vector position = Vector::Zero(), linear = Vector::Zero();
     };
 
-    BodyMethod(const System& system, const Clock& clock)
+    BodyMethod(const System& system, double step)
         : body_(system.body()),
-          clock_(clock),
+          h_(step),
           rate_(system.rate),
           size_(static_cast<std::size_t>(body_.stateSize())) {
         for (auto* v : {&before_, &after_, &slopeBefore_, &slopeAfter_}) v->assign(size_, 0);
     }
 
-    StepReport advance(State& state) final {
+    double stepSize() const final { return h_; }
+    void setStep(double h) final { h_ = h; }
+
+    StepReport advance(State& state, double until) final {
         report_ = StepReport{};
-        report_.step = clock_.step;
+        report_.step = h_;
         std::copy(state.x.begin(), state.x.end(), before_.begin());
         std::copy(state.x.begin(), state.x.end(), after_.begin());
         Motion m = read(before_.data());
-        step(m, clock_.step);
+        step(m, h_);
         write(m, after_.data());
         if (turnsMomentum()) keepSpaceMomentum(m);
         if (report_.outcome == Outcome::converged &&
@@ -57,14 +60,15 @@ public:
         if (report_.outcome != Outcome::converged) return report_;
         std::copy(after_.begin(), after_.end(), state.x.begin());
         startTime_ = state.t;
-        state.t = clock_.at(++state.node);
+        state.t = until;
+        ++state.node;
         return report_;
     }
 
     void denseOutput(double tau, std::span<double> x) const override {
         rate_(startTime_, before_.data(), slopeBefore_.data());
-        rate_(startTime_ + clock_.step, after_.data(), slopeAfter_.data());
-        const double h = clock_.step;
+        rate_(startTime_ + h_, after_.data(), slopeAfter_.data());
+        const double h = h_;
         const double a = (1 + 2 * tau) * (1 - tau) * (1 - tau), b = tau * (1 - tau) * (1 - tau) * h;
         const double c = tau * tau * (3 - 2 * tau), e = tau * tau * (tau - 1) * h;
         for (std::size_t i = 0; i < size_; ++i)
@@ -118,7 +122,7 @@ protected:
     }
 
     BodyMechanics<double> body_;
-    Clock clock_;
+    double h_;
     StepReport report_;
 
 private:

@@ -13,8 +13,8 @@
 namespace extremal {
 
 struct BaselineOptions {
-    Clock clock;           ///< fixed-step schemes
-    double end = 0;        ///< adaptive schemes land on it
+    double step = 0;       ///< fixed-step schemes
+    State start = {};      ///< of the run; x is empty where it is not known
     double tolerance = 0;  ///< adaptive schemes
     Settings settings;     ///< the baseline's own keys
 };

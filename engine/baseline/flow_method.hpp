@@ -1,7 +1,8 @@
-/// What the baselines of mechanical systems share: Hamilton's vector field, counted, the clock, and a curve.
+/// What the baselines of mechanical systems share: Hamilton's vector field, counted, the state, and dense
+/// output.
 ///
 /// Baselines see a system through (qdot, pdot) = (dH/dp, -dH/dq) at (t, q, p), or, where it is separable,
-/// through its force and masses. D: dimension at compile time or Eigen::Dynamic. The curve inside a step is
+/// through its force and masses. D: dimension at compile time or Eigen::Dynamic. Dense output is
 /// the cubic Hermite interpolant of x and xdot at both ends: order 4 at best, as usual for these methods.
 #pragma once
 
@@ -21,8 +22,7 @@ public:
     using Vector = Eigen::Matrix<double, D, 1>;
     using View = Eigen::Map<Vector>;
 
-    FlowMethod(Mechanics<double> mechanics, const Clock& clock)
-        : mechanics_(std::move(mechanics)), clock_(clock) {
+    FlowMethod(Mechanics<double> mechanics, double step) : mechanics_(std::move(mechanics)), h_(step) {
         for (Vector* v : {&q0_, &p0_, &q1_, &p1_}) *v = Vector::Zero(d());
     }
 
@@ -37,13 +37,16 @@ public:
         View(x.data() + d(), d()) = a * p0_ + b * dp0 + c * p1_ + e * dp1;
     }
 
-    StepReport advance(State& state) final {
+    double stepSize() const final { return h_; }
+    void setStep(double h) final { h_ = h; }
+
+    StepReport advance(State& state, double until) final {
         startTime_ = state.t;
         q0_ = q1_ = View(state.x.data(), d());
         p0_ = p1_ = View(state.x.data() + d(), d());
         report_ = StepReport{};
-        report_.step = clock_.step;
-        endTime_ = clock_.at(state.node + 1);
+        report_.step = h_;
+        endTime_ = until;
         step(state.t);
         if (report_.outcome == Outcome::converged && !(q1_.allFinite() && p1_.allFinite()))
             report_.outcome = Outcome::notFinite;
@@ -57,7 +60,7 @@ public:
 
 protected:
     int d() const { return mechanics_.dimension; }
-    double h() const { return clock_.step; }
+    double h() const { return h_; }
 
     /// Moves q1_, p1_ (which start at the present state) by one step, and fills report_.
     virtual void step(double t) = 0;
@@ -69,7 +72,7 @@ protected:
     }
 
     Mechanics<double> mechanics_;
-    Clock clock_;
+    double h_;
     Vector q0_, p0_, q1_, p1_;
     double startTime_ = 0, endTime_ = 0;
     StepReport report_;

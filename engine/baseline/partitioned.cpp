@@ -14,9 +14,8 @@ class Partitioned final : public FlowMethod<D> {
     using Vector = typename Base::Vector;
 
 public:
-    Partitioned(const Mechanics<double>& mechanics, const Clock& clock,
-                const std::vector<PartitionedStage>& stages)
-        : Base(mechanics, clock), stages_(stages) {
+    Partitioned(const Mechanics<double>& mechanics, double step, const std::vector<PartitionedStage>& stages)
+        : Base(mechanics, step), stages_(stages) {
         for (Vector* v : {&dq_, &dp_, &start_, &change_, &force_, &forceAt_, &inverseMass_})
             *v = Vector::Zero(this->d());
         forceAt_.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -24,11 +23,13 @@ public:
             inverseMass_ = Eigen::Map<const Vector>(mechanics.masses, this->d()).cwiseInverse();
     }
 
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Partitioned>(*this); }
+
     /// Separable systems: the same maps on local copies, without a call per step.
-    StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count) override {
+    StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock) override {
         count = std::min(count, nodes.capacity() - nodes.size());
         if (!this->mechanics_.isSeparable || this->mechanics_.isTimeDependent || count < 2)
-            return Base::advanceBlock(state, nodes, count);
+            return Base::advanceBlock(state, nodes, count, clock);
         const auto d = static_cast<std::size_t>(this->d());
         StepReport report;
         report.step = this->h();
@@ -52,13 +53,13 @@ public:
                     isForceFresh = false;
                 }
             }
-            state.t = this->clock_.at(++state.node);
+            state.t = clock.at(++state.node);
             std::copy_n(q.data(), d, state.x.data());
             std::copy_n(p.data(), d, state.x.data() + d);
             nodes.push(state, report);
         }
-        // The last one on the common path, which leaves the curve behind.
-        return Base::advanceBlock(state, nodes, 1);
+        // The last one on the common path, which leaves the dense output behind.
+        return Base::advanceBlock(state, nodes, 1, clock);
     }
 
 private:
@@ -132,9 +133,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, const Clock& clock,
+std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, double step,
                                             const std::vector<PartitionedStage>& stages) {
-    return makeFlowMethod<Partitioned>(mechanics, clock, stages);
+    return makeFlowMethod<Partitioned>(mechanics, step, stages);
 }
 
 BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage> stages) {
@@ -142,7 +143,7 @@ BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage
     e.item = std::move(item);
     e.stabilityLimit = 2;
     e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
-        return makePartitioned(system.mechanics(), options.clock, stages);
+        return makePartitioned(system.mechanics(), options.step, stages);
     };
     return e;
 }

@@ -23,7 +23,7 @@ struct PartitionedStage {
 };
 
 /// A method that applies these stages in turn, each step.
-std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, const Clock& clock,
+std::unique_ptr<Integrator> makePartitioned(const Mechanics<double>& mechanics, double step,
                                             const std::vector<PartitionedStage>& stages);
 
 /// The catalogue's entry of such a method. Symplectic whatever the stages; stable on the oscillator up to

@@ -1,5 +1,6 @@
 #include "engine/baseline/reduced.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -9,35 +10,61 @@ namespace {
 
 class Reduced final : public Integrator {
 public:
-    Reduced(ReducedModel model, const Clock& clock) : model_(std::move(model)), clock_(clock) {}
+    Reduced(ReducedModel model, double step) : model_(std::move(model)), h_(step) {}
 
-    StepReport advance(State& state) override {
+    double stepSize() const override { return h_; }
+    void setStep(double h) override { h_ = h; }
+
+    /// The slow motion y, and where it began: the model depends on that.
+    std::vector<MemoryPart> memoryParts() const override {
+        if (!motion_) return {{"slow motion and start", 0}};
+        return {{"slow motion", before_.size()}, {"start", made_.size()}};
+    }
+    void begin(State& state) override {
+        State start;
+        start.t = state.t;
+        start.x = state.x;
+        makeMotion(start);
+        state.memory = motion_->start;
+        state.memory.insert(state.memory.end(), made_.begin(), made_.end());
+    }
+
+    StepReport advance(State& state, double until) override {
+        if (state.memory.empty()) begin(state);
+        const std::size_t width = state.x.size();
+        const auto start = state.memory.end() - static_cast<std::ptrdiff_t>(width + 1);
+        if (!motion_ || !std::equal(start, state.memory.end(), made_.begin(), made_.end()))
+            makeMotion({*start, 0, {start + 1, state.memory.end()}});
         StepReport report;
-        report.step = clock_.step;
-        // A state that is not the one left behind is a new start.
-        if (!motion_ || state.x != left_) {
-            motion_ = model_.make(state);
-            y_ = stage_ = rate_ = motion_->start;
-            left_.resize(state.x.size());
-        }
-        before_ = y_;
-        advanceTo(y_, clock_.step, stage_, rate_);
+        report.step = h_;
+        std::copy(state.memory.begin(), start, before_.begin());
+        advanceTo(y_, h_, stage_, rate_);
         report.cost.evaluations = 4;
+        left_.resize(width);
         motion_->embed(y_.data(), left_.data());
         for (const double x : left_)
             if (!std::isfinite(x)) report.outcome = Outcome::notFinite;
         if (report.outcome != Outcome::converged) return report;
+        std::copy(y_.begin(), y_.end(), state.memory.begin());
         state.x = left_;
-        state.t = clock_.at(++state.node);
+        state.t = until;
+        ++state.node;
         return report;
     }
     void denseOutput(double tau, std::span<double> x) const override {
         std::vector<double> y = before_, stage = before_, rate = before_;
-        advanceTo(y, tau * clock_.step, stage, rate);
+        advanceTo(y, tau * h_, stage, rate);
         motion_->embed(y.data(), x.data());
     }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Reduced>(*this); }
 
 private:
+    void makeMotion(const State& start) {
+        motion_ = model_.make(start);
+        before_ = y_ = stage_ = rate_ = motion_->start;
+        made_ = start.x;
+        made_.insert(made_.begin(), start.t);
+    }
     /// One Runge-Kutta step from before_; all of one size.
     void advanceTo(std::vector<double>& end, double h, std::vector<double>& y,
                    std::vector<double>& rate) const {
@@ -54,8 +81,9 @@ private:
     }
 
     ReducedModel model_;
-    Clock clock_;
+    double h_;
     std::optional<ReducedMotion> motion_;
+    std::vector<double> made_;  ///< t and x that motion_ was made for
     std::vector<double> y_, before_, left_, stage_, rate_;
 };
 
@@ -70,10 +98,10 @@ const ReducedModel* find(const System& system, const std::string& id) {
 BaselineEntry reducedBaseline(const std::string& id, const std::string& title,
                               const std::string& description) {
     BaselineEntry e;
-    e.item = {id, title, description, {}, Claims{}, "the spring pendulum"};
+    e.item = {id, title, description, {}, Claims{0, false, false, {}, false}, "the spring pendulum"};
     e.applies = [id](const System& system) { return find(system, id) != nullptr; };
     e.make = [id](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Reduced>(*find(system, id), options.clock);
+        return std::make_unique<Reduced>(*find(system, id), options.step);
     };
     return e;
 }

@@ -12,14 +12,19 @@ namespace {
 
 class WaveSplitting final : public WaveStep {
 public:
-    WaveSplitting(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
-                  const Splitting& splitting)
-        : WaveStep(std::move(hamiltonian), clock, 0),
+    WaveSplitting(std::shared_ptr<const Hamiltonian> hamiltonian, double step, const Splitting& splitting)
+        : WaveStep(std::move(hamiltonian), step, 0),
           splitting_(splitting),
-          psi_(static_cast<std::size_t>(n())) {
+          psi_(static_cast<std::size_t>(n())) {}
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<WaveSplitting>(*this); }
+
+private:
+    void prepare() override {
+        phases_.clear();
         const Hamiltonian& h = *shared();
-        const double unit = clock.step / h.hbar();
-        for (const SplittingStage& s : splitting.stages) {
+        const double unit = dt() / h.hbar();
+        for (const SplittingStage& s : splitting_.stages) {
             if (s.isKick && h.isTimeDependent()) {
                 phases_.emplace_back();
                 continue;
@@ -27,8 +32,8 @@ public:
             // Equal fractions share their phases: a table has each twice.
             std::size_t same = 0;
             while (same < phases_.size() &&
-                   !(splitting.stages[same].isKick == s.isKick &&
-                     splitting.stages[same].fraction == s.fraction && !phases_[same]->empty()))
+                   !(splitting_.stages[same].isKick == s.isKick &&
+                     splitting_.stages[same].fraction == s.fraction && !phases_[same]->empty()))
                 ++same;
             if (same < phases_.size()) {
                 phases_.push_back(phases_[same]);
@@ -41,10 +46,8 @@ public:
         }
         if (h.isTimeDependent()) V_.resize(psi_.size());
     }
-
-private:
-    void restart() override { hasNodes_ = false; }
-    void step(double t, Complex* v, StepReport& report) override {
+    void forget() override { hasNodes_ = false; }
+    void step(double t, Complex* v, std::vector<double>&, StepReport& report) override {
         const auto& stages = splitting_.stages;
         for (std::size_t k = 0; k < stages.size(); ++k) {
             if (!stages[k].isKick) {
@@ -77,9 +80,6 @@ private:
             x[i + 1] = re * p[i + 1] + im * p[i];
         }
     }
-    std::unique_ptr<WaveStep> withStep(const Clock& clock, double) const override {
-        return std::make_unique<WaveSplitting>(shared(), clock, splitting_);
-    }
 
     Splitting splitting_;
     std::vector<std::shared_ptr<const std::vector<Complex>>> phases_;
@@ -90,11 +90,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock,
-                                              const Splitting& splitting) {
+std::unique_ptr<Integrator> makeWaveSplitting(const System& system, double step, const Splitting& splitting) {
     requireSplit(system, "/baseline", "split-step",
                  "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
-    return std::make_unique<WaveSplitting>(system.hamiltonian(), clock, splitting);
+    return std::make_unique<WaveSplitting>(system.hamiltonian(), step, splitting);
 }
 
 BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,
@@ -109,7 +108,7 @@ BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::stri
     e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [splitting](const System& system, const BaselineOptions& options) {
-        return makeWaveSplitting(system, options.clock, splitting);
+        return makeWaveSplitting(system, options.step, splitting);
     };
     return e;
 }

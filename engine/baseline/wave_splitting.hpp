@@ -13,8 +13,7 @@
 
 namespace extremal {
 
-std::unique_ptr<Integrator> makeWaveSplitting(const System& system, const Clock& clock,
-                                              const Splitting& splitting);
+std::unique_ptr<Integrator> makeWaveSplitting(const System& system, double step, const Splitting& splitting);
 
 /// The catalogue's entry of a splitting for wave functions alone.
 BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::string description,

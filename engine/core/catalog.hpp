@@ -16,6 +16,7 @@ struct Claims {
     bool isSymmetric = false;  ///< equals its adjoint: a step forward and one back return
     bool isSymplectic = false;
     std::vector<std::string> conserves;  ///< "momentum", "quadratic invariants", "energy", ...
+    bool isOneStep = true;               ///< carries nothing from step to step but the state: no memory
     bool operator==(const Claims&) const = default;
 };
 

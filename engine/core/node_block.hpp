@@ -1,7 +1,7 @@
 /// Consecutive nodes of one run: filled by an integrator, read by observers.
 ///
 /// x(i) are the state columns at node i of the block (see State), contiguous and `width` apart. Everything is
-/// allocated once: push() never allocates.
+/// allocated once: push() never allocates. A block of one node may refer to a State in place of a copy.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,28 @@ namespace extremal {
 
 class NodeBlock {
 public:
-    NodeBlock(std::size_t width, std::size_t capacity)
-        : width_(width), t_(capacity), node_(capacity), reports_(capacity), x_(width * capacity) {}
+    /// `quantities`: how many numbers the integrator says of each step (Integrator::quantities).
+    NodeBlock(std::size_t width, std::size_t capacity, std::size_t quantities = 0)
+        : width_(width),
+          stride_(width),
+          t_(capacity),
+          node_(capacity),
+          reports_(capacity),
+          x_(width * capacity),
+          base_(x_.data()),
+          quantityCount_(quantities),
+          quantities_(quantities * capacity) {}
 
-    /// A block of one node.
-    NodeBlock(const State& state, const StepReport& report) : NodeBlock(state.x.size(), 1) {
+    /// A block of at most one node, which refers to the state pushed last: for states that are wide.
+    static NodeBlock referring(std::size_t width, std::size_t quantities) {
+        return NodeBlock(Referring{}, width, quantities);
+    }
+    /// A block of one node, which refers to the state.
+    NodeBlock(const State& state, const StepReport& report) : NodeBlock(Referring{}, state.x.size(), 0) {
         push(state, report);
     }
+    NodeBlock(const NodeBlock&) = delete;
+    NodeBlock& operator=(const NodeBlock&) = delete;
 
     void clear() { size_ = 0; }
     void truncate(std::size_t size) { size_ = std::min(size_, size); }
@@ -31,46 +46,74 @@ public:
     std::size_t capacity() const { return t_.size(); }
     std::size_t width() const { return width_; }
 
-    void push(double t, long long node, const double* x, const StepReport& report) {
-        t_[size_] = t;
-        node_[size_] = node;
+    void push(const State& state, const StepReport& report) {
+        if (stride_ == 0) {
+            base_ = state.x.data();
+            only_ = &state;
+        }
+        t_[size_] = state.t;
+        node_[size_] = state.node;
         reports_[size_] = report;
-        double* to = x_.data() + size_ * width_;
-        for (std::size_t k = 0; k < width_; ++k)
+        const double* x = state.x.data();
+        double* to = x_.data() + size_ * stride_;
+        for (std::size_t k = 0; k < stride_; ++k)
             to[k] = x[k];  // a few numbers: cheaper than a call of memmove
         ++size_;
-    }
-    void push(const State& state, const StepReport& report) {
-        push(state.t, state.node, state.x.data(), report);
     }
 
     double t(std::size_t i) const { return t_[i]; }
     std::span<const double> times() const { return {t_.data(), size_}; }
     long long node(std::size_t i) const { return node_[i]; }
-    const double* x(std::size_t i) const { return x_.data() + i * width_; }
-    State state(std::size_t i) const { return {t_[i], node_[i], {x(i), x(i) + width_}}; }
+    const double* x(std::size_t i) const { return base_ + i * stride_; }
+    /// The state itself where the block refers to one, else null.
+    const State* referredState() const { return only_; }
     /// Report of the step that ended at node i; empty at the first node of a run.
     const StepReport& report(std::size_t i) const { return reports_[i]; }
+    /// What the integrator said of the step that ended at node i; none for the first node of a run.
+    std::span<const double> quantities(std::size_t i) const {
+        return {quantities_.data() + i * quantityCount_, quantityCount_};
+    }
+    /// Where the quantities of the node pushed last belong; null where there are none.
+    double* lastQuantities() {
+        return quantityCount_ > 0 ? quantities_.data() + (size_ - 1) * quantityCount_ : nullptr;
+    }
 
     /// Number of nodes before the first that has an infinity or NaN.
     std::size_t finiteNodes() const {
-        // The sum is NaN if any value is not finite (inf - inf and 0 * inf are NaN): one pass in the usual
-        // case.
-        double sum = 0;
-        for (std::size_t k = 0; k < size_ * width_; ++k) sum += 0 * x_[k];
-        if (sum == 0) return size_;
+        // A sum is NaN if any value is not finite (inf - inf and 0 * inf are NaN); four of them do not wait
+        // for each other.
+        const std::size_t all = size_ * width_;
+        double sum[4] = {0, 0, 0, 0};
+        std::size_t k = 0;
+        for (; k + 4 <= all; k += 4)
+            for (std::size_t l = 0; l < 4; ++l) sum[l] += 0 * base_[k + l];
+        for (; k < all; ++k) sum[0] += 0 * base_[k];
+        if (sum[0] + sum[1] + sum[2] + sum[3] == 0) return size_;
         for (std::size_t i = 0; i < size_; ++i)
-            for (std::size_t k = 0; k < width_; ++k)
-                if (!std::isfinite(x(i)[k])) return i;
+            if (!std::all_of(x(i), x(i) + width_, [](double v) { return std::isfinite(v); })) return i;
         return size_;
     }
 
 private:
-    std::size_t width_, size_ = 0;
+    struct Referring {};
+    NodeBlock(Referring, std::size_t width, std::size_t quantities)
+        : width_(width),
+          stride_(0),
+          t_(1),
+          node_(1),
+          reports_(1),
+          quantityCount_(quantities),
+          quantities_(quantities) {}
+
+    std::size_t width_, stride_, size_ = 0;  ///< stride_: 0 where the block refers to a state
     std::vector<double> t_;
     std::vector<long long> node_;
     std::vector<StepReport> reports_;
     std::vector<double> x_;
+    const double* base_ = nullptr;
+    const State* only_ = nullptr;
+    std::size_t quantityCount_;
+    std::vector<double> quantities_;
 };
 
 }  // namespace extremal

@@ -1,5 +1,7 @@
 #include "engine/family/family.hpp"
 
+#include <utility>
+
 #include "engine/core/problem.hpp"
 #include "engine/family/elliptic/elliptic.hpp"
 #include "engine/family/lie/lie.hpp"
@@ -33,7 +35,10 @@ const PairFamily families[] = {
     {isOscillatory, false, describeOscillatory, completeOscillatoryRule,
      [](const System& s, const Discretization& p, const Clock& c, const SolverPolicy& policy) {
          checkFastSolver(policy);
-         return makeGalerkin(s, oscillatoryTables(s, p, c.step), c, policy);
+         auto tables = [s, p, first = c.step, made = oscillatoryTables(s, p, c.step)](double step) {
+             return step == first ? made : oscillatoryTables(s, p, step);
+         };
+         return makeGalerkin(s, std::move(tables), c.step, policy);
      }},
     {isProduct, false, describeProduct, completeProductRule,
      [](const System& s, const Discretization& p, const Clock& c, const SolverPolicy& policy) {

@@ -2,7 +2,9 @@
 /// one table for every system and step (table_of.hpp) and runs in GalerkinStep.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/family/scheme.hpp"
@@ -22,8 +24,10 @@ struct PairFamily {
 /// Null where the space is in none.
 const PairFamily* familyOf(const Settings& space);
 
-/// GalerkinStep as an Integrator, with one table for all coordinates or one for each.
-std::unique_ptr<Integrator> makeGalerkin(const System& system, std::vector<Table<double>> tables,
-                                         const Clock& clock, const SolverPolicy& policy);
+/// One table for all coordinates or one for each, for a step size.
+using TablesOfStep = std::function<std::vector<Table<double>>(double step)>;
+/// GalerkinStep as an Integrator.
+std::unique_ptr<Integrator> makeGalerkin(const System& system, TablesOfStep tables, double step,
+                                         const SolverPolicy& policy);
 
 }  // namespace extremal

@@ -13,6 +13,7 @@
 #include "engine/family/family.hpp"
 #include "engine/family/galerkin/table_of.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/wave/wave.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -247,7 +248,7 @@ Discretization settled(const Discretization& pair, const System& system, const S
     if (isOscillatory(pair.space) && pair.space.text("omega") == "estimate" && isMechanical(system))
         for (auto& [key, value] : known.space.keys)
             if (key == "omega") value = estimateFrequency(system, start);
-    return known;
+    return withShift(known, system, start);
 }
 
 Discretization trustedPair(const System& system) {

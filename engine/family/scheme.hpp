@@ -58,7 +58,8 @@ std::optional<Discretization> namedScheme(std::string_view id);
 /// Whether the pair's space can be used on the system.
 bool isPairFor(const Discretization& pair, const System& system);
 
-/// The pair with everything that depends on the start of a run decided: a frequency that is to be estimated.
+/// The pair with everything that depends on the start of a run decided: a frequency that is to be estimated,
+/// a mean energy.
 Discretization settled(const Discretization& pair, const System& system, const State& start);
 
 /// Makes the integrator of a pair for a system. Throws InvalidScene (pointer relative to the scheme).

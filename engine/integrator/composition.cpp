@@ -20,20 +20,36 @@ FieldInfo orderField() {
 
 class Composition final : public Integrator {
 public:
-    using Make = std::function<std::unique_ptr<Integrator>(const Clock&)>;
+    Composition(std::vector<double> parts, const Integrator& scheme)
+        : parts_(std::move(parts)), h_(scheme.stepSize()) {
+        for (std::size_t i = 0; i < parts_.size(); ++i) schemes_.push_back(scheme.clone());
+        setStep(h_);
+    }
+    Composition(const Composition& other)
+        : Integrator(other), parts_(other.parts_), h_(other.h_), start_(other.start_), end_(other.end_) {
+        for (const auto& scheme : other.schemes_) schemes_.push_back(scheme->clone());
+    }
+    Composition& operator=(const Composition&) = delete;
 
-    Composition(std::vector<double> parts, const Clock& clock, Make make)
-        : parts_(std::move(parts)), clock_(clock), make_(std::move(make)) {
-        for (const double g : parts_) schemes_.push_back(make_({clock.start, g * clock.step}));
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        for (std::size_t i = 0; i < parts_.size(); ++i) schemes_[i]->setStep(parts_[i] * h_);
+        shorter_.clear();
     }
 
-    StepReport advance(State& state) override {
+    void begin(State& state) override {
+        for (const auto& scheme : schemes_) scheme->begin(state);
+    }
+
+    StepReport advance(State& state, double until) override {
         work_ = state;
-        const StepReport report = compose(work_);
+        const StepReport report = compose(work_, until);
         if (report.outcome != Outcome::converged) return report;
         start_ = state;
         std::swap(state.x, work_.x);
-        state.t = clock_.at(++state.node);
+        state.t = until;
+        ++state.node;
         end_ = state;
         return report;
     }
@@ -48,46 +64,45 @@ public:
         // Those who look inside every step tend to ask for the same places.
         if (shorter_.size() >= most) shorter_.clear();
         std::unique_ptr<Composition>& part = shorter_[tau];
-        if (!part)
-            part = std::make_unique<Composition>(parts_, Clock{clock_.start, tau * clock_.step}, make_);
+        if (!part) {
+            part = std::make_unique<Composition>(*this);
+            part->setStep(tau * h_);
+        }
         State at = start_;
-        const bool isFound = part->compose(at).outcome == Outcome::converged;
+        const bool isFound = part->compose(at, start_.t + tau * h_).outcome == Outcome::converged;
         for (std::size_t i = 0; i < x.size(); ++i)
             x[i] = isFound ? at.x[i] : (1 - tau) * start_.x[i] + tau * end_.x[i];
     }
 
-    void restart() override {
-        for (const auto& scheme : schemes_) scheme->restart();
-    }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Composition>(*this); }
 
 private:
-    /// All parts, from state.t on; state.node is that of the composition.
-    StepReport compose(State& state) {
+    /// All parts, from state.t to `until`; state.node is that of the composition.
+    StepReport compose(State& state, double until) {
         StepReport report;
-        report.step = clock_.step;
+        report.step = h_;
         const double start = state.t;
         const long long node = state.node;
         double passed = 0;
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             Integrator& scheme = *schemes_[i];
             scheme.setStop(stop());
-            scheme.restart();  // its last step ended elsewhere
-            state.t = start + passed * clock_.step;
-            const StepReport part = scheme.advance(state);
+            scheme.begin(state);  // its last step ended elsewhere
+            passed += parts_[i];
+            const bool isLast = i + 1 == parts_.size();
+            const StepReport part = scheme.advance(state, isLast ? until : start + passed * h_);
             report.cost += part.cost;
             if (part.event != StepEvent::none) report.event = part.event;
             report.residual = std::max(report.residual, part.residual);
             report.outcome = part.outcome;
             if (report.outcome != Outcome::converged) break;
             state.node = node;
-            passed += parts_[i];
         }
         return report;
     }
 
     std::vector<double> parts_;
-    Clock clock_;
-    Make make_;
+    double h_;
     std::vector<std::unique_ptr<Integrator>> schemes_;
     State work_, start_, end_;
     mutable std::map<double, std::unique_ptr<Composition>> shorter_;
@@ -116,6 +131,12 @@ int defaultOrder(const Claims& scheme) { return scheme.order + 2; }
 
 std::string compositionRefusal(const Settings& composition, const Claims& scheme, std::string& hint) {
     const int order = composition.integer("order");
+    if (!scheme.isOneStep) {
+        hint = "the one-step form of the scheme, or no composition";
+        return "needs a one-step method: this scheme goes on from the level before as well, and that is a "
+               "whole "
+               "step away, while the parts of a composition are of different lengths";
+    }
     if (!scheme.isSymmetric) {
         hint =
             "compose a symmetric scheme, or two that are adjoint as one: stormer-verlet in place of "
@@ -164,9 +185,8 @@ Claims composedClaims(const Settings& composition, Claims scheme) {
     return scheme;
 }
 
-std::unique_ptr<Integrator> composed(const std::vector<double>& parts, const Clock& clock,
-                                     const std::function<std::unique_ptr<Integrator>(const Clock&)>& make) {
-    return std::make_unique<Composition>(parts, clock, make);
+std::unique_ptr<Integrator> composed(const std::vector<double>& parts, const Integrator& scheme) {
+    return std::make_unique<Composition>(parts, scheme);
 }
 
 }  // namespace extremal

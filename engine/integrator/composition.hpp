@@ -12,7 +12,6 @@
 /// Sources: Yoshida 1990; Suzuki 1990; Hairer, Lubich, Wanner 2006, II.4 and V.3.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,9 +37,8 @@ std::vector<double> compositionParts(const Settings& composition, int from);
 /// What the composition promises: the higher order, and all else that the scheme does.
 Claims composedClaims(const Settings& composition, Claims scheme);
 
-/// The steps g_i h of a scheme, one after the other, as one step. `make` makes the scheme for a clock. The
-/// curve inside a step is that of shorter steps: a composition of tau h from where the step began.
-std::unique_ptr<Integrator> composed(const std::vector<double>& parts, const Clock& clock,
-                                     const std::function<std::unique_ptr<Integrator>(const Clock&)>& make);
+/// The steps g_i h of a one-step method, one after the other, as one step; h is the step size of `scheme`.
+/// Dense output is that of shorter steps: a composition of tau h from where the step began.
+std::unique_ptr<Integrator> composed(const std::vector<double>& parts, const Integrator& scheme);
 
 }  // namespace extremal

@@ -1,49 +1,81 @@
 /// The one virtual boundary of the engine, crossed once per step.
 ///
-/// An Integrator is made for one system, one discretization and one step; it owns all the buffers its step
-/// needs, so that advance() allocates nothing. Trouble is an Outcome in the report; the state is then left as
-/// it was.
+/// An Integrator is made for one system, one discretization and one step size. The run owns time: it says
+/// where the next node is. What a scheme must remember from step to step is in the State and nowhere else;
+/// buffers, starting values of iterations and what rounding took from the last sum may stay hidden in the
+/// integrator, so that a run resumed from a State differs by round-off only. advance() allocates nothing.
+/// Trouble is an Outcome in the report; the state is then left as it was.
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <stop_token>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "engine/core/clock.hpp"
 #include "engine/core/node_block.hpp"
+#include "engine/core/quantity.hpp"
 
 namespace extremal {
+
+/// fixed: the nodes are products of the run; landing: under error control, but a step ends at the end of the
+/// run; free: the times of nodes are unknowns of the scheme.
+enum class TimeGrid { fixed, landing, free };
 
 class Integrator {
 public:
     virtual ~Integrator() = default;
 
-    /// Takes one step: state.x, state.t and state.node move to the next node.
-    virtual StepReport advance(State& state) = 0;
+    virtual TimeGrid grid() const { return TimeGrid::fixed; }
+
+    /// The step size of a fixed grid, negative where it goes back in time; 0 of other grids.
+    virtual double stepSize() const { return 0; }
+    /// Another step size, for a fixed grid. Tables are made anew, which may allocate; throws InvalidScene
+    /// where the scheme does not exist for the step. Only fixed grids have it.
+    virtual void setStep(double) {}
+
+    /// What State::memory consists of; empty for a one-step method.
+    virtual std::vector<MemoryPart> memoryParts() const { return {}; }
+    /// A run begins at this state: fills its memory from x, and forgets whatever came before. advance() calls
+    /// it where a scheme with memory meets a state without.
+    virtual void begin(State& state) { state.memory.clear(); }
+
+    /// Takes one step: x, memory and node move on. fixed: by the step size, after which t is exactly `until`;
+    /// landing: not beyond `until`; free: as far as the scheme goes.
+    virtual StepReport advance(State& state, double until) = 0;
 
     /// Takes steps until `nodes` is full, or `count` of them, or to the first trouble; each node reached is
-    /// appended. Overridden where a step is so cheap that this boundary would be felt.
-    virtual StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count) {
+    /// appended. Only on fixed grids; `clock` gives the time of each node. Overridden where a step is so
+    /// cheap that this boundary would be felt.
+    virtual StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock) {
         StepReport report;
         for (std::size_t i = 0; i < count && nodes.size() < nodes.capacity(); ++i) {
-            report = advance(state);
+            report = advance(state, clock.at(state.node + 1));
             if (report.outcome != Outcome::converged) break;
             nodes.push(state, report);
+            if (double* values = nodes.lastQuantities()) measure(values);
         }
         return report;
     }
 
-    /// The scheme's own curve inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in
+    /// What the integrator says of its last step besides the report: a discrete energy, a residual, ...
+    virtual std::span<const Quantity> quantities() const { return {}; }
+    /// Their values, one for each.
+    virtual void measure(double*) const {}
+
+    /// The scheme's own solution inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in
     /// State. Only valid after a converged advance().
     virtual void denseOutput(double tau, std::span<double> x) const = 0;
 
-    /// How often the curve of a step oscillates by itself: what a picture of it must resolve. 0 where steps
-    /// are to resolve the motion.
-    virtual double periodsPerStep() const { return 0; }
+    /// The same integrator with all that it remembers: its next step has the same bits.
+    virtual std::unique_ptr<Integrator> clone() const = 0;
 
-    /// Forgets the last step: the state given next does not continue it. Only guesses depend on what is
-    /// remembered.
-    virtual void restart() {}
+    /// How often the dense output of a step oscillates by itself: what a picture of it must resolve. 0 where
+    /// steps are to resolve the motion.
+    virtual double periodsPerStep() const { return 0; }
 
     /// How it solves its equations, where that was a choice, for people: "banded, 4.1 us a step"; else empty.
     virtual std::string about() const { return {}; }
@@ -58,11 +90,12 @@ private:
     std::stop_token stop_;
 };
 
-/// Node times of a fixed-step scheme: products, not sums, so that no round-off accumulates.
-struct Clock {
-    double start = 0;
-    double step = 0;
-    double at(long long node) const { return start + static_cast<double>(node) * step; }
-};
+/// One step on a fixed grid, to the node after the one that the state is at, for what is not a run. The start
+/// of the grid follows from t and node, so that nodes stay products.
+inline StepReport advance(Integrator& integrator, State& state) {
+    const double h = integrator.stepSize();
+    const double start = state.t - static_cast<double>(state.node) * h;
+    return integrator.advance(state, Clock{start, h}.at(state.node + 1));
+}
 
 }  // namespace extremal

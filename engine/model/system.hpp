@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "engine/core/catalog.hpp"
+#include "engine/core/quantity.hpp"
 #include "engine/core/state.hpp"
 #include "engine/model/body.hpp"
 #include "engine/model/drawing.hpp"
@@ -34,14 +35,6 @@ struct Coordinate {
     std::string symbol;  ///< in plots: "θ"
     std::string unit;    ///< "rad"; empty if dimensionless
     std::string momentumUnit;
-};
-
-/// A number that is written into every row.
-struct Quantity {
-    std::string name;    ///< in files: "attitude.w"
-    std::string title;   ///< "attitude w"; may be empty
-    std::string symbol;  ///< in plots
-    std::string unit;    ///< empty if dimensionless
 };
 
 /// A momentum that Noether's theorem conserves, as a function of the state.

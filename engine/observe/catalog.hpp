@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct ObserveContext {
     /// The pair and the step of the scheme; null for baselines, and where only the columns are asked for.
     const Discretization* pair = nullptr;
     double step = 0;
+    /// What the integrator says of each step: their values are in NodeBlock::quantities.
+    std::span<const Quantity> quantities = {};
 };
 
 /// An observable bound to one run: its columns, and a pure function from a node to their values.

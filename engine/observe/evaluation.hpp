@@ -23,6 +23,8 @@ public:
     requires std::invocable<F&, const State&, const StepReport&, double*> Evaluation(F each) {
         block_ = [each = std::move(each), state = State()](const NodeBlock& nodes, double* values,
                                                            std::size_t stride) mutable {
+            if (nodes.size() == 1 && nodes.referredState())
+                return each(*nodes.referredState(), nodes.report(0), values);
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 state.t = nodes.t(i);
                 state.node = nodes.node(i);

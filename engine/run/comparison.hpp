@@ -5,10 +5,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/core/outcome.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/step_events.hpp"
 #include "engine/family/galerkin/action_defect.hpp"
 #include "engine/family/galerkin/kkt_pattern.hpp"
 #include "engine/run/parameter_map.hpp"
@@ -49,6 +51,19 @@ struct Summary {
     double maxEnergyError = unknown;
     double energyDrift = unknown;  ///< per unit time
     double maxMomentumError = unknown, maxNormError = unknown, maxError = unknown, finalError = unknown;
+    /// The largest size over every node of the column that an observable declares for it.
+    struct Extreme {
+        std::string observable, column;
+        double value = unknown;
+    };
+    std::vector<Extreme> extremes = {};
+    /// The member above that is the extreme of an observable, or null.
+    static double Summary::*memberOf(std::string_view observable) {
+        if (observable == "energy") return &Summary::maxEnergyError;
+        if (observable == "momentum") return &Summary::maxMomentumError;
+        if (observable == "norm") return &Summary::maxNormError;
+        return observable == "error" ? &Summary::maxError : nullptr;
+    }
     int orderClaimed = 0;  ///< 0: no claim
     double orderMeasured = unknown;
     std::string advice;  ///< after a failure: what to try; for the window, not exported
@@ -73,6 +88,7 @@ struct SchemeResult {
     };
     std::vector<Section> sections = {};
     Summary summary;
+    StepEvents events = {};  ///< what happened in its steps besides going on
     /// Of pairs, where a view of the scene shows them; else null.
     std::shared_ptr<const KktPattern> pattern = {};
     std::shared_ptr<const ActionDefect> actionDefect = {};

@@ -224,7 +224,12 @@ std::string summaryCsv(const Comparison& comparison) {
 
 Value summaryValue(const Comparison& comparison) {
     Value::Array schemes, files;
-    for (const auto& scheme : comparison.schemes) schemes.push_back(summaryRow(scheme->summary));
+    for (const auto& scheme : comparison.schemes) {
+        Value &row = schemes.emplace_back(summaryRow(scheme->summary)), extremes{Value::Object{}};
+        for (const Summary::Extreme& e : scheme->summary.extremes)
+            extremes.set(e.column, knownNumber(e.value));
+        row.set("extremes", extremes);
+    }
     for (const std::string& file : fileNames(comparison)) files.emplace_back(file);
     Value reference{Value::Object{}};
     reference.set("type", comparison.reference.type);

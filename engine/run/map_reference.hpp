@@ -32,8 +32,7 @@ private:
     };
     void runScheme(const Scene& scene, const System& system, const State& initial,
                    const std::vector<double>& steps, const std::stop_token& stop);
-    void askSolution(const Scene& scene, const State& initial, const std::vector<double>& steps,
-                     const std::stop_token& stop);
+    void share(const Scene& scene, const State& initial, const std::vector<double>& steps);
 
     Reference reference_;
     std::vector<std::shared_ptr<const Table>> tables_;  ///< empty: the reference is asked itself

@@ -8,6 +8,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/map_reference.hpp"
+#include "engine/run/march.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
@@ -116,52 +117,38 @@ struct MapColumn {
     MapCell runCell(const SchemeSpec& spec, std::size_t row) const {
         const double step = grid.steps[row];
         const State start = schemeStart(scene, system, spec, step, initial);
-        const auto integrator = makeScheme(system, spec, step, start, scene.end.value);
-        integrator->setStop(stop);
+        const auto integrator = makeScheme(system, spec, step, start);
         const auto pair = pairOf(spec);
-        const Observer observer =
-            observable.bind({system, start, reference.at(row), pair ? &*pair : nullptr, step});
+        const Observer observer = observable.bind(
+            {system, start, reference.at(row), pair ? &*pair : nullptr, step, integrator->quantities()});
         const auto found = std::find_if(observer.columns.begin(), observer.columns.end(),
                                         [&](const Column& c) { return c.name == grid.column; });
         if (found == observer.columns.end()) return {MapCell::End::refused};
         const std::size_t width = observer.columns.size(), size = start.x.size();
-        const std::size_t block = std::clamp<std::size_t>(16384 / size, 1, 128);
         const double limit = 1e6 * sizeOf(start.x.data(), size);
 
-        NodeBlock nodes(size, block);
-        std::vector<double> values(width * block);
-        const double* column = values.data() + (found - observer.columns.begin());
+        std::vector<double> values;
         MapCell result;
         result.end = MapCell::End::done;
-        const auto look = [&] {
+        const MarchSink measure{[&](const Stretch& stretch) {
+            const NodeBlock& nodes = stretch.nodes;
+            values.resize(std::max(values.size(), width * nodes.capacity()));
             observer.evaluate(nodes, values.data(), width);
+            const double* column = values.data() + (found - observer.columns.begin());
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 const double value = std::abs(column[i * width]);
                 if (std::isfinite(value) && !(value <= result.value)) result.value = value;
                 if (limit > 0 && sizeOf(nodes.x(i), size) > limit) result.end = MapCell::End::blownUp;
             }
-        };
+            return result.isDone();
+        }};
         State state = start;
-        nodes.push(state, {});
-        look();
-        const long long steps = stepCount(scene.start.value, scene.end.value, step);
-        while (state.node < steps && result.end == MapCell::End::done) {
-            if (stop.stop_requested()) return {};
-            nodes.clear();
-            const auto left = static_cast<std::size_t>(
-                std::min<long long>(steps - state.node, static_cast<long long>(block)));
-            Outcome outcome = Outcome::converged;
-            while (nodes.size() < left && outcome == Outcome::converged)
-                outcome = integrator->advanceBlock(state, nodes, left - nodes.size()).outcome;
-            if (outcome == Outcome::stopped) return {};
-            if (const std::size_t finite = nodes.finiteNodes(); finite < nodes.size()) {
-                nodes.truncate(finite);
-                outcome = Outcome::notFinite;
-            }
-            look();
-            if (outcome != Outcome::converged && result.end == MapCell::End::done)
-                return {MapCell::End::failed, outcome};
-        }
+        MarchGrid nodesOfTime;
+        nodesOfTime.clock = {start.t, step};
+        nodesOfTime.steps = stepCount(scene.start.value, scene.end.value, step);
+        const Outcome outcome = march(*integrator, state, nodesOfTime, {&measure, 1}, stop).outcome;
+        if (outcome == Outcome::stopped) return {};
+        if (outcome != Outcome::converged && result.isDone()) return {MapCell::End::failed, outcome};
         return result.isDone() ? result : MapCell{result.end};
     }
 };

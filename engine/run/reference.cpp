@@ -13,6 +13,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/run/shared_solution.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
@@ -22,19 +23,24 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Runs an integrator alongside, as far as it is asked, and answers from its curve. Going back in time starts
+/// Takes an integrator as far as it is asked, and answers from its dense output. Going back in time starts
 /// anew.
-class Marching {
+class SteppedSolution {
 public:
-    Marching(std::function<std::unique_ptr<Integrator>()> make, State initial)
-        : make_(std::move(make)), initial_(std::move(initial)) {
+    using Make = std::function<std::unique_ptr<Integrator>()>;
+
+    SteppedSolution(Make make, State initial, double end)
+        : make_(std::move(make)), initial_(std::move(initial)), end_(end) {
         rewind();
     }
     void operator()(double t, std::span<double> x) {
         if (t < before_) rewind();
         while (!hasFailed_ && state_.t < t) {
             before_ = state_.t;
-            hasFailed_ = integrator_->advance(state_).outcome != Outcome::converged;
+            const bool isFixed = integrator_->grid() == TimeGrid::fixed;
+            const StepReport report =
+                integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : end_);
+            hasFailed_ = report.outcome != Outcome::converged;
         }
         if (hasFailed_)
             std::fill(x.begin(), x.end(), unknown);
@@ -47,22 +53,26 @@ public:
 private:
     void rewind() {
         integrator_ = make_();
+        clock_ = {initial_.t, integrator_->stepSize()};
         state_ = initial_;
+        integrator_->begin(state_);
         before_ = initial_.t;
         hasFailed_ = false;
     }
-    std::function<std::unique_ptr<Integrator>()> make_;
+    Make make_;
     State initial_, state_;
+    double end_;
+    Clock clock_;
     std::unique_ptr<Integrator> integrator_;
     double before_ = 0;
     bool hasFailed_ = false;
 };
 
-std::function<ExactSolution()> marching(std::function<std::unique_ptr<Integrator>()> make,
-                                        const State& initial) {
-    return [make = std::move(make), initial]() -> ExactSolution {
-        const auto march = std::make_shared<Marching>(make, initial);
-        return [march](double t, std::span<double> x) { (*march)(t, x); };
+/// `end`: where error-controlled codes land.
+std::function<ExactSolution()> stepped(SteppedSolution::Make make, const State& initial, double end) {
+    return [make = std::move(make), initial, end]() -> ExactSolution {
+        const auto solution = std::make_shared<SteppedSolution>(make, initial, end);
+        return [solution](double t, std::span<double> x) { (*solution)(t, x); };
     };
 }
 
@@ -102,13 +112,16 @@ Reference bySeries(const Scene& scene, const System& system, const State& initia
     Reference reference;
     reference.info = {"computed", 1e-15 * (1 + products), "Chebyshev series, h = " + formatNumber(step, 3)};
     const BaselineEntry* series = findBaseline("chebyshev-propagation");
-    reference.make = marching(
-        [system, series, clock = Clock{initial.t, step}, stop] {
-            auto integrator = series->make(system, {clock, 0, 0, {}});
+    reference.make = stepped(
+        [system, series, step, initial, stop] {
+            BaselineOptions options;
+            options.step = step;
+            options.start = initial;
+            auto integrator = series->make(system, options);
             integrator->setStop(stop);
             return integrator;
         },
-        initial);
+        initial, scene.end.value);
     return reference;
 }
 
@@ -117,15 +130,15 @@ Reference computed(const Scene& scene, const System& system, const State& initia
     if (isWave(system) && system.hamiltonian()->isPlane() && !system.hamiltonian()->isTimeDependent())
         return bySeries(scene, system, initial, stop);
     constexpr double maxSteps = 2e6;
-    const Discretization pair = trustedPair(system);
+    const Discretization pair = settled(trustedPair(system), system, initial);
     auto solution = [&](double step) {
-        return marching(
+        return stepped(
             [system, pair, step, start = initial.t, stop] {
                 auto integrator = makeIntegrator(system, pair, Clock{start, step});
                 integrator->setStop(stop);
                 return integrator;
             },
-            initial);
+            initial, scene.end.value);
     };
     const double length = scene.end.value - scene.start.value;
     const double w = highestFrequency(system, initial);
@@ -156,9 +169,9 @@ Reference fromScheme(const Scene& scene, const System& system, const State& init
     const SchemeSpec spec = scene.reference.scheme.front();
     // An adaptive code must not be stopped at the very end of the others by round-off.
     const double end = scene.end.value + 1e-6 * (scene.end.value - scene.start.value);
-    auto make = [system, spec, end, start = initial, stop](double step) {
+    auto make = [system, spec, start = initial, stop](double step) {
         return [=] {
-            auto integrator = makeScheme(system, spec, step, start, end);
+            auto integrator = makeScheme(system, spec, step, start);
             integrator->setStop(stop);
             return integrator;
         };
@@ -166,9 +179,9 @@ Reference fromScheme(const Scene& scene, const System& system, const State& init
     Reference reference;
     reference.info = {"scheme", unknown, spec.label};
     const State own = schemeStart(scene, system, spec, spec.step.value, initial);
-    reference.make = marching(make(spec.step.value), own);
+    reference.make = stepped(make(spec.step.value), own, end);
     if (!isAdaptive(spec)) {
-        const auto coarse = marching(make(2 * spec.step.value), own);
+        const auto coarse = stepped(make(2 * spec.step.value), own, end);
         reference.info.estimatedError =
             distance(reference.make(), coarse(), 2 * spec.step.value, scene, system, initial, stop);
     }
@@ -255,6 +268,33 @@ Reference makeReference(const Scene& scene, const System& system, const State& i
         throw InvalidScene("/reference", "no exact solution is known from these initial data",
                            "use \"auto\"");
     return computed(scene, system, initial, stop);
+}
+
+void shareReference(Reference& reference, const Scene& scene, std::size_t width) {
+    if (!reference.make || (reference.info.type != "computed" && reference.info.type != "scheme")) return;
+    constexpr double mostTimes = 5e6;
+    std::vector<Clock> grids;
+    const double start = scene.start.value, length = scene.end.value - start;
+    const bool isOrderMeasured =
+        std::find(scene.observe.begin(), scene.observe.end(), "order") != scene.observe.end();
+    for (const SchemeSpec& spec : scene.schemes) {
+        if (!spec.isEnabled || isAdaptive(spec)) continue;
+        for (const double divisor : {1.0, 2.0, 4.0})
+            if (divisor == 1 || isOrderMeasured) grids.push_back({start, spec.step.value / divisor});
+    }
+    if (scene.isDense && scene.every) grids.push_back({start, scene.every->value});
+    double all = 0;
+    for (const Clock& grid : grids) all += length / grid.step + 1;
+    if (grids.empty() || all > mostTimes) return;
+    std::vector<double> times;
+    for (const Clock& grid : grids)
+        for (long long k = 0; k <= stepCount(start, scene.end.value, grid.step); ++k)
+            times.push_back(grid.at(k));
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    if (!SharedSolution::isSmall(static_cast<double>(times.size()), width)) return;
+    const auto shared = std::make_shared<SharedSolution>(reference.make, std::move(times), width);
+    reference.make = [shared] { return SharedSolution::reader(shared); };
 }
 
 }  // namespace extremal

@@ -1,7 +1,7 @@
 /// The solution that errors are measured against, and how good it is itself.
 ///
 /// exact: the model's own; computed: Gauss collocation of degree 12 at a step refined until two of them
-/// agree, evaluated on its own curve (dense); scheme: a scheme of the user's choice; file: rows of a CSV,
+/// agree, evaluated on its dense output; scheme: a scheme of the user's choice; file: rows of a CSV,
 /// known only at their times.
 #pragma once
 
@@ -24,5 +24,9 @@ struct Reference {
 /// stopped. Throws InvalidScene for a file that cannot be used.
 Reference makeReference(const Scene& scene, const System& system, const State& initial,
                         const std::stop_token& stop);
+
+/// Makes all solutions of a computed reference readers of one, at the nodes of the scene's schemes, where
+/// memory allows. `width`: of a state.
+void shareReference(Reference& reference, const Scene& scene, std::size_t width);
 
 }  // namespace extremal

@@ -54,6 +54,7 @@ struct Run::Impl {
         if (needsReference()) {
             try {
                 ref = makeReference(scene, system, initial, stop);
+                shareReference(ref, scene, initial.x.size());
             } catch (const InvalidScene& e) {
                 ref.info.problems = e.problems();  // the run goes on without errors
             }

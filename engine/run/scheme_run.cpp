@@ -1,7 +1,5 @@
 #include "engine/run/scheme_run.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -14,18 +12,13 @@
 #include "engine/run/advice.hpp"
 #include "engine/run/inside_step.hpp"
 #include "engine/run/look_at_pair.hpp"
+#include "engine/run/march.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
-
-double threadSeconds() {
-    timespec ts{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ts);
-    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
-}
 
 /// Least-squares slope of y over x; NaN values are left out.
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
@@ -61,13 +54,15 @@ void growTo(double& extreme, double value) {
 
 }  // namespace
 
-/// One pass over the time interval with fixed sampling.
-struct SchemeRun::Pass {
+/// One march over the time interval with fixed sampling, and what it records.
+struct SchemeRun::Recording {
     struct Bound {
         Observer observer;
         std::size_t firstColumn;
-        double Summary::*extreme;
+        std::size_t extreme;   ///< index in Summary::extremes; none if the observable declares none
+        double Summary::*own;  ///< the same number under a name of its own; or null
     };
+    static constexpr auto none = static_cast<std::size_t>(-1);
     const Scene& scene;
     const SchemeSpec& spec;
     const System& system;
@@ -78,7 +73,7 @@ struct SchemeRun::Pass {
     long long maxRows = 0;  ///< adaptive: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
     bool isCurveWanted = false;
-    Observer curveError;  ///< measured along the curve as well, where a view shows it
+    Observer curveError;  ///< measured along the dense output as well, where a view shows it
     std::unique_ptr<Integrator> integrator;
     FrameKeeper frames;
     RowSampler sampler;
@@ -86,13 +81,13 @@ struct SchemeRun::Pass {
     SchemeResult result;
     State initialNode, state;
     bool isLastNodeRow = false;
-    StepReport lastReport;
+    long long nextMultiple = 1;  ///< of output.every, for dense rows
     std::vector<double> values;
     std::size_t stateWidth = 0;  ///< entries of the state that every row holds
 
-    Pass(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
-         const Reference& reference, const std::vector<std::string>& observe, double step_, long long stride,
-         int style, std::stop_token stop_)
+    Recording(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
+              const Reference& reference, const std::vector<std::string>& observe, double step_,
+              long long stride, int style, std::stop_token stop_)
         : scene(scene_),
           spec(spec_),
           system(system_),
@@ -112,7 +107,7 @@ struct SchemeRun::Pass {
         result.summary.orderClaimed = claimsOf(spec).order;
         result.trajectory.columns = leadingColumns(system);
         stateWidth = result.trajectory.columns.size() - 1;
-        integrator = makeScheme(system, spec, step, initial, scene.end.value);
+        integrator = makeScheme(system, spec, step, initial);
         integrator->setStop(stop);
         result.summary.about = integrator->about();
         bindObservers(reference, observe, initial);
@@ -121,17 +116,18 @@ struct SchemeRun::Pass {
     void bindObservers(const Reference& reference, const std::vector<std::string>& observe,
                        const State& initial) {
         const auto pair = pairOf(spec);
+        Summary& summary = result.summary;
         for (const std::string& id : observe) {
             const ObservableEntry* entry = findObservable(id);
             if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
             Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{},
-                                 pair ? &*pair : nullptr, step}),
-                    result.trajectory.columns.size(), nullptr};
+                                 pair ? &*pair : nullptr, step, integrator->quantities()}),
+                    result.trajectory.columns.size(), none, nullptr};
             if (b.observer.extreme >= 0) {
-                if (id == "energy") b.extreme = &Summary::maxEnergyError;
-                if (id == "momentum") b.extreme = &Summary::maxMomentumError;
-                if (id == "norm") b.extreme = &Summary::maxNormError;
-                if (id == "error") b.extreme = &Summary::maxError;
+                b.extreme = summary.extremes.size();
+                summary.extremes.push_back(
+                    {id, b.observer.columns[static_cast<std::size_t>(b.observer.extreme)].name});
+                b.own = Summary::memberOf(id);
             }
             for (const Column& c : b.observer.columns) result.trajectory.columns.push_back(c);
             observers.push_back(std::move(b));
@@ -139,38 +135,40 @@ struct SchemeRun::Pass {
     }
 
     /// Evaluates every observer at the nodes of a block; row i of `values` belongs to node i.
-    void look(const NodeBlock& nodes) {
+    void evaluate(const NodeBlock& nodes) {
         const std::size_t width = result.trajectory.columns.size();
         if (values.size() < width * nodes.capacity()) values.resize(width * nodes.capacity());
         for (Bound& b : observers) b.observer.evaluate(nodes, values.data() + b.firstColumn, width);
     }
-    /// The running extremes, over the block last looked at.
-    void measure(const NodeBlock& nodes) {
+    /// The running extremes, over the block last evaluated.
+    void growExtremes(const NodeBlock& nodes) {
         const std::size_t width = result.trajectory.columns.size();
+        Summary& summary = result.summary;
         for (const Bound& b : observers) {
-            if (!b.extreme) continue;
+            if (b.extreme == none) continue;
             const double* v = values.data() + b.firstColumn + static_cast<std::size_t>(b.observer.extreme);
-            double& extreme = result.summary.*(b.extreme);
+            double& extreme = summary.extremes[b.extreme].value;
             for (std::size_t i = 0; i < nodes.size(); ++i) growTo(extreme, v[i * width]);
-            if (b.extreme == &Summary::maxError) result.summary.finalError = v[(nodes.size() - 1) * width];
+            if (b.own) summary.*(b.own) = extreme;
+            if (b.own == &Summary::maxError) summary.finalError = v[(nodes.size() - 1) * width];
         }
     }
-    /// Makes node i of the block last looked at a row, `done` steps from the start.
-    void keep(const NodeBlock& nodes, std::size_t i, double done) {
+    /// Makes node i of the block last evaluated a row, `done` steps from the start.
+    void record(const NodeBlock& nodes, std::size_t i, double done) {
         const std::size_t width = result.trajectory.columns.size();
         double* row = values.data() + i * width;
         row[0] = nodes.t(i);
         std::copy_n(nodes.x(i), stateWidth, row + 1);
         for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
         result.trajectory.nodes.push_back(done);
-        if (system.field) keepFrame(nodes.t(i), nodes.x(i), false);
+        if (system.field) recordFrame(nodes.t(i), nodes.x(i), false);
         if (system.caution && result.summary.caution.empty()) {
             result.summary.caution = system.caution(nodes.x(i));
             if (!result.summary.caution.empty())
                 result.summary.caution += ", at t = " + formatNumber(nodes.t(i), 3);
         }
     }
-    void keepFrame(double t, const double* x, bool isLast) {
+    void recordFrame(double t, const double* x, bool isLast) {
         frames.offer(
             t, isLast,
             [&] {
@@ -182,18 +180,72 @@ struct SchemeRun::Pass {
             result.frames);
     }
     /// A row off the nodes, or at the last of them.
-    void keepAlone(const State& at, const StepReport& report, double done) {
+    void recordAlone(const State& at, const StepReport& report, double done) {
         const NodeBlock one(at, report);
-        look(one);
-        keep(one, 0, done);
+        evaluate(one);
+        record(one, 0, done);
     }
-    bool isDone() const { return isAdaptiveScheme ? state.t >= scene.end.value : state.node >= steps; }
-    void finish(Outcome outcome) {
+
+    void recordRows(const Stretch& stretch, bool isDense) {
+        const NodeBlock& nodes = stretch.nodes;
+        if (stretch.isStart) {
+            record(nodes, 0, 0);
+            isLastNodeRow = true;
+            return;
+        }
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            isLastNodeRow = !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
+            if (isLastNodeRow) record(nodes, i, static_cast<double>(nodes.node(i)));
+        }
+        if (isDense) recordInside(stretch);
+    }
+    /// Rows exactly at the multiples of output.every inside the last step, from dense output.
+    void recordInside(const Stretch& stretch) {
+        const double every = scene.every->value, start = scene.start.value;
+        const double before = stretch.before.t, after = stretch.state.t;
+        State at;
+        for (;; ++nextMultiple) {
+            const double t = start + static_cast<double>(nextMultiple) * every;
+            if (t > after + 1e-12 * step || t > scene.end.value + 1e-9 * every) break;
+            at.node = stretch.state.node;
+            at.x = stretch.state.x;
+            double done = static_cast<double>(stretch.state.node);
+            if (std::abs(t - after) > 1e-12 * (after - before)) {
+                const double part = (t - before) / (after - before);
+                stretch.integrator.denseOutput(part, at.x);
+                done += part - 1;
+            }
+            at.t = t;
+            recordAlone(at, stretch.soFar.last, done);
+            isLastNodeRow = t >= after - 1e-12 * (after - before);
+        }
+    }
+    /// More nodes than can be held: count on, keep nothing; a second march knows the stride.
+    void limitRows() {
+        if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows) hasOverflown = true;
+        if (!hasOverflown) return;
+        for (Column& c : result.trajectory.columns) c.values.clear();
+        result.trajectory.nodes.clear();
+        result.frames.clear();
+    }
+    void account(const MarchReport& report, const State& at) {
         Summary& s = result.summary;
-        s.tEnd = state.t;
-        s.steps = state.node;
+        s.cost = report.cost;
+        s.cpuSeconds = report.cpuSeconds;
+        s.tEnd = at.t;
+        s.steps = at.node;
+        const double length = scene.end.value - scene.start.value;
+        result.fraction = length > 0 ? std::clamp((at.t - scene.start.value) / length, 0.0, 1.0) : 1;
+    }
+
+    void finish(const MarchReport& report) {
+        account(report, state);
+        result.events = report.events;
+        Summary& s = result.summary;
+        const Outcome outcome = report.outcome;
         if (outcome == Outcome::converged) {
             s.status = RunStatus::done;
+            result.fraction = 1;
         } else {
             s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             s.cause = outcome;
@@ -202,113 +254,52 @@ struct SchemeRun::Pass {
         }
         const Column* energy = result.trajectory.find("energy_error");
         if (energy) s.energyDrift = slope(result.trajectory.columns[0].values, energy->values);
-        result.fraction = s.status == RunStatus::done ? 1 : fraction();
-    }
-    double fraction() const {
-        const double length = scene.end.value - scene.start.value;
-        return length > 0 ? std::clamp((state.t - scene.start.value) / length, 0.0, 1.0) : 1;
-    }
-
-    /// Rows exactly at the multiples of output.every inside the last step, from the scheme's own curve.
-    void lookDense(double before, const StepReport& report, long long& next) {
-        const double every = scene.every->value, start = scene.start.value;
-        for (;; ++next) {
-            const double t = start + static_cast<double>(next) * every;
-            if (t > state.t + 1e-12 * step || t > scene.end.value + 1e-9 * every) break;
-            State at = state;
-            double done = static_cast<double>(state.node);
-            if (std::abs(t - state.t) > 1e-12 * (state.t - before)) {
-                const double part = (t - before) / (state.t - before);
-                integrator->denseOutput(part, at.x);
-                done += part - 1;
-            }
-            at.t = t;
-            keepAlone(at, report, done);
-            isLastNodeRow = t >= state.t - 1e-12 * (state.t - before);
-        }
     }
 
     /// Integrates to the end or the first trouble; `publish` is called between blocks.
     template <class Publish>
-    Outcome integrate(Publish&& publish) {
-        // Long enough to be worth the clock, short enough for the cache and for a stop.
+    void run(Publish&& publish) {
         const bool isDense = scene.isDense && scene.every;
         std::optional<InsideStep> inside;
         if (isCurveWanted && stateWidth > 0)  // else no row holds a state, and there is no curve to draw
             inside.emplace(result, scene, system, isAdaptiveScheme, steps, std::move(curveError));
         if (inside && !inside->isWanted()) inside.reset();
-        if (inside) inside->start(state);
-        // The curve is that of the last step alone.
-        const std::size_t blockMax =
-            isDense || inside ? 1 : std::clamp<std::size_t>(16384 / state.x.size(), 1, 512);
-        NodeBlock nodes(state.x.size(), blockMax);
-        nodes.push(state, {});
-        look(nodes);
-        measure(nodes);
-        keep(nodes, 0, 0);
-        isLastNodeRow = true;
-        std::size_t blockSize = 1;
-        State start = state;  // of the block at hand
-        long long nextMultiple = 1;
-        Outcome outcome = Outcome::converged;
-        StepReport report;
-        while (!isDone() && outcome == Outcome::converged) {
-            if (stop.stop_requested()) return Outcome::stopped;
-            start = state;
-            const double cpu = threadSeconds();
-            nodes.clear();
-            while (outcome == Outcome::converged && nodes.size() < blockSize && !isDone()) {
-                const std::size_t left = blockSize - nodes.size();
-                report = integrator->advanceBlock(
-                    state, nodes,
-                    isAdaptiveScheme ? 1 : std::min(left, static_cast<std::size_t>(steps - state.node)));
-                outcome = report.outcome;
-            }
-            const double used = threadSeconds() - cpu;
-            result.summary.cpuSeconds += used;
-            if (used < 5e-4) blockSize = std::min(blockMax, 2 * blockSize);
-            if (used > 5e-3) blockSize = std::max<std::size_t>(1, blockSize / 2);
-            if (outcome != Outcome::converged) result.summary.cost += report.cost;
-            if (const std::size_t finite = nodes.finiteNodes(); finite < nodes.size()) {
-                outcome = Outcome::notFinite;
-                nodes.truncate(finite);
-                state = finite > 0 ? nodes.state(finite - 1) : start;
-            }
-            if (nodes.size() > 0) {
-                look(nodes);
-                measure(nodes);
-                for (std::size_t i = 0; i < nodes.size(); ++i) {
-                    result.summary.cost += nodes.report(i).cost;
-                    isLastNodeRow =
-                        !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
-                    if (isLastNodeRow) keep(nodes, i, static_cast<double>(nodes.node(i)));
-                }
-                lastReport = nodes.report(nodes.size() - 1);
-                if (isDense) lookDense(start.t, lastReport, nextMultiple);
-                if (inside) inside->look(*integrator, start, state, lastReport);
-            }
-            if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows)
-                hasOverflown = true;
-            if (hasOverflown) {
-                // More nodes than can be held: count on, keep nothing; a second pass knows the stride.
-                for (Column& c : result.trajectory.columns) c.values.clear();
-                result.trajectory.nodes.clear();
-                result.frames.clear();
-            }
-            result.fraction = fraction();
-            result.summary.tEnd = state.t;
-            result.summary.steps = state.node;
-            publish();
-        }
-        return outcome;
-    }
-
-    template <class Publish>
-    void run(Publish&& publish) {
-        const Outcome outcome = integrate(publish);
-        if (!isLastNodeRow) keepAlone(state, lastReport, static_cast<double>(state.node));
-        if (system.field) keepFrame(state.t, state.x.data(), true);
-        finish(outcome);
+        std::vector<MarchSink> sinks;
+        sinks.push_back({[&](const Stretch& stretch) {
+            evaluate(stretch.nodes);
+            growExtremes(stretch.nodes);
+            return true;
+        }});
+        sinks.push_back({[&](const Stretch& stretch) {
+                             recordRows(stretch, isDense);
+                             return true;
+                         },
+                         isDense});
+        if (inside)
+            sinks.push_back({[&](const Stretch& stretch) {
+                                 if (stretch.isStart)
+                                     inside->start(stretch.state);
+                                 else
+                                     inside->look(stretch.integrator, stretch.before, stretch.state,
+                                                  stretch.soFar.last);
+                                 return true;
+                             },
+                             true});
+        sinks.push_back({[&](const Stretch& stretch) {
+            limitRows();
+            account(stretch.soFar, stretch.state);
+            if (!stretch.isStart) publish();
+            return true;
+        }});
+        MarchGrid grid;
+        grid.clock = {scene.start.value, step};
+        grid.steps = steps;
+        grid.end = scene.end.value;
+        grid.budget = std::max(steps, static_cast<long long>(std::min(scene.maxSteps, 9e18)));
+        const MarchReport report = march(*integrator, state, grid, sinks, stop);
+        if (!isLastNodeRow) recordAlone(state, report.last, static_cast<double>(state.node));
+        if (system.field) recordFrame(state.t, state.x.data(), true);
+        finish(report);
     }
 };
 
@@ -336,14 +327,15 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
     const int style = latest()->style;
     using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
-    auto pass = [&](long long stride, long long maxRows) {
+    auto record = [&](long long stride, long long maxRows) {
         const State own = schemeStart(scene_, system, spec_, spec_.step.value, initial);
-        Pass p(scene_, spec_, system, own, reference, scene_.observe, spec_.step.value, stride, style, stop);
+        Recording p(scene_, spec_, system, own, reference, scene_.observe, spec_.step.value, stride, style,
+                    stop);
         p.maxRows = maxRows;
         p.isCurveWanted = true;
         const ObservableEntry* error = findObservable("error");
         if (showsView(scene_, "curve-error") && reference.make && error)
-            p.curveError = error->bind({system, own, reference.make(), nullptr, spec_.step.value});
+            p.curveError = error->bind({system, own, reference.make(), nullptr, spec_.step.value, {}});
         auto last = Clock_::now();
         auto pause = std::chrono::milliseconds(30);
         p.run([&] {
@@ -361,12 +353,12 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
         const bool isFree = isAdaptive(spec_) && !scene_.every;
         const long long planned =
             isAdaptive(spec_) ? 0 : stepCount(scene_.start.value, scene_.end.value, spec_.step.value);
-        Pass p = pass(isFree ? 1 : RowSampler::stride(planned), isFree ? heldRows : 0);
+        Recording p = record(isFree ? 1 : RowSampler::stride(planned), isFree ? heldRows : 0);
         SchemeResult result = std::move(p.result);
         if (isFree) {
             const long long m = RowSampler::stride(result.summary.steps);
             if (p.hasOverflown) {
-                result = std::move(pass(m, 0).result);
+                result = std::move(record(m, 0).result);
             } else if (m > 1) {
                 for (Column& c : result.trajectory.columns)
                     c.values = thinned(c.values, static_cast<std::size_t>(m));
@@ -404,7 +396,7 @@ void SchemeRun::measureOrder(SchemeResult& result, const System& system, const S
     for (const double divisor : {1.0, 2.0, 4.0}) {
         const double step = spec_.step.value / divisor;
         const State own = schemeStart(scene_, system, spec_, step, initial);
-        Pass p(scene_, spec_, system, own, reference, {"error"}, step, 1LL << 60, 0, stop);
+        Recording p(scene_, spec_, system, own, reference, {"error"}, step, 1LL << 60, 0, stop);
         p.run([] {});
         const double error = p.result.summary.maxError;
         // Round-off accumulates along the run: in the worst case, for growing errors, by every step.

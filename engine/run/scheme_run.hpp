@@ -1,8 +1,7 @@
 /// One scheme of a scene, run from start to end: nodes, rows, extremes, outcome.
 ///
-/// Steps go in blocks: the states of a block are taken first, under the clock of the thread, then looked at,
-/// so that cpu_seconds is the cost of the scheme alone. Every node is seen by the running extremes; only the
-/// rows are kept.
+/// It is a march (run/march.hpp) whose sinks grow the extremes, over every node, and record rows, frames and
+/// what is looked at inside steps.
 #pragma once
 
 #include <functional>
@@ -32,7 +31,7 @@ public:
     std::shared_ptr<const SchemeResult> latest() const;
 
 private:
-    struct Pass;
+    struct Recording;
     void publish(const SchemeResult& result);
     void measureOrder(SchemeResult& result, const System& system, const State& initial,
                       const Reference& reference, const std::stop_token& stop) const;

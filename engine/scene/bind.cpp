@@ -74,10 +74,10 @@ bool isAdaptive(const SchemeSpec& scheme) {
 
 namespace {
 
-std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& scheme, const Clock& clock,
-                                      const State& start, double end) {
+std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& scheme, double step,
+                                      const State& start) {
     if (const auto pair = innerPairOf(scheme))
-        return makeIntegrator(system, settled(*pair, system, start), clock);
+        return makeIntegrator(system, settled(*pair, system, start), {start.t, step});
     const BaselineEntry* entry = findBaseline(scheme.baseline.type);
     if (!entry) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
     if (!appliesTo(*entry, system)) {
@@ -89,8 +89,8 @@ std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& sc
                            fitting.empty() ? "take a pair" : "it has " + joinNames(fitting));
     }
     BaselineOptions options;
-    options.clock = clock;
-    options.end = end;
+    options.step = step;
+    options.start = start;
     options.tolerance = scheme.tolerance.value_or(0);
     options.settings = scheme.baseline;
     return entry->make(system, options);
@@ -99,13 +99,10 @@ std::unique_ptr<Integrator> makeInner(const System& system, const SchemeSpec& sc
 }  // namespace
 
 std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step,
-                                       const State& start, double end) {
-    const Clock clock{start.t, step};
-    if (scheme.composition.type.empty()) return makeInner(system, scheme, clock, start, end);
-    return composed(compositionParts(scheme.composition, innerClaimsOf(scheme).order), clock,
-                    [system, scheme, start, end](const Clock& part) {
-                        return makeInner(system, scheme, part, start, end);
-                    });
+                                       const State& start) {
+    auto integrator = makeInner(system, scheme, step, start);
+    if (scheme.composition.type.empty()) return integrator;
+    return composed(compositionParts(scheme.composition, innerClaimsOf(scheme).order), *integrator);
 }
 
 double stabilityLimitOf(const SchemeSpec& scheme) {

@@ -32,9 +32,9 @@ double stabilityLimitOf(const SchemeSpec& scheme);
 
 bool isAdaptive(const SchemeSpec& scheme);
 
-/// The integrator of a scheme with the given step, from a state to `end`. Throws InvalidScene.
+/// The integrator of a scheme with the given step, for a run from a state. Throws InvalidScene.
 std::unique_ptr<Integrator> makeScheme(const System& system, const SchemeSpec& scheme, double step,
-                                       const State& start, double end);
+                                       const State& start);
 
 /// Number of whole steps from start to the last node not after end + 1e-9 step.
 long long stepCount(double start, double end, double step);

@@ -187,7 +187,7 @@ void tryToMake(Reader& reader, const System& system, const Scene& scene, const S
                const std::string& pointer) {
     try {
         const State initial = initialState(scene, system);
-        makeScheme(system, scheme, scheme.step.value, initial, scene.end.value);
+        makeScheme(system, scheme, scheme.step.value, initial);
         schemeStart(scene, system, scheme, scheme.step.value, initial);
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);

@@ -32,10 +32,10 @@ double measure(const SchemeSpec& scheme) {
     if (!runsOn(system, scheme)) return 0;
     return firstInstability(
         [&](double z) {
-            const auto step = makeScheme(system, scheme, z, State{0, 0, {1, 0}}, z);
+            const auto step = makeScheme(system, scheme, z, State{0, 0, {1, 0}});
             State one{0, 0, {1, 0}}, other{0, 0, {0, 1}};
-            const bool isSolved = step->advance(one).outcome == Outcome::converged &&
-                                  step->advance(other).outcome == Outcome::converged;
+            const bool isSolved = advance(*step, one).outcome == Outcome::converged &&
+                                  advance(*step, other).outcome == Outcome::converged;
             return isSolved ? (one.x[0] + other.x[1]) / 2 : std::numeric_limits<double>::quiet_NaN();
         },
         resolution);

@@ -21,14 +21,19 @@ double predictSeconds(const Scene& scene, const System& system, const SchemeSpec
     constexpr int largestBlock = 1024;
     const double start = scene.start.value, end = scene.end.value;
     const State initial = initialState(scene, system);
-    const auto integrator = makeScheme(system, scheme, scheme.step.value, initial, end);
+    const auto integrator = makeScheme(system, scheme, scheme.step.value, initial);
     State state = schemeStart(scene, system, scheme, scheme.step.value, initial);
+    integrator->begin(state);
+    const bool isFixed = integrator->grid() == TimeGrid::fixed;
+    const Clock nodes{state.t, integrator->stepSize()};
     const double begin = threadSeconds();
     double spent = 0;
     // Blocks that double: reading the clock costs as much as a cheap step.
     for (int block = 1; block <= largestBlock && state.t < end && spent < budget; block *= 2) {
         for (int i = 0; i < block && state.t < end; ++i)
-            if (integrator->advance(state).outcome != Outcome::converged) return 0;
+            if (integrator->advance(state, isFixed ? nodes.at(state.node + 1) : end).outcome !=
+                Outcome::converged)
+                return 0;
         spent = threadSeconds() - begin;
     }
     return state.t > start ? spent * (end - start) / (state.t - start) : 0;

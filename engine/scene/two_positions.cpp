@@ -68,10 +68,10 @@ Outcome shoot(const Scene& scene, const System& system, const SchemeSpec& scheme
     const Eigen::VectorXd q1 = valuesOf(scene.initial.pOrV);
     const State exact = stateOf(scene, p0);
     auto reach = [&](const Eigen::VectorXd& p, Eigen::VectorXd& q) {
-        const auto integrator = makeScheme(system, scheme, step, exact, scene.end.value);
+        const auto integrator = makeScheme(system, scheme, step, exact);
         State state = stateOf(scene, p);
         for (int k = 0; k < n; ++k)
-            if (integrator->advance(state).outcome != Outcome::converged) return false;
+            if (advance(*integrator, state).outcome != Outcome::converged) return false;
         q = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
         return q.allFinite();
     };

@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
         long long iterations = 0;
         for (int k = 1; k <= samples; ++k) {
             for (long long i = 0; i < steps / samples; ++i) {
-                const StepReport report = integrator->advance(state);
+                const StepReport report = advance(*integrator, state);
                 if (report.outcome != Outcome::converged) {
                     std::printf("orbit %d failed at t = %g\n", orbit, state.t);
                     return 1;

@@ -54,7 +54,7 @@ Cost run(const Problem& p, const Make& make, double step) {
     nodes.reserve(static_cast<std::size_t>(10 / step) + 2);
     const auto stride = static_cast<long long>(std::llround(std::max(1.0, 0.1 / step)));
     while (state.t < 10 - step / 2) {
-        const StepReport report = integrator->advance(state);
+        const StepReport report = advance(*integrator, state);
         if (report.outcome != Outcome::converged) return cost;
         cost.evaluations += report.cost.evaluations;
         if (state.node % stride == 0) nodes.push_back({state.t, state.x[0], state.x[1]});
@@ -93,7 +93,7 @@ std::vector<std::pair<std::string, Discretization>> pairs() {
 Make impulse(int order) {
     Settings keys{"impulse", {{"order", static_cast<double>(order)}}, {}};
     return [keys, make = findBaseline("impulse")->make](const System& s, const Clock& c) {
-        return make(s, {c, 10, 0, keys});
+        return make(s, {c.step, {}, 0, keys});
     };
 }
 
@@ -159,7 +159,7 @@ Problem problemOf(double k) {
     State state = p.start();
     p.reference.push_back({state.x[0], state.x[1]});
     while (state.t < 10 - 0.01) {
-        if (integrator->advance(state).outcome != Outcome::converged) break;
+        if (advance(*integrator, state).outcome != Outcome::converged) break;
         if (state.node % 2 == 0) p.reference.push_back({state.x[0], state.x[1]});
     }
     return p;

@@ -57,7 +57,7 @@ double galerkin(const System& kepler, int degree, int steps) {
     const auto integrator = makeIntegrator(kepler, pair, {0, end / steps});
     State state{0, 0, {0.4, 0, 0, 2}};
     for (int k = 0; k < steps; ++k)
-        if (integrator->advance(state).outcome != Outcome::converged) return HUGE_VAL;
+        if (advance(*integrator, state).outcome != Outcome::converged) return HUGE_VAL;
     return std::hypot(state.x[0] - 0.4, state.x[1]);
 }
 

@@ -66,8 +66,8 @@ double runSplitting(const System& system, int order, double steps) {
     const auto n = static_cast<long long>(steps);
     const auto integrator =
         findBaseline("rigid-splitting")
-            ->make(system, {{0, T / static_cast<double>(n)},
-                            0,
+            ->make(system, {T / static_cast<double>(n),
+                            {},
                             0,
                             {"rigid-splitting", {{"order", static_cast<double>(order)}}, {}}});
     const auto end = after(*integrator, bodyState(standard().start), n);

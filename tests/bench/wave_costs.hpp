@@ -66,7 +66,7 @@ inline Method pairMethod(int degree, const char* solver, double tolerance) {
         const auto integrator = makeIntegrator(p.system, gauss(degree, solver, tolerance), {0, p.T / n});
         State state = p.start;
         for (int k = 0; k < n; ++k)
-            if (integrator->advance(state).outcome != Outcome::converged) return std::vector<double>();
+            if (advance(*integrator, state).outcome != Outcome::converged) return std::vector<double>();
         return state.x;
     };
 }
@@ -75,7 +75,7 @@ inline Method baselineMethod(const char* id) {
     return [=](const Problem& p, int n) {
         const auto integrator = findBaseline(id)->make(p.system, {{0, p.T / n}, 0, 0, {id, {}, {}}});
         State state = p.start;
-        for (int k = 0; k < n; ++k) (void)integrator->advance(state);
+        for (int k = 0; k < n; ++k) (void)advance(*integrator, state);
         return state.x;
     };
 }

@@ -29,7 +29,7 @@ System harmonic() {
 State integrate(const System& system, const Discretization& pair, State state, double step, int steps) {
     const auto integrator = makeIntegrator(system, pair, Clock{0, step});
     for (int i = 0; i < steps; ++i)
-        if (integrator->advance(state).outcome != Outcome::converged) return {};
+        if (advance(*integrator, state).outcome != Outcome::converged) return {};
     return state;
 }
 

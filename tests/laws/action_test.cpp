@@ -48,7 +48,7 @@ Path pathOf(Integrator& integrator, State state, int n) {
         path.q.col(k) = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
         path.p.col(k) = Eigen::Map<const Eigen::VectorXd>(state.x.data() + d, d);
         if (k == n) return path;
-        if (integrator.advance(state).outcome != Outcome::converged) return {};
+        if (advance(integrator, state).outcome != Outcome::converged) return {};
     }
 }
 

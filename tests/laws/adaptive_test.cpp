@@ -24,12 +24,12 @@ struct AdaptiveRun {
 AdaptiveRun runTo(const BaselineEntry& entry, const System& system, State state, double end, double tolerance,
                   long long most = 1000000) {
     AdaptiveRun r;
-    const auto integrator = entry.make(system, {{state.t, 0}, end, tolerance, defaultsOf(entry.item)});
+    const auto integrator = entry.make(system, {0, state, tolerance, defaultsOf(entry.item)});
     const ExactSolution exact = system.exact ? system.exact(state) : ExactSolution{};
     std::vector<double> x(state.x.size()), y = x;
     while (state.t < end && state.node < most) {
         const double before = state.t;
-        const StepReport report = integrator->advance(state);
+        const StepReport report = integrator->advance(state, end);
         r.outcome = report.outcome;
         if (report.outcome != Outcome::converged) break;
         if (!exact) continue;
@@ -97,13 +97,13 @@ private slots:
         // Parts of the steps of a run: their errors are those of one step of the formula, one order higher.
         // The mean of their logarithms over three revolutions, as every term of the error passes zero
         // somewhere.
-        const auto integrator = current().make(kepler_, {{0, 0}, 20, 1e-9, {}});
+        const auto integrator = current().make(kepler_, {0, {}, 1e-9, {}});
         std::vector<double> x(4), y(4), h, q(4, 0.0), p(4, 0.0);
         for (std::size_t i = 0; i < 4; ++i) h.push_back(std::log(std::pow(0.8, static_cast<double>(i))));
         State state = keplerStart;
         while (state.t < 20) {
             const State start = state;
-            QCOMPARE(integrator->advance(state).outcome, Outcome::converged);
+            QCOMPARE(integrator->advance(state, 20).outcome, Outcome::converged);
             const ExactSolution local = kepler_.exact(start);
             for (std::size_t i = 0; i < 4; ++i) {
                 local(start.t + std::exp(h[i]) * (state.t - start.t), x);
@@ -124,12 +124,12 @@ private slots:
     void theCurveMeetsTheNodes_data() { addEntries(); }
     void theCurveMeetsTheNodes() {
         constexpr double tolerance = 1e-8;
-        const auto integrator = current().make(kepler_, {{0, 0}, 10, tolerance, {}});
+        const auto integrator = current().make(kepler_, {0, {}, tolerance, {}});
         State state = keplerStart;
         std::vector<double> x(4);
         while (state.t < 10) {
             const State before = state;
-            QCOMPARE(integrator->advance(state).outcome, Outcome::converged);
+            QCOMPARE(integrator->advance(state, 10).outcome, Outcome::converged);
             integrator->denseOutput(0, x);
             QVERIFY(distance(x, before.x, 0, 4) < 100 * tolerance);
             integrator->denseOutput(1, x);
@@ -147,26 +147,26 @@ private slots:
     }
     void aStopIsHeard_data() { addEntries(); }
     void aStopIsHeard() {
-        const auto integrator = current().make(kepler_, {{0, 0}, 10, 1e-8, {}});
+        const auto integrator = current().make(kepler_, {0, {}, 1e-8, {}});
         State state = keplerStart;
-        QCOMPARE(integrator->advance(state).outcome, Outcome::converged);
+        QCOMPARE(integrator->advance(state, 10).outcome, Outcome::converged);
         const State before = state;
         std::stop_source stop;
         stop.request_stop();
         integrator->setStop(stop.get_token());
-        QCOMPARE(integrator->advance(state).outcome, Outcome::stopped);
+        QCOMPARE(integrator->advance(state, 10).outcome, Outcome::stopped);
         QCOMPARE(state.x, before.x);
         QCOMPARE(state.t, before.t);
     }
     void anotherStateIsTakenUp_data() { addEntries(); }
     void anotherStateIsTakenUp() {
         // Nothing learnt on one orbit may leak into another.
-        const auto used = current().make(kepler_, {{0, 0}, 10, 1e-8, {}});
+        const auto used = current().make(kepler_, {0, {}, 1e-8, {}});
         State state = keplerStart;
-        for (int i = 0; i < 5; ++i) QCOMPARE(used->advance(state).outcome, Outcome::converged);
+        for (int i = 0; i < 5; ++i) QCOMPARE(used->advance(state, 10).outcome, Outcome::converged);
         State other{0, 0, {1, 0, 0, 1}};
         const ExactSolution exact = kepler_.exact(other);
-        while (other.t < 10) QCOMPARE(used->advance(other).outcome, Outcome::converged);
+        while (other.t < 10) QCOMPARE(used->advance(other, 10).outcome, Outcome::converged);
         std::vector<double> x(4);
         exact(10, x);
         QVERIFY(distance(other.x, x, 0, 4) < 1e-4);

@@ -17,9 +17,9 @@ private slots:
             for (const Case& c : everyScheme(8, s)) {
                 const auto integrator = c.make(s, {0, 0.005});
                 State state = start;
-                for (int i = 0; i < 3; ++i) (void)integrator->advance(state);
+                for (int i = 0; i < 3; ++i) (void)advance(*integrator, state);
                 const long long before = allocations;
-                for (int i = 0; i < 100; ++i) (void)integrator->advance(state);
+                for (int i = 0; i < 100; ++i) (void)advance(*integrator, state);
                 QVERIFY2(allocations == before, (c.name + " on " + id).c_str());
             }
         }
@@ -36,10 +36,10 @@ private slots:
             for (const Case& c : everyScheme(8, s)) {
                 const auto integrator = c.make(s, {0, 0.02});
                 State state = start;
-                for (int i = 0; i < 3; ++i) (void)integrator->advance(state);
+                for (int i = 0; i < 3; ++i) (void)advance(*integrator, state);
                 const long long before = allocations;
                 for (int i = 0; i < 100; ++i)
-                    QVERIFY(integrator->advance(state).outcome == Outcome::converged);
+                    QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
                 QVERIFY2(allocations == before, (c.name + " on " + s.id).c_str());
             }
         }

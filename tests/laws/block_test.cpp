@@ -20,10 +20,10 @@ private slots:
                 State a = start, b = start;
                 for (const std::size_t size : {1UL, 2UL, 37UL, 5UL}) {
                     NodeBlock nodes(4, size);
-                    QVERIFY(many->advanceBlock(b, nodes, 1000).outcome == Outcome::converged);
+                    QVERIFY(many->advanceBlock(b, nodes, 1000, {0, 0.005}).outcome == Outcome::converged);
                     QCOMPARE(nodes.size(), size);
                     for (std::size_t i = 0; i < size; ++i) {
-                        const StepReport report = one->advance(a);
+                        const StepReport report = advance(*one, a);
                         QVERIFY2(std::equal(a.x.begin(), a.x.end(), nodes.x(i)),
                                  (c.name + " on " + id).c_str());
                         QVERIFY(nodes.t(i) == a.t && nodes.node(i) == a.node);
@@ -40,13 +40,13 @@ private slots:
     }
     void nodesBeforeTroubleAreTold() {
         NodeBlock nodes(2, 3);
-        nodes.push(0, 0, std::vector<double>{1, -2}.data(), {});
-        nodes.push(1, 1, std::vector<double>{1e308, 0}.data(), {});
+        nodes.push(State{0, 0, {1, -2}}, {});
+        nodes.push(State{1, 1, {1e308, 0}}, {});
         QCOMPARE(nodes.finiteNodes(), std::size_t{2});
-        nodes.push(2, 2, std::vector<double>{0, HUGE_VAL}.data(), {});
+        nodes.push(State{2, 2, {0, HUGE_VAL}}, {});
         QCOMPARE(nodes.finiteNodes(), std::size_t{2});
         nodes.truncate(1);
-        nodes.push(2, 2, std::vector<double>{std::nan(""), 0}.data(), {});
+        nodes.push(State{2, 2, {std::nan(""), 0}}, {});
         QCOMPARE(nodes.finiteNodes(), std::size_t{1});
     }
 };

@@ -23,7 +23,7 @@ LongRun longRun(const System& system, const Discretization& pair, const State& s
     const auto integrator = makeIntegrator(system, pair, {0, h});
     State s = start;
     for (long long k = 0; k < steps; ++k) {
-        if (integrator->advance(s).outcome != Outcome::converged) {
+        if (advance(*integrator, s).outcome != Outcome::converged) {
             r.hasFailed = true;
             return r;
         }
@@ -183,8 +183,8 @@ private slots:
             const auto full = makeIntegrator(s, liePair(degree, {"gauss", {}, {}}, false, false), {0, 0.25});
             State a = bodyState(standard().start, {0.5, 0.5, -0.5, 0.5}), b = a;
             for (int k = 0; k < 1000; ++k) {
-                QVERIFY(reduced->advance(a).outcome == Outcome::converged);
-                QVERIFY(full->advance(b).outcome == Outcome::converged);
+                QVERIFY(advance(*reduced, a).outcome == Outcome::converged);
+                QVERIFY(advance(*full, b).outcome == Outcome::converged);
             }
             const double difference = largestDifference(a.x, b.x);
             qInfo("degree %d: %.1e after 1000 steps", degree, difference);
@@ -221,14 +221,14 @@ private slots:
             const auto fine = makeIntegrator(body.system(), liePair(4), {0, 0.01});
             State s = bodyState(body.start), f = s;
             std::vector<double> x(10);
-            (void)integrator->advance(s);
+            (void)advance(*integrator, s);
             integrator->denseOutput(1, x);
             QVERIFY(largestDifference(x, s.x) < 1e-14);
             integrator->denseOutput(0, x);
             QVERIFY(largestDifference(x, bodyState(body.start).x) < 1e-14);
             double worst = 0;
             for (int k = 1; k < 20; ++k) {
-                (void)fine->advance(f);
+                (void)advance(*fine, f);
                 integrator->denseOutput(0.05 * k, x);
                 worst = std::max({worst, attitudeError(x, {f.x[0], f.x[1], f.x[2], f.x[3]}),
                                   momentumError(x, {f.x[4], f.x[5], f.x[6]})});
@@ -248,7 +248,7 @@ private slots:
                 const auto integrator = makeIntegrator(s, liePair(degree), {0, h});
                 StepReport report;
                 for (int k = 0; k < 20 && report.outcome == Outcome::converged; ++k)
-                    report = integrator->advance(state);
+                    report = advance(*integrator, state);
                 qInfo("degree %d, h = %g: %s after %lld steps", degree, h,
                       std::string(name(report.outcome)).c_str(), state.node);
                 if (h <= 1) QVERIFY(report.outcome == Outcome::converged);

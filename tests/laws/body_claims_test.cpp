@@ -37,7 +37,7 @@ std::vector<Case> everyBodyScheme(const System& system) {
             if (keys.find("projection")) name += keys.flag("projection") ? " projected" : " unprojected";
             cases.push_back({name, e.claims ? e.claims(keys) : *e.item.claims,
                              [make = e.make, keys](const System& s, const Clock& c) {
-                                 return make(s, {c, 0, 0, keys});
+                                 return make(s, {c.step, {}, 0, keys});
                              }});
         }
     }
@@ -163,7 +163,7 @@ private slots:
         const auto integrator = c.make(system(), {0, 0.1});
         double momentum = 0, drift = 0, early = 0, late = 0;
         for (int k = 0; k < 20000; ++k) {
-            QVERIFY(integrator->advance(s).outcome == Outcome::converged);
+            QVERIFY(advance(*integrator, s).outcome == Outcome::converged);
             for (const MomentumMap& map : system().momenta)
                 momentum = std::max(momentum, std::abs(map.value(s.x.data(), s.x.data()) -
                                                        map.value(first.x.data(), first.x.data())));

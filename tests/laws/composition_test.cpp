@@ -9,6 +9,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/measured_order.hpp"
+#include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::composition_test {
@@ -23,9 +24,7 @@ Case composedCase(const Case& scheme, const Settings& composition) {
     c.name = composition.type + "-" + std::to_string(composition.integer("order")) + " of " + scheme.name;
     c.claims = composedClaims(composition, scheme.claims);
     c.make = [make = scheme.make, parts = compositionParts(composition, scheme.claims.order)](
-                 const System& s, const Clock& clock) {
-        return composed(parts, clock, [make, s](const Clock& part) { return make(s, part); });
-    };
+                 const System& s, const Clock& clock) { return composed(parts, *make(s, clock)); };
     return c;
 }
 
@@ -50,9 +49,27 @@ Case named(const std::string& name) {
 Orders orderOf(const Case& scheme, const System& system, const State& start) {
     return measure(system, start, 3, 1e-3, [&](double h) {
         return [integrator = std::shared_ptr<Integrator>(scheme.make(system, {0, h}))](State& state) {
-            return integrator->advance(state).outcome == Outcome::converged;
+            return advance(*integrator, state).outcome == Outcome::converged;
         };
     });
+}
+
+/// The order of a scheme of a scene for wave functions or bodies, from errors down to `least`.
+double orderInScene(const std::string& ground, const std::string& scheme, double least, double& finest) {
+    const auto errorOf = [&](int n) {
+        const ReadScene read = readScene(ground + ",\"time\":{\"end\":1},\"schemes\":[{\"step\":\"1/" +
+                                         std::to_string(n) + "\"," + scheme + "}]}");
+        if (!read.errors.empty()) throw std::runtime_error(read.errors.front().message);
+        const System system = makeSystem(read.scene);
+        const State start = initialState(read.scene, system);
+        const SchemeSpec& spec = read.scene.schemes.front();
+        const auto end = after(*makeScheme(system, spec, spec.step.value, start), start, n);
+        std::vector<double> exact(start.x.size());
+        system.exact(start)(1, exact);
+        finest = end ? distance(end->x, exact, 0, exact.size()) : 1e300;
+        return finest;
+    };
+    return timeOrder(errorOf, least);
 }
 
 double returnDefect(const Case& scheme, const System& system) {
@@ -113,13 +130,59 @@ private slots:
             QVERIFY(std::abs(o.p - current().claims.order) < (isKepler ? 0.15 : 0.3));
         }
     }
+    void wavesAndBodiesAreComposedAsWell_data() {
+        QTest::addColumn<QString>("ground");
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<int>("order");
+        const char* wave =
+            R"({"extremal":1,"model":{"type":"schrodinger","modes":64,"potential":"1 - cos(x) "},)"
+            R"("initial":{"psi":{"packet":"periodic-gaussian","kappa":4,"centre":0.6,"wave_number":2}})";
+        const char* body =
+            R"({"extremal":1,"model":{"type":"rigid-body"},"initial":{"attitude":[1,0,0,0],"momentum":[0.5,0.2,0.8]})";
+        const auto row = [](const char* name, const char* ground, const char* scheme, int order) {
+            QTest::newRow(name) << QString(ground) << QString(scheme) << order;
+        };
+        row("Gauss 2, suzuki", wave, R"("scheme":"schrodinger-gauss-1","composition":"suzuki")", 4);
+        row("Gauss 2, yoshida", wave, R"("scheme":"schrodinger-gauss-1","composition":"yoshida")", 4);
+        row("Gauss 4, yoshida", wave, R"("scheme":"schrodinger-gauss-2","composition":"yoshida")", 6);
+        row("slabs, yoshida", wave,
+            R"("space":{"type":"space-time","degree":1,"slabs":2},"composition":"yoshida")", 4);
+        row("roots, suzuki", wave,
+            R"("baseline":{"name":"spectral-collocation","degree":2,"nodes":"roots"},"composition":"suzuki")",
+            4);
+        row("Crank-Nicolson, suzuki", wave, R"("baseline":"crank-nicolson","composition":"suzuki")", 4);
+        row("Strang, suzuki", wave, R"("baseline":"strang","composition":"suzuki")", 4);
+        row("Lie 2, suzuki", body, R"("scheme":"lie-symmetric-1","composition":"suzuki")", 4);
+        row("Lie 4, yoshida", body, R"("scheme":"lie-symmetric-2","composition":"yoshida")", 6);
+        row("splitting, yoshida", body, R"("baseline":"rigid-splitting","composition":"yoshida")", 4);
+    }
+    void wavesAndBodiesAreComposedAsWell() {
+        QFETCH(QString, ground);
+        QFETCH(QString, scheme);
+        QFETCH(int, order);
+        double finest = 0;
+        const double measured = orderInScene(ground.toStdString(), scheme.toStdString(), 1e-11, finest);
+        qInfo("order %.2f of %d, down to %.1e", measured, order, finest);
+        QVERIFY(std::abs(measured - order) < 0.3);
+    }
+    void schemesOfMoreLevelsAreRefused() {
+        for (const char* scheme : {R"("scheme":"schrodinger-three-level")", R"("baseline":"leapfrog")"}) {
+            const ReadScene read = readScene(
+                R"({"extremal":1,"model":{"type":"schrodinger","modes":64,"potential":"1 - cos(x) "},)"
+                R"("initial":{"psi":{"packet":"periodic-gaussian","kappa":4,"centre":0.6,"wave_number":2}},)"
+                R"("time":{"end":1},"schemes":[{"step":0.001,)" +
+                std::string(scheme) + R"(,"composition":"suzuki"}]})");
+            QCOMPARE(read.errors.size(), std::size_t{1});
+            QCOMPARE(read.errors[0].pointer, std::string("/schemes/0/composition"));
+            QVERIFY(read.errors[0].message.find("one-step") != std::string::npos);
+        }
+    }
     void wrongPartsGainNothing() {
         // The parts for a scheme of order 4, on one of order 2: their cubes do not sum to zero.
         const Case midpoint = named("midpoint");
         Case broken = midpoint;
         broken.make = [make = midpoint.make](const System& s, const Clock& clock) {
-            return composed(compositionParts(to("yoshida", 6), 4), clock,
-                            [make, s](const Clock& part) { return make(s, part); });
+            return composed(compositionParts(to("yoshida", 6), 4), *make(s, clock));
         };
         const Orders o = orderOf(broken, kepler_, keplerStart);
         qInfo("measured %.3f", o.q);
@@ -132,12 +195,11 @@ private slots:
         QVERIFY(!compositionRefusal(to("yoshida", 4), euler.claims, hint).empty() && !hint.empty());
         Case forced = euler;
         forced.make = [make = euler.make](const System& s, const Clock& clock) {
-            return composed(compositionParts(to("yoshida", 4), 2), clock,
-                            [make, s](const Clock& part) { return make(s, part); });
+            return composed(compositionParts(to("yoshida", 4), 2), *make(s, clock));
         };
         const Orders o = measure(kepler_, keplerStart, 3, 3e-2, [&](double h) {
             return [step = std::shared_ptr<Integrator>(forced.make(kepler_, {0, h}))](State& state) {
-                return step->advance(state).outcome == Outcome::converged;
+                return advance(*step, state).outcome == Outcome::converged;
             };
         });
         qInfo("measured %.3f", o.q);
@@ -150,16 +212,9 @@ private slots:
         QVERIFY(defect < 1e-9);
     }
     void partsThatAreNoPalindromeDoNotReturn() {
-        // Parts 0.3 and 0.7 of two different schemes.
-        const Case midpoint = named("midpoint"), verlet = named("stormer-verlet");
-        Case broken = midpoint;
-        broken.make = [=](const System& s, const Clock& clock) {
-            auto isFirst = std::make_shared<bool>(true);
-            return composed({0.3, 0.7}, clock, [=](const Clock& part) {
-                const bool first = *isFirst;
-                *isFirst = false;
-                return first ? midpoint.make(s, part) : verlet.make(s, part);
-            });
+        Case broken = named("midpoint");
+        broken.make = [make = broken.make](const System& s, const Clock& clock) {
+            return composed({0.1, 0.2, 0.7}, *make(s, clock));
         };
         QVERIFY(returnDefect(broken, kepler_) > 1e-6);
     }
@@ -183,7 +238,7 @@ private slots:
             double worst = 0;
             std::vector<double> x(4), e(4);
             for (int k = 0; k < static_cast<int>(std::lround(1 / h)); ++k) {
-                QVERIFY(step->advance(state).outcome == Outcome::converged);
+                QVERIFY(advance(*step, state).outcome == Outcome::converged);
                 for (const double tau : {0.0, 0.25, 0.5, 0.8, 1.0}) {
                     step->denseOutput(tau, x);
                     exact(state.t - (1 - tau) * h, e);
@@ -201,7 +256,7 @@ private slots:
         const auto step = c.make(kepler_, {0, 1e3});
         State state{0, 0, {1e-9, 0, 0, 0}};
         const State before = state;
-        if (step->advance(state).outcome != Outcome::converged) QCOMPARE(state.x, before.x);
+        if (advance(*step, state).outcome != Outcome::converged) QCOMPARE(state.x, before.x);
         QVERIFY(state.node == 0 ? state.t == 0 : state.t == 1e3);
     }
     void scenesSayWhatIsComposed() {

@@ -24,10 +24,8 @@ std::vector<Case> schemesOn(const System& system) {
         Case made = c;
         made.name = composition.type + " of " + c.name;
         made.claims = composedClaims(composition, c.claims);
-        made.make = [make = c.make, parts = compositionParts(composition, 2)](const System& s,
-                                                                              const Clock& clock) {
-            return composed(parts, clock, [make, s](const Clock& part) { return make(s, part); });
-        };
+        made.make = [make = c.make, parts = compositionParts(composition, 2)](
+                        const System& s, const Clock& clock) { return composed(parts, *make(s, clock)); };
         cases.push_back(std::move(made));
     }
     return cases;
@@ -93,7 +91,7 @@ double symplecticDefect(const Subject& on, const Case& scheme) {
             for (const int sign : {1, -1}) {
                 State s = on.start;
                 s.x[j] += sign * k * delta * on.own[j];
-                integrator->restart();
+                integrator->begin(s);
                 const auto end = after(*integrator, s, 1);
                 if (!end) return std::numeric_limits<double>::quiet_NaN();
                 for (std::size_t i = 0; i < n; ++i)
@@ -118,7 +116,7 @@ double momentumDefect(const Subject& on, const Case& scheme) {
     State state = on.start;
     const std::size_t p = isBody(on.system) ? 0 : on.half();
     for (int k = 0; k < 100; ++k) {
-        if (integrator->advance(state).outcome != Outcome::converged)
+        if (advance(*integrator, state).outcome != Outcome::converged)
             return std::numeric_limits<double>::quiet_NaN();
         for (const MomentumMap& map : on.system.momenta) {
             const double before = map.value(on.start.x.data(), on.start.x.data() + p),
@@ -245,8 +243,13 @@ private slots:
         class Leaking final : public Integrator {
         public:
             explicit Leaking(std::unique_ptr<Integrator> inner) : inner_(std::move(inner)) {}
-            StepReport advance(State& state) override {
-                const StepReport r = inner_->advance(state);
+            double stepSize() const override { return inner_->stepSize(); }
+            void setStep(double h) override { inner_->setStep(h); }
+            std::unique_ptr<Integrator> clone() const override {
+                return std::make_unique<Leaking>(inner_->clone());
+            }
+            StepReport advance(State& state, double until) override {
+                const StepReport r = inner_->advance(state, until);
                 for (std::size_t i = state.x.size() / 2; i < state.x.size(); ++i) state.x[i] *= 1 - 1e-4;
                 return r;
             }

@@ -23,7 +23,7 @@ Run runOf(const System& system, const Three& Pi, const Discretization& pair, dou
     const auto integrator = makeIntegrator(system, pair, {0, T / n});
     State s = start;
     for (int k = 0; k < n; ++k) {
-        r.outcome = integrator->advance(s).outcome;
+        r.outcome = advance(*integrator, s).outcome;
         if (r.outcome != Outcome::converged) return r;
         r.energy = std::max(r.energy, std::abs(energy(0, s.x.data()) / energy(0, start.x.data()) - 1));
     }
@@ -165,7 +165,7 @@ private slots:
             const Three Pi{e * std::cos(1.1), 0, std::sin(1.1)};
             const Run lie = runOf(system, Pi, liePair(1), 1, 50);
             const auto dmv = findBaseline("moser-veselov")
-                                 ->make(system, {{0, 0.02}, 0, 0, {"moser-veselov", {{"order", 2.0}}, {}}});
+                                 ->make(system, {0.02, {}, 0, {"moser-veselov", {{"order", 2.0}}, {}}});
             State start = bodyState(Pi);
             std::vector<double> x(10);
             system.exact(start)(1, x);

@@ -81,7 +81,7 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
                 keys.find("stages") ? "-" + std::to_string(keys.integer("stages")) : "";
             cases.push_back({e.item.id + stages, claimsOf(e, keys),
                              [make = e.make, keys](const System& s, const Clock& c) {
-                                 return make(s, {c, 0, 0, keys});
+                                 return make(s, {c.step, {c.start, 0, {}, {}}, 0, keys});
                              }});
         }
     }
@@ -106,7 +106,7 @@ inline Discretization splinePair(int degree, int cells, Settings quadrature) {
 /// The state after n steps, or nothing if one failed.
 inline std::optional<State> after(Integrator& integrator, State state, long long n) {
     for (long long k = 0; k < n; ++k)
-        if (integrator.advance(state).outcome != Outcome::converged) return {};
+        if (advance(integrator, state).outcome != Outcome::converged) return {};
     return state;
 }
 

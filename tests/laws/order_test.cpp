@@ -33,7 +33,7 @@ private slots:
         const double highest = scheme.claims.order == 1 ? 3e-2 : 1e-3;
         const Orders o = measure(s, start, 3, highest, [&](double h) {
             return [integrator = std::shared_ptr<Integrator>(scheme.make(s, {0, h}))](State& state) {
-                return integrator->advance(state).outcome == Outcome::converged;
+                return advance(*integrator, state).outcome == Outcome::converged;
             };
         });
         qInfo("claimed %d, measured q %.3f, p %.3f (%d points)", scheme.claims.order, o.q, o.p, o.points);

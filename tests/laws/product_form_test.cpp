@@ -30,7 +30,7 @@ double failsAt(const System& s, const Discretization& pair, double h, Outcome& o
     State state{0, 0, {0.05, 1, 0, 0}};
     while (state.t < 10 - h / 2) {
         const double t = state.t;
-        outcome = integrator->advance(state).outcome;
+        outcome = advance(*integrator, state).outcome;
         if (outcome != Outcome::converged) return t;
     }
     return INFINITY;
@@ -52,7 +52,7 @@ private slots:
         State state{0, 0, {0.05, 0.3}};
         double worst = 0, x[2];
         for (int n = 0; n < 100; ++n) {
-            QCOMPARE(integrator->advance(state).outcome, Outcome::converged);
+            QCOMPARE(advance(*integrator, state).outcome, Outcome::converged);
             for (const double tau : {0.3, 1.0}) {
                 integrator->denseOutput(tau, x);
                 const double t = (n + tau) * h, c = std::cos(100 * t), w = std::sin(100 * t);
@@ -81,7 +81,8 @@ private slots:
         const auto map = [&](std::vector<double> x) {
             const auto integrator = makeIntegrator(s, product(4, 2, "fixed"), {0, 0.1});
             State state{0, 0, std::move(x)};
-            if (integrator->advance(state).outcome != Outcome::converged) throw std::runtime_error("no step");
+            if (advance(*integrator, state).outcome != Outcome::converged)
+                throw std::runtime_error("no step");
             return state.x;
         };
         Eigen::Matrix4d M, J = Eigen::Matrix4d::Zero();
@@ -109,7 +110,7 @@ private slots:
         const auto change = [&](const Discretization& pair) {
             const auto integrator = makeIntegrator(s, pair, {0, 0.1});
             State state{0, 0, {0.02, 0.3, 0, 0.8}};
-            if (integrator->advance(state).outcome != Outcome::converged) return double(NAN);
+            if (advance(*integrator, state).outcome != Outcome::converged) return double(NAN);
             return std::abs(state.x[3] - 0.8);
         };
         const double product1 = change(product(4, 2, "fixed")), added = change(*namedScheme("multiscale-r1"));

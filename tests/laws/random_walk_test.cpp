@@ -33,7 +33,7 @@ Walk walkOf(double tolerance, int steps) {
         double squares = 0, slope = 0, spread = 0;
         for (int k = 1; k <= samples; ++k) {
             for (int i = 0; i < steps / samples; ++i)
-                if (integrator->advance(s).outcome != Outcome::converged) return {HUGE_VAL, HUGE_VAL};
+                if (advance(*integrator, s).outcome != Outcome::converged) return {HUGE_VAL, HUGE_VAL};
             const double dH = energy() - start, t = double(k) / samples;
             squares += dH * dH / samples;
             slope += dH * t;

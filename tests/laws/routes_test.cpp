@@ -92,7 +92,7 @@ private slots:
             const System s = systemNamed(e.item.id);
             if (!isMechanical(s)) continue;
             const auto pair = makeIntegrator(s, polynomialPair(1, {"midpoint", {}, {}}), {0, 0.02});
-            const auto rule = findBaseline("implicit-midpoint")->make(s, {{0, 0.02}, 0, 0, {}});
+            const auto rule = findBaseline("implicit-midpoint")->make(s, {0.02, {}, 0, {}});
             const double difference = stepDifference(s, *pair, *rule);
             qInfo("%s: %.2e", e.item.id.c_str(), difference);
             QVERIFY(difference < 1e-13);
@@ -102,7 +102,7 @@ private slots:
         for (const char* id : {"kepler", "pendulum", "harmonic-oscillator"}) {
             const System s = systemNamed(id);
             const auto pair = makeIntegrator(s, polynomialPair(1, {"trapezoid", {}, {}}), {0, 0.05});
-            const auto verlet = findBaseline("stormer-verlet")->make(s, {{0, 0.05}, 0, 0, {}});
+            const auto verlet = findBaseline("stormer-verlet")->make(s, {0.05, {}, 0, {}});
             QVERIFY(stepDifference(s, *pair, *verlet) < 1e-14);
         }
     }
@@ -209,7 +209,7 @@ private slots:
         for (const int stages : {1, 2, 3, 4, 6, 8, 12}) {
             const auto pair = makeIntegrator(s, polynomialPair(stages, {"gauss", {}, {}}), {0, 0.01});
             const Settings keys{"gauss-collocation", {{"stages", static_cast<double>(stages)}}, {}};
-            const auto collocation = findBaseline("gauss-collocation")->make(s, {{0, 0.01}, 0, 0, keys});
+            const auto collocation = findBaseline("gauss-collocation")->make(s, {0.01, {}, 0, keys});
             const double difference = stepDifference(s, *pair, *collocation);
             qInfo("%d stages: %.2e", stages, difference);
             QVERIFY(difference < 1e-14);  // measured: at most 1.1e-15
@@ -221,7 +221,7 @@ private slots:
             std::mt19937 random(3);
             const auto pair = makeIntegrator(s, polynomialPair(5, {"gauss", {}, {}}), {0, 0.02});
             const auto collocation =
-                findBaseline("gauss-collocation")->make(s, {{0, 0.02}, 0, 0, {"", {{"stages", 5.0}}, {}}});
+                findBaseline("gauss-collocation")->make(s, {0.02, {}, 0, {"", {{"stages", 5.0}}, {}}});
             const State start = randomState(random, s);
             (void)after(*pair, start, 3).value();
             (void)after(*collocation, start, 3).value();

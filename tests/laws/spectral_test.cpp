@@ -20,7 +20,7 @@ double errorOf(const Discretization& pair) {
     double worst = 0;
     std::vector<double> x(4);
     for (int k = 0; k < 4; ++k) {
-        if (step->advance(state).outcome != Outcome::converged) return 1;
+        if (advance(*step, state).outcome != Outcome::converged) return 1;
         exact(state.t, x);
         worst = std::max(worst, distance(state.x, x, 0, 4));
     }

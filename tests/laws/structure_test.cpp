@@ -72,7 +72,7 @@ EnergyRun energyRun(const Case& scheme, const System& system, const State& start
     std::vector<double> t, e;
     const long long n = std::llround(T / h);
     for (long long k = 0; k < n; ++k) {
-        if (integrator->advance(s).outcome != Outcome::converged) return {1e300, 1e300, T, 1e300};
+        if (advance(*integrator, s).outcome != Outcome::converged) return {1e300, 1e300, T, 1e300};
         const double error = H(s) - H(start);
         r.largest = std::max(r.largest, std::abs(error));
         r.momentum = std::max(r.momentum, std::abs(L(s) - L(start)));

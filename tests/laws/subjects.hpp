@@ -52,7 +52,7 @@ inline Subject subjectOf(const std::string& name, const Scene& scene) {
     s.scaleQ = s.scaleP = 0;
     s.own.assign(state.x.size(), 0);
     for (int k = 1; k <= referenceSteps; ++k) {
-        if (integrator->advance(state).outcome != Outcome::converged)
+        if (advance(*integrator, state).outcome != Outcome::converged)
             qFatal("%s: no reference", name.c_str());
         if (k % (referenceSteps / 4) == 0)
             s.exact[static_cast<std::size_t>(4 * k / referenceSteps - 1)] = state;

@@ -78,7 +78,7 @@ private slots:
         Outcome outcome = Outcome::singular;
         try {
             State state = keplerStart;
-            outcome = makeIntegrator(kepler, pair, {0, 0.1})->advance(state).outcome;
+            outcome = advance(*makeIntegrator(kepler, pair, {0, 0.1}), state).outcome;
         } catch (const InvalidScene&) {
         }
         QVERIFY(outcome != Outcome::converged);

@@ -190,7 +190,7 @@ private slots:
             State state = start;
             double worst = 0;
             for (int k = 0; k < 2000; ++k) {
-                QVERIFY(there->advance(state).outcome == Outcome::converged);
+                QVERIFY(advance(*there, state).outcome == Outcome::converged);
                 worst = std::max(worst, std::abs(normOf(system, state) - normOf(system, start)));
             }
             const double energy =
@@ -227,7 +227,7 @@ private slots:
         for (int k = 0; k < 200; ++k) {
             u = map * u;
             worst = std::max(worst, std::abs((I.factor * u).norm() - 1));
-            QVERIFY(own->advance(state).outcome == Outcome::converged);
+            QVERIFY(advance(*own, state).outcome == Outcome::converged);
         }
         qInfo("norm off by %.2g, by our form %.2g", worst, normOf(system, state) - 1);
         QVERIFY(worst > 0.01 && std::abs(normOf(system, state) - 1) < 1e-13);
@@ -307,7 +307,7 @@ private slots:
         // The series in H knows nothing of eigenstates.
         for (const char* id : {"chebyshev-propagation", "crank-nicolson"}) {
             const BaselineEntry* entry = findBaseline(id);
-            const auto integrator = entry->make(system, {{0, 0.0005}, 0, 0, defaultsOf(entry->item)});
+            const auto integrator = entry->make(system, {0.0005, {}, 0, defaultsOf(entry->item)});
             const auto end = after(*integrator, start, 1000);
             QVERIFY(end.has_value());
             qInfo("%s: %.2g", id, waveDistance(*end, exact));
@@ -323,7 +323,7 @@ private slots:
         for (const char* id : {"strang", "srkn-14a", "leapfrog", "spectral-collocation"}) {
             const BaselineEntry* entry = findBaseline(id);
             const std::string text = refusal([&] {
-                entry->make(system, {{0, 0.01}, 0, 0, defaultsOf(entry->item)});
+                entry->make(system, {0.01, {}, 0, defaultsOf(entry->item)});
             });
             QVERIFY2(text.starts_with("/baseline") && text.find("dirichlet") != std::string::npos,
                      text.c_str());

@@ -161,8 +161,8 @@ void ScenePanel::startFromTwoPositions() {
         if (spec.tolerance) continue;
         State state = initialState(scene, system);
         const State start = state;
-        const auto integrator = makeScheme(system, spec, spec.step.value, state, scene.end.value);
-        if (integrator->advance(state).outcome != Outcome::converged) continue;
+        const auto integrator = makeScheme(system, spec, spec.step.value, state);
+        if (advance(*integrator, state).outcome != Outcome::converged) continue;
         const auto positions = [&](const State& s) {
             Value::Array values;
             for (int i = 0; i < system.dimension(); ++i)

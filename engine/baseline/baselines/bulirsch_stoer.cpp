@@ -15,7 +15,7 @@ namespace {
 class BulirschStoer final : public AdaptiveMethod {
 public:
     BulirschStoer(const Mechanics<double>& mechanics, const BaselineOptions& options)
-        : AdaptiveMethod(mechanics, options), stepper_(options.tolerance, options.tolerance) {}
+        : AdaptiveMethod(mechanics), stepper_(options.tolerance, options.tolerance) {}
 
     void denseOutput(double tau, std::span<double> x) const override {
         Vector y(size());
@@ -23,15 +23,17 @@ public:
         std::copy(y.begin(), y.end(), x.begin());
     }
 
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<BulirschStoer>(*this); }
+
 private:
     /// Thrown out of the right-hand side, the only way to end a step of odeint early.
     struct Trouble {
         Outcome outcome;
     };
 
-    Outcome take(double& t, Vector& x, StepReport& report, bool isContinued) override {
+    Outcome take(double& t, Vector& x, double& next, StepReport& report, bool isContinued) override {
         const double start = t, remaining = end() - t;
-        if (!isContinued) stepper_.initialize(x, t, std::min(firstStep(t, x), remaining));
+        if (!isContinued) stepper_.initialize(x, t, std::min(next > 0 ? next : firstStep(t, x), remaining));
         if (stepper_.current_time_step() >= remaining * (1 - 1e-12)) stepper_.initialize(x, t, remaining);
         double tried = stepper_.current_time_step();
         auto rhs = [&](const Vector& at, Vector& dx, double time) {
@@ -51,6 +53,7 @@ private:
         }
         if (end() - t <= 1e-9 * remaining) t = end();
         x = stepper_.current_state();
+        next = stepper_.current_time_step();
         return t > start ? Outcome::converged : Outcome::stepBudget;
     }
 

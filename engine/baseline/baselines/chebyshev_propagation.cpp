@@ -45,18 +45,24 @@ std::vector<double> besselJ(double R) {
 
 class ChebyshevWave final : public WaveStep {
 public:
-    ChebyshevWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock)
-        : WaveStep(std::move(hamiltonian), clock, 0),
+    ChebyshevWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step)
+        : WaveStep(std::move(hamiltonian), step, 0),
           middle_((shared()->highest() + shared()->lowest()) / 2),
-          width_((shared()->highest() - shared()->lowest()) / 2 * 1.0001 + 1e-300),
-          series_(besselJ(clock.step * width_ / shared()->hbar())),
-          turn_(std::polar(1.0, -clock.step * middle_ / shared()->hbar())) {
+          width_((shared()->highest() - shared()->lowest()) / 2 * 1.0001 + 1e-300) {
         for (auto* v : {&sum_, &before_, &now_, &next_, &work_}) v->resize(static_cast<std::size_t>(n()));
     }
-    double products() const { return static_cast<double>(series_.size()); }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<ChebyshevWave>(*this); }
 
 private:
-    void step(double, Complex* v, StepReport& report) override {
+    void prepare() override {
+        // J_k(-R) = (-1)^k J_k(R): steps back in time.
+        series_ = besselJ(std::abs(dt()) * width_ / shared()->hbar());
+        if (dt() < 0)
+            for (std::size_t k = 1; k < series_.size(); k += 2) series_[k] = -series_[k];
+        turn_ = std::polar(1.0, -dt() * middle_ / shared()->hbar());
+    }
+    void step(double, Complex* v, std::vector<double>&, StepReport& report) override {
         const auto size = sum_.size();
         Complex power = 1;  // (-i)^k
         for (std::size_t i = 0; i < size; ++i) {
@@ -87,9 +93,6 @@ private:
         }
         for (std::size_t i = 0; i < size; ++i) v[i] = turn_ * sum_[i];
     }
-    std::unique_ptr<WaveStep> withStep(const Clock& clock, double) const override {
-        return std::make_unique<ChebyshevWave>(shared(), clock);
-    }
 
     double middle_, width_;
     std::vector<double> series_;
@@ -113,14 +116,13 @@ BaselineEntry chebyshev_propagation() {
         if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline",
                                "chebyshev-propagation needs a potential that does not depend on t", "strang");
-        const double R = options.clock.step *
-                         (system.hamiltonian()->highest() - system.hamiltonian()->lowest()) /
+        const double R = options.step * (system.hamiltonian()->highest() - system.hamiltonian()->lowest()) /
                          (2 * system.hamiltonian()->hbar());
         if (R > 1e6)
             throw InvalidScene(
                 "/step", "needs " + formatNumber(R, 2) + " products with H for each step, the limit is 1e6",
                 "a smaller step, or fewer modes");
-        return std::make_unique<ChebyshevWave>(system.hamiltonian(), options.clock);
+        return std::make_unique<ChebyshevWave>(system.hamiltonian(), options.step);
     };
     return e;
 }

@@ -21,7 +21,7 @@ BaselineEntry crank_nicolson() {
         Discretization pair;
         pair.space = {"fourier", {{"degree", 1.0}, {"energy_shift", 0.0}}, {}};
         pair.quadrature = {"gauss", {{"nodes", 1.0}, {"panels", 1.0}}, {}};
-        return makeWaveIntegrator(system, pair, options.clock);
+        return makeWaveIntegrator(system, pair, {options.start.t, options.step});
     };
     return e;
 }

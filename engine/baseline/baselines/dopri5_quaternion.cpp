@@ -45,18 +45,24 @@ public:
     Dopri5Quaternion(const System& system, const BaselineOptions& options)
         : body_(system.body()),
           isProjected_(options.settings.flag("projection")),
-          y_{0, 0, std::vector<double>(QuaternionEquation{body_}.size())},
+          y_{0, 0, std::vector<double>(QuaternionEquation{body_}.size()), {}},
           inner_(QuaternionEquation{body_}, y_.x.size(), options) {}
 
-    StepReport advance(State& state) override {
+    TimeGrid grid() const override { return TimeGrid::landing; }
+    std::vector<MemoryPart> memoryParts() const override { return inner_.memoryParts(); }
+    void begin(State& state) override { inner_.begin(state); }
+
+    StepReport advance(State& state, double until) override {
         inner_.setStop(stop());
         y_.t = state.t;
         std::copy_n(state.x.begin(), 7, y_.x.begin());
         if (body_.dimension == 6) std::copy_n(state.x.begin() + 10, 6, y_.x.begin() + 7);
-        const StepReport report = inner_.advance(y_);
+        y_.memory = state.memory;
+        const StepReport report = inner_.advance(y_, until);
         if (report.outcome != Outcome::converged) return report;
         if (isProjected_) normalise(y_.x.data());
         write(y_.x.data(), state.x.data());
+        state.memory = y_.memory;
         state.t = y_.t;
         ++state.node;
         return report;
@@ -67,6 +73,8 @@ public:
         normalise(y.data());
         write(y.data(), x.data());
     }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Dopri5Quaternion>(*this); }
 
 private:
     static void normalise(double* y) {

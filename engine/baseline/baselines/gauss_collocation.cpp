@@ -46,8 +46,8 @@ class GaussCollocation final : public FlowMethod<D> {
     using Square = Eigen::MatrixXd;
 
 public:
-    GaussCollocation(const Mechanics<double>& mechanics, const Clock& clock, int stages)
-        : Base(mechanics, clock), rule_(gauss<double>(stages)), s_(stages) {
+    GaussCollocation(const Mechanics<double>& mechanics, double step, int stages)
+        : Base(mechanics, step), rule_(gauss<double>(stages)), s_(stages) {
         a_ = continuation_ = Square::Zero(s_, s_);
         for (int i = 0; i < s_; ++i)
             for (int j = 0; j < s_; ++j) {
@@ -63,6 +63,12 @@ public:
             *v = Vector::Zero(d);
         if (mechanics.isSeparable)
             inverseMass_ = Eigen::Map<const Vector>(mechanics.masses, d).cwiseInverse();
+    }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<GaussCollocation>(*this); }
+    void begin(State& state) override {
+        state.memory.clear();
+        hasCurve_ = false;
     }
 
     /// The collocation polynomial.
@@ -267,7 +273,7 @@ BaselineEntry gauss_collocation() {
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.claims = [](const Settings& settings) { return claims(settings.integer("stages")); };
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<GaussCollocation>(system.mechanics(), options.clock,
+        return makeFlowMethod<GaussCollocation>(system.mechanics(), options.step,
                                                 options.settings.integer("stages"));
     };
     return e;

@@ -22,7 +22,7 @@ class ImplicitMidpoint final : public FlowMethod<D> {
     using BigVector = Eigen::VectorXd;
 
 public:
-    ImplicitMidpoint(const Mechanics<double>& mechanics, const Clock& clock) : Base(mechanics, clock) {
+    ImplicitMidpoint(const Mechanics<double>& mechanics, double step) : Base(mechanics, step) {
         const int d = this->d();
         for (Vector* v : {&q_, &p_, &dq_, &dp_}) *v = Vector::Zero(d);
         gradient_ = BigVector::Zero(2 * d);
@@ -34,6 +34,8 @@ public:
         massLu_ = Eigen::PartialPivLU<Square>(d);
         identity_ = Square::Identity(d, d);
     }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<ImplicitMidpoint>(*this); }
 
 private:
     void step(double t) override {
@@ -113,7 +115,7 @@ BaselineEntry implicit_midpoint() {
               ""};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<ImplicitMidpoint>(system.mechanics(), options.clock);
+        return makeFlowMethod<ImplicitMidpoint>(system.mechanics(), options.step);
     };
     return e;
 }

@@ -31,28 +31,33 @@ std::vector<double> stagesOf(int order) {
 
 class Impulse final : public Integrator {
 public:
-    Impulse(const System& system, const Clock& clock, int order) : clock_(clock), fast_(system.fast) {
-        std::vector<double> stages = stagesOf(order);
+    Impulse(const System& system, double step, int order) : order_(order), fast_(system.fast) {
+        setStep(step);
+    }
+
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        parts_.clear();
+        std::vector<double> stages = stagesOf(order_);
         for (std::size_t i = stages.size() - 1; i-- > 0;) stages.push_back(stages[i]);
         const std::size_t last = fast_.slowFlows.size() - 1;
         double before = 0;
         for (const double share : stages) {
             // The outermost halves of neighbouring stages are one flow.
-            parts_.push_back(fast_.slowFlows[0]((before + share) / 2 * clock.step));
-            for (std::size_t k = 1; k <= last; ++k)
-                parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
-            parts_.push_back(fast_.fastFlow(share * clock.step));
-            for (std::size_t k = last; k > 0; --k)
-                parts_.push_back(fast_.slowFlows[k](share / 2 * clock.step));
+            parts_.push_back(fast_.slowFlows[0]((before + share) / 2 * h_));
+            for (std::size_t k = 1; k <= last; ++k) parts_.push_back(fast_.slowFlows[k](share / 2 * h_));
+            parts_.push_back(fast_.fastFlow(share * h_));
+            for (std::size_t k = last; k > 0; --k) parts_.push_back(fast_.slowFlows[k](share / 2 * h_));
             before = share;
         }
-        parts_.push_back(fast_.slowFlows[0](before / 2 * clock.step));
+        parts_.push_back(fast_.slowFlows[0](before / 2 * h_));
         evaluations_ = static_cast<int>(stages.size()) + 1;
     }
 
-    StepReport advance(State& state) override {
+    StepReport advance(State& state, double until) override {
         StepReport report;
-        report.step = clock_.step;
+        report.step = h_;
         start_ = trial_ = state.x;
         for (const FastMotion::Flow& part : parts_) part(trial_.data());
         report.cost.evaluations = evaluations_;
@@ -60,13 +65,15 @@ public:
             if (!std::isfinite(x)) report.outcome = Outcome::notFinite;
         if (report.outcome != Outcome::converged) return report;
         state.x = trial_;
-        state.t = clock_.at(++state.node);
+        state.t = until;
+        ++state.node;
         return report;
     }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Impulse>(*this); }
     /// A shorter step of order 2 from the nearer end: the oscillation is in it.
     void denseOutput(double tau, std::span<double> x) const override {
         const bool isLate = tau > 0.5;
-        const double time = (isLate ? tau - 1 : tau) * clock_.step;
+        const double time = (isLate ? tau - 1 : tau) * h_;
         std::copy((isLate ? trial_ : start_).begin(), (isLate ? trial_ : start_).end(), x.begin());
         for (const auto& slow : fast_.slowFlows) slow(time / 2)(x.data());
         fast_.fastFlow(time)(x.data());
@@ -75,7 +82,8 @@ public:
     }
 
 private:
-    Clock clock_;
+    double h_ = 0;
+    int order_;
     FastMotion fast_;
     std::vector<FastMotion::Flow> parts_;
     int evaluations_ = 0;
@@ -98,7 +106,7 @@ BaselineEntry impulse() {
         return Claims{settings.integer("order"), true, true, {"momentum"}};
     };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Impulse>(system, options.clock, options.settings.integer("order"));
+        return std::make_unique<Impulse>(system, options.step, options.settings.integer("order"));
     };
     return e;
 }

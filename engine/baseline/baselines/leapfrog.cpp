@@ -12,7 +12,7 @@ BaselineEntry leapfrog() {
               "leapfrog",
               "Three levels, explicit: one product with H a step; stable for |E| dt up to ħ.",
               {},
-              Claims{2, true, true, {"bilinear form"}},
+              Claims{2, true, true, {"bilinear form"}, false},
               "a wave function"};
     e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = 1;
@@ -23,8 +23,8 @@ BaselineEntry leapfrog() {
                         "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
         const Settings space{"fourier", {{"degree", 2.0}}, {}};
         return makeThreeLevelWave(
-            system.hamiltonian(), options.clock, 0,
-            {0, WaveStart::gauss, planWave(system, space, {}, options.clock.step).solver, 1e-14, 600});
+            system.hamiltonian(), options.step, 0,
+            {0, WaveStart::gauss, planWave(system, space, {}, options.step).solver, 1e-14, 600});
     };
     return e;
 }

@@ -27,7 +27,9 @@ class MoserVeselov final : public BodyMethod {
 
 public:
     MoserVeselov(const System& system, const BaselineOptions& options)
-        : BodyMethod(system, options.clock), order_(options.settings.integer("order")) {}
+        : BodyMethod(system, options.step), order_(options.settings.integer("order")) {}
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<MoserVeselov>(*this); }
 
 private:
     bool turnsMomentum() const override { return true; }

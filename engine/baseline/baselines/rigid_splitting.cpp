@@ -26,7 +26,9 @@ std::vector<double> substeps(int order) {
 class RigidSplitting final : public BodyMethod {
 public:
     RigidSplitting(const System& system, const BaselineOptions& options)
-        : BodyMethod(system, options.clock), substeps_(substeps(options.settings.integer("order"))) {}
+        : BodyMethod(system, options.step), substeps_(substeps(options.settings.integer("order"))) {}
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<RigidSplitting>(*this); }
 
 private:
     bool turnsMomentum() const override { return body_.isFree(); }

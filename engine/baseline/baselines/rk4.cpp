@@ -11,9 +11,11 @@ class Rk4 final : public FlowMethod<D> {
     using Vector = typename Base::Vector;
 
 public:
-    Rk4(const Mechanics<double>& mechanics, const Clock& clock) : Base(mechanics, clock) {
+    Rk4(const Mechanics<double>& mechanics, double step) : Base(mechanics, step) {
         for (Vector* v : {&q_, &p_, &dq_, &dp_, &sumQ_, &sumP_}) *v = Vector::Zero(this->d());
     }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Rk4>(*this); }
 
 private:
     void step(double t) override {
@@ -50,7 +52,7 @@ BaselineEntry rk4() {
               ""};
     e.stabilityLimit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeFlowMethod<Rk4>(system.mechanics(), options.clock);
+        return makeFlowMethod<Rk4>(system.mechanics(), options.step);
     };
     return e;
 }

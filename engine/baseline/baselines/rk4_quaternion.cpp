@@ -10,7 +10,9 @@ namespace {
 class Rk4Quaternion final : public BodyMethod {
 public:
     Rk4Quaternion(const System& system, const BaselineOptions& options)
-        : BodyMethod(system, options.clock), isProjected_(options.settings.flag("projection")) {}
+        : BodyMethod(system, options.step), isProjected_(options.settings.flag("projection")) {}
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Rk4Quaternion>(*this); }
 
 private:
     static Motion sum(const Motion& m, double s, const Motion& d) {

@@ -26,10 +26,21 @@ using Step = std::unique_ptr<gsl_odeiv2_step, Freed<gsl_odeiv2_step_free>>;
 class Rk8pd final : public AdaptiveMethod {
 public:
     Rk8pd(const Mechanics<double>& mechanics, const BaselineOptions& options)
-        : AdaptiveMethod(mechanics, options),
+        : AdaptiveMethod(mechanics),
+          tolerance_(options.tolerance),
           step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size())),
           control_(gsl_odeiv2_control_y_new(options.tolerance, options.tolerance)),
           evolve_(gsl_odeiv2_evolve_alloc(size())) {}
+    /// The library's own memory is that of the derivative at the state, which is computed anew.
+    Rk8pd(const Rk8pd& other)
+        : AdaptiveMethod(other),
+          tolerance_(other.tolerance_),
+          step_(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size())),
+          control_(gsl_odeiv2_control_y_new(tolerance_, tolerance_)),
+          evolve_(gsl_odeiv2_evolve_alloc(size())) {}
+    Rk8pd& operator=(const Rk8pd&) = delete;
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Rk8pd>(*this); }
 
     void denseOutput(double tau, std::span<double> x) const override {
         const Step shorter(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size()));
@@ -49,20 +60,20 @@ private:
         Outcome trouble;
     };
 
-    Outcome take(double& t, Vector& x, StepReport& report, bool isContinued) override {
+    Outcome take(double& t, Vector& x, double& next, StepReport& report, bool isContinued) override {
         if (!isContinued) {
             gsl_odeiv2_evolve_reset(evolve_.get());
             gsl_odeiv2_step_reset(step_.get());
         }
-        if (h_ == 0) h_ = std::min(firstStep(t, x), end() - t);
+        if (next == 0) next = std::min(firstStep(t, x), end() - t);
         Watch watch{*this, report, Outcome::converged};
         const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
         const double start = t;
         const unsigned long refused = evolve_->failed_steps;
         const int status = gsl_odeiv2_evolve_apply(evolve_.get(), control_.get(), step_.get(), &system, &t,
-                                                   end(), &h_, x.data());
+                                                   end(), &next, x.data());
         report = watch.report;
-        report.cost.rejected = static_cast<int>(evolve_->failed_steps - refused);
+        report.cost.rejected = static_cast<long long>(evolve_->failed_steps - refused);
         if (watch.trouble != Outcome::converged) return watch.trouble;
         return status == GSL_SUCCESS && t > start ? Outcome::converged : Outcome::stepBudget;
     }
@@ -76,10 +87,10 @@ private:
         return watch.trouble == Outcome::converged ? GSL_SUCCESS : GSL_EBADFUNC;
     }
 
+    double tolerance_;
     Step step_;
     std::unique_ptr<gsl_odeiv2_control, Freed<gsl_odeiv2_control_free>> control_;
     std::unique_ptr<gsl_odeiv2_evolve, Freed<gsl_odeiv2_evolve_free>> evolve_;
-    double h_ = 0;
 };
 #endif
 

@@ -52,7 +52,7 @@ BaselineEntry spectral_collocation() {
         requireSplit(system, "/baseline", "spectral-collocation",
                      "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
         return makeCollocationWave(
-            system.hamiltonian(), options.clock, std::nan(""),
+            system.hamiltonian(), options.step, meanEnergy(*system.hamiltonian(), options.start),
             nodesOf(options.settings.integer("degree"), options.settings.text("nodes") != "roots"), 1e-13,
             600);
     };

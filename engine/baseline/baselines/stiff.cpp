@@ -47,7 +47,9 @@ SUNContext makeContext() {
 class Stiff final : public AdaptiveMethod {
 public:
     Stiff(const Mechanics<double>& mechanics, const BaselineOptions& options)
-        : AdaptiveMethod(mechanics, options),
+        : AdaptiveMethod(mechanics),
+          mechanics_(mechanics),
+          tolerance_(options.tolerance),
           context_(makeContext()),
           x_(N_VNew_Serial(static_cast<sunindextype>(size()), context_)),
           jacobian_(
@@ -56,10 +58,17 @@ public:
           memory_(CVodeCreate(CV_BDF, context_)) {
         CVodeSetErrFile(memory_, nullptr);
         N_VConst(0, x_);
-        CVodeInit(memory_, &Stiff::rate, options.clock.start, x_);
-        CVodeSStolerances(memory_, options.tolerance, options.tolerance);
+        CVodeInit(memory_, &Stiff::rate, options.start.t, x_);
+        CVodeSStolerances(memory_, tolerance_, tolerance_);
         CVodeSetUserData(memory_, this);
         CVodeSetLinearSolver(memory_, solver_, jacobian_);
+    }
+
+    /// The library does not give its history away: a clone begins anew, with the step that was to be next.
+    std::unique_ptr<Integrator> clone() const override {
+        BaselineOptions options;
+        options.tolerance = tolerance_;
+        return std::make_unique<Stiff>(mechanics_, options);
     }
 
     void denseOutput(double tau, std::span<double> x) const override {
@@ -69,26 +78,27 @@ public:
     }
 
 private:
-    Outcome take(double& t, Vector& x, StepReport& report, bool isContinued) override {
+    Outcome take(double& t, Vector& x, double& next, StepReport& report, bool isContinued) override {
         std::copy(x.begin(), x.end(), N_VGetArrayPointer(x_));
         if (!isContinued) {
             CVodeReInit(memory_, t, x_);
-            CVodeSetStopTime(memory_, end());
+            CVodeSetInitStep(memory_, std::min(next, end() - t));
         }
+        if (!isContinued || end() != stopTime_) CVodeSetStopTime(memory_, stopTime_ = end());
         report_ = &report;
         trouble_ = Outcome::converged;
         const Counters before = counters();
         const double start = t;
         const int status = CVode(memory_, end(), x_, &t, CV_ONE_STEP);
         const Counters after = counters();
-        report.cost.rejected = static_cast<int>(after.refused - before.refused);
-        report.cost.iterations = static_cast<int>(after.iterations - before.iterations);
-        report.cost.linearSolves =
-            report.cost.iterations + static_cast<int>(after.factorisations - before.factorisations);
+        report.cost.rejected = after.refused - before.refused;
+        report.cost.iterations = after.iterations - before.iterations;
+        report.cost.linearSolves = report.cost.iterations + (after.factorisations - before.factorisations);
         if (trouble_ != Outcome::converged) return trouble_;
         if (status < 0 || !(t > start))
             return status == CV_CONV_FAILURE ? Outcome::diverged : Outcome::stepBudget;
         std::copy_n(N_VGetArrayPointer(x_), size(), x.begin());
+        CVodeGetCurrentStep(memory_, &next);
         return Outcome::converged;
     }
 
@@ -116,6 +126,8 @@ private:
         return method.trouble_ == Outcome::converged ? 0 : -1;
     }
 
+    Mechanics<double> mechanics_;
+    double tolerance_, stopTime_ = 0;
     Owned<SUNContext, freeContext> context_;
     Owned<N_Vector, freeVector> x_;
     Owned<SUNMatrix, freeMatrix> jacobian_;

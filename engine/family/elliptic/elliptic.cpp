@@ -15,7 +15,10 @@ public:
     Elliptic(const EllipticProblem& problem, int elements, EllipticElements kind)
         : kind_(kind), solution_(problem, elements), nodal_(solution_.nodal(kind)) {}
 
-    StepReport advance(State& state) override {
+    double stepSize() const override { return 1.0 / solution_.elements(); }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Elliptic>(*this); }
+
+    StepReport advance(State& state, double until) override {
         StepReport report;
         const int n = solution_.elements();
         report.step = 1.0 / n;
@@ -26,9 +29,9 @@ public:
         report.cost.linearSolves = state.node == 0 ? 1 : 0;
         last_ = static_cast<int>(state.node);
         ++state.node;
-        state.t = static_cast<double>(state.node) / n;
+        state.t = until;
         state.x[0] = nodal_[static_cast<std::size_t>(state.node)];
-        state.x[1] = solution_.u(state.t);
+        state.x[1] = solution_.u(static_cast<double>(state.node) / n);
         return report;
     }
     void denseOutput(double tau, std::span<double> x) const override {

@@ -20,7 +20,7 @@ Eigen::MatrixXd exactPath(const System& system, const State& start, double h) {
     for (int k = 0;; ++k) {
         path.col(k) = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
         if (k == pieces) return path;
-        if (integrator->advance(state).outcome != Outcome::converged) return {};
+        if (advance(*integrator, state).outcome != Outcome::converged) return {};
     }
 }
 

@@ -20,28 +20,44 @@ namespace {
 template <int D>
 class Galerkin final : public Integrator {
 public:
-    Galerkin(const Mechanics<double>& mechanics, std::vector<Table<double>> tables, const Clock& clock,
-             SolverPolicy policy)
-        : clock_(clock),
-          d_(mechanics.dimension),
-          periods_(std::abs(tables.front().frequency) / (2 * std::numbers::pi)),
-          step_(mechanics, std::move(tables), clock.step, policy) {}
+    Galerkin(const Mechanics<double>& mechanics, TablesOfStep tables, double step, SolverPolicy policy)
+        : mechanics_(mechanics), tables_(std::move(tables)), policy_(policy), h_(step), step_(own()) {}
 
-    StepReport advance(State& state) override {
-        const StepReport report = step_.advance(state.t, state.x.data(), state.x.data() + d_, stop());
-        if (report.outcome == Outcome::converged) state.t = clock_.at(++state.node);
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        step_ = own();
+    }
+    void begin(State& state) override {
+        state.memory.clear();
+        step_.restart();
+    }
+
+    StepReport advance(State& state, double until) override {
+        const StepReport report =
+            step_.advance(state.t, state.x.data(), state.x.data() + mechanics_.dimension, stop());
+        if (report.outcome != Outcome::converged) return report;
+        state.t = until;
+        ++state.node;
         return report;
     }
     void denseOutput(double tau, std::span<double> x) const override {
-        step_.denseOutput(tau, x.data(), x.data() + d_);
+        step_.denseOutput(tau, x.data(), x.data() + mechanics_.dimension);
     }
     double periodsPerStep() const override { return periods_; }
-    void restart() override { step_.restart(); }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Galerkin>(*this); }
 
 private:
-    Clock clock_;
-    int d_;
-    double periods_;
+    GalerkinStep<double, D> own() {
+        std::vector<Table<double>> tables = tables_(h_);
+        periods_ = std::abs(tables.front().frequency) / (2 * std::numbers::pi);
+        return {mechanics_, std::move(tables), h_, policy_};
+    }
+
+    Mechanics<double> mechanics_;
+    TablesOfStep tables_;
+    SolverPolicy policy_;
+    double h_, periods_ = 0;
     GalerkinStep<double, D> step_;
 };
 
@@ -63,10 +79,10 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeGalerkin(const System& system, std::vector<Table<double>> tables,
-                                         const Clock& clock, const SolverPolicy& policy) {
+std::unique_ptr<Integrator> makeGalerkin(const System& system, TablesOfStep tables, double step,
+                                         const SolverPolicy& policy) {
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
-        return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics(), std::move(tables), clock,
+        return std::make_unique<Galerkin<decltype(d)::value>>(system.mechanics(), std::move(tables), step,
                                                               policy);
     });
 }
@@ -82,8 +98,9 @@ std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretiz
                            : isWave(system) ? "take fourier"
                                             : "another space: extremal list spaces");
     if (family) return family->make(system, pair, clock, solverPolicy(pair.solver, system));
-    return makeGalerkin(system, {tableOf(pair.space, pair.quadrature)}, clock,
-                        solverPolicy(pair.solver, system));
+    return makeGalerkin(
+        system, [table = tableOf(pair.space, pair.quadrature)](double) { return std::vector{table}; },
+        clock.step, solverPolicy(pair.solver, system));
 }
 
 }  // namespace extremal

@@ -75,7 +75,7 @@ KktPattern kktPattern(const System& system, const Discretization& pair, const St
     for (int k = 0;; ++k) {
         nodes.col(k) = Eigen::Map<const Eigen::VectorXd>(state.x.data(), d);
         if (k == p.elements) break;
-        if (integrator->advance(state).outcome != Outcome::converged) {
+        if (advance(*integrator, state).outcome != Outcome::converged) {
             p.failure = "the scheme fails in its first steps";
             return p;
         }

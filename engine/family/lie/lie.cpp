@@ -12,22 +12,34 @@ namespace {
 template <class G>
 class Lie final : public Integrator {
 public:
-    Lie(const BodyMechanics<double>& body, const Table<double>& table, const Clock& clock, bool isReduced,
+    Lie(const BodyMechanics<double>& body, const Table<double>& table, double step, bool isReduced,
         bool isSymmetrised, const SolverPolicy& policy)
-        : clock_(clock),
+        : body_(body),
+          table_(table),
+          policy_(policy),
+          h_(step),
+          isReduced_(isReduced),
           isSymmetrised_(isSymmetrised),
-          adjoint_(body, table, clock.step / 2, isReduced, true, policy),
-          step_(body, table, isSymmetrised ? clock.step / 2 : clock.step, isReduced, false, policy) {}
+          adjoint_(adjoint()),
+          step_(own()) {}
 
-    StepReport advance(State& state) override {
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        adjoint_ = adjoint();
+        step_ = own();
+    }
+
+    StepReport advance(State& state, double until) override {
         StepReport report;
-        report.step = clock_.step;
+        report.step = h_;
         Pose<double> pose = G::read(state.x.data());
         if (isSymmetrised_) report.outcome = adjoint_.advance(pose, report, stop());
         if (report.outcome == Outcome::converged) report.outcome = step_.advance(pose, report, stop());
         if (report.outcome != Outcome::converged) return report;
         G::write(pose, state.x.data());
-        state.t = clock_.at(++state.node);
+        state.t = until;
+        ++state.node;
         return report;
     }
     void denseOutput(double tau, std::span<double> x) const override {
@@ -35,9 +47,19 @@ public:
         G::write(tau < 0.5 ? adjoint_.denseOutput(2 * tau) : step_.denseOutput(2 * tau - 1), x.data());
     }
 
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Lie>(*this); }
+
 private:
-    Clock clock_;
-    bool isSymmetrised_;
+    LieStep<double, G> adjoint() const { return {body_, table_, h_ / 2, isReduced_, true, policy_}; }
+    LieStep<double, G> own() const {
+        return {body_, table_, isSymmetrised_ ? h_ / 2 : h_, isReduced_, false, policy_};
+    }
+
+    BodyMechanics<double> body_;
+    Table<double> table_;
+    SolverPolicy policy_;
+    double h_;
+    bool isReduced_, isSymmetrised_;
     LieStep<double, G> adjoint_, step_;
 };
 
@@ -55,9 +77,10 @@ std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discre
     const bool isReduced = pair.space.flag("reduced"), isSymmetrised = pair.space.flag("symmetric");
     const BodyMechanics<double>& body = system.body();
     if (body.dimension == 3)
-        return std::make_unique<Lie<RotationGroup<double>>>(body, table, clock, isReduced, isSymmetrised,
+        return std::make_unique<Lie<RotationGroup<double>>>(body, table, clock.step, isReduced, isSymmetrised,
                                                             policy);
-    return std::make_unique<Lie<MotionGroup<double>>>(body, table, clock, isReduced, isSymmetrised, policy);
+    return std::make_unique<Lie<MotionGroup<double>>>(body, table, clock.step, isReduced, isSymmetrised,
+                                                      policy);
 }
 
 }  // namespace extremal

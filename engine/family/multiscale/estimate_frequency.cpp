@@ -64,7 +64,7 @@ double estimateFrequency(const System& system, const State& start) {
     std::vector<double> t, values, x(start.x.size());
     for (int n = 0; n < periods * stepsPerPeriod; ++n) {
         const double before = state.t - start.t;
-        if (integrator->advance(state).outcome != Outcome::converged) throw none();
+        if (advance(*integrator, state).outcome != Outcome::converged) throw none();
         for (int i = 1; i <= samplesPerStep; ++i) {
             const double tau = static_cast<double>(i) / samplesPerStep;
             integrator->denseOutput(tau, x);

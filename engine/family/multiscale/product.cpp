@@ -71,12 +71,12 @@ struct ProductCurve {
 
 class Product final : public Integrator {
 public:
-    Product(const System& system, std::vector<ProductCurve> curves, const Rule<double>& rule,
-            const Clock& clock, const SolverPolicy& policy, std::unique_ptr<Integrator> additive)
+    Product(const System& system, std::vector<ProductCurve> curves, const Rule<double>& rule, double step,
+            const SolverPolicy& policy, std::unique_ptr<Integrator> additive)
         : mechanics_(system.mechanics()),
           curves_(std::move(curves)),
           rule_(rule),
-          clock_(clock),
+          h_(step),
           policy_(policy),
           additive_(std::move(additive)),
           at_(curves_.size()),
@@ -99,10 +99,44 @@ public:
         fitted_.x.resize(2 * d);
         for (const ProductCurve& c : curves_) fits_.push_back(fitOf(c));
     }
+    Product(const Product& other)
+        : Integrator(other),
+          mechanics_(other.mechanics_),
+          curves_(other.curves_),
+          rule_(other.rule_),
+          h_(other.h_),
+          policy_(other.policy_),
+          additive_(other.additive_->clone()),
+          fits_(other.fits_),
+          offset_(other.offset_),
+          unknowns_(other.unknowns_),
+          residual_(other.residual_),
+          q_(other.q_),
+          v_(other.v_),
+          gradient_(other.gradient_),
+          hessian_(other.hessian_),
+          forces_(other.forces_),
+          at_(other.at_),
+          start_(other.start_),
+          end_(other.end_),
+          lu_(other.lu_),
+          from_(other.from_),
+          fitted_(other.fitted_) {}
+    Product& operator=(const Product&) = delete;
 
-    StepReport advance(State& state) override {
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        additive_->setStep(h);
+        fits_.clear();
+        for (const ProductCurve& c : curves_) fits_.push_back(fitOf(c));
+    }
+    void begin(State& state) override { additive_->begin(state); }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Product>(*this); }
+
+    StepReport advance(State& state, double until) override {
         StepReport report;
-        report.step = clock_.step;
+        report.step = h_;
         report.outcome = solve(state, report);
         if (report.outcome != Outcome::converged) return report;
         from_ = state;
@@ -110,7 +144,8 @@ public:
             state.x[k] = end_[k].q.value;
             state.x[curves_.size() + k] = own(k)[curves_[k].size()];
         }
-        state.t = clock_.at(++state.node);
+        state.t = until;
+        ++state.node;
         return report;
     }
 
@@ -121,12 +156,12 @@ public:
         partialWeights<double>(rule_, tau, share);
         ProductCurve::At at;
         for (std::size_t k = 0; k < d; ++k) {
-            curves_[k].evaluate(tau * clock_.step, clock_.step, own(k), at);
+            curves_[k].evaluate(tau * h_, h_, own(k), at);
             x[k] = at.q.value;
             double upTo = from_.x[d + k], whole = upTo;
             for (std::size_t i = 0; i < share.size(); ++i) {
-                upTo += clock_.step * share[i] * forces_[i * d + k];
-                whole += clock_.step * rule_.b[i] * forces_[i * d + k];
+                upTo += h_ * share[i] * forces_[i * d + k];
+                whole += h_ * rule_.b[i] * forces_[i * d + k];
             }
             x[d + k] = upTo + tau * (own(k)[curves_[k].size()] - whole);
         }
@@ -142,7 +177,7 @@ private:
     /// Coefficients of P_0..P_n, cos and sin in a curve from its samples.
     Eigen::MatrixXd fitOf(const ProductCurve& c) const {
         const OscillatoryBasis added(c.degree, {0});
-        const double z = c.frequency * clock_.step;
+        const double z = c.frequency * h_;
         const auto n = static_cast<std::size_t>(added.size());
         Eigen::MatrixXd functions(added.size(), fitSamples);
         std::vector<double> slopes(n);
@@ -159,7 +194,7 @@ private:
     void guess(const State& state) {
         const std::size_t d = curves_.size();
         fitted_ = state;
-        const bool isFound = additive_->advance(fitted_).outcome == Outcome::converged;
+        const bool isFound = extremal::advance(*additive_, fitted_).outcome == Outcome::converged;
         Eigen::MatrixXd samples(fitSamples, static_cast<Eigen::Index>(d));
         std::vector<double> x = state.x;
         for (int i = 0; i < fitSamples; ++i) {
@@ -235,7 +270,7 @@ private:
     /// R and dR/dX at the present X; false where they are not finite.
     bool assemble(const State& state, StepReport& report) {
         const int d = static_cast<int>(curves_.size()), all = static_cast<int>(unknowns_.size());
-        const double h = clock_.step;
+        const double h = h_;
         std::fill(residual_.begin(), residual_.end(), 0.0);
         for (int j = 0; j < all; ++j) std::fill_n(lu_.column(j), all, 0.0);
         for (std::size_t i = 0; i < rule_.c.size(); ++i) {
@@ -258,7 +293,7 @@ private:
         return std::all_of(residual_.begin(), residual_.end(), [](double r) { return std::isfinite(r); });
     }
     void evaluate(double t, std::vector<ProductCurve::At>& at) {
-        for (std::size_t k = 0; k < curves_.size(); ++k) curves_[k].evaluate(t, clock_.step, own(k), at[k]);
+        for (std::size_t k = 0; k < curves_.size(); ++k) curves_[k].evaluate(t, h_, own(k), at[k]);
     }
     void addNode(int k, double weight) {
         const int d = static_cast<int>(curves_.size()), n = curves_[static_cast<std::size_t>(k)].size();
@@ -306,10 +341,10 @@ private:
         R[n] = start_[at].q.value - state.x[at];
     }
 
-    const Mechanics<double>& mechanics_;
+    Mechanics<double> mechanics_;
     std::vector<ProductCurve> curves_;
     Rule<double> rule_;
-    Clock clock_;
+    double h_;
     SolverPolicy policy_;
     std::unique_ptr<Integrator> additive_;
     std::vector<Eigen::MatrixXd> fits_;
@@ -373,7 +408,7 @@ std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Di
     const Rule<double> made =
         makeRule<double>(pair.quadrature.type == "auto" ? resolvingRule(z[0], degree) : pair.quadrature);
     checkResolution(z[0], made);
-    return std::make_unique<Product>(system, std::move(curves), made, clock, policy,
+    return std::make_unique<Product>(system, std::move(curves), made, clock.step, policy,
                                      makeIntegrator(system, additive, clock));
 }
 

@@ -98,6 +98,7 @@ PairProperties describeThreeLevel(const Settings& space, const Settings& quadrat
     const bool isExact = alpha == 1.0 / 6,
                isSymmetric = quadrature.type == "exact" || makeRule<double>(quadrature).isSymmetric;
     p.claims = {isExact && space.text("start") != "variational" ? 4 : 2, true, true, {"bilinear form"}};
+    p.claims.isOneStep = false;
     p.curveOrder = p.claims.order;
     p.shortName = "3L" + std::to_string(p.claims.order);
     p.knownAs = isExact ? "Milne-Simpson" : alpha == 0 ? "leapfrog" : "";
@@ -159,6 +160,19 @@ WavePlan planWave(const System& system, const Settings& space, const Settings& s
     return plan;
 }
 
+Discretization withShift(const Discretization& pair, const System& system, const State& start) {
+    Discretization known = pair;
+    if (!isWaveSpace(pair.space) || !isWave(system) || !std::isnan(shiftOf(pair.space))) return known;
+    const double shift = meanEnergy(*system.hamiltonian(), start);
+    for (auto& [key, value] : known.space.keys)
+        if (key == "energy_shift") {
+            value = shift;
+            return known;
+        }
+    known.space.keys.emplace_back("energy_shift", shift);
+    return known;
+}
+
 double waveFrequency(const System& system, const Settings& space, const State& start) {
     const Hamiltonian& h = *system.hamiltonian();
     double shift = shiftOf(space);
@@ -174,7 +188,7 @@ double waveFrequency(const System& system, const Settings& space, const State& s
 
 namespace {
 
-std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& pair, const Clock& clock,
+std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& pair, double step,
                                    WaveSolver solver) {
     const int degree = pair.space.integer("degree");
     const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
@@ -188,7 +202,7 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
     const double tolerance = given > 0 ? given : 1e-14;
     if (pair.space.text("form") == "three-level") {
         const std::string start = pair.space.text("start");
-        return makeThreeLevelWave(system.hamiltonian(), clock, shift,
+        return makeThreeLevelWave(system.hamiltonian(), step, shift,
                                   {threeLevelAlpha(pair.quadrature),
                                    start == "variational" ? WaveStart::variational
                                    : start == "exact"     ? WaveStart::exact
@@ -197,18 +211,18 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
     }
     // A potential that depends on time has no factors: its stages are solved together.
     if (system.hamiltonian()->isTimeDependent())
-        return makeCollocationWave(system.hamiltonian(), clock, shift, gauss<double>(degree), tolerance,
+        return makeCollocationWave(system.hamiltonian(), step, shift, gauss<double>(degree), tolerance,
                                    iterations);
     switch (solver) {
         case WaveSolver::banded:
             // Pairs keep the norm to round-off; fours are faster, and good to 1e-11 or so.
-            return makeBandedWave(system.hamiltonian(), clock, shift, degree, given >= 1e-11 ? 4 : 2);
+            return makeBandedWave(system.hamiltonian(), step, shift, degree, given >= 1e-11 ? 4 : 2);
         case WaveSolver::dense:
-            return makeDenseWave(system.hamiltonian(), clock, shift, degree);
+            return makeDenseWave(system.hamiltonian(), step, shift, degree);
         case WaveSolver::krylov:
             break;
     }
-    return makeKrylovWave(system.hamiltonian(), clock, shift, degree, tolerance, iterations);
+    return makeKrylovWave(system.hamiltonian(), step, shift, degree, tolerance, iterations);
 }
 
 }  // namespace
@@ -223,19 +237,17 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
     if (pair.space.text("time_basis") == "chebyshev")
         requireSplit(system, "/space/time_basis", "chebyshev", "legendre");
     const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
-    const auto make = [system, pair, plan, slabs](const Clock& of) -> std::unique_ptr<Integrator> {
-        const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
-        auto step = isChebyshev ? makeCollocationWave(
-                                      system.hamiltonian(), of, std::numeric_limits<double>::quiet_NaN(),
-                                      chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
-                                : makeWave(system, pair, of, plan.solver);
-        step->setAbout(isChebyshev ? "all stages together by GMRES"
-                                   : std::string(name(plan.solver)) +
-                                         (plan.isForced ? " as wanted, about " : ", about ") +
-                                         duration(slabs * plan.microseconds) + " a step");
-        return step;
-    };
-    return slabs > 1 ? makeSlabs(make, clock, slabs) : make(clock);
+    const double step = clock.step / slabs;
+    const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
+    auto made = isChebyshev ? makeCollocationWave(system.hamiltonian(), step, shiftOf(pair.space),
+                                                  chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
+                            : makeWave(system, pair, step, plan.solver);
+    made->setAbout(isChebyshev ? "all stages together by GMRES"
+                               : std::string(name(plan.solver)) +
+                                     (plan.isForced ? " as wanted, about " : ", about ") +
+                                     duration(slabs * plan.microseconds) + " a step");
+    if (slabs == 1) return made;
+    return makeSlabs(std::move(made), slabs);
 }
 
 PairProperties describeWave(const Settings& space, const Settings& quadrature) {

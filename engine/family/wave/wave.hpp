@@ -52,6 +52,9 @@ WavePlan planWave(const System& system, const Settings& space, const Settings& s
 /// 512 modes, else by the bounds of kinetic and potential energy.
 double waveFrequency(const System& system, const Settings& space, const State& start);
 
+/// The pair with the energy shift "mean" as a number, that of the start of a run. Other pairs as they are.
+Discretization withShift(const Discretization& pair, const System& system, const State& start);
+
 std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair,
                                                const Clock& clock);
 

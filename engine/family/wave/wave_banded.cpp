@@ -10,12 +10,25 @@ namespace {
 
 class BandedWave final : public WaveStep {
 public:
-    BandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift, int degree,
+    BandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift, int degree,
                int together)
-        : WaveStep(std::move(hamiltonian), clock, shift), degree_(degree), together_(together) {}
+        : WaveStep(std::move(hamiltonian), step, shift), degree_(degree), together_(together) {}
+
+    BandedWave(const BandedWave& other)
+        : WaveStep(other), degree_(other.degree_), together_(other.together_) {
+        if (!other.groups_.empty()) prepare();
+    }
+    BandedWave& operator=(const BandedWave&) = delete;
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<BandedWave>(*this); }
 
 private:
+    /// Without the factors of this step size.
+    std::unique_ptr<Integrator> inside() const override {
+        return makeBandedWave(shared(), dt(), shift(), degree_, together_);
+    }
     void prepare() override {
+        groups_.clear();
         const CyclicBand Y = cyclicBand(hamiltonian(), dt(), shift());
         for (const PoleGroup& g : padeGroups(degree_, together_)) {
             // Groups of three, where s is odd, have no lanes of their own.
@@ -28,12 +41,9 @@ private:
             groups_.emplace_back(Y, g.zeta, g.residue, g.sign);
         }
     }
-    void step(double, Complex* v, StepReport& report) override {
+    void step(double, Complex* v, std::vector<double>&, StepReport& report) override {
         for (const BandedPoles& g : groups_) g.apply(v);
         report.cost.linearSolves = degree_;
-    }
-    std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {
-        return makeBandedWave(shared(), clock, shift, degree_, together_);
     }
 
     int degree_, together_;
@@ -42,9 +52,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
                                          double shift, int degree, int together) {
-    return std::make_unique<BandedWave>(std::move(hamiltonian), clock, shift, degree, together);
+    return std::make_unique<BandedWave>(std::move(hamiltonian), step, shift, degree, together);
 }
 
 }  // namespace extremal

@@ -16,9 +16,9 @@ namespace {
 
 class CollocationWave final : public WaveStep {
 public:
-    CollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
+    CollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift,
                     const Rule<double>& rule, double tolerance, int maxIterations)
-        : WaveStep(std::move(hamiltonian), clock, shift),
+        : WaveStep(std::move(hamiltonian), step, shift),
           rule_(rule),
           tolerance_(tolerance),
           maxIterations_(maxIterations),
@@ -29,6 +29,8 @@ public:
         psi_.resize(size_);
         V_.resize(size_ * stages_);
     }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<CollocationWave>(*this); }
 
 private:
     void prepare() override {
@@ -72,7 +74,7 @@ private:
             }
         }
     }
-    void step(double t, Complex* v, StepReport& report) override {
+    void step(double t, Complex* v, std::vector<double>&, StepReport& report) override {
         const double factor = dt() / hamiltonian().hbar();
         for (std::size_t j = 0; j < stages_; ++j) {
             hamiltonian().potentialAt(t + rule_.c[j] * dt(), V_.data() + j * size_);
@@ -110,9 +112,6 @@ private:
             v[k] = sum;
         }
     }
-    std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {
-        return makeCollocationWave(shared(), clock, shift, rule_, tolerance_, maxIterations_);
-    }
 
     Rule<double> rule_;
     double tolerance_;
@@ -127,10 +126,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian,
-                                              const Clock& clock, double shift, const Rule<double>& rule,
-                                              double tolerance, int maxIterations) {
-    return std::make_unique<CollocationWave>(std::move(hamiltonian), clock, shift, rule, tolerance,
+std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
+                                              double shift, const Rule<double>& rule, double tolerance,
+                                              int maxIterations) {
+    return std::make_unique<CollocationWave>(std::move(hamiltonian), step, shift, rule, tolerance,
                                              maxIterations);
 }
 

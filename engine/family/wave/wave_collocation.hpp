@@ -12,8 +12,8 @@
 namespace extremal {
 
 /// Only the nodes of the rule count. None may be at the start of the step.
-std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian,
-                                              const Clock& clock, double shift, const Rule<double>& rule,
-                                              double tolerance, int maxIterations);
+std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
+                                              double shift, const Rule<double>& rule, double tolerance,
+                                              int maxIterations);
 
 }  // namespace extremal

@@ -11,22 +11,25 @@ namespace {
 
 class DenseWave final : public WaveStep {
 public:
-    DenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift, int degree)
-        : WaveStep(std::move(hamiltonian), clock, shift), degree_(degree) {
+    DenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift, int degree)
+        : WaveStep(std::move(hamiltonian), step, shift), degree_(degree) {
         const auto size = static_cast<std::size_t>(n());
         psi_.resize(size);
         parts_.resize(2 * size);
         d_.resize(2 * size);
     }
 
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<DenseWave>(*this); }
+
 private:
     void prepare() override {
         states_ = Eigenstates::of(shared());
+        turn_.clear();
         for (const double E : states_->energies())
             turn_.push_back(padeTurn(degree_, dt() * (E - shift()) / hamiltonian().hbar()));
     }
-    void restart() override { hasStates_ = false; }
-    void step(double, Complex* v, StepReport& report) override {
+    void forget() override { hasStates_ = false; }
+    void step(double, Complex* v, std::vector<double>&, StepReport& report) override {
         const std::size_t size = psi_.size();
         if (!hasStates_) {
             hamiltonian().toReal(v, psi_.data());
@@ -47,9 +50,6 @@ private:
         hamiltonian().fromReal(psi_.data(), v);
         report.cost.linearSolves = degree_;
     }
-    std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {
-        return makeDenseWave(shared(), clock, shift, degree_);
-    }
 
     int degree_;
     std::shared_ptr<const Eigenstates> states_;
@@ -60,9 +60,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
                                         double shift, int degree) {
-    return std::make_unique<DenseWave>(std::move(hamiltonian), clock, shift, degree);
+    return std::make_unique<DenseWave>(std::move(hamiltonian), step, shift, degree);
 }
 
 }  // namespace extremal

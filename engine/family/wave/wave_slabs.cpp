@@ -10,56 +10,71 @@ namespace {
 
 class Slabs final : public Integrator {
 public:
-    using Make = std::function<std::unique_ptr<Integrator>(const Clock&)>;
+    Slabs(std::unique_ptr<Integrator> slab, int slabs)
+        : slabs_(slabs), h_(slab->stepSize() * slabs), slab_(std::move(slab)) {}
+    Slabs(const Slabs& other)
+        : Integrator(other),
+          slabs_(other.slabs_),
+          h_(other.h_),
+          slab_(other.slab_->clone()),
+          start_(other.start_),
+          inner_(other.inner_) {}
+    Slabs& operator=(const Slabs&) = delete;
 
-    Slabs(Make make, const Clock& clock, int slabs)
-        : make_(std::move(make)),
-          clock_(clock),
-          slabs_(slabs),
-          slab_(make_({clock.start, clock.step / slabs})) {}
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        slab_->setStep(h / slabs_);
+        inner_ = {};
+    }
+    std::vector<MemoryPart> memoryParts() const override { return slab_->memoryParts(); }
+    void begin(State& state) override { slab_->begin(state); }
 
-    StepReport advance(State& state) override {
+    StepReport advance(State& state, double until) override {
         slab_->setStop(stop());
         StepReport report;
-        if (inner_.x != state.x || inner_.t != state.t) inner_ = {state.t, state.node * slabs_, state.x};
-        start_ = inner_;
+        report.step = h_;
+        inner_ = state;
         for (int k = 0; k < slabs_; ++k) {
-            const StepReport one = slab_->advance(inner_);
+            const StepReport one = slab_->advance(inner_, timeAfter(k, state.t, until));
             report.outcome = one.outcome;
             report.cost += one.cost;
-            if (one.outcome != Outcome::converged) {
-                inner_ = start_;
-                return report;
-            }
+            if (one.outcome != Outcome::converged) return report;
         }
-        report.step = clock_.step;
+        start_ = state;
         std::copy(inner_.x.begin(), inner_.x.end(), state.x.begin());
-        inner_.t = state.t = clock_.at(++state.node);
+        state.memory = inner_.memory;
+        state.t = until;
+        ++state.node;
         return report;
     }
     void denseOutput(double tau, std::span<double> x) const override {
         // Once more from the start, as far as the slab that tau is in.
-        const auto again = make_({clock_.start, clock_.step / slabs_});
+        const auto again = slab_->clone();
         const int last = std::clamp(static_cast<int>(tau * slabs_), 0, slabs_ - 1);
         State state = start_;
-        for (int k = 0; k <= last; ++k) (void)again->advance(state);
+        for (int k = 0; k <= last; ++k) (void)again->advance(state, timeAfter(k, start_.t, start_.t + h_));
         again->denseOutput(tau * slabs_ - last, x);
     }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Slabs>(*this); }
     std::string about() const override { return slab_->about(); }
 
 private:
-    Make make_;
-    Clock clock_;
+    /// End of slab k of a step.
+    double timeAfter(int k, double start, double end) const {
+        return k + 1 == slabs_ ? end : start + (k + 1) * (h_ / slabs_);
+    }
+
     int slabs_;
+    double h_;
     std::unique_ptr<Integrator> slab_;
     State start_, inner_;
 };
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeSlabs(std::function<std::unique_ptr<Integrator>(const Clock&)> make,
-                                      const Clock& clock, int slabs) {
-    return std::make_unique<Slabs>(std::move(make), clock, slabs);
+std::unique_ptr<Integrator> makeSlabs(std::unique_ptr<Integrator> slab, int slabs) {
+    return std::make_unique<Slabs>(std::move(slab), slabs);
 }
 
 Rule<double> chebyshevRoots(int n) {

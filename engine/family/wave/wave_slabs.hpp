@@ -5,7 +5,6 @@
 /// problem.
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "engine/family/wave/wave_step.hpp"
@@ -13,9 +12,8 @@
 
 namespace extremal {
 
-/// `make` makes the integrator of one slab, for steps of clock.step/slabs.
-std::unique_ptr<Integrator> makeSlabs(std::function<std::unique_ptr<Integrator>(const Clock&)> make,
-                                      const Clock& clock, int slabs);
+/// Steps of as many of `slab`'s steps.
+std::unique_ptr<Integrator> makeSlabs(std::unique_ptr<Integrator> slab, int slabs);
 
 /// n Chebyshev roots in [0, 1], as a rule whose nodes alone count.
 Rule<double> chebyshevRoots(int n);

@@ -3,52 +3,98 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 namespace extremal {
+namespace {
 
-WaveStep::WaveStep(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift)
-    : hamiltonian_(std::move(hamiltonian)), clock_(clock), shift_(shift) {
+/// to <- e^{i angle} from, n complex numbers.
+void rotatePhases(const double* from, double angle, double* to, std::size_t n) {
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    for (std::size_t i = 0; i < 2 * n; i += 2) {
+        const double re = from[i], im = from[i + 1];
+        to[i] = cosine * re - sine * im;
+        to[i + 1] = cosine * im + sine * re;
+    }
+}
+
+}  // namespace
+
+double meanEnergy(const Hamiltonian& hamiltonian, const State& state) {
+    if (state.x.empty()) return std::numeric_limits<double>::quiet_NaN();
+    return hamiltonian.energy(state.t, coefficients(state.x.data()));
+}
+
+WaveStep::WaveStep(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift)
+    : hamiltonian_(std::move(hamiltonian)), h_(step), shift_(shift) {
     const auto size = static_cast<std::size_t>(hamiltonian_->size());
     v_.resize(size);
     before_.resize(size);
     handedOut_.resize(2 * size);
 }
 
-StepReport WaveStep::advance(State& state) {
-    StepReport report;
-    report.step = clock_.step;
-    const std::size_t bytes = handedOut_.size() * sizeof(double);
-    if (!isReady_) {
-        if (std::isnan(shift_)) shift_ = hamiltonian_->energy(state.t, coefficients(state.x.data()));
-        prepare();
+void WaveStep::setStep(double h) {
+    h_ = h;
+    isPrepared_ = hasState_ = false;
+}
+
+void WaveStep::settleShift(const State& state) {
+    if (std::isnan(shift_)) shift_ = meanEnergy(*hamiltonian_, state);
+}
+
+void WaveStep::begin(State& state) {
+    settleShift(state);
+    remember(state);
+    resume(state);
+}
+
+/// v from c, in the gauge of the state.
+void WaveStep::resume(const State& state) {
+    settleShift(state);
+    const Gauge gauge = gaugeOf(state);
+    if (gauge.shift != shift_) {
+        shift_ = gauge.shift;
+        isPrepared_ = false;
     }
-    if (!isReady_ || std::memcmp(state.x.data(), handedOut_.data(), bytes) != 0) {
-        std::copy_n(coefficients(state.x.data()), v_.size(), v_.begin());
-        std::copy(state.x.begin(), state.x.end(), handedOut_.begin());
-        origin_ = state.t;
-        isReady_ = true;
-        restart();
+    if (!isPrepared_) prepare();
+    isPrepared_ = hasState_ = true;
+    origin_ = gauge.origin;
+    endTime_ = state.t;
+    memorySize_ = state.memory.size();
+    std::copy(state.x.begin(), state.x.end(), handedOut_.begin());
+    double* v = reinterpret_cast<double*>(v_.data());
+    if (origin_ == state.t)
+        std::copy(state.x.begin(), state.x.end(), v);
+    else
+        rotatePhases(state.x.data(), shift_ * (state.t - origin_) / hamiltonian_->hbar(), v, v_.size());
+    forget();
+}
+
+StepReport WaveStep::advance(State& state, double until) {
+    StepReport report;
+    report.step = h_;
+    const std::size_t bytes = handedOut_.size() * sizeof(double);
+    if (!hasState_ || state.t != endTime_ || state.memory.size() != memorySize_ ||
+        std::memcmp(state.x.data(), handedOut_.data(), bytes) != 0) {
+        if (state.memory.empty())
+            begin(state);
+        else
+            resume(state);
     }
     std::copy(v_.begin(), v_.end(), before_.begin());
     startTime_ = state.t;
-    step(state.t, v_.data(), report);
+    step(state.t, v_.data(), state.memory, report);
     if (report.outcome != Outcome::converged) {
         std::copy(before_.begin(), before_.end(), v_.begin());
-        restart();
+        forget();
         return report;
     }
-    const double t = clock_.at(state.node + 1), angle = -shift_ * (t - origin_) / hamiltonian_->hbar();
-    const double cosine = std::cos(angle), sine = std::sin(angle);
-    const double* v = reinterpret_cast<const double*>(v_.data());
-    double* out = handedOut_.data();
-    for (std::size_t i = 0; i < handedOut_.size(); i += 2) {
-        out[i] = cosine * v[i] - sine * v[i + 1];
-        out[i + 1] = cosine * v[i + 1] + sine * v[i];
-    }
-    std::memcpy(state.x.data(), out, bytes);
+    rotatePhases(reinterpret_cast<const double*>(v_.data()),
+                 -shift_ * (until - origin_) / hamiltonian_->hbar(), handedOut_.data(), v_.size());
+    std::memcpy(state.x.data(), handedOut_.data(), bytes);
     ++state.node;
-    state.t = t;
+    state.t = endTime_ = until;
     return report;
 }
 
@@ -60,8 +106,9 @@ void WaveStep::denseOutput(double tau, std::span<double> x) const {
     for (std::size_t i = 0; i < before_.size(); ++i)
         coefficients(state.x.data())[i] = before_[i] * std::polar(1.0, angle);
     if (tau > 0) {
-        const auto shorter = withStep({startTime_, tau * clock_.step}, shift_);
-        (void)shorter->advance(state);
+        const auto shorter = inside();
+        shorter->setStep(tau * h_);
+        (void)shorter->advance(state, startTime_ + tau * h_);
     }
     std::copy(state.x.begin(), state.x.end(), x.begin());
 }

@@ -1,11 +1,13 @@
-/// What the one-step integrators of wave functions share: the gauge, the clock, and a curve between the
-/// nodes.
+/// What the integrators of wave functions share: the gauge, the state, and dense output.
 ///
-/// v = e^{i Ec (t - t_0)/hbar} c is carried on by step(); the state gets c. As long as the state is the one
-/// that was handed out last, v goes on as it is: the phase is computed from t at every node. Internal to
-/// engine/integrator.
+/// v = e^{i Ec (t - t_0)/hbar} c is carried on by step(); the state gets c. t_0, the origin of the gauge, is
+/// any time: one-step methods take the node from which v was made last, methods of more levels the one that
+/// their memory names. As long as the state is the one that was handed out last, v goes on as it is: the
+/// phase is computed from t at every node. Internal to engine/family/wave and the baselines of wave
+/// functions.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,50 +19,65 @@ namespace extremal {
 
 class WaveStep : public Integrator {
 public:
-    /// `shift`: Ec, or NaN for <H> at the first state.
-    WaveStep(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift);
+    /// `shift`: Ec, or NaN for <H> at the first state that is seen.
+    WaveStep(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift);
 
-    StepReport advance(State& state) final;
-    /// A shorter step from the state before: as accurate as the scheme itself. Makes it on first use.
-    void denseOutput(double tau, std::span<double> x) const override;
-    /// Also called when the state was replaced from outside: what is remembered of the last step no longer
-    /// belongs to it.
-    void restart() override {}
-    std::string about() const override { return about_; }
+    double stepSize() const final { return h_; }
+    void setStep(double h) final;
+    void begin(State& state) final;
+    StepReport advance(State& state, double until) final;
+    /// A shorter step from the state before: as accurate as the scheme itself. Made on each use.
+    void denseOutput(double tau, std::span<double> x) const final;
+    std::string about() const final { return about_; }
     void setAbout(std::string about) { about_ = std::move(about); }
 
 protected:
-    /// Called once, when the shift is known.
+    /// Called before the first step of a size, when the shift is known. May be called again.
     virtual void prepare() {}
-    /// v(t) -> v(t + dt).
-    virtual void step(double t, Complex* v, StepReport& report) = 0;
-    /// The same scheme with another step.
-    virtual std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const = 0;
+    /// What v has beside it was made for another state.
+    virtual void forget() {}
+    /// v(t) -> v(t + dt). `memory`: of the state, moved on as well.
+    virtual void step(double t, Complex* v, std::vector<double>& memory, StepReport& report) = 0;
+    /// Fills the memory of a state where a run begins; the shift is known.
+    virtual void remember(State& state) const { state.memory.clear(); }
+    /// The shift and the origin of the gauge that a memory was made with.
+    struct Gauge {
+        double shift, origin;
+    };
+    virtual Gauge gaugeOf(const State& state) const { return {shift_, state.t}; }
+    /// What makes the steps of dense output, in the same shift; its step size is set afterwards.
+    virtual std::unique_ptr<Integrator> inside() const { return clone(); }
 
     const Hamiltonian& hamiltonian() const { return *hamiltonian_; }
     const std::shared_ptr<const Hamiltonian>& shared() const { return hamiltonian_; }
     int n() const { return hamiltonian_->size(); }
-    double dt() const { return clock_.step; }
+    double dt() const { return h_; }
     double shift() const { return shift_; }
 
 private:
+    void settleShift(const State& state);
+    void resume(const State& state);
+
     std::shared_ptr<const Hamiltonian> hamiltonian_;
-    Clock clock_;
-    double shift_;
-    bool isReady_ = false;
+    double h_, shift_;
+    bool isPrepared_ = false, hasState_ = false;
     double origin_ = 0;  ///< t_0
     std::vector<Complex> v_, before_;
     std::vector<double> handedOut_;
-    double startTime_ = 0;
+    double startTime_ = 0, endTime_ = 0;
+    std::size_t memorySize_ = 0;
     std::string about_;
 };
 
+/// <H> at a state; NaN where x is empty.
+double meanEnergy(const Hamiltonian& hamiltonian, const State& state);
+
 /// The three ways. Groups of `together` poles: 1, 2 or 4.
-std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+std::unique_ptr<WaveStep> makeBandedWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
                                          double shift, int degree, int together);
-std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+std::unique_ptr<WaveStep> makeDenseWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
                                         double shift, int degree);
-std::unique_ptr<WaveStep> makeKrylovWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock,
+std::unique_ptr<WaveStep> makeKrylovWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
                                          double shift, int degree, double tolerance, int maxIterations);
 
 }  // namespace extremal

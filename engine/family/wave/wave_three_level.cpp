@@ -10,20 +10,34 @@
 namespace extremal {
 namespace {
 
-std::unique_ptr<WaveStep> gaussStep(const std::shared_ptr<const Hamiltonian>& h, const Clock& clock,
-                                    double shift, int degree, const ThreeLevel& form) {
-    if (form.solver == WaveSolver::banded) return makeBandedWave(h, clock, shift, degree, 2);
-    if (form.solver == WaveSolver::dense) return makeDenseWave(h, clock, shift, degree);
-    return makeKrylovWave(h, clock, shift, degree, form.tolerance, form.maxIterations);
+std::unique_ptr<WaveStep> gaussStep(const std::shared_ptr<const Hamiltonian>& h, double step, double shift,
+                                    int degree, const ThreeLevel& form) {
+    if (form.solver == WaveSolver::banded) return makeBandedWave(h, step, shift, degree, 2);
+    if (form.solver == WaveSolver::dense) return makeDenseWave(h, step, shift, degree);
+    return makeKrylovWave(h, step, shift, degree, form.tolerance, form.maxIterations);
 }
 
 class ThreeLevelWave final : public WaveStep {
 public:
-    ThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, const Clock& clock, double shift,
+    ThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift,
                    const ThreeLevel& form)
-        : WaveStep(std::move(hamiltonian), clock, shift), form_(form) {
-        for (auto* v : {&previous_, &next_, &work_}) v->resize(static_cast<std::size_t>(n()));
-        first_.x.resize(2 * previous_.size());
+        : WaveStep(std::move(hamiltonian), step, shift), form_(form) {
+        for (auto* v : {&next_, &work_}) v->resize(static_cast<std::size_t>(n()));
+        first_.x.resize(2 * next_.size());
+    }
+    ThreeLevelWave(const ThreeLevelWave& other)
+        : WaveStep(other), form_(other.form_), next_(other.next_), work_(other.work_), first_(other.first_) {
+        if (other.inverse_ || other.starter_) prepare();
+    }
+    ThreeLevelWave& operator=(const ThreeLevelWave&) = delete;
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<ThreeLevelWave>(*this); }
+    /// The level before in the gauge that the last three numbers tell; 0 levels before the first step.
+    std::vector<MemoryPart> memoryParts() const override {
+        return {{"level before", 2 * next_.size()},
+                {"energy shift", 1},
+                {"origin of the gauge", 1},
+                {"levels", 1}};
     }
 
 private:
@@ -34,33 +48,42 @@ private:
         // Both shifts are the same and the gauge is known: the step is in v, so its own phase is taken out
         // again.
         if (form_.start != WaveStart::variational)
-            starter_ =
-                gaussStep(shared(), {0, dt()}, shift(), form_.start == WaveStart::gauss ? 2 : 8, form_);
+            starter_ = gaussStep(shared(), dt(), shift(), form_.start == WaveStart::gauss ? 2 : 8, form_);
     }
-    void restart() override { hasPrevious_ = false; }
+    void remember(State& state) const override {
+        state.memory.assign(2 * next_.size(), 0);
+        state.memory.insert(state.memory.end(), {shift(), state.t, 0});
+    }
+    Gauge gaugeOf(const State& state) const override {
+        if (state.memory.empty()) return {shift(), state.t};
+        const double* gauge = state.memory.data() + 2 * next_.size();
+        return {gauge[0], gauge[1]};
+    }
 
-    void step(double, Complex* v, StepReport& report) override {
-        report.outcome = hasPrevious_ ? later(v, report) : first(v, report);
+    void step(double, Complex* v, std::vector<double>& memory, StepReport& report) override {
+        Complex* previous = coefficients(memory.data());
+        double& levels = memory.back();
+        report.outcome = levels > 0 ? later(previous, v, report) : first(v, report);
         if (report.outcome != Outcome::converged) return;
-        std::copy(v, v + n(), previous_.begin());
+        std::copy(v, v + n(), previous);
         std::copy(next_.begin(), next_.end(), v);
-        hasPrevious_ = true;
+        levels = 1;
     }
     /// next_ <- v^{l+1}.
-    Outcome later(const Complex* v, StepReport& report) {
+    Outcome later(const Complex* previous, const Complex* v, StepReport& report) {
         const std::size_t size = next_.size();
         if (form_.alpha == 0) {
             image(v, report);
             for (std::size_t i = 0; i < size; ++i) {
                 const Complex change(2 * next_[i].imag(), -2 * next_[i].real());  // -2i Y v
-                next_[i] = previous_[i] + change;
+                next_[i] = previous[i] + change;
             }
             return Outcome::converged;
         }
         const double zeta = 1 / (2 * form_.alpha), k = (1 - 2 * form_.alpha) / form_.alpha;
-        for (std::size_t i = 0; i < size; ++i) next_[i] = zeta * (2.0 * previous_[i] + k * v[i]);
+        for (std::size_t i = 0; i < size; ++i) next_[i] = zeta * (2.0 * previous[i] + k * v[i]);
         const Outcome outcome = inverse_->apply(next_.data(), report, stop());
-        for (std::size_t i = 0; i < size; ++i) next_[i] -= previous_[i] + k * v[i];
+        for (std::size_t i = 0; i < size; ++i) next_[i] -= previous[i] + k * v[i];
         return outcome;
     }
     /// next_ <- v^1.
@@ -70,7 +93,7 @@ private:
             first_.t = 0;
             first_.node = 0;
             std::copy_n(reinterpret_cast<const double*>(v), 2 * size, first_.x.begin());
-            const StepReport own = starter_->advance(first_);
+            const StepReport own = starter_->advance(first_, dt());
             report.cost += own.cost;
             const Complex back = std::polar(1.0, shift() * dt() / hamiltonian().hbar());
             for (std::size_t i = 0; i < size; ++i) next_[i] = back * coefficients(first_.x.data())[i];
@@ -95,23 +118,22 @@ private:
         const double factor = dt() / hamiltonian().hbar();
         for (std::size_t i = 0; i < next_.size(); ++i) next_[i] = factor * (next_[i] - shift() * v[i]);
     }
-    std::unique_ptr<WaveStep> withStep(const Clock& clock, double shift) const override {
-        return gaussStep(shared(), clock, shift, 2, form_);
+    std::unique_ptr<Integrator> inside() const override {
+        return gaussStep(shared(), dt(), shift(), 2, form_);
     }
 
     ThreeLevel form_;
     std::unique_ptr<ShiftedInverse> inverse_;
     std::unique_ptr<WaveStep> starter_;
-    std::vector<Complex> previous_, next_, work_;
+    std::vector<Complex> next_, work_;
     State first_;
-    bool hasPrevious_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<WaveStep> makeThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian,
-                                             const Clock& clock, double shift, const ThreeLevel& form) {
-    return std::make_unique<ThreeLevelWave>(std::move(hamiltonian), clock, shift, form);
+std::unique_ptr<WaveStep> makeThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
+                                             double shift, const ThreeLevel& form) {
+    return std::make_unique<ThreeLevelWave>(std::move(hamiltonian), step, shift, form);
 }
 
 double threeLevelAlpha(const Settings& quadrature) {

@@ -31,8 +31,8 @@ struct ThreeLevel {
     int maxIterations = 600;
 };
 
-std::unique_ptr<WaveStep> makeThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian,
-                                             const Clock& clock, double shift, const ThreeLevel& form);
+std::unique_ptr<WaveStep> makeThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
+                                             double shift, const ThreeLevel& form);
 
 /// alpha of the rule that a scene names; "exact" is 1/6.
 double threeLevelAlpha(const Settings& quadrature);

@@ -41,6 +41,7 @@ ObservableEntry bilinear_form() {
     e.applies = [](const System& system) { return isWave(system); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
+        o.extreme = 1;
         o.columns = {{"bilinear_form", "J", "", {}, {}}, {"bilinear_form_error", "J - J(0)", "", {}, {}}};
         const bool isPair = context.pair != nullptr,
                    isThreeLevel = isPair && context.pair->space.text("form") == "three-level";

@@ -33,7 +33,7 @@ public:
         State next = state;
         next.node = 0;
         const auto integrator = makeIntegrator(system_, pair_, Clock{state.t, step_});
-        if (integrator->advance(next).outcome != Outcome::converged) return;
+        if (advance(*integrator, next).outcome != Outcome::converged) return;
         Eigen::MatrixXd ends(d, 2);
         ends << Eigen::Map<const Eigen::VectorXd>(state.x.data(), d),
             Eigen::Map<const Eigen::VectorXd>(next.x.data(), d);

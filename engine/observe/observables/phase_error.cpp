@@ -18,6 +18,7 @@ ObservableEntry phase_error() {
     e.bind = [](const ObserveContext& context) {
         const ErrorMeasure& measure = context.system.phaseError;
         Observer o;
+        o.extreme = 0;
         for (const Quantity& c : measure.columns) o.columns.push_back({c.name, c.symbol, c.unit, {}, {}});
         o.evaluate = [width = context.initial.x.size(), evaluate = measure.evaluate,
                       reference = context.reference, exact = std::vector<double>()](

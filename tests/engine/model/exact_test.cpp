@@ -45,8 +45,8 @@ private slots:
         QVERIFY(laws::distance(x, state.x, 0, x.size()) < 1e-13);
         for (const double end : {1.0, 4.0, 12.0}) {
             State s = state;
-            const auto code = findBaseline("fehlberg78")->make(system, {{}, end, 1e-14, {}});
-            while (s.t < end) QVERIFY(code->advance(s).outcome == Outcome::converged);
+            const auto code = findBaseline("fehlberg78")->make(system, {0, s, 1e-14, {}});
+            while (s.t < end) QVERIFY(code->advance(s, end).outcome == Outcome::converged);
             exact(end, x);
             const double difference = laws::distance(x, s.x, 0, x.size());
             QVERIFY2(difference < 2e-11, qPrintable(QString("%1 at t = %2").arg(difference).arg(end)));

@@ -1,0 +1,146 @@
+#include "engine/run/march.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+
+namespace extremal {
+namespace {
+
+double threadSeconds() {
+    timespec ts{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ts);
+    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
+}
+
+/// One march on its way.
+class March {
+public:
+    March(Integrator& integrator, State& state, const MarchGrid& grid, std::span<const MarchSink> sinks)
+        : integrator_(integrator),
+          state_(state),
+          grid_(grid),
+          sinks_(sinks),
+          isFixed_(integrator.grid() == TimeGrid::fixed) {}
+
+    MarchReport run(NodeBlock& nodes, const std::stop_token& stop) {
+        if (state_.memory.empty()) integrator_.begin(state_);
+        remember();
+        nodes.push(state_, {});
+        bool goesOn = show(nodes, true);
+        std::size_t blockSize = 1;
+        long long taken = 0;
+        while (goesOn && !isDone() && report_.outcome == Outcome::converged) {
+            if (stop.stop_requested()) {
+                report_.outcome = Outcome::stopped;
+                break;
+            }
+            remember();
+            nodes.clear();
+            const double start = threadSeconds();
+            const auto allowed = static_cast<std::size_t>(
+                std::min<long long>(static_cast<long long>(blockSize), grid_.budget - taken));
+            const StepReport step = takeSteps(nodes, allowed);
+            const double used = threadSeconds() - start;
+            report_.cpuSeconds += used;
+            if (used < 5e-4) blockSize = std::min(nodes.capacity(), 2 * blockSize);
+            if (used > 5e-3) blockSize = std::max<std::size_t>(1, blockSize / 2);
+            report_.outcome = step.outcome;
+            if (step.outcome != Outcome::converged) report_.cost += step.cost;
+            checkFinite(nodes);
+            taken += static_cast<long long>(nodes.size());
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                const StepReport& each = nodes.report(i);
+                report_.cost += each.cost;
+                report_.events.note(nodes.t(i), nodes.node(i), each.event);
+            }
+            if (nodes.size() > 0) {
+                report_.last = nodes.report(nodes.size() - 1);
+                goesOn = show(nodes, false);
+            }
+            if (taken >= grid_.budget && !isDone() && report_.outcome == Outcome::converged)
+                report_.outcome = Outcome::stepBudget;
+        }
+        report_.isEndedBySink = !goesOn;
+        return report_;
+    }
+
+private:
+    bool isDone() const { return isFixed_ ? state_.node >= grid_.steps : state_.t >= grid_.end; }
+
+    /// Up to `count` steps; the report of the last one.
+    StepReport takeSteps(NodeBlock& nodes, std::size_t count) {
+        StepReport report;
+        while (report.outcome == Outcome::converged && nodes.size() < count && !isDone()) {
+            if (isFixed_) {
+                const auto left = static_cast<std::size_t>(std::min<long long>(
+                    static_cast<long long>(count - nodes.size()), grid_.steps - state_.node));
+                report = integrator_.advanceBlock(state_, nodes, left, grid_.clock);
+            } else {
+                report = integrator_.advance(state_, grid_.end);
+                if (report.outcome != Outcome::converged) break;
+                nodes.push(state_, report);
+                if (double* values = nodes.lastQuantities()) integrator_.measure(values);
+            }
+        }
+        return report;
+    }
+    void remember() {
+        before_.t = state_.t;
+        before_.node = state_.node;
+        before_.x.assign(state_.x.begin(), state_.x.end());
+    }
+    /// Nodes from the first that is not finite on were not reached.
+    void checkFinite(NodeBlock& nodes) {
+        const std::size_t finite = nodes.finiteNodes();
+        if (finite == nodes.size()) return;
+        report_.outcome = Outcome::notFinite;
+        if (finite > 0) {
+            state_.t = nodes.t(finite - 1);
+            state_.node = nodes.node(finite - 1);
+            state_.x.assign(nodes.x(finite - 1), nodes.x(finite - 1) + nodes.width());
+        } else {
+            state_.t = before_.t;
+            state_.node = before_.node;
+            state_.x = before_.x;
+        }
+        nodes.truncate(finite);
+    }
+    bool show(const NodeBlock& nodes, bool isStart) {
+        const Stretch stretch{nodes, before_, state_, integrator_, report_, isStart};
+        bool goesOn = true;
+        for (const MarchSink& sink : sinks_) goesOn = sink.see(stretch) && goesOn;
+        return goesOn;
+    }
+
+    Integrator& integrator_;
+    State& state_;
+    MarchGrid grid_;
+    std::span<const MarchSink> sinks_;
+    bool isFixed_;
+    State before_;  ///< where the block at hand began
+    MarchReport report_;
+};
+
+}  // namespace
+
+MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
+                  std::span<const MarchSink> sinks, const std::stop_token& stop) {
+    constexpr std::size_t numbersOfBlock = 16384, mostNodes = 512;
+    integrator.setStop(stop);
+    const bool looksInside =
+        std::any_of(sinks.begin(), sinks.end(), [](const MarchSink& sink) { return sink.looksInsideSteps; });
+    const std::size_t width = state.x.size(), quantities = integrator.quantities().size();
+    const std::size_t capacity =
+        looksInside ? 1
+                    : std::clamp<std::size_t>(numbersOfBlock / std::max<std::size_t>(1, width), 1, mostNodes);
+    March run(integrator, state, grid, sinks);
+    if (capacity == 1) {
+        NodeBlock nodes = NodeBlock::referring(width, quantities);
+        return run.run(nodes, stop);
+    }
+    NodeBlock nodes(width, capacity, quantities);
+    return run.run(nodes, stop);
+}
+
+}  // namespace extremal

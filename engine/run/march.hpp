@@ -1,0 +1,58 @@
+/// The loop of every run: an integrator is taken from node to node, and sinks look at what it leaves.
+///
+/// Steps go in blocks: the nodes of a block are computed first, under the clock of the thread, then shown to
+/// the sinks in their order, so that cpuSeconds is the cost of the scheme alone. A block is long enough to be
+/// worth reading the clock and short enough for the cache and for a stop; it is one node where a sink looks
+/// inside every step, or where states are wide (they are then not copied). What an integrator prepares when a
+/// run begins is not counted. Each node is checked once for infinities and NaN.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <stop_token>
+
+#include "engine/core/step_events.hpp"
+#include "engine/integrator/integrator.hpp"
+
+namespace extremal {
+
+/// Where a march goes: on a fixed grid to node `steps` of the clock, on other grids to the time `end`; with
+/// at most `budget` steps.
+struct MarchGrid {
+    Clock clock;
+    long long steps = 0;
+    double end = 0;
+    long long budget = 100'000'000'000;
+};
+
+struct MarchReport {
+    Outcome outcome = Outcome::converged;
+    bool isEndedBySink = false;
+    Cost cost = {};
+    StepEvents events = {};
+    double cpuSeconds = 0;
+    StepReport last = {};  ///< of the step to the last node
+};
+
+/// What sinks are shown: the nodes of a block, in order. The first block of a march is the node it starts
+/// from.
+struct Stretch {
+    const NodeBlock& nodes;
+    const State& before;  ///< the first of these steps began here; without its memory
+    const State& state;   ///< at the last node
+    const Integrator& integrator;
+    const MarchReport& soFar;
+    bool isStart = false;
+};
+
+struct MarchSink {
+    std::function<bool(const Stretch&)> see;  ///< false: the march need not go on
+    bool looksInsideSteps = false;            ///< at dense output, which is that of the last step alone
+};
+
+/// Goes on from `state`, which ends at the last node reached. A state without memory begins a run, one with
+/// memory resumes it.
+MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
+                  std::span<const MarchSink> sinks, const std::stop_token& stop);
+
+}  // namespace extremal
