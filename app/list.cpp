@@ -8,6 +8,7 @@
 #include "engine/integrator/composition.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/view/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"

@@ -19,8 +19,7 @@ std::string directoryOf(const std::string& scene) {
 void checkReferenceFile(ReadScene& read) {
     if (!read.errors.empty() || read.scene.reference.kind != ReferenceSpec::Kind::file) return;
     try {
-        const System system = makeSystem(read.scene);
-        makeReference(read.scene, system, initialState(read.scene, system), {});
+        (void)makeReference(*read.resolved, {});
     } catch (const InvalidScene& e) {
         read.errors = e.problems();
     }

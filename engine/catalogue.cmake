@@ -38,6 +38,37 @@ ${entries}    };
     set(catalogue_sources ${catalogue_sources} ${out} PARENT_SCOPE)
 endfunction()
 
+# extremal_families(folder)
+#   For every FOLDER/<stem>/family.cpp, which defines `Family extremal::family::<stem>()`, one entry in alphabetical
+#   order of `const std::vector<Family>& extremal::families()`.
+function(extremal_families folder)
+    file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*/family.cpp)
+    set(declarations "")
+    set(entries "")
+    foreach(file ${files})
+        get_filename_component(stem ${file} DIRECTORY)
+        get_filename_component(stem ${stem} NAME)
+        string(APPEND declarations "Family ${stem}();\n")
+        string(APPEND entries "        family::${stem}(),\n")
+    endforeach()
+    set(out ${CMAKE_CURRENT_BINARY_DIR}/families_catalogue.cpp)
+    file(CONFIGURE OUTPUT ${out} CONTENT
+"#include \"engine/family/family.hpp\"
+
+namespace extremal {
+namespace family {
+${declarations}}  // namespace family
+
+const std::vector<Family>& families() {
+    static const std::vector<Family> all = {
+${entries}    };
+    return all;
+}
+}  // namespace extremal
+" @ONLY)
+    set(catalogue_sources ${catalogue_sources} ${out} PARENT_SCOPE)
+endfunction()
+
 # extremal_presets(folder): compiles FOLDER/*.json (but not the schema) into `extremal::presets()`.
 function(extremal_presets folder)
     file(GLOB files CONFIGURE_DEPENDS ${folder}/*.json)

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "engine/core/problem.hpp"
+#include "engine/family/wave/wave.hpp"
+
 namespace extremal {
 
 const BaselineEntry* findBaseline(std::string_view id) {
@@ -9,6 +12,24 @@ const BaselineEntry* findBaseline(std::string_view id) {
     const auto found =
         std::find_if(all.begin(), all.end(), [&](const BaselineEntry& e) { return e.item.id == id; });
     return found == all.end() ? nullptr : &*found;
+}
+
+bool canIntegrate(const BaselineEntry& entry, const System& system) {
+    if (!appliesTo(entry, system)) return false;
+    // Where H is a full matrix there are few ways, and their makers know; a trial costs little with at most
+    // 512 modes.
+    if (!isWave(system) || !hasFullMatrix(system)) return true;
+    Settings settings{entry.item.id, {}, {}};
+    for (const FieldInfo& f : entry.item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
+    try {
+        BaselineOptions options;
+        options.step = 1e-9;
+        options.settings = settings;
+        (void)entry.make(system, options);
+    } catch (const InvalidScene&) {
+        return false;
+    }
+    return true;
 }
 
 Claims claimsOf(const BaselineEntry& entry, const Settings& settings) {

@@ -7,6 +7,7 @@
 
 #include "engine/core/catalog.hpp"
 #include "engine/core/settings.hpp"
+#include "engine/family/family.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/system.hpp"
 
@@ -26,9 +27,14 @@ struct BaselineEntry {
     std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
     double stabilityLimit =
         0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
+    /// What stands against a step beyond the stability limit of the harmonic oscillator; null: nothing.
+    void (*check)(const SchemeCase&, Findings&) = nullptr;
     /// Throws InvalidScene (pointer relative to the scheme) where it cannot.
     std::function<std::unique_ptr<Integrator>(const System&, const BaselineOptions&)> make;
 };
+
+/// Whether a baseline can integrate a system: it applies, and where few do, its maker does not refuse.
+bool canIntegrate(const BaselineEntry& entry, const System& system);
 
 /// The claims of a baseline with these keys.
 Claims claimsOf(const BaselineEntry& entry, const Settings& settings);

@@ -1,33 +1,153 @@
-/// Spaces whose pairs have a description, a rule or an integrator of their own. What is not in a family has
-/// one table for every system and step (table_of.hpp) and runs in GalerkinStep.
+/// A family of schemes: one folder engine/family/<id>, one constant, and one section of the paper. All that
+/// is particular to it is there: its spaces and their keys, defaults, claims, checks before a run, stability,
+/// cost, the reference it trusts, what the window offers, and its steps. Nothing outside the folder names it
+/// (tests/tree); everybody else goes through the functions below the struct, which find the family of a
+/// space.
+///
+/// Members that may be null say what stands in place of them. Functions throw InvalidScene with pointers
+/// relative to the scheme only where they say so.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "engine/integrator/galerkin_step.hpp"
-#include "engine/family/scheme.hpp"
+#include "engine/family/choices.hpp"
+#include "engine/family/discretization.hpp"
+#include "engine/family/findings.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/system.hpp"
+#include "engine/space/catalog.hpp"
 
 namespace extremal {
 
-struct PairFamily {
-    bool (*has)(const Settings& space);
-    bool hasOneTable;  ///< none where its functions depend on the step or the system
-    PairProperties (*describe)(const Settings& space, const Settings& quadrature);  ///< null: from the table
-    Settings (*complete)(const Settings& space,
-                         const Settings& quadrature);  ///< the rule's default keys; null: the usual ones
-    std::unique_ptr<Integrator> (*make)(const System&, const Discretization&, const Clock&,
-                                        const SolverPolicy&);
+template <class T>
+struct Table;
+
+/// A step that follows from the space: the length of an element.
+struct ImpliedStep {
+    double step = 0;
+    std::string expression;  ///< in the model's parameters ("1/elements"); empty: the number alone
+    bool isOfSpace = false;  ///< the space says it, so that a step given beside it is not used
+};
+/// The value of a parameter of the model; empty if it has none of that name.
+using ParameterValue = std::function<std::optional<double>(std::string_view name)>;
+
+/// A scheme before its run.
+struct SchemeCase {
+    const System& system;
+    const State& initial;
+    const Discretization& discretization;
+    double step = 0;
+    bool isComposed = false;
+    bool allowsUnstable = false;
 };
 
-/// Null where the space is in none.
-const PairFamily* familyOf(const Settings& space);
+/// The scheme that references of a system are computed with.
+struct ReferencePlan {
+    std::string description;  ///< "Gauss collocation of degree 12"
+    std::function<std::unique_ptr<Integrator>(double step)> make;
+    /// Its only step, with the error to expect; 0: steps are halved until two of them agree.
+    double step = 0, expectedError = 0;
+};
 
-/// One table for all coordinates or one for each, for a step size.
-using TablesOfStep = std::function<std::vector<Table<double>>(double step)>;
-/// GalerkinStep as an Integrator.
-std::unique_ptr<Integrator> makeGalerkin(const System& system, TablesOfStep tables, double step,
-                                         const SolverPolicy& policy);
+/// The function of a node, as a curve.
+struct ShapeFunction {
+    std::vector<double> x, phi;
+    int node = 0, elements = 0;
+};
+
+struct Family {
+    CatalogItem item;    ///< id: that of the folder
+    std::string source;  ///< "Leok 2004, sec. 3"
+    std::vector<SpaceEntry> spaces;
+    std::vector<std::string> solverMethods;  ///< besides "auto"
+    bool takesTensorRules = false;  ///< a rule for each direction: {"space": .., "time": ..}
+    /// Whether a solution is read off between nodes; else it is made anew there, and solutions are compared
+    /// at nodes.
+    bool hasDenseOutput = true;
+
+    bool (*applies)(const System&) = nullptr;
+    /// Why a discretization cannot be used on a system of the family; empty if it can. Null: all can.
+    std::string (*mismatch)(const Discretization&, const System&) = nullptr;
+    /// The rule with its default keys; of an empty or automatic one the rule itself, where it does not depend
+    /// on the step.
+    Settings (*completeRule)(const Settings& space, const Settings& quadrature) = nullptr;
+    /// What the start of a run decides (a frequency to be estimated). Null: nothing.
+    Discretization (*settle)(const Discretization&, const System&, const State& start) = nullptr;
+    Properties (*describe)(const Discretization&) = nullptr;
+    /// Null where the user gives the step.
+    std::optional<ImpliedStep> (*impliedStep)(const Settings& space, const ParameterValue&) = nullptr;
+    /// What stands against a step, beyond the limits of the harmonic oscillator. Null: nothing.
+    void (*check)(const SchemeCase&, Findings&) = nullptr;
+    /// The highest frequency that the stability limit of Properties is to be multiplied with. Null: that of
+    /// the system (highestFrequency).
+    double (*frequency)(const Discretization&, const System&, const State&) = nullptr;
+    /// Seconds that no step exceeds, for whether a trial of its cost is worth its time. Null: 5 ms.
+    double (*slowestStep)(const System&) = nullptr;
+    /// What to try after a failure; empty: the usual. Null: the usual.
+    std::string (*advice)(Outcome) = nullptr;
+    /// Null where the family provides no reference.
+    ReferencePlan (*reference)(const System&, const State& start, double duration) = nullptr;
+    ChoiceGrid (*choices)(const System&) = nullptr;
+    /// The ids of the rules that a space can have, the preferred one first.
+    std::vector<std::string> (*rules)(const Settings& space) = nullptr;
+    /// Whether two complete discretizations are the same scheme; the steps of both are known. Null: the same
+    /// space, degree, rule, nodes and panels.
+    bool (*isSame)(const Discretization& a, double stepOfA, const Discretization& b) = nullptr;
+    /// Of node `node` of a scheme with this step, where its space is made of functions of nodes. Null
+    /// elsewhere.
+    ShapeFunction (*shapeFunction)(const System&, const Discretization&, double step, int node) = nullptr;
+    /// The one table of a space and a rule, where no system and no step is in it. Null where there is none.
+    Table<double> (*table)(const Settings& space, const Settings& quadrature) = nullptr;
+    /// Throws InvalidScene where it cannot.
+    std::unique_ptr<Integrator> (*make)(const System&, const Discretization&, double step) = nullptr;
+};
+
+/// All families, in alphabetical order of their folders.
+const std::vector<Family>& families();
+/// The family of a space; null where there is no such space.
+const Family* familyOf(const Settings& space);
+/// The family whose choices the window offers for a system; null where none applies.
+const Family* familyFor(const System& system);
+const Family* findFamily(std::string_view id);
+
+/// All spaces of all families.
+const std::vector<CatalogItem>& spaceCatalog();
+
+/// Keys must be checked and complete. Results are remembered, so that asking again is cheap.
+Properties describe(const Discretization& discretization);
+inline Properties describe(const Settings& space, const Settings& quadrature) {
+    return describe({space, quadrature, {}});
+}
+
+/// Fills in what depends on the other choice: the default number of nodes, and "auto" (or no) quadrature.
+Settings completeQuadrature(const Settings& space, const Settings& quadrature);
+
+/// Why a discretization cannot be used on a system; empty if it can.
+std::string mismatch(const Discretization& discretization, const System& system);
+inline bool isFor(const Discretization& discretization, const System& system) {
+    return mismatch(discretization, system).empty();
+}
+
+/// With everything decided that depends on the start of a run.
+Discretization settled(const Discretization& discretization, const System& system, const State& start);
+
+/// Makes the integrator of a discretization. Throws InvalidScene.
+std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,
+                                           const Clock& clock);
+
+/// The scheme that references of the system are computed with, for a run from a state. Throws InvalidScene
+/// where there is none.
+std::unique_ptr<Integrator> trustedIntegrator(const System& system, const State& start, double step);
+
+/// Whether a space has one table for every system and step.
+bool hasTable(const Settings& space);
+/// Highest frequency of the system at a state: its own, or, linearised there, the largest root w of
+/// det(-L_qq - w^2 L_vv) = 0, or 0.
+double highestFrequency(const System& system, const State& state);
 
 }  // namespace extremal

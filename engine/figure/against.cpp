@@ -9,7 +9,7 @@ namespace {
 /// The least and the most of the numbers of steps that can be shown.
 std::optional<std::pair<double, double>> stepsCovered(const Figure& figure) {
     double first = 0, last = 0;
-    for (const Series& s : figure.series)
+    for (const Series& s : figure.series())
         for (const double n : s.x) {
             if (!(n > 0)) continue;
             first = first > 0 ? std::min(first, n) : n;
@@ -20,13 +20,6 @@ std::optional<std::pair<double, double>> stepsCovered(const Figure& figure) {
 }
 
 }  // namespace
-
-FieldInfo againstField() {
-    return choiceField("against", "against", {"time", "steps"},
-                       "What is along x: time, or the number of steps done, logarithmic.");
-}
-
-bool isAgainstSteps(const View& view) { return view.keys.text("against") == "steps"; }
 
 std::string againstText(const View& view) {
     return isAgainstSteps(view) ? "against the number of steps" : "against time";
@@ -46,7 +39,7 @@ void addErrors(Figure& figure, const FigureContext& context, std::string_view co
         s.x.assign(x.begin(), x.end());
         if (isSteps) s.t.assign(rows["t"].begin(), rows["t"].end());
         for (const double v : y) s.y.push_back(std::abs(v));
-        figure.series.push_back(std::move(s));
+        figure.add(std::move(s));
     }
     if (!isSteps) return;
     if (const auto covered = stepsCovered(figure))
@@ -65,13 +58,13 @@ std::string leastToMost(const std::vector<std::pair<double, std::string>>& value
 
 void addChance(Figure& figure, const FigureContext& context) {
     const auto covered = stepsCovered(figure);
-    if (!isAgainstSteps(context.view) || !figure.floor || !covered) return;
+    if (!isAgainstSteps(context.view) || !(floorOf(figure) > 0) || !covered) return;
     Series chance;
     chance.label = "round-off by chance, ∝ √steps";
     chance.style = formulaStyle;
     chance.x = {covered->first, covered->second};
-    chance.y = {*figure.floor * std::sqrt(covered->first), *figure.floor * std::sqrt(covered->second)};
-    figure.series.push_back(std::move(chance));
+    chance.y = {floorOf(figure) * std::sqrt(covered->first), floorOf(figure) * std::sqrt(covered->second)};
+    figure.add(std::move(chance));
 }
 
 }  // namespace extremal

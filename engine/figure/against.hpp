@@ -3,7 +3,7 @@
 ///
 /// Against steps both axes are logarithmic, and a thin line shows what round-off would give by chance: a
 /// random walk of one rounding a step, ε √n times the scale of the quantity, a line of slope 1/2. A bias
-/// gives slope 1. Rows inside a step, from the scheme's own curve, have fractions of a step.
+/// gives slope 1. Rows inside a step, from dense output, have fractions of a step.
 #pragma once
 
 #include <string>
@@ -12,13 +12,10 @@
 #include <vector>
 
 #include "engine/figure/build.hpp"
+#include "engine/view/axes.hpp"
 
 namespace extremal {
 
-/// The key "against" of such a view.
-FieldInfo againstField();
-
-bool isAgainstSteps(const View& view);
 /// "against time", "against the number of steps".
 std::string againstText(const View& view);
 

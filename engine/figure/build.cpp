@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/figure/fit_axes.hpp"
-#include "engine/scene/view_axes.hpp"
+#include "engine/view/axes.hpp"
 
 namespace extremal {
 
@@ -90,25 +90,27 @@ void addAgainstTime(Figure& figure, const FigureContext& context, std::string_vi
         s.y.assign(y.begin(), y.end());
         if (take == Take::magnitude)
             for (double& v : s.y) v = std::abs(v);
-        figure.series.push_back(std::move(s));
+        figure.add(std::move(s));
     }
 }
 
 void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn,
                std::string_view yColumn) {
     for (const auto& scheme : context.comparison.schemes) {
-        const bool hasCurve =
-            scheme->curve.find(xColumn) && scheme->curve.find(yColumn) &&
-            scheme->curve.rows() >= scheme->trajectory.rows();  // rows may be the denser ones
-        const Trajectory& from = hasCurve ? scheme->curve : scheme->trajectory;
+        const DenseOutput* dense = scheme->products.find<DenseOutput>();
+        const bool isDense =
+            dense && dense->points.find(xColumn) && dense->points.find(yColumn) &&
+            dense->points.rows() >= scheme->trajectory.rows();  // rows may be the denser ones
+        const Trajectory& from = isDense ? dense->points : scheme->trajectory;
         const std::span<const double> x = from[xColumn], y = from[yColumn];
         if (x.empty() || y.empty()) continue;
         Series s = startSeries(*scheme);
-        s.isCurve = xColumn != "t";
-        if (const std::span<const double> t = from["t"]; s.isCurve) s.t.assign(t.begin(), t.end());
+        s.kind = xColumn == "t" ? SeriesKind::line : SeriesKind::curve;
+        if (const std::span<const double> t = from["t"]; s.kind == SeriesKind::curve)
+            s.t.assign(t.begin(), t.end());
         s.x.assign(x.begin(), x.end());
         s.y.assign(y.begin(), y.end());
-        figure.series.push_back(std::move(s));
+        figure.add(std::move(s));
     }
 }
 
@@ -118,7 +120,7 @@ namespace {
 /// is zero by definition; it is a gap like the others.
 void hideWhatAxesCannotShow(Figure& figure) {
     const double gap = Summary::unknown;
-    for (Series& s : figure.series) {
+    for (Series& s : figure.series()) {
         for (std::size_t r = 0; r < s.x.size(); ++r) {
             const bool isShown = std::isfinite(s.x[r]) && std::isfinite(s.y[r]) &&
                                  (!figure.x.isLog || s.x[r] > 0) && (!figure.y.isLog || s.y[r] > 0);
@@ -138,9 +140,9 @@ void markFailures(Figure& figure, const FigureContext& context) {
         std::string cause(name(summary.cause));
         std::replace(cause.begin(), cause.end(), '-', ' ');
         if (cause.empty()) cause = "failed";
-        figure.failures.push_back(
-            {scheme->spec.label, scheme->style, summary.failedAt,
-             cause + " at t = " + shortNumber(summary.failedAt, 3) + (unit.empty() ? "" : " " + unit)});
+        figure.add(FailureMark{
+            scheme->spec.label, scheme->style, summary.failedAt,
+            cause + " at t = " + shortNumber(summary.failedAt, 3) + (unit.empty() ? "" : " " + unit)});
     }
 }
 
@@ -148,7 +150,7 @@ void markFailures(Figure& figure, const FigureContext& context) {
 std::string extremesText(const Figure& figure) {
     const Series *most = nullptr, *least = nullptr;
     double high = 0, low = 0;
-    for (const Series& s : figure.series) {
+    for (const Series& s : figure.series()) {
         const double m = maxMagnitude(s.y);
         if (m == 0 || s.style < 0) continue;
         if (!most || m > high) most = &s, high = m;
@@ -168,21 +170,20 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
     fitAxes(figure, context.view, context.system ? axesOf(context.view, *context.system).variable : "t");
 
     const bool hasPoints =
-        figure.heat || std::any_of(figure.series.begin(), figure.series.end(), [](const Series& s) {
+        figure.heat() || std::any_of(figure.series().begin(), figure.series().end(), [](const Series& s) {
             return std::any_of(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });
         });
     if (!hasPoints && figure.message.empty()) {
-        const ViewEntry* entry = findView(figure.view);
+        const std::string& observable = context.entry.observable;
         const auto& observe = context.comparison.scene.observe;
-        if (entry && !entry->observable.empty() &&
-            std::find(observe.begin(), observe.end(), entry->observable) == observe.end())
-            figure.message = "The scene does not observe \"" + entry->observable + "\"";
+        if (!observable.empty() && std::find(observe.begin(), observe.end(), observable) == observe.end())
+            figure.message = "The scene does not observe \"" + observable + "\"";
         else
             figure.message = context.comparison.isFinished ? "Nothing to show" : "No values yet";
     }
     figure.summary = std::string(what);
     figure.summary += hasPoints ? extremesText(figure) : ": " + figure.message;
-    for (const FailureMark& f : figure.failures) figure.summary += "; " + f.label + " " + f.text;
+    for (const FailureMark& f : figure.all<FailureMark>()) figure.summary += "; " + f.label + " " + f.text;
     figure.summary += ".";
 }
 
@@ -195,7 +196,7 @@ Figure columnAgainstTime(const FigureContext& context, std::string title, std::s
     addAgainstTime(figure, context, column, Take::value);
 
     std::vector<std::pair<double, const Series*>> changes;
-    for (const Series& s : figure.series) {
+    for (const Series& s : figure.series()) {
         if (s.y.empty()) continue;
         const double start = s.y.front();
         double change = 0;

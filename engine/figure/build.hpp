@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/figure/view.hpp"
+#include "engine/figure/recipe.hpp"
 
 namespace extremal {
 
@@ -39,6 +39,12 @@ const SchemeResult* schemeOf(const FigureContext& context, const Shown& hasShown
     return nullptr;
 }
 
+/// The samples of a field or wave function; null where there is none.
+inline const std::vector<Frame>* framesOf(const SchemeResult& scheme) {
+    const FieldFrames* frames = scheme.products.find<FieldFrames>();
+    return frames && !frames->all.empty() ? &frames->all : nullptr;
+}
+
 /// One series per scheme: a column, or its magnitude, against time.
 enum class Take { value, magnitude };
 void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take);
@@ -49,7 +55,7 @@ void addAgainstTime(Figure& figure, const FigureContext& context, std::string_vi
 Figure columnAgainstTime(const FigureContext& context, std::string title, std::string_view column,
                          bool isRelative);
 
-/// One curve per scheme: a column against another; where steps are few, along the scheme's own curve inside
+/// One curve per scheme: a column against another; where steps are few, along the dense output inside
 /// them.
 void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn,
                std::string_view yColumn);

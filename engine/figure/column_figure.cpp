@@ -25,11 +25,12 @@ Figure columnFigure(const FigureContext& context, const std::string& x, const st
     else
         addCurves(figure, context, x, y);
     if (context.system && kindOf<BoundaryProblem>(*context.system) && y == "u_exact" &&
-        !figure.series.empty()) {
+        !figure.series().empty()) {
         figure.y.title = "u";
-        figure.series.resize(1);  // the same for all schemes
-        figure.series[0].label = "exact solution";
-        figure.series[0].style = exactStyle;
+        Series exact = figure.series().front();  // the same for all schemes
+        exact.label = "exact solution";
+        exact.style = exactStyle;
+        figure.put(std::move(exact));
     }
     finishFigure(figure, context, figure.title + " " + yInfo.symbol + " against " + xInfo.symbol);
     return figure;

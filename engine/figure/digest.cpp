@@ -49,30 +49,32 @@ std::string axisLine(const char* name, const Axis& axis) {
 std::string digest(const Figure& figure) {
     std::string text = figure.view + ": " + figure.title + " (" + figure.subtitle + ")\n";
     text += axisLine("x", figure.x) + axisLine("y", figure.y);
-    for (const Series& s : figure.series) {
+    for (const Series& s : figure.series()) {
         text += "series " + std::to_string(s.style) + " " + seriesName(s) + ": " +
                 std::to_string(s.x.size()) + " points, " + std::to_string(s.hidden) + " hidden" +
-                (s.isCurve ? ", curve" : "") + (s.hasMarkers ? ", markers" : "") +
-                (s.hasLine ? ", line" : "") + (s.isCells ? ", cells" : "") + (s.isPale ? ", pale" : "") +
-                ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";
+                (s.kind == SeriesKind::curve ? ", curve" : "") + (hasMarks(s.kind) ? ", markers" : "") +
+                (hasLine(s.kind) ? ", line" : "") + (s.kind == SeriesKind::cells ? ", cells" : "") +
+                (s.tone == Tone::pale ? ", pale" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) +
+                ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";
     }
-    if (figure.heat)
-        text += "heat " + std::to_string(figure.heat->columns) + " x " + std::to_string(figure.heat->rows) +
-                ", " + nineDigits(figure.heat->low) + " .. " + nineDigits(figure.heat->high) + ", " +
-                hash(figure.heat->values) + (figure.heat->scale.empty() ? "" : ", " + figure.heat->scale) +
-                "\n";
-    for (const FailureMark& f : figure.failures)
+    if (figure.heat())
+        text += "heat " + std::to_string(figure.heat()->columns) + " x " +
+                std::to_string(figure.heat()->rows) + ", " + nineDigits(figure.heat()->low) + " .. " +
+                nineDigits(figure.heat()->high) + ", " + hash(figure.heat()->values) +
+                (figure.heat()->scale.empty() ? "" : ", " + figure.heat()->scale) + "\n";
+    for (const FailureMark& f : figure.all<FailureMark>())
         text += "failure " + std::to_string(f.style) + " " + f.label + ": " + f.text + ", " +
                 nineDigits(f.x) + "\n";
-    if (figure.floor) text += "floor " + nineDigits(*figure.floor) + "\n";
-    if (figure.doubtfulBelow) text += "doubtful below " + nineDigits(*figure.doubtfulBelow) + "\n";
-    for (const Guide& g : figure.guides)
+    if (figure.find<RoundOffFloor>()) text += "floor " + nineDigits(floorOf(figure)) + "\n";
+    if (const DoubtfulBand* band = figure.find<DoubtfulBand>())
+        text += "doubtful below " + nineDigits(band->top) + "\n";
+    for (const Guide& g : figure.all<Guide>())
         text += std::string("guide") + (g.isStrong ? ", strong" : "") + ", x " + hash(g.x) + ", y " +
                 hash(g.y) + "\n";
-    for (const Label& l : figure.labels)
+    for (const Label& l : figure.all<Label>())
         text += "label " + l.text + " at " + nineDigits(l.x) + ", " + nineDigits(l.y) + "\n";
-    if (!figure.hasTicks) text += "no ticks\n";
-    if (figure.hasEqualScales) text += "equal scales\n";
+    if (figure.axes == AxisStyle::none) text += "no ticks\n";
+    if (figure.aspect == Aspect::equal) text += "equal scales\n";
     if (!figure.message.empty()) text += "message " + figure.message + "\n";
     return text + "summary " + figure.summary + "\n";
 }

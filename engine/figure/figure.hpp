@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "engine/figure/layer_range.hpp"
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
 
@@ -24,16 +26,29 @@ struct Axis {
 /// The styles of curves that are no scheme's: a thin dashed neutral line, and a solid one.
 inline constexpr int formulaStyle = -1, exactStyle = -2;
 
+/// How the points of a series are drawn.
+enum class SeriesKind {
+    line,        ///< y over x, which is monotone
+    markedLine,  ///< with a dot at every value
+    curve,       ///< parametric: x is not monotone (phase portrait)
+    marks,       ///< dots alone
+    cells,       ///< a unit square around every point
+};
+constexpr bool hasLine(SeriesKind kind) { return kind != SeriesKind::marks && kind != SeriesKind::cells; }
+constexpr bool hasMarks(SeriesKind kind) {
+    return kind == SeriesKind::markedLine || kind == SeriesKind::marks;
+}
+
+/// Pale: of what has less weight than another layer of the same colour.
+enum class Tone { full, pale };
+
+/// The data of a scheme, or of a formula.
 struct Series {
-    std::string label;        ///< the scheme's label
-    std::string part = {};    ///< of several curves of one scheme, which: "Re ψ"
-    bool isPale = false;      ///< a further curve of one scheme
-    int style = 0;            ///< colour and dash of the scheme
-    bool isCurve = false;     ///< x is not monotone (phase portrait): drawn as a parametric curve
-    bool hasMarkers = false;  ///< a point at every value
-    bool hasLine = true;
-    bool isCells = false;      ///< a unit square around every point
-    bool isHollow = false;     ///< cells are pale
+    std::string label;      ///< the scheme's label
+    std::string part = {};  ///< of several curves of one scheme, which: "Re ψ"
+    Tone tone = Tone::full;
+    int style = 0;  ///< colour and dash of the scheme
+    SeriesKind kind = SeriesKind::line;
     std::vector<double> x, y;  ///< NaN is a gap
     std::vector<double>
         t;           ///< of the points, where x is not the time: a cursor in time finds its place; else empty
@@ -74,29 +89,89 @@ struct FailureMark {
     std::string text;  ///< "diverged at t = 0.31"
 };
 
+/// A faint horizontal line: what round-off alone would give.
+struct RoundOffFloor {
+    double y = 0;
+};
+
+/// A faint band from below up to `top`: values that the reference does not resolve.
+struct DoubtfulBand {
+    double top = 0;
+};
+
+using Layer = std::variant<Series, HeatMap, FailureMark, Guide, Label, RoundOffFloor, DoubtfulBand>;
+
+enum class Aspect {
+    free,
+    equal,  ///< one unit is as long on both axes: trajectories in a plane
+};
+enum class AxisStyle {
+    scales,
+    none,  ///< the axes are no scales
+};
+
+/// One panel: axes, and layers. A view of several panels is several figures, which the window links by their
+/// time axes. What is drawn behind what follows from the kind of a layer; among layers of one kind, the later
+/// ones are in front.
 struct Figure {
     std::string view;      ///< "energy", "phase", ...
     std::string title;     ///< "Energy error"
     std::string subtitle;  ///< muted: "bounded: 3 of 4"
     Axis x, y;
-    std::vector<Series> series;
-    std::optional<HeatMap> heat;  ///< behind the series
-    std::vector<FailureMark> failures;
-    std::vector<Guide> guides;
-    std::vector<Label> labels;
-    bool hasTicks = true;                 ///< false: the axes are no scales
-    std::optional<double> floor;          ///< round-off floor: a faint horizontal line
-    std::optional<double> doubtfulBelow;  ///< values below are not resolved by the reference: a faint band
-    std::string message;                  ///< why there is nothing to see, in place of the series; else empty
-    bool hasEqualScales = false;          ///< trajectories in a plane: one unit is as long on both axes
-    std::string summary;                  ///< one sentence for screen readers
+    Aspect aspect = Aspect::free;
+    AxisStyle axes = AxisStyle::scales;
+    std::vector<Layer> layers;
+    std::string message;  ///< why there is nothing to see, in place of the series; else empty
+    std::string summary;  ///< one sentence for screen readers
+
+    void add(Layer layer) { layers.push_back(std::move(layer)); }
+    /// The layers of one kind, in their order.
+    template <class L>
+    LayerRange<L, Layer> all() {
+        return {layers.data(), layers.data() + layers.size()};
+    }
+    template <class L>
+    LayerRange<const L, const Layer> all() const {
+        return {layers.data(), layers.data() + layers.size()};
+    }
+    /// The first layer of a kind, or null.
+    template <class L>
+    const L* find() const {
+        for (const Layer& layer : layers)
+            if (const L* found = std::get_if<L>(&layer)) return found;
+        return nullptr;
+    }
+    template <class L>
+    void drop() {
+        std::erase_if(layers, [](const Layer& layer) { return std::holds_alternative<L>(layer); });
+    }
+    /// The only layer of its kind.
+    template <class L>
+    void put(L layer) {
+        drop<L>();
+        add(std::move(layer));
+    }
+
+    auto series() { return all<Series>(); }
+    auto series() const { return all<Series>(); }
+    const HeatMap* heat() const { return find<HeatMap>(); }
+    HeatMap* heat() { return all<HeatMap>().empty() ? nullptr : &all<HeatMap>().front(); }
 };
+
+/// Height of the round-off floor; 0 if there is none.
+inline double floorOf(const Figure& figure) {
+    const RoundOffFloor* floor = figure.find<RoundOffFloor>();
+    return floor ? floor->y : 0;
+}
 
 /// The figure of one view of a comparison. The view must be one of viewCatalog() that is a plot (not
 /// "stage"); anything else throws std::invalid_argument. All axes come with a range.
 Figure makeFigure(const Comparison& comparison, const View& view);
 /// The same for a system made before, or null: titles and units then come from the columns alone.
 Figure makeFigure(const Comparison& comparison, const View& view, const System* system);
+
+/// Whether there is no data in it, but a message at most.
+bool isEmpty(const Figure& figure);
 
 /// Views that this scene asks for and that are plots, in order; with defaults when the scene names none. A
 /// trajectory that is not an orbit in a plane becomes one view per coordinate (up to three), as their units

@@ -17,7 +17,7 @@ std::vector<double> valuesWithin(const Series& s, std::pair<double, double> part
     std::vector<double> inside;
     for (std::size_t i = 0; i < s.x.size(); ++i) {
         if (s.x[i] >= part.first && s.x[i] <= part.second) inside.push_back(s.y[i]);
-        if (!s.hasLine || i == 0) continue;
+        if (!hasLine(s.kind) || i == 0) continue;
         for (const double edge : {part.first, part.second}) {
             const double before = s.x[i - 1] - edge, after = s.x[i] - edge;
             if (before * after < 0)
@@ -55,15 +55,16 @@ std::vector<double> valuesByRatio(const Series& s) {
 std::pair<double, double> fitted(const Figure& figure, std::vector<double> Series::*values, bool isLog,
                                  const std::optional<std::pair<double, double>>& part = {}) {
     std::set<std::string> failed;
-    for (const FailureMark& f : figure.failures) failed.insert(f.label);
-    std::vector<std::vector<double>> cut(figure.series.size());
+    for (const FailureMark& f : figure.all<FailureMark>()) failed.insert(f.label);
+    std::vector<std::vector<double>> cut;
+    cut.reserve(figure.series().size());
     std::vector<RangeInput> inputs;
-    for (std::size_t i = 0; i < figure.series.size(); ++i) {
-        const Series& s = figure.series[i];
-        const bool isByRatio = !part && figure.x.isLog && values == &Series::y && s.hasLine && !s.isCurve;
-        if (part) cut[i] = valuesWithin(s, *part);
-        if (isByRatio) cut[i] = valuesByRatio(s);
-        inputs.push_back({part || isByRatio ? cut[i] : s.*values, failed.count(s.label) > 0});
+    for (const Series& s : figure.series()) {
+        const bool isOverX = s.kind == SeriesKind::line || s.kind == SeriesKind::markedLine;
+        const bool isByRatio = !part && figure.x.isLog && values == &Series::y && isOverX;
+        if (part) cut.push_back(valuesWithin(s, *part));
+        if (isByRatio) cut.push_back(valuesByRatio(s));
+        inputs.push_back({part || isByRatio ? cut.back() : s.*values, failed.count(s.label) > 0});
     }
     return fitRange(inputs, isLog);
 }
@@ -130,7 +131,7 @@ void fitAxes(Figure& figure, const View& view, const std::string& variable) {
         Series s = formulaSeries(view.curve, variable, x.range->first, x.range->second, x.isLog);
         for (double& v : s.y)
             if (y.isLog && v <= 0) v = std::numeric_limits<double>::quiet_NaN(), ++s.hidden;
-        figure.series.push_back(std::move(s));
+        figure.add(std::move(s));
     }
     const auto wholeY = y.range ? *y.range : fitted(figure, &Series::y, y.isLog);
     if (yAsked)

@@ -8,8 +8,11 @@
 namespace extremal {
 
 std::optional<std::pair<double, double>> pointAt(const Series& series, double t) {
-    const std::vector<double>& time = series.isCurve || !series.t.empty() ? series.t : series.x;
-    if (time.size() != series.y.size() || time.empty() || series.hasMarkers || series.isCells) return {};
+    const std::vector<double>& time =
+        series.kind == SeriesKind::curve || !series.t.empty() ? series.t : series.x;
+    if (time.size() != series.y.size() || time.empty() || hasMarks(series.kind) ||
+        series.kind == SeriesKind::cells)
+        return {};
     if (!(t >= time.front() && t <= time.back())) return {};
     const auto next = std::upper_bound(time.begin(), time.end(), t);
     const std::size_t b =
@@ -53,7 +56,7 @@ std::string withTitle(const std::string& title, const std::string& value) {
 
 /// Row by row of the grid: the value itself, and why there is none.
 std::string heatCsv(const Figure& figure, bool isVisibleOnly) {
-    const HeatMap& heat = *figure.heat;
+    const HeatMap& heat = *figure.heat();
     std::string csv =
         quoted(figure.x.title) + "," + quoted(figure.y.title) + "," + quoted(heat.scale) + ",outcome\n";
     for (std::size_t c = 0; c < heat.xs.size(); ++c)
@@ -70,8 +73,8 @@ std::string heatCsv(const Figure& figure, bool isVisibleOnly) {
 }  // namespace
 
 std::optional<HeatCell> cellAt(const Figure& figure, double x, double y) {
-    if (!figure.heat || figure.heat->scale.empty()) return {};
-    const HeatMap& heat = *figure.heat;
+    if (!figure.heat() || figure.heat()->scale.empty()) return {};
+    const HeatMap& heat = *figure.heat();
     const auto indexOf = [](double value, double low, double high, int count, bool isLog) {
         const double part =
             isLog ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
@@ -97,9 +100,9 @@ std::string seriesName(const Series& series) {
 }
 
 std::string figureCsv(const Figure& figure, bool isVisibleOnly) {
-    if (figure.heat && !figure.heat->scale.empty()) return heatCsv(figure, isVisibleOnly);
+    if (figure.heat() && !figure.heat()->scale.empty()) return heatCsv(figure, isVisibleOnly);
     std::string csv = "scheme," + quoted(figure.x.title) + "," + quoted(figure.y.title) + "\n";
-    for (const Series& s : figure.series) {
+    for (const Series& s : figure.series()) {
         const std::string label = quoted(seriesName(s));
         for (std::size_t r = 0; r < s.x.size(); ++r) {
             if (isVisibleOnly &&

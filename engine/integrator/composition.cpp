@@ -144,6 +144,10 @@ std::string compositionRefusal(const Settings& composition, const Claims& scheme
         return "needs a symmetric scheme: the error of others has odd powers of the step, which these parts "
                "do not remove";
     }
+    if (scheme.order == 0) {
+        hint = "the scheme as it is";
+        return "gains nothing: the error of this scheme does not follow a power of the step";
+    }
     if (order % 2 != 0) {
         hint = "take " + std::to_string(order + 1);
         return "must be even, as the order of every symmetric scheme, got " + std::to_string(order);

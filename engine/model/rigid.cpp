@@ -46,6 +46,7 @@ std::vector<Quantity> columnsOf(const BodyMechanics<double>& body) {
 
 ErrorMeasure errorOf(const BodyMechanics<double>& body) {
     ErrorMeasure m;
+    m.isOfPhase = true;
     m.columns = {{"error", "", "∠(R, R ref)", "rad"}, {"error.p", "", "|Π - Π ref|", "kg m²/s"}};
     const bool movesInSpace = body.dimension == 6;
     if (movesInSpace) m.columns.push_back({"error.position", "", "|x - x ref|", "m"});

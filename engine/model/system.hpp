@@ -50,6 +50,7 @@ struct MomentumMap {
 struct ErrorMeasure {
     std::vector<Quantity> columns;  ///< "error", the size that counts, then its parts
     double scale = 1;               ///< size of what is compared: round-off is relative to it
+    bool isOfPhase = false;         ///< of an angle or phase that grows with t, known to its round-off only
     /// One value per column.
     std::function<void(const double* x, const double* reference, double* values)> evaluate;
 };

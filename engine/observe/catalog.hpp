@@ -54,7 +54,10 @@ const ObservableEntry* findObservable(std::string_view id);
 
 /// The same as catalogue items.
 const std::vector<CatalogItem>& observableCatalog();
-/// What can be drawn (engine/figure).
-const std::vector<CatalogItem>& viewCatalog();
+
+/// Whether the system has an observable.
+inline bool isObservableOf(const ObservableEntry& entry, const System& system) {
+    return !entry.applies || entry.applies(system);
+}
 
 }  // namespace extremal

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "engine/core/text.hpp"
-#include "engine/family/scheme.hpp"
-#include "engine/scene/bind.hpp"
 
 namespace extremal {
 
-std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system,
+std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
                       const State& initial, const State& state) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
     if (outcome == Outcome::lost)
@@ -17,18 +15,16 @@ std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, co
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
                "earlier end.";
-    if (const auto pair = innerPairOf(scheme))
-        if (const std::string caution = describe(pair->space, pair->quadrature).caution; !caution.empty())
-            return "The scheme " + caution + ".";
+    if (!scheme.properties.caution.empty()) return "The scheme " + scheme.properties.caution + ".";
     // A state that has blown up says nothing of frequencies: the start counts as well.
-    if (isWave(system) && outcome == Outcome::notFinite)
-        return "Beyond its stability limit a three-level scheme grows without bound. Try a smaller step.";
+    if (const Family* family = familyFor(system); family && family->advice)
+        if (const std::string own = family->advice(outcome); !own.empty()) return own;
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
-    const double limit = stabilityLimitOf(scheme);
+    const double limit = scheme.stabilityLimit();
     if (w > 0 && std::isfinite(limit) && limit > 0 && step * w > limit)
         return "h ω = " + formatNumber(step * w, 2) + " is beyond its stability limit " +
                formatNumber(limit, 3) + ". Try h ≤ " + formatNumber(limit / w, 2) + ".";
-    if (scheme.tolerance) return "Try a smaller tolerance, or start away from the singularity.";
+    if (scheme.spec.tolerance) return "Try a smaller tolerance, or start away from the singularity.";
     if (outcome == Outcome::singular)
         return "The equations of the step are singular here. Try other initial data, or a smaller step.";
     if (w > 0 && step * w > 0.5)

@@ -5,12 +5,12 @@
 
 #include "engine/core/outcome.hpp"
 #include "engine/model/system.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
 /// `initial` is the start of the run, `state` the last node that was reached.
-std::string adviceFor(Outcome outcome, const SchemeSpec& scheme, double step, const System& system,
+std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
                       const State& initial, const State& state);
 
 }  // namespace extremal

@@ -11,11 +11,8 @@
 #include "engine/core/outcome.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/step_events.hpp"
-#include "engine/family/galerkin/action_defect.hpp"
-#include "engine/family/galerkin/kkt_pattern.hpp"
-#include "engine/run/parameter_map.hpp"
-#include "engine/scene/scene.hpp"
-#include "engine/trajectory/frames.hpp"
+#include "engine/run/products.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/trajectory/trajectory.hpp"
 
 namespace extremal {
@@ -74,24 +71,13 @@ struct Summary {
 
 struct SchemeResult {
     SchemeSpec spec;
+    std::shared_ptr<const ResolvedScheme> scheme = {};  ///< what it resolved to; null in hand-made results
     int style = 0;  ///< index of colour and dash: the scheme's place in the scene, disabled ones counted
     double fraction = 0;  ///< of the time interval covered, 0..1
     Trajectory trajectory;
-    Trajectory curve;  ///< t and state of a run of few steps, several times in each, from the scheme's own
-                       ///< curve; for plots
-    std::vector<Frame> frames;  ///< of fields: at rows, all of them while they fit into their memory
-    /// States where a column passes zero upwards, found on the scheme's own curve: one for each view
-    /// "section".
-    struct Section {
-        std::string column;
-        Trajectory events;  ///< t and the state
-    };
-    std::vector<Section> sections = {};
     Summary summary;
     StepEvents events = {};  ///< what happened in its steps besides going on
-    /// Of pairs, where a view of the scene shows them; else null.
-    std::shared_ptr<const KktPattern> pattern = {};
-    std::shared_ptr<const ActionDefect> actionDefect = {};
+    Products products = {};
 };
 
 struct ReferenceInfo {
@@ -104,10 +90,10 @@ struct ReferenceInfo {
 /// Immutable once published; shared between threads by pointer. Holds only enabled schemes.
 struct Comparison {
     Scene scene;
+    std::shared_ptr<const System> system = {};  ///< that of the scene; null in hand-made comparisons
     std::vector<std::shared_ptr<const SchemeResult>> schemes;
     ReferenceInfo reference;
-    std::vector<std::shared_ptr<const ParameterMap>> maps =
-        {};  ///< of views "parameter-map": one a scheme that has a step
+    Products products = {};  ///< of all schemes together
     bool isFinished = false;
 };
 

@@ -1,7 +1,7 @@
 #include "engine/run/export.hpp"
 
 #include <cmath>
-#include <optional>
+#include <functional>
 
 #include "engine/core/text.hpp"
 #include "engine/run/file_batch.hpp"
@@ -82,9 +82,6 @@ std::string cellText(const Value& value) {
     return value.isString() ? csvCell(value.asString()) : std::string();
 }
 
-/// "slug.csv" -> "slug.field.csv".
-std::string fieldName(const std::string& csv) { return csv.substr(0, csv.size() - 4) + ".field.csv"; }
-
 /// t, the place (x, of a rectangle y too) and the components of the field: a row for each place of each
 /// frame. Of a rectangle as many frames, evenly spread, as make half a million rows, which keeps the file
 /// below 100 MB.
@@ -118,25 +115,13 @@ void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, S
     sink(block);
 }
 
-/// "<slug>.section.csv", and "<slug>.section-2.csv" for further sections.
-std::vector<std::pair<std::string, const Trajectory*>> sectionFiles(const Comparison& comparison) {
-    std::vector<std::pair<std::string, const Trajectory*>> files;
-    const std::vector<std::string> csv = csvNames(comparison);
-    for (std::size_t i = 0; i < csv.size(); ++i) {
-        const auto& sections = comparison.schemes[i]->sections;
-        for (std::size_t k = 0; k < sections.size(); ++k) {
-            const std::string end = k == 0 ? ".section.csv" : ".section-" + std::to_string(k + 1) + ".csv";
-            files.emplace_back(csv[i].substr(0, csv[i].size() - 4) + end, &sections[k].events);
-        }
-    }
-    return files;
-}
-
 /// "parameter-map.csv", and "parameter-map-2.csv" for further views of the kind.
 std::vector<std::pair<std::string, std::vector<const ParameterMap*>>> mapFiles(const Comparison& comparison) {
     std::vector<std::pair<std::string, std::vector<const ParameterMap*>>> files;
     std::size_t last = 0;
-    for (const auto& map : comparison.maps) {
+    const ParameterMaps* maps = comparison.products.find<ParameterMaps>();
+    for (std::size_t i = 0; maps && i < maps->all.size(); ++i) {
+        const auto& map = maps->all[i];
         if (files.empty() || map->view != last)
             files.push_back(
                 {"parameter-map" + (files.empty() ? "" : "-" + std::to_string(files.size() + 1)) + ".csv",
@@ -164,17 +149,72 @@ std::string mapCsv(const std::vector<const ParameterMap*>& maps) {
     return text;
 }
 
-std::vector<std::string> fileNames(const Comparison& comparison) {
-    std::vector<std::string> names{"scene.json"};
-    const auto csv = csvNames(comparison);
+std::string patternCsv(const KktPattern& pattern) {
+    std::string text = "row,column,part\n";
+    const auto add = [&](const KktPattern::Entries& entries, const char* part) {
+        for (const auto& [row, column] : entries)
+            text += std::to_string(row) + "," + std::to_string(column) + "," + part + "\n";
+    };
+    add(pattern.action, "action");
+    add(pattern.continuity, "continuity");
+    return text;
+}
+
+std::string defectCsv(const ActionDefect& defect) {
+    std::string text = "step,defect\n";
+    for (std::size_t i = 0; i < defect.h.size(); ++i)
+        text.append(formatNumber(defect.h[i]))
+            .append(",")
+            .append(formatNumber(defect.defect[i]))
+            .append("\n");
+    return text;
+}
+
+/// A file of a folder, and what writes it into a batch that has it open.
+struct ExportFile {
+    std::string name;
+    std::function<void(FileBatch&)> write;
+};
+
+/// The products of a scheme, each by its suffix: "<slug>.field.csv", ...
+void addProducts(std::vector<ExportFile>& files, const std::string& slug, const SchemeResult& scheme,
+                 const std::shared_ptr<const System>& system) {
+    if (const FieldFrames* frames = scheme.products.find<FieldFrames>();
+        frames && !frames->all.empty() && system)
+        files.push_back({slug + ".field.csv", [frames, system](FileBatch& batch) {
+                             writeFrames(system->field, frames->all,
+                                         [&](const std::string& block) { batch.append(block); });
+                         }});
+    if (const Sections* sections = scheme.products.find<Sections>())
+        for (std::size_t k = 0; k < sections->all.size(); ++k)
+            files.push_back({slug + (k == 0 ? ".section.csv" : ".section-" + std::to_string(k + 1) + ".csv"),
+                             [events = &sections->all[k].events](FileBatch& batch) {
+                                 writeRows(*events, [&](const std::string& block) { batch.append(block); });
+                             }});
+    if (const KktPattern* pattern = scheme.products.find<KktPattern>(); pattern && pattern->failure.empty())
+        files.push_back(
+            {slug + ".kkt.csv", [pattern](FileBatch& batch) { batch.append(patternCsv(*pattern)); }});
+    if (const ActionDefect* defect = scheme.products.find<ActionDefect>(); defect && defect->failure.empty())
+        files.push_back(
+            {slug + ".action-defect.csv", [defect](FileBatch& batch) { batch.append(defectCsv(*defect)); }});
+}
+
+/// All but summary.csv and summary.json.
+std::vector<ExportFile> filesOf(const Comparison& comparison) {
+    std::vector<ExportFile> files{
+        {"scene.json", [&](FileBatch& batch) { batch.append(writeScene(comparison.scene)); }}};
+    const std::vector<std::string> csv = csvNames(comparison);
     for (std::size_t i = 0; i < csv.size(); ++i) {
-        names.push_back(csv[i]);
-        if (!comparison.schemes[i]->frames.empty()) names.push_back(fieldName(csv[i]));
+        const SchemeResult& scheme = *comparison.schemes[i];
+        files.push_back({csv[i], [&scheme](FileBatch& batch) {
+                             writeRows(scheme.trajectory,
+                                       [&](const std::string& block) { batch.append(block); });
+                         }});
+        addProducts(files, csv[i].substr(0, csv[i].size() - 4), scheme, comparison.system);
     }
-    for (const auto& [name, events] : sectionFiles(comparison)) names.push_back(name);
-    for (const auto& [name, maps] : mapFiles(comparison)) names.push_back(name);
-    names.insert(names.end(), {"summary.csv", "summary.json"});
-    return names;
+    for (const auto& [name, maps] : mapFiles(comparison))
+        files.push_back({name, [maps = maps](FileBatch& batch) { batch.append(mapCsv(maps)); }});
+    return files;
 }
 
 }  // namespace
@@ -230,7 +270,8 @@ Value summaryValue(const Comparison& comparison) {
             extremes.set(e.column, knownNumber(e.value));
         row.set("extremes", extremes);
     }
-    for (const std::string& file : fileNames(comparison)) files.emplace_back(file);
+    for (const ExportFile& file : filesOf(comparison)) files.emplace_back(file.name);
+    for (const char* file : {"summary.csv", "summary.json"}) files.emplace_back(file);
     Value reference{Value::Object{}};
     reference.set("type", comparison.reference.type);
     reference.set("estimated_error", knownNumber(comparison.reference.estimatedError));
@@ -246,26 +287,11 @@ Value summaryValue(const Comparison& comparison) {
 std::vector<std::string> exportComparison(const Comparison& comparison, const std::filesystem::path& folder) {
     prepareFolder(folder);
     FileBatch batch(folder);
-    const auto csv = csvNames(comparison);
-    std::optional<System> system;
-    batch.write("scene.json", writeScene(comparison.scene));
-    for (std::size_t i = 0; i < csv.size(); ++i) {
-        batch.open(csv[i]);
-        writeRows(comparison.schemes[i]->trajectory, [&](const std::string& block) { batch.append(block); });
-        batch.close();
-        if (comparison.schemes[i]->frames.empty()) continue;
-        if (!system) system = makeSystem(comparison.scene);
-        batch.open(fieldName(csv[i]));
-        writeFrames(system->field, comparison.schemes[i]->frames,
-                    [&](const std::string& block) { batch.append(block); });
+    for (const ExportFile& file : filesOf(comparison)) {
+        batch.open(file.name);
+        file.write(batch);
         batch.close();
     }
-    for (const auto& [file, events] : sectionFiles(comparison)) {
-        batch.open(file);
-        writeRows(*events, [&](const std::string& block) { batch.append(block); });
-        batch.close();
-    }
-    for (const auto& [file, maps] : mapFiles(comparison)) batch.write(file, mapCsv(maps));
     batch.write("summary.csv", summaryCsv(comparison));
     batch.write("summary.json", writeJson(summaryValue(comparison)));
     return batch.commit();

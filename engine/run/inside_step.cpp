@@ -6,8 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/run/look_at_pair.hpp"
-#include "engine/scene/view_axes.hpp"
+#include "engine/view/axes.hpp"
 
 namespace extremal {
 namespace {
@@ -45,28 +44,32 @@ std::string sectionColumn(const View& view, const System& system) {
     return columns.empty() ? std::string() : columns.front().name;
 }
 
-InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const System& system, bool isAdaptive,
-                       long long steps, Observer error)
-    : result_(result), error_(std::move(error)), steps_(steps), points_(pointsPerStep(isAdaptive, steps)) {
+InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const ProductPlan& plan,
+                       const System& system, bool isAdaptive, long long steps, Observer error)
+    : result_(result), error_(std::move(error)), steps_(steps) {
+    if (plan.has(Product::denseOutput) || plan.has(Product::denseError))
+        points_ = pointsPerStep(isAdaptive, steps);
     const std::vector<Column> columns = leadingColumns(system);
     width_ = columns.size() - 1;
     for (const View& view : scene.views) {
-        if (view.id != "section") continue;
+        if (!needs(view, Product::sections)) continue;
         const std::string name = sectionColumn(view, system);
         const auto found =
             std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
         if (found == columns.end() || found == columns.begin()) continue;
-        sections_.push_back({static_cast<std::size_t>(found - columns.begin()) - 1, result_.sections.size()});
-        result_.sections.push_back({name, {columns}});
+        auto& all = result_.products.make<Sections>().all;
+        sections_.push_back({static_cast<std::size_t>(found - columns.begin()) - 1, all.size()});
+        all.push_back({name, {columns}});
     }
     if (points_ == 0) return;
     for (const View& view : scene.views)
         if (view.xRange && axesOf(view, system).variable == system.independent)
             parts_.emplace_back(view.xRange->low.value, view.xRange->high.value);
-    result_.curve.columns = columns;
+    Trajectory& points = result_.products.make<DenseOutput>().points;
+    points.columns = columns;
     if (!error_.evaluate) return;
     errorValues_.resize(error_.columns.size());
-    result_.curve.columns.push_back(error_.columns.front());
+    points.columns.push_back(error_.columns.front());
 }
 
 void InsideStep::start(const State& state) {
@@ -104,22 +107,23 @@ void InsideStep::look(const Integrator& integrator, const State& before, const S
             at_.x = after.x;
         keep(at_, report);
     }
-    if (result_.curve.rows() <= mostPoints) return;
-    result_.curve.columns.clear();  // an adaptive code with many steps: its rows are dense
+    if (result_.products.make<DenseOutput>().points.rows() <= mostPoints) return;
+    result_.products.drop<DenseOutput>();  // an adaptive code with many steps: its rows are dense
     points_ = 0;
 }
 
 void InsideStep::keep(const State& at, const StepReport& report) {
-    append(result_.curve, at.t, at.x, width_);
+    Trajectory& curve = result_.products.make<DenseOutput>().points;
+    append(curve, at.t, at.x, width_);
     if (!error_.evaluate) return;
     error_.evaluate(NodeBlock(at, report), errorValues_.data(), errorValues_.size());
-    result_.curve.columns.back().values.push_back(errorValues_.front());
+    curve.columns.back().values.push_back(errorValues_.front());
 }
 
 void InsideStep::cross(const Integrator& integrator, const State& before, const State& after) {
     for (const Section& section : sections_) {
         const double first = before.x[section.column], last = after.x[section.column];
-        Trajectory& events = result_.sections[section.index].events;
+        Trajectory& events = result_.products.make<Sections>().all[section.index].events;
         if (!(first < 0 && last >= 0) || events.rows() >= mostPoints) continue;
         const auto value = [&](double tau) {
             integrator.denseOutput(tau, at_.x);

@@ -1,6 +1,6 @@
-/// What is looked at inside the steps of a run, on the scheme's own curve: points for plots, their distance
-/// from the reference, and the events of sections. Where a view shows a part of the time axis its steps have
-/// more points.
+/// The products made inside the steps of a run, on the dense output of its scheme: points for plots, their
+/// distance from the reference, and the events of sections. Where a view shows a part of the time axis its
+/// steps have more points.
 ///
 /// A section is the set of states where one column passes zero upwards: the sign is seen at the nodes, the
 /// place is found on the curve, to round-off of tau. An event that passes zero twice within one step is not
@@ -23,9 +23,10 @@ std::string sectionColumn(const View& view, const System& system);
 
 class InsideStep {
 public:
-    /// Writes into `result`. `steps`: planned; curves are kept for few. `error`: may be empty.
-    InsideStep(SchemeResult& result, const Scene& scene, const System& system, bool isAdaptive,
-               long long steps, Observer error);
+    /// Writes the products of the plan into `result`. `steps`: planned; dense output is kept for few.
+    /// `error`: may be empty.
+    InsideStep(SchemeResult& result, const Scene& scene, const ProductPlan& plan, const System& system,
+               bool isAdaptive, long long steps, Observer error);
 
     bool isWanted() const { return points_ > 0 || !sections_.empty(); }
     void start(const State& state);
@@ -38,7 +39,7 @@ private:
     void cross(const Integrator& integrator, const State& before, const State& after);
 
     struct Section {
-        std::size_t column, index;  ///< of the state; of result.sections
+        std::size_t column, index;  ///< of the state; of the product
     };
     SchemeResult& result_;
     Observer error_;

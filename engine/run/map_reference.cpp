@@ -11,31 +11,36 @@
 
 namespace extremal {
 
-MapReference::MapReference(const Scene& scene, const System& system, const State& initial,
-                           const std::vector<double>& steps, const std::stop_token& stop) {
+MapReference::MapReference(const ResolvedScene& resolved, const std::vector<double>& steps,
+                           const std::stop_token& stop) {
+    const Scene& scene = resolved.scene;
+    const State& initial = resolved.initial;
     double nodes = 0;
     for (const double step : steps) nodes += (scene.end.value - scene.start.value) / step + 1;
     const bool isSmall = SharedSolution::isSmall(nodes, initial.x.size());
-    const auto& spec = scene.reference.scheme;
-    if (scene.reference.kind == ReferenceSpec::Kind::scheme && !isAdaptive(spec.front()) && isSmall) {
-        runScheme(scene, system, initial, steps, stop);
+    if (scene.reference.kind == ReferenceSpec::Kind::scheme && !resolved.reference.front().isAdaptive() &&
+        isSmall) {
+        runScheme(resolved, steps, stop);
         return;
     }
-    reference_ = makeReference(scene, system, initial, stop);
-    if (reference_.make && reference_.info.type != "exact" && isSmall) share(scene, initial, steps);
+    reference_ = makeReference(resolved, stop);
+    if (reference_.make && reference_.info.type != "exact" && isSmall) share(resolved, steps);
 }
 
-void MapReference::runScheme(const Scene& scene, const System& system, const State& initial,
-                             const std::vector<double>& steps, const std::stop_token& stop) {
-    const SchemeSpec& spec = scene.reference.scheme.front();
+void MapReference::runScheme(const ResolvedScene& resolved, const std::vector<double>& steps,
+                             const std::stop_token& stop) {
+    const Scene& scene = resolved.scene;
+    const State& initial = resolved.initial;
+    const ResolvedScheme& scheme = resolved.reference.front();
     for (const double step : steps) {
         if (stop.stop_requested()) return;
         const auto nodes = static_cast<std::size_t>(stepCount(scene.start.value, scene.end.value, step)) + 1;
-        const double parts = std::max(1.0, std::ceil(step / spec.step.value - 1e-9)), part = step / parts;
-        State state = schemeStart(scene, system, spec, part, initial);
+        const double parts = std::max(1.0, std::ceil(step / scheme.spec.step.value - 1e-9)),
+                     part = step / parts;
+        State state = schemeStart(resolved, scheme, part);
         const std::size_t width = state.x.size();
         auto table = std::make_shared<Table>(Table{initial.t, step, width, {}});
-        const auto integrator = makeScheme(system, spec, part, state);
+        const auto integrator = scheme.make(*resolved.system, part, state);
         const auto every = static_cast<long long>(parts);
         const MarchSink collect{[&](const Stretch& stretch) {
             for (std::size_t i = 0; i < stretch.nodes.size(); ++i)
@@ -52,7 +57,9 @@ void MapReference::runScheme(const Scene& scene, const System& system, const Sta
     }
 }
 
-void MapReference::share(const Scene& scene, const State& initial, const std::vector<double>& steps) {
+void MapReference::share(const ResolvedScene& resolved, const std::vector<double>& steps) {
+    const Scene& scene = resolved.scene;
+    const State& initial = resolved.initial;
     std::vector<double> times;
     for (const double step : steps)
         for (long long k = 0; k <= stepCount(scene.start.value, scene.end.value, step); ++k)

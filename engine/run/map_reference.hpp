@@ -18,11 +18,12 @@ class MapReference {
 public:
     MapReference() = default;
     /// Throws InvalidScene for a file that cannot be used.
-    MapReference(const Scene& scene, const System& system, const State& initial,
-                 const std::vector<double>& steps, const std::stop_token& stop);
+    MapReference(const ResolvedScene& resolved, const std::vector<double>& steps,
+                 const std::stop_token& stop);
 
     /// For a run with the step of this row; empty where there is no reference.
     ExactSolution at(std::size_t row) const;
+    bool isKnown() const { return !tables_.empty() || reference_.make; }
 
 private:
     struct Table {
@@ -30,9 +31,9 @@ private:
         std::size_t width;
         std::vector<double> states;  ///< node after node
     };
-    void runScheme(const Scene& scene, const System& system, const State& initial,
-                   const std::vector<double>& steps, const std::stop_token& stop);
-    void share(const Scene& scene, const State& initial, const std::vector<double>& steps);
+    void runScheme(const ResolvedScene& resolved, const std::vector<double>& steps,
+                   const std::stop_token& stop);
+    void share(const ResolvedScene& resolved, const std::vector<double>& steps);
 
     Reference reference_;
     std::vector<std::shared_ptr<const Table>> tables_;  ///< empty: the reference is asked itself

@@ -87,40 +87,34 @@ double sizeOf(const double* x, std::size_t n) {
 
 /// A column being computed: one value of the parameter.
 struct MapColumn {
-    const Scene& scene;
+    const ResolvedScene& resolved;
     const MapGrid& grid;
     const ObservableEntry& observable;
-    System system;
-    State initial;
     const std::stop_token& stop;
     MapReference reference;
 
-    MapColumn(const Scene& scene_, const MapGrid& grid_, const ObservableEntry& observable_,
+    MapColumn(const ResolvedScene& scene, const MapGrid& grid_, const ObservableEntry& observable_,
               const std::stop_token& stop_)
-        : scene(scene_),
-          grid(grid_),
-          observable(observable_),
-          system(makeSystem(scene)),
-          initial(initialState(scene, system)),
-          stop(stop_) {
-        if (observable.needsReference) reference = MapReference(scene, system, initial, grid.steps, stop);
+        : resolved(scene), grid(grid_), observable(observable_), stop(stop_) {
+        if (observable.needsReference) reference = MapReference(resolved, grid.steps, stop);
     }
 
-    MapCell cell(const SchemeSpec& spec, std::size_t row) const {
+    MapCell cell(const ResolvedScheme& scheme, std::size_t row) const {
         try {
-            return runCell(spec, row);
+            return runCell(scheme, row);
         } catch (const InvalidScene&) {
             return {MapCell::End::refused};
         }
     }
 
-    MapCell runCell(const SchemeSpec& spec, std::size_t row) const {
+    MapCell runCell(const ResolvedScheme& scheme, std::size_t row) const {
         const double step = grid.steps[row];
-        const State start = schemeStart(scene, system, spec, step, initial);
-        const auto integrator = makeScheme(system, spec, step, start);
-        const auto pair = pairOf(spec);
+        const System& system = *resolved.system;
+        const Scene& scene = resolved.scene;
+        const State start = schemeStart(resolved, scheme, step);
+        const auto integrator = scheme.make(system, step, start);
         const Observer observer = observable.bind(
-            {system, start, reference.at(row), pair ? &*pair : nullptr, step, integrator->quantities()});
+            {system, start, reference.at(row), scheme.plain(), step, integrator->quantities()});
         const auto found = std::find_if(observer.columns.begin(), observer.columns.end(),
                                         [&](const Column& c) { return c.name == grid.column; });
         if (found == observer.columns.end()) return {MapCell::End::refused};
@@ -130,10 +124,13 @@ struct MapColumn {
         std::vector<double> values;
         MapCell result;
         result.end = MapCell::End::done;
+        // Without a reference an error stays unknown; a state that grows is seen all the same.
+        const bool isKnown = !observable.needsReference || reference.isKnown();
         const MarchSink measure{[&](const Stretch& stretch) {
             const NodeBlock& nodes = stretch.nodes;
-            values.resize(std::max(values.size(), width * nodes.capacity()));
-            observer.evaluate(nodes, values.data(), width);
+            values.resize(std::max(values.size(), width * nodes.capacity()),
+                          std::numeric_limits<double>::quiet_NaN());
+            if (isKnown) observer.evaluate(nodes, values.data(), width);
             const double* column = values.data() + (found - observer.columns.begin());
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 const double value = std::abs(column[i * width]);
@@ -153,8 +150,8 @@ struct MapColumn {
     }
 };
 
-const ObservableEntry* observableOf(const Scene& scene, const std::string& column) {
-    for (const ObservedColumn& each : observableColumns(scene, makeSystem(scene)))
+const ObservableEntry* observableOf(const ResolvedScene& resolved, const std::string& column) {
+    for (const ObservedColumn& each : observableColumns(resolved.scene, *resolved.system))
         if (each.name == column) return findObservable(each.observable);
     return nullptr;
 }
@@ -198,7 +195,7 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
     if (unknown.empty() || stop.stop_requested()) return;
 
     const ReadScene read = readScene(document);
-    const ObservableEntry* observable = read.errors.empty() ? observableOf(read.scene, grid.column) : nullptr;
+    const ObservableEntry* observable = read.resolved ? observableOf(*read.resolved, grid.column) : nullptr;
     if (!observable) {
         for (const std::size_t s : unknown) publish(s, Cells(rows, MapCell{MapCell::End::refused}));
         const std::lock_guard lock(mutex_);
@@ -207,11 +204,11 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
                 read.errors.front().pointer + " " + read.errors.front().message;
         return;
     }
-    const MapColumn computed(read.scene, grid, *observable, stop);
+    const MapColumn computed(*read.resolved, grid, *observable, stop);
     for (const std::size_t s : unknown) {
         Cells cells(rows);
         for (std::size_t r = 0; r < rows && !stop.stop_requested(); ++r)
-            cells[r] = computed.cell(read.scene.schemes[s], r);
+            cells[r] = computed.cell(read.resolved->schemes[s], r);
         const bool isWhole = std::none_of(cells.begin(), cells.end(),
                                           [](const MapCell& c) { return c.end == MapCell::End::waiting; });
         if (isWhole && scene_.reference.kind != ReferenceSpec::Kind::file)

@@ -12,11 +12,10 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
-#include "engine/family/scheme.hpp"
+#include "engine/family/family.hpp"
 #include "engine/run/shared_solution.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
-#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
 namespace {
@@ -76,21 +75,21 @@ std::function<ExactSolution()> stepped(SteppedSolution::Make make, const State& 
     };
 }
 
-/// Largest distance of two solutions at times spread over the run; infinity where one is not known. Inside a
-/// step a wave function is not read off but made anew: of wave functions at nodes alone, which both have if b
-/// has steps of `step`.
-double distance(const ExactSolution& a, const ExactSolution& b, double step, const Scene& scene,
+/// Largest distance of two solutions at times spread over the run; infinity where one is not known.
+/// `atNodes`: at nodes alone, which both have if b has steps of `step`: inside a step the solution of some is
+/// not read off but made anew.
+double distance(const ExactSolution& a, const ExactSolution& b, double step, bool atNodes, const Scene& scene,
                 const System& system, const State& initial, const std::stop_token& stop) {
     constexpr int most = 997;  // a prime: not in step with the nodes of either
     const double length = scene.end.value - scene.start.value;
     const ErrorMeasure measure = errorMeasure(system, initial);
     const long long nodes = std::max(1LL, static_cast<long long>(length / step * (1 + 1e-12)));
-    const auto samples = isWave(system) ? static_cast<int>(std::min<long long>(most, nodes)) : most;
+    const auto samples = atNodes ? static_cast<int>(std::min<long long>(most, nodes)) : most;
     std::vector<double> x(initial.x.size()), y(x), values(measure.columns.size());
     double worst = 0;
     for (int i = 1; i <= samples && !stop.stop_requested(); ++i) {
-        const double t = isWave(system) ? Clock{initial.t, step}.at(nodes * i / samples)
-                                        : scene.start.value + length * i / samples;
+        const double t = atNodes ? Clock{initial.t, step}.at(nodes * i / samples)
+                                 : scene.start.value + length * i / samples;
         a(t, x);
         b(t, y);
         measure.evaluate(x.data(), y.data(), values.data());
@@ -100,47 +99,29 @@ double distance(const ExactSolution& a, const ExactSolution& b, double step, con
     return worst;
 }
 
-/// Wave functions without eigenstates on a rectangle: Chebyshev's series, whose error is the round-off of its
-/// products with H. Refining steps of an implicit scheme to that would take tens of times as long.
-Reference bySeries(const Scene& scene, const System& system, const State& initial,
-                   const std::stop_token& stop) {
-    const double length = scene.end.value - scene.start.value;
-    const Hamiltonian& h = *system.hamiltonian();
-    const double products = length * (h.highest() - h.lowest()) / (2 * h.hbar());
-    constexpr double perStep = 60;
-    const double step = length / std::ceil(std::max(1.0, products / perStep));
-    Reference reference;
-    reference.info = {"computed", 1e-15 * (1 + products), "Chebyshev series, h = " + formatNumber(step, 3)};
-    const BaselineEntry* series = findBaseline("chebyshev-propagation");
-    reference.make = stepped(
-        [system, series, step, initial, stop] {
-            BaselineOptions options;
-            options.step = step;
-            options.start = initial;
-            auto integrator = series->make(system, options);
-            integrator->setStop(stop);
-            return integrator;
-        },
-        initial, scene.end.value);
-    return reference;
-}
-
 Reference computed(const Scene& scene, const System& system, const State& initial,
                    const std::stop_token& stop) {
-    if (isWave(system) && system.hamiltonian()->isPlane() && !system.hamiltonian()->isTimeDependent())
-        return bySeries(scene, system, initial, stop);
     constexpr double maxSteps = 2e6;
-    const Discretization pair = settled(trustedPair(system), system, initial);
+    const double length = scene.end.value - scene.start.value;
+    const Family* const family = familyFor(system);
+    if (!family || !family->reference) return {};
+    const ReferencePlan plan = family->reference(system, initial, length);
     auto solution = [&](double step) {
         return stepped(
-            [system, pair, step, start = initial.t, stop] {
-                auto integrator = makeIntegrator(system, pair, Clock{start, step});
+            [make = plan.make, step, stop] {
+                auto integrator = make(step);
                 integrator->setStop(stop);
                 return integrator;
             },
             initial, scene.end.value);
     };
-    const double length = scene.end.value - scene.start.value;
+    if (plan.step > 0) {
+        Reference known;
+        known.info = {"computed", plan.expectedError,
+                      plan.description + ", h = " + formatNumber(plan.step, 3)};
+        known.make = solution(plan.step);
+        return known;
+    }
     const double w = highestFrequency(system, initial);
     double step = std::min(length / 20, w > 0 ? 2 / w : length / 200);
     step = std::max(step, length / maxSteps);
@@ -151,9 +132,10 @@ Reference computed(const Scene& scene, const System& system, const State& initia
     for (int refinement = 0; refinement < 8 && !stop.stop_requested(); ++refinement, step /= 2) {
         if (length / step > maxSteps) break;
         auto coarse = solution(step), fine = solution(step / 2);
-        const double error = distance(fine(), coarse(), step, scene, system, initial, stop);
+        const double error =
+            distance(fine(), coarse(), step, !family->hasDenseOutput, scene, system, initial, stop);
         if (error < last || refinement == 0) {
-            best.info = {"computed", error, trustedName(system) + ", h = " + formatNumber(step / 2, 3)};
+            best.info = {"computed", error, plan.description + ", h = " + formatNumber(step / 2, 3)};
             best.make = std::move(fine);
         }
         if (error <= 2e-13 * std::max(measure.scale, 1.0) || error > last / 4) break;
@@ -164,26 +146,31 @@ Reference computed(const Scene& scene, const System& system, const State& initia
     return best;
 }
 
-Reference fromScheme(const Scene& scene, const System& system, const State& initial,
-                     const std::stop_token& stop) {
-    const SchemeSpec spec = scene.reference.scheme.front();
+Reference fromScheme(const ResolvedScene& resolved, const std::stop_token& stop) {
+    const Scene& scene = resolved.scene;
+    const System& system = *resolved.system;
+    const State& initial = resolved.initial;
+    const ResolvedScheme scheme = resolved.reference.front();
+    const SchemeSpec& spec = scheme.spec;
     // An adaptive code must not be stopped at the very end of the others by round-off.
     const double end = scene.end.value + 1e-6 * (scene.end.value - scene.start.value);
-    auto make = [system, spec, start = initial, stop](double step) {
+    auto make = [system, scheme, start = initial, stop](double step) {
         return [=] {
-            auto integrator = makeScheme(system, spec, step, start);
+            auto integrator = scheme.make(system, step, start);
             integrator->setStop(stop);
             return integrator;
         };
     };
     Reference reference;
     reference.info = {"scheme", unknown, spec.label};
-    const State own = schemeStart(scene, system, spec, spec.step.value, initial);
+    const State own = schemeStart(resolved, scheme, spec.step.value);
     reference.make = stepped(make(spec.step.value), own, end);
-    if (!isAdaptive(spec)) {
+    const Family* const family = scheme.family ? scheme.family : familyFor(system);
+    const bool hasDenseOutput = !family || family->hasDenseOutput;
+    if (!scheme.isAdaptive()) {
         const auto coarse = stepped(make(2 * spec.step.value), own, end);
-        reference.info.estimatedError =
-            distance(reference.make(), coarse(), 2 * spec.step.value, scene, system, initial, stop);
+        reference.info.estimatedError = distance(reference.make(), coarse(), 2 * spec.step.value,
+                                                 !hasDenseOutput, scene, system, initial, stop);
     }
     return reference;
 }
@@ -242,12 +229,14 @@ Reference fromFile(const Scene& scene, const System& system) {
 
 }  // namespace
 
-Reference makeReference(const Scene& scene, const System& system, const State& initial,
-                        const std::stop_token& stop) {
+Reference makeReference(const ResolvedScene& resolved, const std::stop_token& stop) {
+    const Scene& scene = resolved.scene;
+    const System& system = *resolved.system;
+    const State& initial = resolved.initial;
     using Kind = ReferenceSpec::Kind;
     const Kind kind = scene.reference.kind;
     if (kind == Kind::none) return {};
-    if (kind == Kind::scheme) return fromScheme(scene, system, initial, stop);
+    if (kind == Kind::scheme) return fromScheme(resolved, stop);
     if (kind == Kind::file) return fromFile(scene, system);
     if (system.exact) {
         if (system.exact(initial)) {
@@ -255,7 +244,7 @@ Reference makeReference(const Scene& scene, const System& system, const State& i
             for (const double v : initial.x) scale = std::max(scale, std::abs(v));
             Reference reference;
             // An angle that grows by w t cannot be known better than to round-off of w t.
-            const bool turnsInPhase = isBody(system) || isWave(system);
+            const bool turnsInPhase = system.error.isOfPhase;
             const double turns = turnsInPhase ? 0.25 * highestFrequency(system, initial) *
                                                     (scene.end.value - scene.start.value)
                                               : 0;
@@ -270,15 +259,18 @@ Reference makeReference(const Scene& scene, const System& system, const State& i
     return computed(scene, system, initial, stop);
 }
 
-void shareReference(Reference& reference, const Scene& scene, std::size_t width) {
+void shareReference(Reference& reference, const ResolvedScene& resolved) {
+    const Scene& scene = resolved.scene;
+    const std::size_t width = resolved.initial.x.size();
     if (!reference.make || (reference.info.type != "computed" && reference.info.type != "scheme")) return;
     constexpr double mostTimes = 5e6;
     std::vector<Clock> grids;
     const double start = scene.start.value, length = scene.end.value - start;
     const bool isOrderMeasured =
         std::find(scene.observe.begin(), scene.observe.end(), "order") != scene.observe.end();
-    for (const SchemeSpec& spec : scene.schemes) {
-        if (!spec.isEnabled || isAdaptive(spec)) continue;
+    for (const ResolvedScheme& scheme : resolved.schemes) {
+        const SchemeSpec& spec = scheme.spec;
+        if (!spec.isEnabled || scheme.isAdaptive()) continue;
         for (const double divisor : {1.0, 2.0, 4.0})
             if (divisor == 1 || isOrderMeasured) grids.push_back({start, spec.step.value / divisor});
     }

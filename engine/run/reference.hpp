@@ -22,11 +22,10 @@ struct Reference {
 
 /// Prepares the reference a scene asks for. Takes time for computed ones; gives up with kind none when
 /// stopped. Throws InvalidScene for a file that cannot be used.
-Reference makeReference(const Scene& scene, const System& system, const State& initial,
-                        const std::stop_token& stop);
+Reference makeReference(const ResolvedScene& resolved, const std::stop_token& stop);
 
 /// Makes all solutions of a computed reference readers of one, at the nodes of the scene's schemes, where
-/// memory allows. `width`: of a state.
-void shareReference(Reference& reference, const Scene& scene, std::size_t width);
+/// memory allows.
+void shareReference(Reference& reference, const ResolvedScene& resolved);
 
 }  // namespace extremal

@@ -8,20 +8,22 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
-#include "engine/run/look_at_pair.hpp"
+#include "engine/run/equations.hpp"
 #include "engine/run/map_run.hpp"
 #include "engine/run/reference.hpp"
 #include "engine/run/scheme_run.hpp"
-#include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
 /// One coordinator prepares the reference, then a pool takes the schemes in turn, and after them the columns
 /// of maps: each is one task, so results do not depend on the number of threads.
 struct Run::Impl {
-    Scene scene;
-    System system;
-    State initial;
+    ResolvedScene resolved;
+    const Scene& scene = resolved.scene;
+    const System& system = *resolved.system;
+    const State& initial = resolved.initial;
+    ProductPlan plan;
     unsigned threads;
     std::vector<std::unique_ptr<SchemeRun>> tasks;
     MapRun maps;
@@ -30,13 +32,13 @@ struct Run::Impl {
     std::atomic<bool> isFinished{false};
     std::jthread coordinator;
 
-    Impl(const Scene& s, const RunOptions& options)
-        : scene(s), system(makeSystem(scene)), initial(initialState(scene, system)), maps(scene) {
+    Impl(ResolvedScene r, const RunOptions& options)
+        : resolved(std::move(r)), plan(scene, system), maps(resolved.scene) {
+        for (const Product product : options.products) plan.add(product);
         const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
         threads = options.threads > 0 ? options.threads : cores;
         for (std::size_t i = 0; i < scene.schemes.size(); ++i)
-            if (scene.schemes[i].isEnabled)
-                tasks.push_back(std::make_unique<SchemeRun>(scene, scene.schemes[i], static_cast<int>(i)));
+            if (scene.schemes[i].isEnabled) tasks.push_back(std::make_unique<SchemeRun>(resolved, i, plan));
         if (scene.reference.kind == ReferenceSpec::Kind::exact && (!system.exact || !system.exact(initial)))
             throw InvalidScene("/reference", "no exact solution is known for these initial data",
                                "use \"auto\"");
@@ -53,8 +55,8 @@ struct Run::Impl {
         Reference ref;
         if (needsReference()) {
             try {
-                ref = makeReference(scene, system, initial, stop);
-                shareReference(ref, scene, initial.x.size());
+                ref = makeReference(resolved, stop);
+                shareReference(ref, resolved);
             } catch (const InvalidScene& e) {
                 ref.info.problems = e.problems();  // the run goes on without errors
             }
@@ -63,13 +65,12 @@ struct Run::Impl {
             const std::lock_guard lock(mutex);
             reference = ref.info;
         }
-        const std::shared_ptr<ExactActions> exact = exactActionsOf(scene, system, initial);
+        const std::shared_ptr<ExactActions> exact = exactActionsOf(resolved, plan);
         std::atomic<std::size_t> next{0};
         const std::size_t all = tasks.size() + maps.tasks();
         auto takeTasks = [&] {
             for (std::size_t i = next++; i < all; i = next++)
-                i < tasks.size() ? tasks[i]->run(system, initial, ref, exact.get(), stop)
-                                 : maps.run(i - tasks.size(), stop);
+                i < tasks.size() ? tasks[i]->run(ref, exact.get(), stop) : maps.run(i - tasks.size(), stop);
         };
         {
             std::vector<std::jthread> pool;
@@ -82,7 +83,10 @@ struct Run::Impl {
     }
 };
 
-Run::Run(const Scene& scene, const RunOptions& options) : impl_(std::make_unique<Impl>(scene, options)) {}
+Run::Run(const Scene& scene, const RunOptions& options) : Run(resolve(scene), options) {}
+
+Run::Run(ResolvedScene scene, const RunOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(scene), options)) {}
 
 Run::~Run() { stop(); }
 
@@ -103,9 +107,10 @@ bool Run::isFinished() const { return impl_->isFinished; }
 Comparison Run::latest() const {
     Comparison c;
     c.scene = impl_->scene;
+    c.system = impl_->resolved.system;
     c.isFinished = impl_->isFinished;
     for (const auto& task : impl_->tasks) c.schemes.push_back(task->latest());
-    c.maps = impl_->maps.latest();
+    if (impl_->plan.has(Product::parameterMap)) c.products.make<ParameterMaps>().all = impl_->maps.latest();
     const std::lock_guard lock(impl_->mutex);
     c.reference = impl_->reference;
     return c;

@@ -12,15 +12,18 @@
 #include <memory>
 
 #include "engine/run/comparison.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
 struct RunOptions {
-    unsigned threads = 0;  ///< 0: as many as the machine has cores
+    unsigned threads = 0;                ///< 0: as many as the machine has cores
+    std::vector<Product> products = {};  ///< besides those that the views of the scene need
 };
 
 class Run {
 public:
+    explicit Run(ResolvedScene scene, const RunOptions& options = {});
     explicit Run(const Scene& scene, const RunOptions& options = {});
     ~Run();  ///< stops and joins
     Run(const Run&) = delete;

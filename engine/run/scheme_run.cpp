@@ -10,8 +10,8 @@
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/advice.hpp"
+#include "engine/run/equations.hpp"
 #include "engine/run/inside_step.hpp"
-#include "engine/run/look_at_pair.hpp"
 #include "engine/run/march.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/scene/bind.hpp"
@@ -64,6 +64,7 @@ struct SchemeRun::Recording {
     };
     static constexpr auto none = static_cast<std::size_t>(-1);
     const Scene& scene;
+    const ResolvedScheme& scheme;
     const SchemeSpec& spec;
     const System& system;
     std::stop_token stop;
@@ -72,8 +73,8 @@ struct SchemeRun::Recording {
     long long steps = 0;    ///< planned; 0 for adaptive schemes
     long long maxRows = 0;  ///< adaptive: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
-    bool isCurveWanted = false;
-    Observer curveError;  ///< measured along the dense output as well, where a view shows it
+    ProductPlan plan;     ///< products to make
+    Observer denseError;  ///< measured along the dense output as well, where it is in the plan
     std::unique_ptr<Integrator> integrator;
     FrameKeeper frames;
     RowSampler sampler;
@@ -85,29 +86,30 @@ struct SchemeRun::Recording {
     std::vector<double> values;
     std::size_t stateWidth = 0;  ///< entries of the state that every row holds
 
-    Recording(const Scene& scene_, const SchemeSpec& spec_, const System& system_, const State& initial,
+    Recording(const ResolvedScene& resolved, const ResolvedScheme& scheme_, const State& initial,
               const Reference& reference, const std::vector<std::string>& observe, double step_,
               long long stride, int style, std::stop_token stop_)
-        : scene(scene_),
-          spec(spec_),
-          system(system_),
+        : scene(resolved.scene),
+          scheme(scheme_),
+          spec(scheme_.spec),
+          system(*resolved.system),
           stop(std::move(stop_)),
           step(step_),
-          isAdaptiveScheme(isAdaptive(spec_)),
-          frames(system_.field.y.empty() ? FrameKeeper::usual : FrameKeeper::large),
-          sampler(initial.t, scene_.every ? std::optional<double>(scene_.every->value) : std::nullopt,
-                  stride),
+          isAdaptiveScheme(scheme_.isAdaptive()),
+          frames(system.field.y.empty() ? FrameKeeper::usual : FrameKeeper::large),
+          sampler(initial.t, scene.every ? std::optional<double>(scene.every->value) : std::nullopt, stride),
           initialNode(initial),
           state(initial) {
         if (!isAdaptiveScheme) steps = stepCount(scene.start.value, scene.end.value, step);
         result.spec = spec;
+        result.scheme = std::make_shared<const ResolvedScheme>(scheme);
         result.style = style;
         result.summary.label = spec.label;
         result.summary.status = RunStatus::running;
-        result.summary.orderClaimed = claimsOf(spec).order;
+        result.summary.orderClaimed = scheme.claims.order;
         result.trajectory.columns = leadingColumns(system);
         stateWidth = result.trajectory.columns.size() - 1;
-        integrator = makeScheme(system, spec, step, initial);
+        integrator = scheme.make(system, step, initial);
         integrator->setStop(stop);
         result.summary.about = integrator->about();
         bindObservers(reference, observe, initial);
@@ -115,13 +117,12 @@ struct SchemeRun::Recording {
 
     void bindObservers(const Reference& reference, const std::vector<std::string>& observe,
                        const State& initial) {
-        const auto pair = pairOf(spec);
         Summary& summary = result.summary;
         for (const std::string& id : observe) {
             const ObservableEntry* entry = findObservable(id);
             if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
             Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{},
-                                 pair ? &*pair : nullptr, step, integrator->quantities()}),
+                                 scheme.plain(), step, integrator->quantities()}),
                     result.trajectory.columns.size(), none, nullptr};
             if (b.observer.extreme >= 0) {
                 b.extreme = summary.extremes.size();
@@ -161,7 +162,7 @@ struct SchemeRun::Recording {
         std::copy_n(nodes.x(i), stateWidth, row + 1);
         for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
         result.trajectory.nodes.push_back(done);
-        if (system.field) recordFrame(nodes.t(i), nodes.x(i), false);
+        if (system.field && plan.has(Product::frames)) recordFrame(nodes.t(i), nodes.x(i), false);
         if (system.caution && result.summary.caution.empty()) {
             result.summary.caution = system.caution(nodes.x(i));
             if (!result.summary.caution.empty())
@@ -177,7 +178,7 @@ struct SchemeRun::Recording {
                 system.field.sample(x, picture->data());
                 return picture;
             },
-            result.frames);
+            result.products.make<FieldFrames>().all);
     }
     /// A row off the nodes, or at the last of them.
     void recordAlone(const State& at, const StepReport& report, double done) {
@@ -226,7 +227,7 @@ struct SchemeRun::Recording {
         if (!hasOverflown) return;
         for (Column& c : result.trajectory.columns) c.values.clear();
         result.trajectory.nodes.clear();
-        result.frames.clear();
+        result.products.drop<FieldFrames>();
     }
     void account(const MarchReport& report, const State& at) {
         Summary& s = result.summary;
@@ -250,7 +251,7 @@ struct SchemeRun::Recording {
             s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
-            s.advice = adviceFor(outcome, spec, step, system, initialNode, state);
+            s.advice = adviceFor(outcome, scheme, step, system, initialNode, state);
         }
         const Column* energy = result.trajectory.find("energy_error");
         if (energy) s.energyDrift = slope(result.trajectory.columns[0].values, energy->values);
@@ -261,8 +262,8 @@ struct SchemeRun::Recording {
     void run(Publish&& publish) {
         const bool isDense = scene.isDense && scene.every;
         std::optional<InsideStep> inside;
-        if (isCurveWanted && stateWidth > 0)  // else no row holds a state, and there is no curve to draw
-            inside.emplace(result, scene, system, isAdaptiveScheme, steps, std::move(curveError));
+        if (stateWidth > 0)  // else no row holds a state
+            inside.emplace(result, scene, plan, system, isAdaptiveScheme, steps, std::move(denseError));
         if (inside && !inside->isWanted()) inside.reset();
         std::vector<MarchSink> sinks;
         sinks.push_back({[&](const Stretch& stretch) {
@@ -298,16 +299,18 @@ struct SchemeRun::Recording {
         grid.budget = std::max(steps, static_cast<long long>(std::min(scene.maxSteps, 9e18)));
         const MarchReport report = march(*integrator, state, grid, sinks, stop);
         if (!isLastNodeRow) recordAlone(state, report.last, static_cast<double>(state.node));
-        if (system.field) recordFrame(state.t, state.x.data(), true);
+        if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);
         finish(report);
     }
 };
 
-SchemeRun::SchemeRun(const Scene& scene, const SchemeSpec& spec, int style) : scene_(scene), spec_(spec) {
+SchemeRun::SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan)
+    : resolved_(scene), scheme_(scene.schemes[index]), plan_(plan) {
     SchemeResult empty;
-    empty.spec = spec;
-    empty.style = style;
-    empty.summary.label = spec.label;
+    empty.style = static_cast<int>(index);
+    empty.scheme = std::make_shared<const ResolvedScheme>(scheme_);
+    empty.spec = spec_;
+    empty.summary.label = spec_.label;
     latest_ = std::make_shared<const SchemeResult>(std::move(empty));
 }
 
@@ -322,20 +325,21 @@ void SchemeRun::publish(const SchemeResult& result) {
     latest_ = std::move(copy);
 }
 
-void SchemeRun::run(const System& system, const State& initial, const Reference& reference,
-                    ExactActions* exact, const std::stop_token& stop) {
+void SchemeRun::run(const Reference& reference, ExactActions* exact, const std::stop_token& stop) {
+    const System& system = *resolved_.system;
+    const State& initial = resolved_.initial;
     const int style = latest()->style;
     using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
     auto record = [&](long long stride, long long maxRows) {
-        const State own = schemeStart(scene_, system, spec_, spec_.step.value, initial);
-        Recording p(scene_, spec_, system, own, reference, scene_.observe, spec_.step.value, stride, style,
+        const State own = schemeStart(resolved_, scheme_, spec_.step.value);
+        Recording p(resolved_, scheme_, own, reference, scene_.observe, spec_.step.value, stride, style,
                     stop);
         p.maxRows = maxRows;
-        p.isCurveWanted = true;
+        p.plan = plan_;
         const ObservableEntry* error = findObservable("error");
-        if (showsView(scene_, "curve-error") && reference.make && error)
-            p.curveError = error->bind({system, own, reference.make(), nullptr, spec_.step.value, {}});
+        if (plan_.has(Product::denseError) && reference.make && error)
+            p.denseError = error->bind({system, own, reference.make(), nullptr, spec_.step.value, {}});
         auto last = Clock_::now();
         auto pause = std::chrono::milliseconds(30);
         p.run([&] {
@@ -350,9 +354,9 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
         return p;
     };
     try {
-        const bool isFree = isAdaptive(spec_) && !scene_.every;
+        const bool isFree = scheme_.isAdaptive() && !scene_.every;
         const long long planned =
-            isAdaptive(spec_) ? 0 : stepCount(scene_.start.value, scene_.end.value, spec_.step.value);
+            scheme_.isAdaptive() ? 0 : stepCount(scene_.start.value, scene_.end.value, spec_.step.value);
         Recording p = record(isFree ? 1 : RowSampler::stride(planned), isFree ? heldRows : 0);
         SchemeResult result = std::move(p.result);
         if (isFree) {
@@ -367,13 +371,13 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
         }
         const bool wantsOrder =
             std::find(scene_.observe.begin(), scene_.observe.end(), "order") != scene_.observe.end();
-        if (exact || showsView(scene_, "sparsity")) {
+        if (plan_.has(Product::kktPattern) || plan_.has(Product::actionDefect)) {
             publish(result);
-            const State own = schemeStart(scene_, system, spec_, spec_.step.value, initial);
-            lookAtPair(result, scene_, system, own, exact, stop);
+            const State own = schemeStart(resolved_, scheme_, spec_.step.value);
+            addEquations(result, plan_, resolved_, scheme_, own, exact, stop);
         }
-        if (wantsOrder && result.summary.status == RunStatus::done && !isAdaptive(spec_) && reference.make)
-            measureOrder(result, system, initial, reference, stop);
+        if (wantsOrder && result.summary.status == RunStatus::done && !scheme_.isAdaptive() && reference.make)
+            measureOrder(result, reference, stop);
         publish(result);
     } catch (const InvalidScene& e) {
         SchemeResult failed = *latest();
@@ -388,15 +392,16 @@ void SchemeRun::run(const System& system, const State& initial, const Reference&
 
 /// Slope of log(max error) over log(step) from runs with h, h/2 and h/4; points at the floor of the reference
 /// or of round-off are left out.
-void SchemeRun::measureOrder(SchemeResult& result, const System& system, const State& initial,
-                             const Reference& reference, const std::stop_token& stop) const {
+void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference,
+                             const std::stop_token& stop) const {
+    const State& initial = resolved_.initial;
     double scale = 0;
     for (const double v : initial.x) scale = std::max(scale, std::abs(v));
     std::vector<double> x, y;
     for (const double divisor : {1.0, 2.0, 4.0}) {
         const double step = spec_.step.value / divisor;
-        const State own = schemeStart(scene_, system, spec_, step, initial);
-        Recording p(scene_, spec_, system, own, reference, {"error"}, step, 1LL << 60, 0, stop);
+        const State own = schemeStart(resolved_, scheme_, step);
+        Recording p(resolved_, scheme_, own, reference, {"error"}, step, 1LL << 60, 0, stop);
         p.run([] {});
         const double error = p.result.summary.maxError;
         // Round-off accumulates along the run: in the worst case, for growing errors, by every step.

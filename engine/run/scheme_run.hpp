@@ -20,12 +20,12 @@ class ExactActions;
 
 class SchemeRun {
 public:
-    SchemeRun(const Scene& scene, const SchemeSpec& spec, int style);
+    /// Scheme `index` of the scene; scene and plan must outlive the run.
+    SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan);
 
     /// Integrates; returns when done, failed or stopped. Never throws for numerical trouble. `exact`: null
     /// where no view compares actions.
-    void run(const System& system, const State& initial, const Reference& reference, ExactActions* exact,
-             const std::stop_token& stop);
+    void run(const Reference& reference, ExactActions* exact, const std::stop_token& stop);
 
     /// What there is now; immutable.
     std::shared_ptr<const SchemeResult> latest() const;
@@ -33,11 +33,13 @@ public:
 private:
     struct Recording;
     void publish(const SchemeResult& result);
-    void measureOrder(SchemeResult& result, const System& system, const State& initial,
-                      const Reference& reference, const std::stop_token& stop) const;
+    void measureOrder(SchemeResult& result, const Reference& reference, const std::stop_token& stop) const;
 
-    const Scene& scene_;
-    SchemeSpec spec_;
+    const ResolvedScene& resolved_;
+    const ResolvedScheme& scheme_;
+    const Scene& scene_ = resolved_.scene;
+    const SchemeSpec& spec_ = scheme_.spec;
+    const ProductPlan& plan_;
     mutable std::mutex mutex_;
     std::shared_ptr<const SchemeResult> latest_;
 };

@@ -1,17 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
-#include "engine/family/multiscale/resonance.hpp"
-#include "engine/family/scheme.hpp"
-#include "engine/family/wave/wave.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/cost.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/two_positions.hpp"
-#include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal {
 namespace {
@@ -46,11 +41,13 @@ void checkRows(Reader& reader, const Scene& scene) {
                      "a larger interval");
 }
 
-void checkStability(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-                    double stabilityLimit, const std::string& pointer) {
-    if (!(stabilityLimit > 0) || std::isinf(stabilityLimit) || scheme.tolerance) return;
-    const double frequency = highestFrequency(system, initialState(scene, system));
-    const double h = scheme.step.value, limit = stabilityLimit / frequency;
+void checkStability(Reader& reader, const SchemeCase& scheme, const Family* family, double stabilityLimit,
+                    const std::string& pointer) {
+    if (!(stabilityLimit > 0) || std::isinf(stabilityLimit)) return;
+    const double frequency = family && family->frequency
+                                 ? family->frequency(scheme.discretization, scheme.system, scheme.initial)
+                                 : highestFrequency(scheme.system, scheme.initial);
+    const double h = scheme.step, limit = stabilityLimit / frequency;
     if (!(frequency > 0) || !(h > limit)) return;
     reader.warning(pointer + "/step",
                    formatNumber(h) + " is beyond the linear stability limit " + formatNumber(limit, 3) +
@@ -59,35 +56,8 @@ void checkStability(Reader& reader, const System& system, const Scene& scene, co
                    "a smaller step, or another scheme");
 }
 
-/// Three-level schemes of wave functions: known exactly, so a step beyond the limit is not a doubt but an
-/// error.
-void checkWaveStep(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-                   const std::optional<Discretization>& pair, double stabilityLimit,
-                   const std::string& pointer) {
-    // Split-step is unitary: the limit of a splitting is that of mechanics.
-    const BaselineEntry* baseline = findBaseline(scheme.baseline.type);
-    if (baseline &&
-        claimsOf(*baseline, scheme.baseline).conserves != std::vector<std::string>{"bilinear form"})
-        return;
-    if (std::isinf(stabilityLimit) || !(stabilityLimit > 0)) return;
-    const Settings unshifted{"fourier", {{"energy_shift", 0.0}}, {}};
-    const double frequency =
-        waveFrequency(system, pair ? pair->space : unshifted, initialState(scene, system));
-    const double h = scheme.step.value, limit = stabilityLimit / frequency;
-    if (!(h > limit)) return;
-    const std::string message = formatNumber(h) + " is beyond the stability limit " + formatNumber(limit, 6) +
-                                ": the phase of the largest energy advances by " +
-                                formatNumber(h * frequency, 4) + " per step, the limit is " +
-                                formatNumber(stabilityLimit, 4);
-    if (scheme.allowsUnstable)
-        reader.warning(pointer + "/step", message);
-    else
-        reader.error(pointer + "/step", message,
-                     "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true");
-}
-
 /// A rule with fewer nodes than it would have by itself, which costs the pair its order.
-void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
+void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const Properties& properties,
                     const std::string& pointer) {
     const Settings usual = completeQuadrature(scheme.space, {scheme.quadrature.type, {}, {}});
     if (!usual.find("nodes")) {
@@ -99,51 +69,9 @@ void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const PairProperti
     }
 }
 
-/// A step of an oscillatory pair near one at which it is singular.
-void checkResonance(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-                    const Discretization& pair, const std::string& pointer) {
-    const double h = scheme.step.value;
-    const auto found = resonanceOf(system, settled(pair, system, initialState(scene, system)), h);
-    if (!found) return;
-    reader.warning(pointer + "/step",
-                   formatNumber(h) + " may be near a resonance of the space: it has " +
-                       formatNumber(2 * found->periods, 6) +
-                       " half periods of the fast motion, and only a fractional part from 0.1 to 0.5 is "
-                       "safe; conditioning of "
-                       "the step " +
-                       formatNumber(found->conditioning, 2) + ", at the next safe one " +
-                       formatNumber(found->usual, 2),
-                   "the step " + formatNumber(found->near), found->near);
-}
-
-/// Steps of a body that turn it so far that the attitude may lose a thousandth of what it turns. Measured
-/// over 60 rad on free bodies and a top with Gauss(s): 1e-3 is reached between 1.25 and 1.5 at degree 2, 2.25
-/// and 2.5 at 3, 3 and 3.5 at 4. Newton's method goes on finding solutions up to about 4. A symmetric scheme
-/// takes two half steps.
-void checkTurn(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
-               const Discretization& pair, const std::string& pointer) {
-    constexpr double farthest[] = {1.25, 2.25, 3};  // of degrees 2, 3, 4
-    if (!isBody(system) || pair.space.type != "lie-polynomial" || !scheme.composition.type.empty()) return;
-    const int degree = pair.space.integer("degree");
-    if (degree < 2 || degree > 4) return;
-    const std::vector<double> x = initialState(scene, system).x;
-    double rate = 0;
-    for (std::size_t i = 0; i < 3; ++i) rate = std::hypot(rate, x[4 + i] / system.body().inertia[i]);
-    const double limit = farthest[degree - 2] * (pair.space.flag("symmetric") ? 2 : 1), h = scheme.step.value;
-    if (!(h * rate > limit) || !std::isfinite(h * rate)) return;
-    const double perUnit = std::pow(10, 1 - std::floor(std::log10(limit / rate)));  // two digits
-    const double usual = std::floor(limit / rate * perUnit) / perUnit;
-    reader.warning(pointer + "/step",
-                   formatNumber(h) + " rotates the body by " + formatNumber(h * rate, 3) +
-                       " rad per step initially: beyond " + formatNumber(limit, 3) +
-                       " rad a scheme of degree " + std::to_string(degree) +
-                       " may have a relative error of a thousandth or more",
-                   "a higher degree, or the step " + formatNumber(usual, 2), usual);
-}
-
-/// Refused and unstable pairs. False: the scheme cannot be made.
-bool checkPair(Reader& reader, const SchemeSpec& scheme, const PairProperties& properties,
-               const std::string& pointer) {
+/// Unsupported combinations, and those that are unstable for every step. False: the scheme cannot be made.
+bool checkDiscretization(Reader& reader, const SchemeSpec& scheme, const Properties& properties,
+                         const std::string& pointer) {
     if (!properties.refusal.empty()) {
         reader.error(pointer, "unsupported combination: " + properties.refusal,
                      properties.hint.empty() ? "another quadrature, or auto" : properties.hint);
@@ -168,88 +96,105 @@ std::string durationText(double seconds) {
 
 /// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds,
 /// but those of large wave functions.
-void checkCost(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     constexpr double longest = 60;
-    const double slowestStep =
-        5e-3 * (isWave(system) ? std::max(1.0, system.hamiltonian()->size() / 1024.0) : 1);
-    const double duration = scene.end.value - scene.start.value;
-    if (!scheme.isEnabled || (!scheme.tolerance && duration / scheme.step.value * slowestStep < longest))
+    const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
+    const double slowestStep = family && family->slowestStep ? family->slowestStep(*scene.system) : 5e-3;
+    const double duration = scene.scene.end.value - scene.scene.start.value;
+    const SchemeSpec& spec = scheme.spec;
+    if (!spec.isEnabled || (!scheme.isAdaptive() && duration / spec.step.value * slowestStep < longest))
         return;
-    const double seconds = predictSeconds(scene, system, scheme);
+    const double seconds = predictSeconds(scene, scheme);
     if (seconds > longest)
         reader.warning(pointer, "will take about " + durationText(seconds) + " of computing",
                        "a larger step, or an earlier end");
 }
 
+void report(Reader& reader, const std::string& pointer, const Findings& findings) {
+    for (const Problem& p : findings.errors) reader.error(pointer + p.pointer, p.message, p.hint);
+    for (const Problem& p : findings.warnings)
+        reader.warning(pointer + p.pointer, p.message, p.hint, p.remedy);
+}
+
+/// Of its family or its baseline, what stands against its step.
+void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
+               const std::string& pointer) {
+    if (scheme.isAdaptive()) return;
+    const SchemeCase at{*scene.system,          scene.initial,       scheme.discretization,
+                        scheme.spec.step.value, scheme.isComposed(), scheme.spec.allowsUnstable};
+    Findings findings;
+    if (scheme.baseline && scheme.baseline->check)
+        scheme.baseline->check(at, findings);
+    else if (isMechanical(*scene.system) || (scheme.family && scheme.family->frequency))
+        checkStability(reader, at, scheme.family, scheme.stabilityLimit(), pointer);
+    if (!scheme.properties.caution.empty()) findings.warning("", scheme.properties.caution);
+    if (scheme.family && scheme.family->check) scheme.family->check(at, findings);
+    report(reader, pointer, findings);
+}
+
 /// The makers know best what they cannot do.
-void tryToMake(Reader& reader, const System& system, const Scene& scene, const SchemeSpec& scheme,
+void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     try {
-        const State initial = initialState(scene, system);
-        makeScheme(system, scheme, scheme.step.value, initial);
-        schemeStart(scene, system, scheme, scheme.step.value, initial);
+        const double step = scheme.spec.step.value;
+        scheme.make(*scene.system, step, scene.initial);
+        schemeStart(scene, scheme, step);
+        checkStep(reader, scene, scheme, pointer);
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
         return;
     }
-    if (isWave(system))
-        checkWaveStep(reader, system, scene, scheme, innerPairOf(scheme), stabilityLimitOf(scheme), pointer);
-    else
-        checkStability(reader, system, scene, scheme, stabilityLimitOf(scheme), pointer);
-    if (const auto pair = innerPairOf(scheme)) {
-        if (const std::string caution = describe(pair->space, pair->quadrature).caution; !caution.empty())
-            reader.warning(pointer, caution);
-        checkResonance(reader, system, scene, scheme, *pair, pointer);
-        checkTurn(reader, system, scene, scheme, *pair, pointer);
-    }
-    checkCost(reader, system, scene, scheme, pointer);
+    checkCost(reader, scene, scheme, pointer);
 }
 
-void checkScheme(Reader& reader, const System* system, const Scene& scene, const SchemeSpec& scheme,
+void checkScheme(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                  const std::string& pointer) {
     const std::size_t errorsBefore = reader.errors.size();
-    const bool isTimeKnown = scene.end.value > scene.start.value;
-    if (isTimeKnown) checkStepCount(reader, scene, scheme, pointer);
-    const auto pair = innerPairOf(scheme);
-    if (pair && !checkPair(reader, scheme, describe(pair->space, pair->quadrature), pointer)) return;
-    if (system && isTimeKnown && reader.errors.size() == errorsBefore)
-        tryToMake(reader, *system, scene, scheme, pointer);
+    const bool isTimeKnown = scene.scene.end.value > scene.scene.start.value;
+    if (isTimeKnown) checkStepCount(reader, scene.scene, scheme.spec, pointer);
+    if (scheme.family && !checkDiscretization(reader, scheme.spec, scheme.properties, pointer)) return;
+    if (scene.system && isTimeKnown && reader.errors.size() == errorsBefore)
+        tryToMake(reader, scene, scheme, pointer);
 }
 
-/// False: the system cannot start from the initial data.
-bool checkStart(Reader& reader, const System& system, const Scene& scene) {
-    const ModelEntry* entry = findModel(scene.model.type);
-    if (!entry || !entry->checkInitial || !reader.errors.empty()) return true;
+/// The state at the start. False: the system cannot start from the initial data.
+bool checkStart(Reader& reader, ResolvedScene& scene) {
+    const ModelEntry* entry = findModel(scene.scene.model.type);
+    std::string prefix;
     try {
-        entry->checkInitial(scene.model, system, initialState(scene, system));
+        scene.initial = initialState(scene.scene, *scene.system);
+        prefix = "/model";
+        if (entry && entry->checkInitial && reader.errors.empty())
+            entry->checkInitial(scene.scene.model, *scene.system, scene.initial);
         return true;
     } catch (const InvalidScene& e) {
-        for (const Problem& p : e.problems()) reader.error("/model" + p.pointer, p.message, p.hint);
+        for (const Problem& p : e.problems()) reader.error(prefix + p.pointer, p.message, p.hint);
         return false;
     }
 }
 
 /// What is doubtful about the start itself.
-void checkCaution(Reader& reader, const System& system, const Scene& scene) {
-    if (!system.caution || !reader.errors.empty()) return;
-    const std::string caution = system.caution(initialState(scene, system).x.data());
+void checkCaution(Reader& reader, const ResolvedScene& scene) {
+    if (!scene.system->caution || !reader.errors.empty()) return;
+    const std::string caution = scene.system->caution(scene.initial.x.data());
     if (!caution.empty()) reader.warning("/initial", "is " + caution, "raise /model/modes");
 }
 
 }  // namespace
 
-void checkWhole(Reader& reader, const System* system, const Scene& scene,
-                const std::vector<std::size_t>& places) {
-    if (system && !checkStart(reader, *system, scene)) return;
+void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::size_t>& places) {
+    const Scene& scene = resolved.scene;
+    if (resolved.system && !checkStart(reader, resolved)) return;
     if (scene.end.value > scene.start.value) checkRows(reader, scene);
-    if (system) checkCaution(reader, *system, scene);
-    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
-        checkScheme(reader, system, scene, scene.schemes[i], childPointer("/schemes", places[i]));
-    for (const SchemeSpec& scheme : scene.reference.scheme)
-        checkScheme(reader, system, scene, scheme, "/reference/scheme");
-    if (!system || !reader.errors.empty() || scene.reference.kind != ReferenceSpec::Kind::exact) return;
-    if (!system->exact || !system->exact(initialState(scene, *system)))
+    if (resolved.system) checkCaution(reader, resolved);
+    for (std::size_t i = 0; i < resolved.schemes.size(); ++i)
+        checkScheme(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
+    for (const ResolvedScheme& scheme : resolved.reference)
+        checkScheme(reader, resolved, scheme, "/reference/scheme");
+    if (!resolved.system || !reader.errors.empty() || scene.reference.kind != ReferenceSpec::Kind::exact)
+        return;
+    if (!resolved.system->exact || !resolved.system->exact(resolved.initial))
         reader.error("/reference",
                      "no exact solution of " + scene.model.type + " is known for these initial data",
                      "take auto");

@@ -46,7 +46,13 @@ ReadScene readDocument(const Value& document, const std::string& directory) {
     readOutput(reader, document, scene);
     readObserve(reader, document, model, scene);
     readViews(reader, document, model, scene);
-    checkWhole(reader, model, scene, places);
+    ResolvedScene resolved;
+    resolved.scene = scene;
+    if (system) resolved.system = std::make_shared<const System>(*system);
+    for (const SchemeSpec& spec : scene.schemes) resolved.schemes.push_back(resolve(spec));
+    for (const SchemeSpec& spec : scene.reference.scheme) resolved.reference.push_back(resolve(spec));
+    checkWhole(reader, resolved, places);
+    if (reader.errors.empty()) result.resolved = std::make_shared<const ResolvedScene>(std::move(resolved));
     result.errors = std::move(reader.errors);
     result.warnings = std::move(reader.warnings);
     return result;

@@ -2,11 +2,13 @@
 /// ("Scenes").
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace extremal {
@@ -21,8 +23,9 @@ Override parseOverride(std::string_view text);
 
 struct ReadScene {
     Scene scene;
-    std::vector<Problem> errors;    ///< empty: the scene is valid
-    std::vector<Problem> warnings;  ///< never stop a run
+    std::vector<Problem> errors;                         ///< empty: the scene is valid
+    std::vector<Problem> warnings;                       ///< never stop a run
+    std::shared_ptr<const ResolvedScene> resolved = {};  ///< of a valid scene: what runs
 };
 
 /// Reads, applies the overrides from left to right, checks everything and fills in defaults. Never throws for

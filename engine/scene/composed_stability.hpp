@@ -2,12 +2,12 @@
 /// scheme itself.
 #pragma once
 
-#include "engine/scene/scene.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
 /// Largest step times frequency; infinity: none below 60; 0: the scheme does not run on the oscillator (rigid
 /// bodies). Remembered, so asking again is cheap.
-double composedStabilityLimit(const SchemeSpec& scheme);
+double composedStabilityLimit(const ResolvedScheme& scheme);
 
 }  // namespace extremal

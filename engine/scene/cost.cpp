@@ -2,7 +2,6 @@
 
 #include <ctime>
 
-#include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -16,13 +15,12 @@ double threadSeconds() {
 
 }  // namespace
 
-double predictSeconds(const Scene& scene, const System& system, const SchemeSpec& scheme) {
+double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     constexpr double budget = 3e-3;
     constexpr int largestBlock = 1024;
-    const double start = scene.start.value, end = scene.end.value;
-    const State initial = initialState(scene, system);
-    const auto integrator = makeScheme(system, scheme, scheme.step.value, initial);
-    State state = schemeStart(scene, system, scheme, scheme.step.value, initial);
+    const double start = scene.scene.start.value, end = scene.scene.end.value;
+    const auto integrator = scheme.make(*scene.system, scheme.spec.step.value, scene.initial);
+    State state = schemeStart(scene, scheme, scheme.spec.step.value);
     integrator->begin(state);
     const bool isFixed = integrator->grid() == TimeGrid::fixed;
     const Clock nodes{state.t, integrator->stepSize()};

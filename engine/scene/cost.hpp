@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/model/system.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
@@ -10,6 +10,6 @@ namespace extremal {
 /// the mean cost of trial steps from the initial state (at most some 3 ms of them) times the number of steps.
 /// For adaptive baselines the number of steps follows from how far the trial steps came. 0 if a trial step
 /// fails.
-double predictSeconds(const Scene& scene, const System& system, const SchemeSpec& scheme);
+double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme);
 
 }  // namespace extremal

@@ -31,43 +31,7 @@ std::vector<double> equalRatios(double from, double to, int count) {
     return all;
 }
 
-FieldInfo optional(FieldInfo field) {
-    field.isOptional = true;
-    return field;
-}
-
 }  // namespace
-
-const std::vector<FieldInfo>& mapFields() {
-    static const std::vector<FieldInfo> all = [] {
-        FieldInfo parameter = optional(textField("parameter", "", {},
-                                                 "The parameter of the model that varies; by default the one "
-                                                 "that sets its fast frequency."));
-        FieldInfo from = optional(
-            positive("from", "from", "", 0, "Its smallest value, by default a thousandth of the model's."));
-        FieldInfo to = optional(
-            positive("to", "to", "", 0, "Its largest value, by default a thousand times the model's."));
-        from.fallback = to.fallback = {};
-        FieldInfo steps = optional(
-            numbers("steps", "steps", "", {"smallest", "largest"}, {},
-                    "The range of the step, by default one decade beyond the steps of the schemes."));
-        steps.min = 0;
-        steps.isMinExcluded = true;
-        FieldInfo cells = numbers("cells", "cells", "", {"columns", "rows"}, Value::Array{25, 20},
-                                  "Numbers of values and of steps, spaced logarithmically.");
-        cells.min = 2;
-        cells.max = 400;
-        FieldInfo duration =
-            optional(positive("duration", "duration", "", 0,
-                              "Length of each run, by default the "
-                              "time span of the scene, or less if that would take many steps."));
-        duration.fallback = {};
-        FieldInfo value = textField("value", "", "energy_error",
-                                    "The column of an observable whose largest absolute value is shown.");
-        return std::vector<FieldInfo>{parameter, from, to, steps, cells, duration, value};
-    }();
-    return all;
-}
 
 MapGrid mapGridOf(const Scene& scene, const View& view) {
     MapGrid grid;
@@ -109,7 +73,7 @@ std::vector<ObservedColumn> observableColumns(const Scene& scene, const System& 
     std::vector<ObservedColumn> all;
     const State initial = initialState(scene, system);
     for (const ObservableEntry& entry : observableEntries()) {
-        if (!entry.bind || (entry.applies && !entry.applies(system))) continue;
+        if (!entry.bind || !isObservableOf(entry, system)) continue;
         for (const Column& column : entry.bind({system, initial, {}}).columns)
             all.push_back({column.name, column.symbol, column.unit, entry.item.id});
     }

@@ -11,16 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/field.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/view/parameter_map.hpp"
 
 namespace extremal {
-
-inline constexpr const char* mapView = "parameter-map";
-
-/// The keys of the view.
-const std::vector<FieldInfo>& mapFields();
 
 struct MapGrid {
     std::string parameter;  ///< "k"

@@ -7,6 +7,7 @@
 #include "engine/integrator/composition.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/view/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/format.hpp"

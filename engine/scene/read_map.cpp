@@ -122,22 +122,22 @@ void checkGrid(Reader& reader, const std::string& pointer, const View& view, con
 }
 
 /// As that of a scheme, from some trial steps of each.
-void checkMapCost(Reader& reader, const std::string& pointer, const View& view, const Scene& scene,
-                  const System& system) {
+void checkMapCost(Reader& reader, const std::string& pointer, const View& view, const Scene& scene) {
     constexpr double longest = 60;
     if (!reader.errors.empty()) return;
     const MapGrid grid = mapGridOf(scene, view);
     double steps = 0, seconds = 0;
     for (const double step : grid.steps)
         steps += static_cast<double>(grid.values.size()) * grid.duration / step;
-    for (const std::size_t i : mappedSchemes(scene)) {
-        const SchemeSpec& scheme = scene.schemes[i];
-        const double own = std::max(1.0, (scene.end.value - scene.start.value) / scheme.step.value);
-        try {
-            seconds += predictSeconds(scene, system, scheme) / own * steps;
-        } catch (const InvalidScene&) {
-            return;  // reported where the scheme is checked
+    try {
+        const ResolvedScene resolved = resolve(scene);
+        for (const std::size_t i : mappedSchemes(scene)) {
+            const ResolvedScheme& scheme = resolved.schemes[i];
+            const double own = std::max(1.0, (scene.end.value - scene.start.value) / scheme.spec.step.value);
+            seconds += predictSeconds(resolved, scheme) / own * steps;
         }
+    } catch (const InvalidScene&) {
+        return;  // reported where the scheme is checked
     }
     if (seconds > longest)
         reader.warning(pointer, "will take about " + formatNumber(seconds, 2) + " s of computing",
@@ -173,7 +173,7 @@ void readMap(Reader& reader, const Value& object, const std::string& pointer,
     checkParameter(reader, pointer, view, scene);
     checkGrid(reader, pointer, view, scene);
     checkColumn(reader, pointer, view, scene, system);
-    checkMapCost(reader, pointer, view, scene, system);
+    checkMapCost(reader, pointer, view, scene);
     if (reader.errors.size() > errorsBefore) view.keys = {};
 }
 

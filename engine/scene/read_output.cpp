@@ -18,7 +18,7 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 bool isLacking(const System& system, const std::string& observable) {
     const ObservableEntry* entry = findObservable(observable);
-    return entry && entry->applies && !entry->applies(system);
+    return entry && !isObservableOf(*entry, system);
 }
 
 std::vector<std::string> availableObservables(const System& system) {
@@ -130,8 +130,8 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
         if (!name) continue;
         const auto known = system ? availableObservables(*system) : idsOf(observableCatalog());
         if (system && isLacking(*system, *name))
-            reader.error(pointer, "the model " + scene.model.type + " has no " + *name,
-                         "it has " + joinNames(known));
+            reader.error(pointer, *name + " is not defined for " + scene.model.type,
+                         scene.model.type + " has " + joinNames(known));
         else if (!contains(known, *name))
             reader.unknownName(pointer, "observable", *name, known);
         else if (contains(scene.observe, *name))

@@ -7,6 +7,7 @@
 #include "engine/model/system.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/reader.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
@@ -45,8 +46,8 @@ void readMap(Reader& reader, const Value& object, const std::string& pointer,
 
 /// What needs several parts at once: numbers of steps and rows, refused and unstable pairs, stability limits,
 /// cost.
-void checkWhole(Reader& reader, const System* system, const Scene& scene,
-                const std::vector<std::size_t>& places);
+/// A scene whose model is wrong has no system. Fills in the state at the start.
+void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::size_t>& places);
 
 Value schemeValue(const SchemeSpec& scheme);
 

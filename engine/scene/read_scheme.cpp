@@ -7,12 +7,11 @@
 #include "engine/integrator/composition.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/quadrature/tensor.hpp"
-#include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
-#include "engine/space/catalog.hpp"
 
 namespace extremal {
 namespace {
@@ -69,9 +68,34 @@ void readNamed(Reader& reader, const Value& value, const std::string& pointer, S
                  near.empty() ? "known: " + joinNames(schemeFamilies()) : "did you mean \"" + near + "\"?");
 }
 
+/// A method must be known, and solve the equations of this scheme.
+bool checkSolverMethod(Reader& reader, const std::string& method, const std::string& place,
+                       const SchemeSpec& spec) {
+    std::vector<std::string> known{"auto"};
+    for (const Family& family : families())
+        for (const std::string& id : family.solverMethods)
+            if (std::find(known.begin(), known.end(), id) == known.end()) known.push_back(id);
+    if (std::find(known.begin(), known.end(), method) == known.end()) {
+        reader.unknownName(place, "method", method, known);
+        return false;
+    }
+    if (method == "auto") return true;
+    if (!spec.baseline.type.empty()) {
+        reader.error(place, spec.baseline.type + " is a baseline and solves its equations in its own way",
+                     "leave the solver out");
+        return false;
+    }
+    const auto pair = discretizationOf(spec);
+    const Family* const family = pair ? familyOf(pair->space) : nullptr;
+    if (!family) return false;  // reported elsewhere
+    const auto& own = family->solverMethods;
+    if (std::find(own.begin(), own.end(), method) != own.end()) return true;
+    reader.error(place, method + " does not solve the equations of " + family->item.title + " schemes",
+                 own.empty() ? "leave the solver out" : "auto or " + joinNames(own));
+    return false;
+}
+
 void readSolver(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
-    static const std::vector<std::string> methods = {"auto",   "newton", "fixed-point",
-                                                     "banded", "dense",  "krylov"};
     spec.solver.type = "auto";
     const Value* solver = scheme.find("solver");
     if (!solver || !reader.isObject(*solver, pointer)) return;
@@ -79,10 +103,7 @@ void readSolver(Reader& reader, const Value& scheme, const std::string& pointer,
     if (const Value* method = solver->find("method")) {
         const std::string place = childPointer(pointer, "method");
         const auto name = reader.text(*method, place);
-        if (name && std::find(methods.begin(), methods.end(), *name) == methods.end())
-            reader.unknownName(place, "method", *name, methods);
-        else if (name)
-            spec.solver.type = *name;
+        if (name && checkSolverMethod(reader, *name, place, spec)) spec.solver.type = *name;
     }
     const auto readLimit = [&](const char* key, const Limits& limits) {
         const Value* value = solver->find(key);
@@ -138,9 +159,8 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
     if (isAdaptive)
         return reader.error(pointer, "requires a fixed step, and " + spec.baseline.type + " is adaptive",
                             "a scheme with a fixed step, or no composition");
-    if (const auto pair = innerPairOf(spec); pair && !describe(pair->space, pair->quadrature).refusal.empty())
-        return;
-    const Claims claims = innerClaimsOf(spec);
+    if (const auto pair = discretizationOf(spec); pair && !describe(*pair).refusal.empty()) return;
+    const Claims claims = resolve(spec).claims;
     const bool isGiven = composition->find("order");
     if (!isGiven) composition->keys.emplace_back("order", static_cast<double>(defaultOrder(claims)));
     std::string hint;
@@ -149,6 +169,17 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
         return reader.error(claims.isSymmetric && isGiven ? childPointer(pointer, "order") : pointer, refusal,
                             hint);
     spec.composition = *composition;
+}
+
+/// The step that follows from the space, with the parameters of the model.
+std::optional<ImpliedStep> impliedStepOf(const Reader& reader, const SchemeSpec& spec) {
+    const auto pair = discretizationOf(spec);
+    const Family* const family = pair ? familyOf(pair->space) : nullptr;
+    if (!family || !family->impliedStep) return {};
+    return family->impliedStep(pair->space, [&](std::string_view name) -> std::optional<double> {
+        const auto known = reader.parameters.find(name);
+        return known == reader.parameters.end() ? std::nullopt : known->second;
+    });
 }
 
 void readStep(Reader& reader, const Value& scheme, const std::string& pointer, bool isAdaptive,
@@ -162,19 +193,13 @@ void readStep(Reader& reader, const Value& scheme, const std::string& pointer, b
                            ? "is not used: " + spec.baseline.type + " chooses its steps by its tolerance"
                            : std::string("is not used: the step is fixed"));
     const Value* value = scheme.find(wanted);
-    if (const auto pair = pairOf(spec); pair && pair->space.type == "elliptic-elements") {
-        // The length of an element follows from their number.
-        const auto model = reader.parameters.find("elements");
-        if (const double own = pair->space.number("elements"); own > 0) {
-            const auto given = value ? reader.number(*value, place, Limits::positive()) : std::nullopt;
-            if (given && std::abs(given->value * own - 1) > 1e-9)
-                reader.warning(place, "is not used: the space has " + formatNumber(own) + " elements", "",
-                               1 / own);
-            spec.step = Number{1 / own, {}};
-            return;
-        }
-        if (!value && model != reader.parameters.end() && model->second) {
-            spec.step = Number{1 / *model->second, "1/elements"};
+    if (const auto implied = impliedStepOf(reader, spec)) {
+        const auto given =
+            value && implied->isOfSpace ? reader.number(*value, place, Limits::positive()) : std::nullopt;
+        if (given && std::abs(given->value / implied->step - 1) > 1e-9)
+            reader.warning(place, "is not used: the space has its own", "", implied->step);
+        if (implied->isOfSpace || !value) {
+            spec.step = Number{implied->step, implied->expression};
             return;
         }
     }

@@ -8,8 +8,9 @@
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
-#include "engine/scene/view_axes.hpp"
 #include "engine/scene/view_choices.hpp"
+#include "engine/view/axes.hpp"
+#include "engine/view/catalog.hpp"
 
 namespace extremal {
 namespace {
@@ -31,7 +32,8 @@ struct ViewReader {
     void readNode(View& view) const;
     void readRanges(View& view, const ViewAxes& axes) const;
     void readCurve(View& view, const ViewAxes& axes) const;
-    void warnOfNothing(const View& view) const;
+    bool applies(const View& view) const;
+    void warnIfNotObserved(const View& view) const;
 
 private:
     std::optional<ViewRange> rangeOf(const Value& value, const std::string& at, bool isLog) const;
@@ -137,19 +139,31 @@ void ViewReader::readCurve(View& view, const ViewAxes& axes) const {
     if (const auto read = reader.curve(*text, at, axes.variable)) view.curve = *read;
 }
 
-void ViewReader::warnOfNothing(const View& view) const {
-    if (view.id == "curve-error" && !isOneOf(scene.observe, "error"))
-        reader.warning(pointer, "shows nothing: error is not observed", "add it to /observe");
-    for (const char* id :
-         {"energy", "momentum", "error", "norm", "fast-energy", "slow-energy", "adiabatic-invariant"}) {
-        if (view.id != id || isOneOf(scene.observe, id)) continue;
-        const ObservableEntry* observable = findObservable(id);
-        const bool isThere = !system || !observable || appliesTo(*observable, *system);
-        reader.warning(
-            pointer,
-            "shows nothing: " + view.id + (isThere ? " is not observed" : " is nothing this model has"),
-            isThere ? "add it to /observe" : "leave it out");
+/// Whether the model and at least one scheme have the view.
+bool ViewReader::applies(const View& view) const {
+    const std::string missing = missingFor(view, *system);
+    if (!missing.empty()) {
+        reader.error(pointer, view.id + " is not defined for " + scene.model.type + "; remove the view",
+                     "it needs " + missing + "; " + scene.model.type + " has " + joinNames(viewsOf(*system)));
+        return false;
     }
+    const ViewEntry& entry = *findView(view.id);
+    std::string reasons;
+    for (const SchemeSpec& scheme : scene.schemes) {
+        const std::string reason = unsuitableFor(entry, resolve(scheme));
+        if (reason.empty()) return true;
+        reasons += (reasons.empty() ? "" : "; ") + scheme.label + " is " + reason;
+    }
+    if (scene.schemes.empty() || !reader.errors.empty()) return true;
+    reader.error(pointer, view.id + " is not defined for any scheme of this scene; remove the view", reasons);
+    return false;
+}
+
+void ViewReader::warnIfNotObserved(const View& view) const {
+    const std::string& observable = findView(view.id)->observable;
+    if (!observable.empty() && !isOneOf(scene.observe, observable))
+        reader.warning(pointer, view.id + " stays empty: " + observable + " is not observed",
+                       "add it to /observe");
 }
 
 const CatalogItem* itemOf(const Value* id) {
@@ -178,11 +192,13 @@ void readOwnKeys(Reader& reader, const Value& object, const std::string& pointer
 void readViews(Reader& reader, const Value& document, const System* system, Scene& scene) {
     const Value* views = document.find("views");
     if (!views) {
-        std::vector<std::string> ids{"stage"};
-        for (const char* id : {"energy", "momentum", "error"})
-            if (isOneOf(scene.observe, id)) ids.emplace_back(id);
-        ids.insert(ids.end(), {"trajectory", "phase"});
-        for (const std::string& id : ids) scene.views.push_back({id, {}, {}});
+        for (const char* id : {"stage", "energy", "momentum", "error", "trajectory", "phase"}) {
+            const std::string& observable = findView(id)->observable;
+            const View view{id, "", ""};
+            if ((observable.empty() || isOneOf(scene.observe, observable)) &&
+                (!system || missingFor(view, *system).empty()))
+                scene.views.push_back(view);
+        }
         return;
     }
     if (!reader.isArray(*views, "/views", "names")) return;
@@ -210,13 +226,13 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         parts.readColumns(view);
         parts.readScheme(view);
         parts.readNode(view);
-        if (isKnown && system) {
+        if (isKnown && system && parts.applies(view)) {
             const ViewAxes axes = axesOf(view, *system);
             parts.readRanges(view, axes);
             parts.readCurve(view, axes);
+            if (isMap) readMap(reader, object, pointer, format::view, *system, scene, view);
+            parts.warnIfNotObserved(view);
         }
-        if (isMap && system) readMap(reader, object, pointer, format::view, *system, scene, view);
-        parts.warnOfNothing(view);
         scene.views.push_back(view);
     }
 }

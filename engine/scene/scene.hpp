@@ -9,17 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/number.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/core/value.hpp"
+#include "engine/view/view.hpp"
 
 namespace extremal {
-
-/// A number as the user wrote it: a literal, or an expression in the model's parameters with its value.
-struct Number {
-    double value = 0;
-    std::string expression;  ///< empty for a literal
-    bool operator==(const Number&) const = default;
-};
 
 /// A row of the comparison: a pair space x quadrature, a baseline, or a named scheme.
 struct SchemeSpec {
@@ -55,31 +50,6 @@ struct ReferenceSpec {
     std::vector<SchemeSpec> scheme;  ///< one entry for Kind::scheme
     std::string path;                ///< Kind::file
     bool operator==(const ReferenceSpec&) const = default;
-};
-
-/// The part of an axis that a plot shows at first.
-struct ViewRange {
-    Number low, high;
-    bool operator==(const ViewRange&) const = default;
-};
-
-/// An expression in the variable along the x axis, drawn for comparison.
-struct ViewCurve {
-    std::string expression;                              ///< empty: none
-    std::vector<std::pair<std::string, double>> values;  ///< of the model's parameters in it
-    bool operator==(const ViewCurve&) const = default;
-};
-
-struct View {
-    std::string id;                   ///< "energy", "phase", ...
-    std::string x, y;                 ///< columns of a phase portrait or trajectory; empty: default
-    std::string at = {};              ///< column whose zeros make a section; empty: the first coordinate
-    std::string scheme = {};          ///< label, for pictures of one scheme; empty: of each
-    std::optional<Number> node = {};  ///< of a shape function; empty: the one in the middle
-    std::optional<ViewRange> xRange = {}, yRange = {};
-    ViewCurve curve = {};
-    Settings keys = {};  ///< of views with keys of their own (CatalogItem::parameters); type empty
-    bool operator==(const View&) const = default;
 };
 
 struct Scene {

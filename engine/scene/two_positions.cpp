@@ -10,8 +10,10 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
-#include "engine/family/galerkin/table_of.hpp"
+#include "engine/family/family.hpp"
+#include "engine/family/table_of.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
 #include "engine/solve/newton.hpp"
 
@@ -62,13 +64,13 @@ Eigen::MatrixXd sampled(const Eigen::MatrixXd& path, int n) {
 }
 
 /// p_0 for which the scheme's own n steps end at q_1, from a guess.
-Outcome shoot(const Scene& scene, const System& system, const SchemeSpec& scheme, double step, int n,
+Outcome shoot(const Scene& scene, const System& system, const ResolvedScheme& scheme, double step, int n,
               Eigen::VectorXd& p0) {
     const int d = system.dimension();
     const Eigen::VectorXd q1 = valuesOf(scene.initial.pOrV);
     const State exact = stateOf(scene, p0);
     auto reach = [&](const Eigen::VectorXd& p, Eigen::VectorXd& q) {
-        const auto integrator = makeScheme(system, scheme, step, exact);
+        const auto integrator = scheme.make(system, step, exact);
         State state = stateOf(scene, p);
         for (int k = 0; k < n; ++k)
             if (advance(*integrator, state).outcome != Outcome::converged) return false;
@@ -107,9 +109,10 @@ State exactStart(const Scene& scene, const System& system) {
     return stateOf(scene, motion.startMomentum);
 }
 
-State schemeStart(const Scene& scene, const System& system, const SchemeSpec& scheme, double step,
-                  const State& initial) {
-    if (scene.initial.second != Initial::Second::position || isAdaptive(scheme)) return initial;
+State schemeStart(const ResolvedScene& resolved, const ResolvedScheme& scheme, double step) {
+    const Scene& scene = resolved.scene;
+    const System& system = *resolved.system;
+    if (scene.initial.second != Initial::Second::position || scheme.isAdaptive()) return resolved.initial;
     const double at = scene.initial.at->value, steps = at / step;
     const int n = static_cast<int>(std::lround(std::min(steps, 1e6)));
     if (n < 1 || std::abs(steps - n) > 1e-9 * n)
@@ -120,8 +123,8 @@ State schemeStart(const Scene& scene, const System& system, const SchemeSpec& sc
     const ActionBetween<double> exact = exactBetween(scene, system);
     Eigen::VectorXd p0 = exact.startMomentum;
     Outcome outcome = Outcome::converged;
-    const auto pair = pairOf(scheme);
-    if (pair && hasOneTable(pair->space) && n <= mostElements) {
+    const Discretization* const pair = scheme.plain();
+    if (pair && hasTable(pair->space) && n <= mostElements) {
         const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(pair->space, pair->quadrature));
         const ActionBetween<double> motion = Ld.between(scene.start.value, at / n, sampled(exact.nodes, n));
         outcome = motion.outcome;

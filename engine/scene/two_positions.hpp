@@ -11,16 +11,15 @@
 
 #include "engine/core/state.hpp"
 #include "engine/model/system.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
 /// q_0 and p_0 of the exact motion; pointers from the root of the scene. Remembers the last answer.
 State exactStart(const Scene& scene, const System& system);
 
-/// The start of one scheme with this step: `initial` itself unless the scene gives two positions. Pointers
+/// The start of one scheme with this step: that of the scene unless the scene gives two positions. Pointers
 /// are relative to the scheme.
-State schemeStart(const Scene& scene, const System& system, const SchemeSpec& scheme, double step,
-                  const State& initial);
+State schemeStart(const ResolvedScene& scene, const ResolvedScheme& scheme, double step);
 
 }  // namespace extremal

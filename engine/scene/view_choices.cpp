@@ -5,6 +5,7 @@
 
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/map_grid.hpp"
 
 namespace extremal {
@@ -18,19 +19,29 @@ std::vector<std::string> stateNames(const System& system) {
 
 }  // namespace
 
-ViewKeys keysOf(const std::string& view, const System* system) {
-    ViewKeys k;
-    k.hasZeros = view == "section";
-    k.hasColumns = view == "phase" || view == "trajectory" || k.hasZeros;
-    k.hasScheme = view == "sparsity" || view == "carpet" || view == mapView ||
-                  (view == "profile" && system && !system->field.y.empty());
-    k.hasNode = view == "shape-function";
-    return k;
+std::vector<View> shownViews(const Scene& scene) {
+    if (!scene.views.empty()) return scene.views;
+    std::vector<View> result;
+    for (const char* id : {"work-precision", "energy", "error", "momentum", "norm", "trajectory", "phase"}) {
+        const ViewEntry* entry = findView(id);
+        const bool isObserved =
+            entry && (entry->observable.empty() || std::find(scene.observe.begin(), scene.observe.end(),
+                                                             entry->observable) != scene.observe.end());
+        if (isObserved) result.push_back({id, "", ""});
+    }
+    return result;
+}
+
+std::string unsuitableFor(const ViewEntry& view, const ResolvedScheme& scheme) {
+    if (!view.unsuitable) return {};
+    if (scheme.baseline) return "a baseline, which no discrete action defines";
+    if (scheme.plain()) return view.unsuitable(*scheme.plain());
+    return "a composition, whose step is several elements";
 }
 
 std::vector<std::string> columnsFor(const std::string& view, const Scene& scene, const System& system) {
     std::vector<std::string> names = stateNames(system);
-    if (keysOf(view, &system).hasZeros) return names;
+    if (!keysOf(view, &system).hasObserved) return names;
     const State initial = initialState(scene, system);
     for (const std::string& id : scene.observe)
         if (const ObservableEntry* entry = findObservable(id); entry && entry->bind)
@@ -55,7 +66,8 @@ std::vector<std::string> labelsOf(const Scene& scene) {
 int lastNodeOf(const Scene& scene) {
     double last = 1e5;
     for (const SchemeSpec& s : scene.schemes)
-        if (const auto pair = pairOf(s); pair && pair->space.type == "elliptic-elements" && s.step.value > 0)
+        if (const auto made = discretizationOf(s);
+            made && familyOf(made->space)->shapeFunction && s.step.value > 0)
             last = std::min(last, std::max(1.0, std::round(1 / s.step.value) - 1));
     return static_cast<int>(last);
 }

@@ -5,20 +5,16 @@
 #include <vector>
 
 #include "engine/model/system.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/view/catalog.hpp"
 
 namespace extremal {
 
-/// Which of these keys a view has.
-struct ViewKeys {
-    bool hasColumns = false;  ///< `x` and `y`: phase portraits, trajectories and sections
-    bool hasZeros = false;    ///< `at`: sections
-    bool hasScheme = false;   ///< `scheme`: pictures of one scheme
-    bool hasNode = false;     ///< `node`: shape functions
-};
-/// `system` is null where the model is wrong. A profile is a picture of one scheme in the plane, and has a
-/// curve of each on a line.
-ViewKeys keysOf(const std::string& view, const System* system);
+/// The views of a scene; without any, those that its observables suggest.
+std::vector<View> shownViews(const Scene& scene);
+
+/// Why a scheme has nothing that the view shows; empty where it has. Most views show every scheme.
+std::string unsuitableFor(const ViewEntry& view, const ResolvedScheme& scheme);
 
 /// What `x` and `y` of a view may be. Makes the start of the scene, to know what its observables write.
 std::vector<std::string> columnsFor(const std::string& view, const Scene& scene, const System& system);

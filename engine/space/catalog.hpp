@@ -1,25 +1,22 @@
-/// Function spaces by name, with the descriptors of their keys; one file of space/spaces makes one entry.
+/// Function spaces that are tables, by name and with the descriptors of their keys; one file of space/spaces
+/// makes one entry. Families have further spaces of their own (engine/family).
 #pragma once
 
 #include <functional>
-#include <string_view>
 #include <vector>
 
 #include "engine/core/catalog.hpp"
-#include "engine/model/system.hpp"
 #include "engine/space/space.hpp"
 
 namespace extremal {
 
 struct SpaceEntry {
     CatalogItem item;
-    std::function<Space<double>(const Settings& settings)> make;  ///< keys are checked and complete
-    std::function<bool(const System&)> applies;                   ///< empty: every system with coordinates
+    /// Keys are checked and complete. Empty: a space of a family that makes no table of it (engine/family).
+    std::function<Space<double>(const Settings& settings)> make;
 };
 
-/// All spaces, in alphabetical order of their files; gathered from space/spaces.
-const std::vector<SpaceEntry>& spaceEntries();
-/// The same as catalogue items.
-const std::vector<CatalogItem>& spaceCatalog();
+/// The spaces that are tables, in alphabetical order of their files; gathered from space/spaces.
+const std::vector<SpaceEntry>& tableSpaces();
 
 }  // namespace extremal

@@ -105,6 +105,24 @@ private slots:
         QVERIFY(!QFile::exists(path("x.png")));
     }
 
+    void aPictureOfNothingIsExitTwo() {
+        // In so short a run no column passes zero: all that could be drawn is a message.
+        const Answer empty = snapshot({"preset:kepler", "--set", "/views=[\"section\"]", "--set",
+                                       "/time/end=0.1", "--out", path("empty.png")});
+        QCOMPARE(empty.code, 2);
+        QVERIFY2(empty.err.contains("nothing of what was asked for can be drawn") &&
+                     empty.err.contains("never passes zero upwards"),
+                 qPrintable(empty.err));
+        const Answer lacking = snapshot({"preset:kepler", "--view", "norm", "--out", path("empty.png")});
+        QCOMPARE(lacking.code, 2);
+        QVERIFY2(lacking.err.contains("norm is not defined for kepler"), qPrintable(lacking.err));
+        const Answer silent = snapshot({"preset:kepler", "--set", "/views=[]", "--set", "/observe=[]",
+                                        "--set", "/schemes/*/enabled=false", "--out", path("empty.png")});
+        QCOMPARE(silent.code, 2);
+        QVERIFY2(silent.err.contains("no scheme is switched on"), qPrintable(silent.err));
+        QVERIFY(!QFile::exists(path("empty.png")));
+    }
+
     void filesThatCannotBeWrittenAreExitThree() {
         const Answer a = snapshot({"preset:kepler", "--out", path("no/such/folder/x.png")});
         QCOMPARE(a.code, 3);

@@ -7,11 +7,14 @@
 
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/figure/recipe.hpp"
 #include "tests/examples/boole.cpp"
 #include "tests/examples/galerkin_fine.cpp"
+#include "tests/examples/line/family.cpp"
 #include "tests/examples/quartic_oscillator.cpp"
 #include "tests/examples/trigonometric.cpp"
 #include "tests/examples/virial.cpp"
+#include "tests/examples/virial_view.cpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::examples_test {
@@ -117,19 +120,69 @@ private slots:
         }
     }
 
+    void familyHasTheOrderAndTheStructureItClaims() {
+        const Family family = family::line();
+        const System system = quartic();
+        QVERIFY(family.applies(system));
+        const Discretization made = family.choices(system).cells.front().discretization;
+        const Properties known = family.describe(made);
+        const auto end = [&](int n, std::vector<double> x) {
+            const auto integrator = family.make(system, made, 3.0 / n);
+            State state{0, 0, std::move(x), {}};
+            for (int i = 0; i < n; ++i)
+                if (advance(*integrator, state).outcome != Outcome::converged) return std::vector<double>();
+            return state.x;
+        };
+        const auto finest = end(327680, {1, 0.3}), coarse = end(2560, {1, 0.3}),
+                   fine = end(5120, {1, 0.3});
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double order = std::log2(std::abs(coarse[i] - finest[i]) / std::abs(fine[i] - finest[i]));
+            QVERIFY2(std::abs(order - known.claims.order) < 0.1,
+                     qPrintable(QString::number(order)));  // measured: 1.05 for q, 1.05 for p
+        }
+        // The determinant of the map of the plane, by central differences.
+        const double delta = 1e-5;
+        const auto right = end(30, {1 + delta, 0.3}), left = end(30, {1 - delta, 0.3}),
+                   up = end(30, {1, 0.3 + delta}), down = end(30, {1, 0.3 - delta});
+        const double area =
+            ((right[0] - left[0]) * (up[1] - down[1]) - (right[1] - left[1]) * (up[0] - down[0])) /
+            (4 * delta * delta);
+        QVERIFY2(known.claims.isSymplectic && std::abs(area - 1) < 1e-8,
+                 qPrintable(QString::number(area - 1)));
+    }
+
     void observableIsComputedAtANode() {
         const System system = quartic();
-        const State state{0, 0, {3, -2}};
-        const Observer observer = observables::virial().bind({system, state, {}});
-        QCOMPARE(observer.columns.size(), std::size_t{1});
-        double value = 0;
-        observer.evaluate(state, {}, &value);
-        QCOMPARE(value, -6.0);
+        const State start{0, 0, {1, 4}}, state{0, 0, {3, -2}};
+        const Observer observer = observables::virial().bind({system, start, {}});
+        QCOMPARE(observer.columns.size(), std::size_t{2});
+        QCOMPARE(observer.columns[static_cast<std::size_t>(observer.extreme)].name,
+                 std::string("virial_change"));
+        double values[2] = {0, 0};
+        observer.evaluate(state, {}, values);
+        QCOMPARE(values[0], -6.0);
+        QCOMPARE(values[1], -10.0);
+    }
+
+    void viewIsDrawnOfItsColumn() {
+        auto scheme = std::make_shared<SchemeResult>();
+        scheme->spec.label = "Gauss";
+        scheme->trajectory.columns = {{"t", "t", "", {0, 1, 2}, {}}, {"virial", "q·p", "", {1, 3, 2}, {}}};
+        Comparison comparison;
+        comparison.scene.observe = {"virial"};
+        comparison.schemes = {scheme};
+        const View view{"virial", "", ""};
+        const ViewEntry entry = views::virial();
+        const Figure figure = draw({comparison, view, nullptr, entry});
+        QCOMPARE(figure.title, std::string("Virial"));
+        QCOMPARE(figure.y.title, std::string("q·p"));
+        QCOMPARE(figure.series().at(0).y, (std::vector<double>{1, 3, 2}));
     }
 
     void handbookShowsTheseFiles() {
         const QString page = fileText("resources/handbook/extending.md");
-        for (const char* name : {"quartic_oscillator", "trigonometric", "boole", "galerkin_fine", "virial"}) {
+        for (const char* name : {"quartic_oscillator", "trigonometric", "boole", "galerkin_fine", "virial",
+                                 "virial_view", "line/family"}) {
             const QString code = fileText(QStringLiteral("tests/examples/%1.cpp").arg(name));
             QVERIFY(!code.isEmpty());
             QVERIFY2(page.contains("```cpp\n" + code + "```"), name);

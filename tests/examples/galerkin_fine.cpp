@@ -6,12 +6,8 @@ namespace extremal::schemes {
 SchemeEntry galerkin_fine() {
     SchemeEntry e;
     // The claims of the smallest degree; those of the others follow from space and rule.
-    e.item = {"galerkin-fine-<s>",
-              "Galerkin, fine rule",
-              "Degree s with Gauss(s + 1): order 2s.",
-              {},
-              Claims{2, true, true, {"momentum"}},
-              ""};
+    e.item = {
+        "galerkin-fine-<s>", "Galerkin, fine rule", "Degree s with Gauss(s + 1): order 2s.", {}, {}, ""};
     e.source = "Leok 2004, sec. 2.1";
     e.minDegree = 1;
     e.maxDegree = 12;

@@ -5,14 +5,22 @@ namespace extremal::observables {
 
 ObservableEntry virial() {
     ObservableEntry e;
-    e.item = {"virial", "virial", "The scalar product of q and p.", {}, {}, ""};
+    e.item = {"virial", "virial", "The scalar product of q and p, and its change.", {}, {}, ""};
     e.bind = [](const ObserveContext& context) {
-        Observer o;
-        o.columns = {{"virial", "q·p", "", {}}};  // name in files, symbol in plots, unit
         const auto d = static_cast<std::size_t>(context.system.dimension());
-        o.evaluate = [d](const State& state, const StepReport&, double* values) {
-            values[0] = 0;
-            for (std::size_t i = 0; i < d; ++i) values[0] += state.x[i] * state.x[d + i];
+        const auto virial = [d](const double* x) {
+            double sum = 0;
+            for (std::size_t i = 0; i < d; ++i) sum += x[i] * x[d + i];
+            return sum;
+        };
+        Observer o;
+        // Name in files, symbol in plots, unit.
+        o.columns = {{"virial", "q·p", "", {}}, {"virial_change", "q·p - (q·p)(0)", "", {}}};
+        o.extreme = 1;  // the largest change over all nodes goes into the summary
+        o.evaluate = [virial, start = virial(context.initial.x.data())](const State& state, const StepReport&,
+                                                                        double* values) {
+            values[0] = virial(state.x.data());
+            values[1] = values[0] - start;
         };
         return o;
     };

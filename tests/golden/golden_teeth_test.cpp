@@ -203,20 +203,21 @@ private slots:
             const auto picture = [](const Figure& f) { return renderFigure(f, {600, 400}, Theme::light()); };
             const QImage whole = picture(right);
             Teeth teeth{whole, GoldenLimits::plot()};
-            for (std::size_t i = 0; i < right.series.size(); ++i) {
+            for (std::size_t i = 0; i < right.series().size(); ++i) {
                 const QString name = QString("%1, series %2").arg(id).arg(i);
                 Figure wrong = right;
-                wrong.series[i].x.resize(wrong.series[i].x.size() / 2);
-                wrong.series[i].y.resize(wrong.series[i].x.size());
-                if (!wrong.series[i].t.empty()) wrong.series[i].t.resize(wrong.series[i].x.size());
+                wrong.series()[i].x.resize(wrong.series()[i].x.size() / 2);
+                wrong.series()[i].y.resize(wrong.series()[i].x.size());
+                if (!wrong.series()[i].t.empty()) wrong.series()[i].t.resize(wrong.series()[i].x.size());
                 teeth.bite(picture(wrong), name + ", second half");
                 wrong = right;
-                wrong.series[i].label.clear();
+                wrong.series()[i].label.clear();
                 teeth.bite(picture(wrong), name + ", name in the legend");
             }
-            for (std::size_t i = 0; i < right.failures.size(); ++i) {
+            for (std::size_t i = 0; i < right.layers.size(); ++i) {
+                if (!std::holds_alternative<FailureMark>(right.layers[i])) continue;
                 Figure wrong = right;
-                wrong.failures.erase(wrong.failures.begin() + static_cast<std::ptrdiff_t>(i));
+                wrong.layers.erase(wrong.layers.begin() + static_cast<std::ptrdiff_t>(i));
                 teeth.bite(picture(wrong), QString("%1, failure %2").arg(id).arg(i));
             }
             Figure wrong = right;
@@ -240,11 +241,11 @@ private slots:
             const Figure right = makeFigure(comparison, view, &system);
             const QImage whole = renderFigure(right, {600, 400}, Theme::light());
             Teeth teeth{whole, GoldenLimits::plot()};
-            for (std::size_t s = 0; s < right.series.size(); ++s)
-                for (std::size_t i = 0; i < right.series[s].x.size(); i += 7) {
+            for (std::size_t s = 0; s < right.series().size(); ++s)
+                for (std::size_t i = 0; i < right.series()[s].x.size(); i += 7) {
                     Figure wrong = right;
-                    wrong.series[s].x.erase(wrong.series[s].x.begin() + static_cast<std::ptrdiff_t>(i));
-                    wrong.series[s].y.erase(wrong.series[s].y.begin() + static_cast<std::ptrdiff_t>(i));
+                    wrong.series()[s].x.erase(wrong.series()[s].x.begin() + static_cast<std::ptrdiff_t>(i));
+                    wrong.series()[s].y.erase(wrong.series()[s].y.begin() + static_cast<std::ptrdiff_t>(i));
                     teeth.bite(renderFigure(wrong, {600, 400}, Theme::light()),
                                QString("%1: entry %2 of series %3").arg(scheme).arg(i).arg(s));
                 }

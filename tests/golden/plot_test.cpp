@@ -61,7 +61,7 @@ private slots:
         check(picture(map), "plot-map");
         check(picture(map, Theme::dark()), "plot-map-dark");
         Figure wrong = map;
-        wrong.heat->faults[29] = "diverged";  // one cell, blown up before
+        wrong.heat()->faults[29] = "diverged";  // one cell, blown up before
         QVERIFY(compareImages(picture(map), picture(wrong), 8).differingPercent >
                 GoldenLimits::plot().differingPercent);
     }
@@ -81,13 +81,13 @@ private slots:
         const Figure straight = figure("phase");
         Figure shifted = straight;
         const double pixel = (straight.y.range->second - straight.y.range->first) / 330;
-        for (double& y : shifted.series.front().y) y += pixel;
+        for (double& y : shifted.series().front().y) y += pixel;
         QVERIFY(!isWithin(compareImages(picture(straight), picture(shifted), 8), GoldenLimits::plot()));
     }
     void aSwappedColourIsSeen() {
         const Figure right = figure("energy");
         Figure wrong = right;
-        std::swap(wrong.series[0].style, wrong.series[1].style);
+        std::swap(wrong.series()[0].style, wrong.series()[1].style);
         QVERIFY(!isWithin(compareImages(picture(right), picture(wrong), 8), GoldenLimits::plot()));
     }
     void theSameFigureIsTheSamePicture() { QCOMPARE(picture(figure("energy")), picture(figure("energy"))); }

@@ -62,14 +62,14 @@ private slots:
         check(picture(figure("profile", "both")), "wave-parts");
         check(picture(figure("profile", "both"), Theme::dark()), "wave-parts-dark");
         Figure alike = figure("profile", "both");
-        for (Series& s : alike.series) s.isPale = false;
+        for (Series& s : alike.series()) s.tone = Tone::full;
         QVERIFY(!isWithin(compareImages(picture(figure("profile", "both")), picture(alike), 8),
                           GoldenLimits::plot()));
     }
     void theSpectrumMatchesItsImage() { check(picture(figure("spectrum")), "wave-spectrum"); }
     void theConjugateIsSeen() {
         Figure wrong = figure("carpet");
-        for (double& turns : wrong.heat->hues) turns = -turns;
+        for (double& turns : wrong.heat()->hues) turns = -turns;
         QVERIFY(!isWithin(compareImages(picture(figure("carpet")), picture(wrong), 8), GoldenLimits::plot()));
     }
     void theRectangleMatchesItsImage() {
@@ -97,7 +97,7 @@ private slots:
         // Seen failing: x and y exchanged.
         Figure wrong = makeFigure(*result, View{"profile", "", ""}, &system);
         const Figure right = wrong;
-        std::swap(wrong.heat->columns, wrong.heat->rows);
+        std::swap(wrong.heat()->columns, wrong.heat()->rows);
         QVERIFY(!isWithin(compareImages(picture(right), picture(wrong), 8), GoldenLimits::plot()));
     }
     void errorsAgainstStepsMatchTheirImages() {

@@ -8,6 +8,7 @@
 #include <array>
 #include <random>
 
+#include "engine/family/table_of.hpp"
 #include "engine/action/saddle_point.hpp"
 #include "engine/model/bind.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
@@ -19,7 +20,9 @@ struct Run {
     State start;
     double end;
 
-    std::unique_ptr<Integrator> make() const { return makeScheme(system, scheme, scheme.step.value, start); }
+    std::unique_ptr<Integrator> make() const {
+        return resolve(scheme).make(system, scheme.step.value, start);
+    }
 };
 
 /// A scene without schemes, and the step and tolerance of those it is given.
@@ -67,6 +70,8 @@ std::vector<Run> everyRun() {
             if (!read.errors.empty()) continue;  // not for this system
             const System system = makeSystem(read.scene);
             const SchemeSpec& spec = read.scene.schemes.front();
+            // An experiment whose steps have no solution from most starts.
+            if (!resolve(spec).properties.caution.empty()) continue;
             runs.push_back({system.id + ": " + spec.label, system, spec, initialState(read.scene, system),
                             read.scene.end.value});
         }
@@ -109,8 +114,8 @@ private slots:
         int composed = 0, adaptive = 0, withMemory = 0, waves = 0, bodies = 0;
         for (const Run& run : runs_) {
             composed += !run.scheme.composition.type.empty();
-            adaptive += isAdaptive(run.scheme);
-            withMemory += !innerClaimsOf(run.scheme).isOneStep;
+            adaptive += resolve(run.scheme).isAdaptive();
+            withMemory += !resolve(run.scheme).claims.isOneStep;
             waves += run.system.id == "schrodinger";
             bodies += run.system.id == "rigid-body";
         }
@@ -180,7 +185,7 @@ private slots:
         QCOMPARE(named, state.memory.size());
         QCOMPARE(state.memory.empty(), integrator->memoryParts().empty());
         if (integrator->grid() == TimeGrid::fixed)
-            QCOMPARE(claimsOf(run.scheme).isOneStep, state.memory.empty());
+            QCOMPARE(resolve(run.scheme).claims.isOneStep, state.memory.empty());
         QCOMPARE(step(run, *integrator, state).outcome, Outcome::converged);
         QCOMPARE(named, state.memory.size());
     }
@@ -206,7 +211,7 @@ private slots:
         const auto integrator = run.make();
         if (integrator->grid() != TimeGrid::fixed || run.system.id == "multiscale-elliptic") return;
         const double h = run.scheme.step.value / 2;
-        const auto other = makeScheme(run.system, run.scheme, h, run.start);
+        const auto other = resolve(run.scheme).make(run.system, h, run.start);
         State a = run.start, b = run.start;
         QCOMPARE(advance(*integrator, a).outcome, Outcome::converged);
         integrator->setStep(h);

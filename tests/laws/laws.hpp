@@ -62,7 +62,7 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
                   high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
         for (int degree = low; degree <= high; ++degree) {
             const Discretization pair = e.make(degree);
-            if (!isPairFor(pair, system) || std::find(known.begin(), known.end(), pair) != known.end() ||
+            if (!isFor(pair, system) || std::find(known.begin(), known.end(), pair) != known.end() ||
                 !describe(pair.space, pair.quadrature).caution.empty())
                 continue;
             known.push_back(pair);

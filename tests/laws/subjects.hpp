@@ -46,8 +46,7 @@ inline Subject subjectOf(const std::string& name, const Scene& scene) {
     s.time = 0;
     for (const SchemeSpec& scheme : scene.schemes) s.time = std::max(s.time, 40 * scheme.step.value);
     if (w > 0) s.time = std::min(s.time, 4 / w);
-    const auto integrator =
-        makeIntegrator(s.system, trustedPair(s.system), {s.start.t, s.time / referenceSteps});
+    const auto integrator = trustedIntegrator(s.system, s.start, s.time / referenceSteps);
     State state = s.start;
     s.scaleQ = s.scaleP = 0;
     s.own.assign(state.x.size(), 0);

@@ -126,7 +126,7 @@ private slots:
             const Discretization gauss = polynomialPair(s, {"gauss", {}, {}}),
                                  curtis = polynomialPair(s, {"clenshaw-curtis", {}, {}});
             QVERIFY(describe(gauss.space, gauss.quadrature).shortfall.empty());
-            const PairProperties p = describe(curtis.space, curtis.quadrature);
+            const Properties p = describe(curtis.space, curtis.quadrature);
             QCOMPARE(p.shortfall.empty(), p.claims.order == 2 * s);
         }
     }

@@ -19,12 +19,11 @@ double normError(const System& system, const State& state) {
 }
 
 std::unique_ptr<Integrator> chebyshev(const System& system, int degree, const char* nodes, double h) {
-    return findBaseline("spectral-collocation")
-        ->make(system,
-               {{0, h},
-                0,
-                0,
-                {"spectral-collocation", {{"degree", static_cast<double>(degree)}, {"nodes", nodes}}, {}}});
+    BaselineOptions options;
+    options.step = h;
+    options.settings = {
+        "spectral-collocation", {{"degree", static_cast<double>(degree)}, {"nodes", nodes}}, {}};
+    return findBaseline("spectral-collocation")->make(system, options);
 }
 
 }  // namespace
@@ -37,7 +36,7 @@ private slots:
         const State start = startA(system);
         for (const int s : {1, 2, 5, 8}) {
             const auto whole =
-                makeCollocationWave(system.hamiltonian(), {0, 0.02}, 40, gauss<double>(s), 1e-14, 600);
+                makeCollocationWave(system.hamiltonian(), 0.02, 40, gauss<double>(s), 1e-14, 600);
             const auto factors = makeIntegrator(system, wavePair(s, "dense", 40.0), {0, 0.02});
             const double apart = waveDistance(run(*whole, start, 50), run(*factors, start, 50));
             qInfo("degree %d: %.2g", s, apart);

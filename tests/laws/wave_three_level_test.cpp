@@ -38,7 +38,7 @@ Run run(const System& system, const Discretization& pair, const State& start, do
     double J = 0;
     for (long long k = 0; k < n; ++k) {
         before = result.end.x;
-        if (integrator->advance(result.end).outcome != Outcome::converged) return result;
+        if (advance(*integrator, result.end).outcome != Outcome::converged) return result;
         const double now = bilinearForm(H, alpha, h, shift, coefficients(before.data()),
                                         coefficients(result.end.x.data()), image.data(), work.data());
         if (k == 0) J = now;

@@ -10,6 +10,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/view/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/space/catalog.hpp"

@@ -27,7 +27,7 @@ Orders measureOrders(const Settings& space, const Settings& quadrature, Motion m
 struct OrderRow {
     Settings space, quadrature;  ///< complete
     std::string spaceText, ruleText;
-    PairProperties known;
+    Properties known;
     Orders kepler, pendulum;
 };
 

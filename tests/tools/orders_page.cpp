@@ -28,7 +28,7 @@ std::string number(double value, const char* format = "%.2f") {
 }  // namespace
 
 std::string rowText(const OrderRow& row) {
-    const PairProperties& known = row.known;
+    const Properties& known = row.known;
     std::string text = "| " + row.ruleText + " | " + std::to_string(known.claims.order) + " | ";
     for (const double value : {row.kepler.q, row.kepler.p, row.pendulum.q, row.pendulum.p})
         text += number(value) + " | ";

@@ -70,7 +70,7 @@ std::string pairsTable() {
         const Settings space{"polynomial", {{"degree", static_cast<double>(s)}, {"basis", "lobatto"}}, {}};
         text += "| " + std::to_string(s) + " |";
         for (const std::string& rule : rules) {
-            const PairProperties known = describe(space, completeQuadrature(space, {rule, {}, {}}));
+            const Properties known = describe(space, completeQuadrature(space, {rule, {}, {}}));
             text += known.refusal.empty() ? " " + std::to_string(known.claims.order) + ", " +
                                                 limitText(known.stabilityLimit) + " |"
                                           : " – |";

@@ -29,7 +29,7 @@ Figure picture() {
     figure.title = "Error of Filon's rules";
     figure.x = {"hω", true, false, std::pair{1e-2, 1e6}};
     figure.y = {"|Q − I|", true, false, std::pair{1e-16, 1e-1}};
-    figure.floor = filonFloor;
+    figure.put(RoundOffFloor{filonFloor});
     int style = 0;
     for (const FilonColumn& column : filonColumns()) {
         Series s;
@@ -40,7 +40,7 @@ Figure picture() {
             s.x.push_back(z);
             s.y.push_back(errorAround(column, z));
         }
-        figure.series.push_back(std::move(s));
+        figure.add(std::move(s));
     }
     return figure;
 }

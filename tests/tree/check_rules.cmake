@@ -74,3 +74,9 @@ endfunction()
 expect_listed(tolerated "f(\"fourier\");\n" "^$")
 expect_listed(clean_but_listed "int a;\n" "a.cpp:1: names no other family any more")
 expect_listed(gone_but_listed "no file" "a.cpp:1: does not exist")
+
+# Declared low and defined high: the definition of `listed` is in another folder, that of `here` is not.
+expect(defined_elsewhere engine/scene/a.hpp "${header}\nnamespace extremal {\nint listed(int a,\n           int b = {});\n}\n"
+    "a.hpp:1: declares scene/listed")
+expect(defined_inline engine/scene/a.hpp "${header}\nnamespace extremal {\ninline int here() { return 1; }\nint here(int a);\n}\n" "")
+expect(members_are_no_functions engine/scene/a.hpp "${header}\nclass A {\npublic:\n    int a() const;\n\nprivate:\n    int b_;\n};\n" "")

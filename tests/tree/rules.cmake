@@ -3,11 +3,12 @@
 #     extremal_tree_violations(ROOT OUT)    OUT: a list of "FILE:LINE: WHAT", empty if the tree is sound
 #
 # Includes point down the order of the folders; the engine does not use Qt or OpenGL; a file is one idea; a family of
-# schemes is named in its own folder only.
+# schemes is named in its own folder only; what a header declares is defined in its folder (definitions.cmake).
+include(${CMAKE_CURRENT_LIST_DIR}/definitions.cmake)
 
 # A folder may include itself and every folder before it.
 set(levels
-    core mesh group quadrature model space action solve integrator family baseline trajectory observe scene run figure study
+    core mesh group quadrature model space action solve integrator family baseline trajectory observe view scene run figure study
     ui app)
 set(max_lines 500)
 
@@ -155,5 +156,7 @@ function(extremal_tree_violations root out)
     foreach(path ${tolerated})
         list(APPEND violations "${path}:1: does not exist: take it off ${list_of_family_names}")
     endforeach()
+    extremal_definition_violations(${root} undefined)
+    list(APPEND violations ${undefined})
     set(${out} "${violations}" PARENT_SCOPE)
 endfunction()

@@ -7,9 +7,7 @@
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "engine/family/elliptic/elliptic.hpp"
 #include "engine/family/scheme.hpp"
-#include "engine/quadrature/catalog.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -18,84 +16,13 @@
 
 namespace extremal {
 
-namespace {
-
-struct SpaceRow {
-    const char *id, *heading;
-    int degree;
-    const char* form = nullptr;  ///< of wave functions, where it is not the usual one
-};
-Settings spaceOfRow(const SpaceRow& row) {
-    Settings space = spaceOf(row.id, row.degree);
-    for (auto& [key, value] : space.keys)
-        if (row.form && key == "form") value = row.form;
-    return space;
-}
-/// The rows for models with coordinates, for bodies, and for wave functions.
-std::vector<SpaceRow> rowsFor(const std::string& space, bool isPeriodic) {
-    if (space == "fourier") {
-        std::vector<SpaceRow> waves;
-        for (const int degree : {1, 2, 3, 4, 6, 8, 12})
-            waves.push_back({"fourier", isPeriodic ? "Fourier" : "modes", degree});
-        if (isPeriodic) waves.push_back({"fourier", "3-level", 1, "three-level"});
-        return waves;
-    }
-    const bool isLie = space == "lie-polynomial";
-    std::vector<SpaceRow> rows;
-    for (const int degree : {1, 2, 3, 4, 6, 8})
-        rows.push_back(isLie ? SpaceRow{"lie-polynomial", "Lie", degree}
-                             : SpaceRow{"polynomial", "poly", degree});
-    if (!isLie)
-        for (const int degree : {2, 3}) rows.push_back({"spline", "spline", degree});
-    return rows;
-}
-
-/// "polynomials of degree 3", "splines of degree 3 with 2 cells".
-QString spaceText(const Settings& space) {
-    const QString degree = QString::number(space.integer("degree"));
-    if (space.type == "spline")
-        return QObject::tr("splines of degree %1 with %2 cells").arg(degree).arg(space.integer("cells"));
-    if (isElliptic(space))
-        return (space.text("functions") == "linear" ? QObject::tr("%1 elements with straight lines")
-                                                    : QObject::tr("%1 elements that know the coefficient"))
-            .arg(space.integer("elements"));
-    if (space.text("form") == "three-level")
-        return QObject::tr("lines in time over Fourier modes, in three levels");
-    if (space.type == "fourier")
-        return QObject::tr("polynomials of degree %1 in time over the modes of the model").arg(degree);
-    if (space.type == "lie-polynomial")
-        return QObject::tr("polynomials of degree %1 in the algebra").arg(degree);
-    return QObject::tr("polynomials of degree %1").arg(degree);
-}
-
-/// Cells are small: well-known names have well-known abbreviations.
-QString abbreviation(const QString& knownAs) {
-    if (knownAs.contains("midpoint", Qt::CaseInsensitive)) return QStringLiteral("mid");
-    if (knownAs.contains("Verlet", Qt::CaseInsensitive)) return QStringLiteral("SV");
-    if (knownAs.contains("trapez", Qt::CaseInsensitive)) return QStringLiteral("trap");
-    return {};
-}
-
-QString letterOf(const std::string& rule) {
-    const RuleEntry* const entry = findRule(rule);
-    return entry ? QString::fromStdString(entry->letter) : QString();
-}
-
-}  // namespace
-
-DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* parent)
-    : QAbstractButton(parent), space_(std::move(space)), quadrature_(std::move(quadrature)) {
-    const PairProperties known = describe(space_, quadrature_);
+DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent)
+    : QAbstractButton(parent), choice_(std::move(choice)) {
+    const Properties known = describe(choice_.discretization);
     setEnabled(known.refusal.empty());
-    if (isElliptic(space_)) {
-        name_ = QString::number(space_.integer("elements"));
-        setObjectName("cell." + QString::fromStdString(space_.text("functions")) + "." + name_);
-    } else {
-        nameByOrder(known);
-    }
-    const QString ofSpace = spaceText(space_);
-    setAccessibleName(ofSpace.at(0).toUpper() + ofSpace.mid(1) +
-                      (isElliptic(space_) ? QString() : QStringLiteral(", ") + ruleTitle(quadrature_.type)));
+    setObjectName("cell." + QString::fromStdString(choice_.id));
+    const QString title = QString::fromStdString(choice_.title);
+    setAccessibleName(title.at(0).toUpper() + title.mid(1));
     setToolTip(tooltip(known));
     setAccessibleDescription(toolTip().remove(QRegularExpression("<[^>]*>")));
     setFocusPolicy(Qt::TabFocus);
@@ -103,30 +30,15 @@ DiscretizerCell::DiscretizerCell(Settings space, Settings quadrature, QWidget* p
     setCursor(known.refusal.empty() ? Qt::PointingHandCursor : Qt::ArrowCursor);
 }
 
-void DiscretizerCell::nameByOrder(const PairProperties& known) {
-    const QString order = QString::number(known.claims.order);
-    name_ = abbreviation(QString::fromStdString(known.knownAs));
-    if (name_.isEmpty())
-        name_ = letterOf(quadrature_.type) + order;
-    else
-        order_ = order;
-    setObjectName(QString("cell.%1%2.%3")
-                      .arg(space_.type == "spline" ? QStringLiteral("spline") : QString())
-                      .arg(space_.integer("degree"))
-                      .arg(QString::fromStdString(quadrature_.type)));
-}
-
-QString DiscretizerCell::tooltip(const PairProperties& known) const {
-    const QString pair = spaceText(space_) + QStringLiteral(" × ") + ruleTitle(quadrature_.type);
+QString DiscretizerCell::tooltip(const Properties& known) const {
+    const QString pair = QString::fromStdString(choice_.title);
     if (!known.refusal.empty())
         return tr("<b>%1</b><br>No scheme: %2")
             .arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
-    if (isElliptic(space_))
-        return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + spaceText(space_) + "<br>" +
-               (known.claims.order > 0
-                    ? tr("order %1, once they resolve the coefficient").arg(known.claims.order)
-                    : tr("exact at the nodes, however few")) +
-               "<br><i>" + tr("Click to add it to the comparison.") + "</i>";
+    if (!known.remark.empty())
+        return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + pair + "<br>" +
+               QString::fromStdString(known.remark) + "<br><i>" + tr("Click to add it to the comparison.") +
+               "</i>";
     QString text = "<b>" +
                    (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) +
                    "</b>";
@@ -179,33 +91,32 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
                          QPointF(box.center().x() + 3, box.center().y()));
         return;
     }
+    const QString name = QString::fromStdString(choice_.text),
+                  order = QString::fromStdString(choice_.superscript);
     QFont font = theme_->strong();
     font.setPixelSize(font.pixelSize() - 1);
     QFont small = theme_->caption();
     small.setPixelSize(small.pixelSize() - 3);
     const QFontMetricsF metrics(font), smallMetrics(small);
-    const double orderWidth = order_.isEmpty() ? 0 : smallMetrics.horizontalAdvance(order_) + 1;
-    const double left = (width() - metrics.horizontalAdvance(name_) - orderWidth) / 2;
+    const double orderWidth = order.isEmpty() ? 0 : smallMetrics.horizontalAdvance(order) + 1;
+    const double left = (width() - metrics.horizontalAdvance(name) - orderWidth) / 2;
     const double baseline = (height() + metrics.capHeight()) / 2;
     painter.setPen(isPresent_ ? theme_->onAccent : theme_->text);
     painter.setFont(font);
-    painter.drawText(QPointF(left, baseline), name_);
+    painter.drawText(QPointF(left, baseline), name);
     painter.setFont(small);
-    painter.drawText(QPointF(left + metrics.horizontalAdvance(name_) + 1, baseline - 4), order_);
+    painter.drawText(QPointF(left + metrics.horizontalAdvance(name) + 1, baseline - 4), order);
 }
 
 Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     : Card(tr("Discretizer"), parent), workspace_(workspace) {
-    setSubtitle(tr("space × quadrature"));
-    fill("polynomial", true);
+    refresh();
     connect(&workspace_, &Workspace::sceneChanged, this, &Discretizer::refresh);
 }
 
-/// One row per degree of the space, one column per rule.
-void Discretizer::fill(const std::string& space, bool isPeriodic) {
-    space_ = space;
-    isPeriodic_ = isPeriodic;
+void Discretizer::fill(const ChoiceGrid& choices) {
     cells_.clear();
+    shown_.clear();
     delete grid_;
     grid_ = new QWidget;
     auto* grid = new QGridLayout(grid_);
@@ -213,56 +124,30 @@ void Discretizer::fill(const std::string& space, bool isPeriodic) {
     grid->setHorizontalSpacing(3);
     grid->setVerticalSpacing(3);
     body()->addWidget(grid_);
-    const bool isOfElements = isElliptic({space, {}, {}});
-    setSubtitle(isOfElements ? tr("functions × elements") : tr("space × quadrature"));
-    if (isOfElements) return fillElements(*grid);
-    const std::vector<SpaceRow> rows = rowsFor(space, isPeriodic);
-    int column = 1;
-    for (const RuleEntry* rule : rulesByPlace()) {
-        if (rule->heading.empty()) continue;
-        const std::string& id = rule->item.id;
-        QLabel* heading = makeLabel(QString::fromStdString(rule->heading), "caption");
-        heading->setAlignment(Qt::AlignHCenter);
-        heading->setToolTip(ruleTitle(id));
-        grid->addWidget(heading, 0, column);
-        grid->setColumnStretch(column, 1);
-        int row = 1;
-        for (const SpaceRow& line : rows) {
-            const Settings ofRow = spaceOfRow(line);
-            addCell(*grid, ofRow, ruleFor(id, ofRow), row++, column);
-        }
-        ++column;
+    setSubtitle(QString::fromStdString(choices.subtitle));
+    const auto addHeading = [&](const ChoiceGrid::Heading& heading, int row, int column) {
+        QLabel* label = makeLabel(QString::fromStdString(heading.text), "caption");
+        if (!heading.description.empty()) label->setToolTip(QString::fromStdString(heading.description));
+        if (row == 0) label->setAlignment(Qt::AlignHCenter);
+        grid->addWidget(label, row, column);
+    };
+    const auto width = static_cast<int>(choices.width());
+    for (int column = 0; column < width; ++column) {
+        grid->setColumnStretch(column + 1, 1);
+        if (!choices.columns.empty())
+            addHeading(choices.columns[static_cast<std::size_t>(column)], 0, column + 1);
     }
-    int row = 1;
-    for (const SpaceRow& line : rows) {
-        QLabel* name = makeLabel(QString("%1 %2").arg(line.heading).arg(line.degree), "caption");
-        name->setToolTip(tr("On each step: %1").arg(spaceText(spaceOfRow(line))));
-        grid->addWidget(name, row++, 0);
-    }
-}
-
-void Discretizer::addCell(QGridLayout& grid, const Settings& space, const Settings& rule, int row,
-                          int column) {
-    auto* cell = new DiscretizerCell(space, rule);
-    if (theme_) cell->setTheme(*theme_);
-    connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
-    cells_.push_back(cell);
-    grid.addWidget(cell, row, column);
-}
-
-/// The elliptic problem has no rule to choose: its elements take theirs from the coefficient.
-void Discretizer::fillElements(QGridLayout& grid) {
-    int row = 0;
-    for (const char* functions : {"multiscale", "linear"}) {
-        grid.addWidget(makeLabel(QString::fromUtf8(functions), "caption"), row, 0);
-        int column = 1;
-        for (const int elements : {5, 10, 20, 40, 80, 160}) {
-            const Settings space{
-                space_, {{"functions", functions}, {"elements", static_cast<double>(elements)}}, {}};
-            grid.setColumnStretch(column, 1);
-            addCell(grid, space, ruleFor("auto", space), row, column++);
+    for (int row = 0; row < static_cast<int>(choices.rows.size()); ++row) {
+        addHeading(choices.rows[static_cast<std::size_t>(row)], row + 1, 0);
+        for (int column = 0; column < width; ++column) {
+            const auto& choice = choices.cells[static_cast<std::size_t>(row * width + column)];
+            auto* cell = new DiscretizerCell(choice);
+            if (theme_) cell->setTheme(*theme_);
+            connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
+            cells_.push_back(cell);
+            shown_.push_back(choice.id);
+            grid->addWidget(cell, row + 1, column + 1);
         }
-        ++row;
     }
 }
 
@@ -276,9 +161,13 @@ DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
 }
 
 void Discretizer::refresh() {
-    const bool isPeriodic = workspace_.scene().model.text("boundary") != "dirichlet";
-    if (const std::string space = pairSpace(workspace_.scene()); space != space_ || isPeriodic != isPeriodic_)
-        fill(space, isPeriodic);
+    if (!workspace_.hasScene()) return;
+    const ChoiceGrid choices = choicesFor(workspace_.scene());
+    std::vector<std::string> ids;
+    for (const ChoiceGrid::Cell& cell : choices.cells) ids.push_back(cell.id);
+    const bool isSame = ids == shown_ && !cells_.empty() &&
+                        cells_.front()->space().type == choices.cells.front().discretization.space.type;
+    if (!isSame) fill(choices);
     for (DiscretizerCell* cell : cells_)
         cell->setPresent(findPair(workspace_.scene(), cell->space(), cell->quadrature()) >= 0);
 }

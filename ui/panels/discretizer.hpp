@@ -1,30 +1,30 @@
-/// The discretizer: function spaces as rows, quadratures as columns. A cell says which scheme the pair is and
-/// its order; a click adds it to the comparison. Unsupported pairs are grey and show the reason.
+/// The discretizer: what the family of the model offers side by side (family/choices.hpp), usually function
+/// spaces as rows and quadratures as columns. A cell says which scheme the discretization is and its order; a
+/// click adds it to the comparison. Unsupported combinations are grey and say why.
 #pragma once
 
 #include <QAbstractButton>
 #include <string>
 #include <vector>
 
-#include "engine/core/settings.hpp"
+#include "engine/family/choices.hpp"
 #include "ui/panels/card.hpp"
 
 class QGridLayout;
 
 namespace extremal {
 
-struct PairProperties;
 struct Theme;
 class Workspace;
 
-/// One cell: a pair.
+/// One cell: a discretization.
 class DiscretizerCell : public QAbstractButton {
     Q_OBJECT
 public:
-    DiscretizerCell(Settings space, Settings quadrature, QWidget* parent = nullptr);
+    explicit DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent = nullptr);
 
-    const Settings& space() const { return space_; }
-    const Settings& quadrature() const { return quadrature_; }
+    const Settings& space() const { return choice_.discretization.space; }
+    const Settings& quadrature() const { return choice_.discretization.quadrature; }
     void setTheme(const Theme& theme);
     void setPresent(bool isPresent);
     QSize sizeHint() const override { return {34, 23}; }
@@ -34,11 +34,9 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void nameByOrder(const PairProperties& known);
-    QString tooltip(const PairProperties& known) const;
+    QString tooltip(const Properties& known) const;
 
-    Settings space_, quadrature_;
-    QString name_, order_;
+    ChoiceGrid::Cell choice_;
     bool isPresent_ = false;
     const Theme* theme_ = nullptr;
 };
@@ -51,16 +49,13 @@ public:
     DiscretizerCell* cell(int degree, const QString& rule) const;
 
 private:
-    void fill(const std::string& space, bool isPeriodic);
-    void fillElements(QGridLayout& grid);
-    void addCell(QGridLayout& grid, const Settings& space, const Settings& rule, int row, int column);
+    void fill(const ChoiceGrid& grid);
     void refresh();
     void choose(const DiscretizerCell& cell);
 
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;
-    std::string space_;       ///< of the cells
-    bool isPeriodic_ = true;  ///< wave functions: no walls
+    std::vector<std::string> shown_;  ///< ids of the cells
     QWidget* grid_ = nullptr;
     const Theme* theme_ = nullptr;
 };

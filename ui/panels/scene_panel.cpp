@@ -8,6 +8,7 @@
 
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/json.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"
@@ -161,7 +162,7 @@ void ScenePanel::startFromTwoPositions() {
         if (spec.tolerance) continue;
         State state = initialState(scene, system);
         const State start = state;
-        const auto integrator = makeScheme(system, spec, spec.step.value, state);
+        const auto integrator = resolve(spec).make(system, spec.step.value, state);
         if (advance(*integrator, state).outcome != Outcome::converged) continue;
         const auto positions = [&](const State& s) {
             Value::Array values;

@@ -13,7 +13,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/space/catalog.hpp"
+#include "engine/scene/resolve.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -67,6 +67,14 @@ void choose(QComboBox& box, const std::string& id) {
     box.setCurrentIndex(box.findData(QString::fromStdString(id)));
 }
 
+/// Those that solve the equations of the scheme.
+std::vector<std::string> solverMethods(const SchemeSpec& spec) {
+    std::vector<std::string> methods{"auto"};
+    if (const Family* family = resolve(spec).family)
+        methods.insert(methods.end(), family->solverMethods.begin(), family->solverMethods.end());
+    return methods;
+}
+
 std::string chosen(const QComboBox& box) { return box.currentData().toString().toStdString(); }
 
 }  // namespace
@@ -84,8 +92,8 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
         const Scene& scene = workspace_.scene();
         if (spec().kind == SchemeSpec::Kind::pair) {
             const Settings space = spaceOf(chosen(*first_), std::max(1, spec().space.integer("degree")));
-            const bool isNewlyFast = space.type == "oscillatory" && spec().space.type != space.type;
-            const std::string rule = isNewlyFast ? "auto" : fittingRule(spec().quadrature.type, space);
+            const bool isOtherFamily = familyOf(space) != familyOf(spec().space);
+            const std::string rule = fittingRule(isOtherFamily ? "auto" : spec().quadrature.type, space);
             return change(newPair(scene, space, ruleFor(rule, space)));
         }
         change(spec().kind == SchemeSpec::Kind::baseline ? newBaseline(scene, chosen(*first_))
@@ -184,11 +192,11 @@ void SchemeEditor::rebuild() {
         fields.push_back({step, place() + "/step", {}, {}});
     }
     if (s.kind != SchemeSpec::Kind::baseline)
-        fields.push_back({choiceField("method", "solver", {"auto", "newton", "fixed-point"},
-                                      "How the equations of a step are solved."),
-                          place() + "/solver/method",
-                          {},
-                          {}});
+        fields.push_back(
+            {choiceField("method", "solver", solverMethods(s), "How the equations of a step are solved."),
+             place() + "/solver/method",
+             {},
+             {}});
     addComposition(fields);
     form_->setFields(std::move(fields));
 }
@@ -196,7 +204,7 @@ void SchemeEditor::rebuild() {
 /// Symmetric schemes with fixed steps can be composed.
 void SchemeEditor::addComposition(std::vector<FormField>& fields) const {
     const SchemeSpec& s = spec();
-    if (s.tolerance || !innerClaimsOf(s).isSymmetric) return;
+    if (s.tolerance || !resolve(s).claims.isSymmetric) return;
     std::vector<std::string> choices = idsOf(compositionCatalog());
     choices.insert(choices.begin(), "none");
     const FieldInfo type = choiceField("composition", "composed", std::move(choices),
@@ -214,8 +222,10 @@ void SchemeEditor::changeKind(int kind) {
     const Scene& scene = workspace_.scene();
     if (kind == static_cast<int>(spec().kind)) return;
     if (kind == 0) {
-        const Settings space = spaceOf(pairSpace(scene), 2);
-        return change(newPair(scene, space, ruleFor("gauss", space)));
+        const ChoiceGrid grid = choicesFor(scene);
+        if (const ChoiceGrid::Cell* choice = nearestChoice(grid, "gauss", 2))
+            change(newPair(scene, choice->discretization.space, choice->discretization.quadrature));
+        return;
     }
     const auto firstOf = [](const std::vector<CatalogItem>& items, const char* wish) {
         const bool hasWish =

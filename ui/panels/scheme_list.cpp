@@ -8,7 +8,6 @@
 #include <QVBoxLayout>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/family/elliptic/elliptic.hpp"
 #include "engine/family/scheme.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/panels/format.hpp"
@@ -55,21 +54,22 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
 
 void SchemeList::fillAddMenu() {
     addMenu_->clear();
-    const std::string spaceId = pairSpace(workspace_.scene());
+    const ChoiceGrid grid = choicesFor(workspace_.scene());
     QMenu* pairs = addMenu_->addMenu(tr("Space × quadrature"));
-    pairs->menuAction()->setVisible(
-        !isElliptic({spaceId, {}, {}}));  // all of its discretizations are named schemes
-    for (const char* rule : {"gauss", "lobatto", "radau", "clenshaw-curtis"}) {
-        if (!pairs->menuAction()->isVisible()) break;
-        QMenu* sub = pairs->addMenu(ruleTitle(rule));
-        for (int degree = 1; degree <= 8; ++degree) {
-            const Settings space = spaceOf(spaceId, degree), quadrature = ruleFor(rule, space);
-            const PairProperties known = describe(space, quadrature);
+    pairs->menuAction()->setVisible(!grid.columns.empty());
+    for (std::size_t column = 0; column < grid.columns.size(); ++column) {
+        QMenu* sub = pairs->addMenu(QString::fromStdString(grid.columns[column].description));
+        for (std::size_t row = 0; row < grid.rows.size(); ++row) {
+            const Discretization& made = grid.cells[row * grid.columns.size() + column].discretization;
+            const Properties known = describe(made);
             if (!known.refusal.empty()) continue;
-            QString text = tr("degree %1, order %2").arg(degree).arg(known.claims.order);
+            QString text =
+                tr("%1, order %2").arg(QString::fromStdString(known.space)).arg(known.claims.order);
             if (!known.knownAs.empty()) text += QStringLiteral(" – ") + QString::fromStdString(known.knownAs);
-            sub->addAction(text, this, [=, this] { add(newPair(workspace_.scene(), space, quadrature)); });
+            sub->addAction(text, this,
+                           [=, this] { add(newPair(workspace_.scene(), made.space, made.quadrature)); });
         }
+        sub->menuAction()->setVisible(!sub->isEmpty());
     }
     QMenu* named = addMenu_->addMenu(tr("Named scheme"));
     for (const SchemeEntry* fitting : fittingSchemes(workspace_.scene())) {

@@ -29,10 +29,10 @@ void ValuesTable::show(const std::vector<const Figure*>& figures, double t, cons
     std::vector<int> styles;
     std::vector<const Figure*> shown;
     for (const Figure* f : figures) {
-        if (!f->x.isTime || f->series.empty()) continue;
+        if (!f->x.isTime || f->series().empty()) continue;
         shown.push_back(f);
         titles << QString::fromStdString(f->y.title);
-        for (const Series& s : f->series)
+        for (const Series& s : f->series())
             if (const QString label = QString::fromStdString(s.label); !schemes.contains(label)) {
                 schemes << label;
                 styles.push_back(s.style);
@@ -47,7 +47,7 @@ void ValuesTable::show(const std::vector<const Figure*>& figures, double t, cons
         verticalHeaderItem(row)->setForeground(color);
         for (int column = 0; column < columnCount(); ++column) {
             QString text;
-            for (const Series& s : shown[static_cast<std::size_t>(column)]->series)
+            for (const Series& s : shown[static_cast<std::size_t>(column)]->series())
                 if (QString::fromStdString(s.label) == schemes[row])
                     if (const auto p = pointAt(s, t)) text = shortNumber(p->second, 6);
             if (!item(row, column)) setItem(row, column, new QTableWidgetItem);

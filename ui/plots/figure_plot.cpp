@@ -63,7 +63,7 @@ void makeScalesEqual(ViewState& view, QSize pixels) {
 
 /// The marks of failures stand above the curves: the fitted range leaves them up to a third of the height.
 void makeRoomForMarks(FigurePlot::Shared& s, int height) {
-    const auto count = static_cast<double>(s.figure.failures.size());
+    const auto count = static_cast<double>(s.figure.all<FailureMark>().size());
     if (count == 0 || !s.figure.x.isTime || height <= 0) return;
     const double share = std::min(0.33, 22 * count / height);
     const PlotRange r = toPlotRange(s.figure.y.range);
@@ -131,9 +131,9 @@ void FigurePlot::prepare(QSize size) {
     styleAxis(x, s.theme, isSmall);
     styleAxis(y, s.theme, isSmall);
     for (QCPAxis* axis : {&x, &y}) {
-        axis->setTicks(s.figure.hasTicks);
-        axis->setTickLabels(s.figure.hasTicks);
-        if (!s.figure.hasTicks) axis->setBasePen(Qt::NoPen);
+        axis->setTicks(s.figure.axes == AxisStyle::scales);
+        axis->setTickLabels(s.figure.axes == AxisStyle::scales);
+        if (s.figure.axes == AxisStyle::none) axis->setBasePen(Qt::NoPen);
     }
     x.setLabel(QString::fromStdString(s.figure.x.title));
     y.setLabel(QString::fromStdString(s.figure.y.title));
@@ -160,15 +160,15 @@ void FigurePlot::prepare(QSize size) {
         };
         x.setTicker(ticker(s.figure.x, xRoom, x.range().size() / std::max(1.0, width)));
         y.setTicker(ticker(s.figure.y, yRoom, y.range().size() / std::max(1.0, height)));
-        x.grid()->setVisible(s.figure.hasTicks && s.figure.x.ticks.empty());
-        y.grid()->setVisible(s.figure.hasTicks && s.figure.y.ticks.empty());
+        x.grid()->setVisible(s.figure.axes == AxisStyle::scales && s.figure.x.ticks.empty());
+        y.grid()->setVisible(s.figure.axes == AxisStyle::scales && s.figure.y.ticks.empty());
         s.plot.plotLayout()->update(QCPLayoutElement::upPreparation);
         s.plot.plotLayout()->update(QCPLayoutElement::upMargins);
         s.plot.plotLayout()->update(QCPLayoutElement::upLayout);
     };
     apply(size.width() - 80, size.height() - 50);  // a guess, only to measure the margins
     const QRect rect = s.plot.axisRect()->rect();
-    if (s.figure.hasEqualScales && rect.width() > 0 && rect.height() > 0)
+    if (s.figure.aspect == Aspect::equal && rect.width() > 0 && rect.height() > 0)
         makeScalesEqual(s.view, rect.size());
     makeRoomForMarks(s, rect.height());
     apply(rect.width(), rect.height());
@@ -186,7 +186,8 @@ struct Rows {
 };
 
 Rows rowsNear(const Series& s, const PixelMap& map, double pixel, double reach) {
-    if (s.isCurve || s.hasMarkers) return {0, s.x.size(), std::max<std::size_t>(1, s.x.size() / 50000)};
+    if (s.kind == SeriesKind::curve || hasMarks(s.kind))
+        return {0, s.x.size(), std::max<std::size_t>(1, s.x.size() / 50000)};
     const auto low = std::lower_bound(s.x.begin(), s.x.end(), map.xAt(pixel - reach));
     const auto high = std::upper_bound(low, s.x.end(), map.xAt(pixel + reach));
     const auto from = static_cast<std::size_t>(low - s.x.begin()),
@@ -200,8 +201,8 @@ Rows rowsNear(const Series& s, const PixelMap& map, double pixel, double reach) 
 std::optional<FigurePlot::Hit> FigurePlot::hit(QPointF pixel, double reach) const {
     const PixelMap map = pixelMap();
     std::optional<Hit> best;
-    for (std::size_t i = 0; i < shared_->figure.series.size(); ++i) {
-        const Series& s = shared_->figure.series[i];
+    for (std::size_t i = 0; i < shared_->figure.series().size(); ++i) {
+        const Series& s = shared_->figure.series()[i];
         if (!shared_->isShown(s)) continue;
         const Rows rows = rowsNear(s, map, pixel.x(), reach);
         for (std::size_t r = rows.from; r < rows.to; r += rows.step) {

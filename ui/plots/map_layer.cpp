@@ -40,14 +40,14 @@ std::vector<int> decadesOf(const HeatMap& heat, double height, double each) {
 }  // namespace
 
 int scaleWidth(const Figure& figure, const Theme& theme) {
-    if (!figure.heat || figure.heat->scale.empty()) return 0;
+    if (!figure.heat() || figure.heat()->scale.empty()) return 0;
     const QFontMetricsF metrics(scaleFont(theme));
     return static_cast<int>(barLeft + barWidth + tickLength + 3 + metrics.horizontalAdvance(powerOfTen(-10)) +
                             metrics.height() + 5);
 }
 
 void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared) {
-    const HeatMap& heat = *shared.figure.heat;
+    const HeatMap& heat = *shared.figure.heat();
     const QPointF corner = map(heat.left, heat.top), opposite = map(heat.right, heat.bottom);
     const auto edge = [](double from, double to, int i, int count) {
         return std::round(from + (to - from) * i / count);
@@ -74,7 +74,7 @@ void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Sh
 }
 
 void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared) {
-    const HeatMap& heat = *shared.figure.heat;
+    const HeatMap& heat = *shared.figure.heat();
     const Theme& theme = shared.theme;
     const QFont font = scaleFont(theme);
     const QFontMetricsF metrics(font);

@@ -1,5 +1,5 @@
-/// The colour of a phase, the same on the stage and in carpets: once around the circle in a turn, of even
-/// brightness enough for both themes.
+/// The colour of a phase, the same on the stage and in space-time plots: once around the circle in a turn, of
+/// even brightness enough for both themes.
 #pragma once
 
 #include <array>

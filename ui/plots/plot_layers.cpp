@@ -92,7 +92,7 @@ void CurvesLayer::draw(QCPPainter* painter) {
     drawFloor(*painter, map);
     drawGuides(*painter, map);
     const Series* highlighted = nullptr;
-    for (const Series& s : shared_.figure.series) {
+    for (const Series& s : shared_.figure.series()) {
         if (!shared_.isShown(s)) continue;
         if (QString::fromStdString(s.label) == shared_.highlighted)
             highlighted = &s;
@@ -107,9 +107,9 @@ void CurvesLayer::draw(QCPPainter* painter) {
 double CurvesLayer::hiddenBy(const QRectF& box, const PixelMap& map) const {
     constexpr double spacing = 5;
     double hidden = 0;
-    for (const Series& s : shared_.figure.series) {
+    for (const Series& s : shared_.figure.series()) {
         const std::size_t stride = s.x.size() / 4000 + 1;
-        for (std::size_t i = stride; i < s.x.size() && shared_.isShown(s) && s.hasLine; i += stride) {
+        for (std::size_t i = stride; i < s.x.size() && shared_.isShown(s) && hasLine(s.kind); i += stride) {
             const QPointF from = map(s.x[i - stride], s.y[i - stride]), to = map(s.x[i], s.y[i]);
             const double length = std::hypot(to.x() - from.x(), to.y() - from.y());
             if (!std::isfinite(length)) continue;
@@ -129,8 +129,8 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
     const QFontMetricsF metrics(font);
     double topRight = map.rect.top() + 4, topLeft = topRight, bottomRight = map.rect.bottom() - 4,
            bottomLeft = bottomRight;
-    for (const Series& s : shared_.figure.series) {
-        const bool isTitled = s.style == exactStyle && shared_.figure.series.size() == 1;
+    for (const Series& s : shared_.figure.series()) {
+        const bool isTitled = s.style == exactStyle && shared_.figure.series().size() == 1;
         if (s.style >= 0 || isTitled || map.rect.width() < 100) continue;
         const QString text = metrics.elidedText(QString::fromStdString(s.label), Qt::ElideRight,
                                                 map.rect.width() - sample - gap - 2 * edge - 8);
@@ -145,7 +145,7 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
                                     QRectF(QPointF(left, bottomLeft - size.height()), size)};
         std::size_t corner = 0;
         for (std::size_t i = 1; i < 4; ++i)
-            if ((i != 1 || shared_.figure.failures.empty()) &&
+            if ((i != 1 || shared_.figure.all<FailureMark>().empty()) &&
                 hiddenBy(boxes[i], map) < hiddenBy(boxes[corner], map) - 1)
                 corner = i;
         const QRectF box = boxes[corner];
@@ -170,7 +170,7 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
 
 /// One pixel a cell, stretched: from the ground of the plot at `low` to full colour at `high`.
 void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
-    const auto& heat = shared_.figure.heat;
+    const auto& heat = shared_.figure.heat();
     if (!heat || heat->columns <= 0 || heat->rows <= 0) return;
     if (!heat->scale.empty()) return drawMapCells(painter, map, shared_);
     QImage image(heat->columns, heat->rows, QImage::Format_RGB32);
@@ -207,23 +207,24 @@ void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
 
 void CurvesLayer::drawFloor(QCPPainter& painter, const PixelMap& map) const {
     const auto level = [&](double value) { return map(map.x.low, value).y(); };
-    if (const auto& below = shared_.figure.doubtfulBelow; below && *below > map.y.low) {
+    if (const auto* band = shared_.figure.find<DoubtfulBand>(); band && band->top > map.y.low) {
         QColor tint = shared_.theme.muted;
         tint.setAlphaF(0.07f);
-        const double top = std::max(level(*below), map.rect.top());
+        const double top = std::max(level(band->top), map.rect.top());
         painter.fillRect(QRectF(map.rect.left(), top, map.rect.width(), map.rect.bottom() - top), tint);
     }
-    if (const auto& floor = shared_.figure.floor; floor && *floor > map.y.low && *floor < map.y.high) {
+    if (const auto* floor = shared_.figure.find<RoundOffFloor>();
+        floor && floor->y > map.y.low && floor->y < map.y.high) {
         painter.setPen(QPen(shared_.theme.muted, 1, Qt::DotLine));
         painter.setOpacity(0.6);
-        const double y = std::round(level(*floor)) + 0.5;
+        const double y = std::round(level(floor->y)) + 0.5;
         painter.drawLine(QPointF(map.rect.left(), y), QPointF(map.rect.right(), y));
         painter.setOpacity(1);
     }
 }
 
 void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
-    for (const Guide& guide : shared_.figure.guides) {
+    for (const Guide& guide : shared_.figure.all<Guide>()) {
         const QPen pen(guide.isStrong ? shared_.theme.muted : shared_.theme.line, 1, Qt::SolidLine,
                        Qt::FlatCap, Qt::BevelJoin);
         for (const QPolygonF& line : visiblePolylines(guide.x, guide.y, map, true, shared_.density))
@@ -231,7 +232,7 @@ void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
     }
     painter.setFont(shared_.theme.caption());
     painter.setPen(shared_.theme.muted);
-    for (const Label& label : shared_.figure.labels) {
+    for (const Label& label : shared_.figure.all<Label>()) {
         const QPointF at = map(label.x, label.y);
         painter.drawText(QRectF(at.x() - 40, at.y() - 12, 80, 24), Qt::AlignCenter,
                          QString::fromStdString(label.text));
@@ -241,20 +242,21 @@ void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
 void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const {
     const SeriesStyle style = shared_.theme.series(series.style);
     const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
-    const QColor color = series.isPale ? shared_.theme.pale(shared_.colorOf(series.style), paleLine)
-                                       : shared_.colorOf(series.style);
-    if (series.hasLine) {
+    const QColor color = series.tone == Tone::pale
+                             ? shared_.theme.pale(shared_.colorOf(series.style), paleLine)
+                             : shared_.colorOf(series.style);
+    if (hasLine(series.kind)) {
         const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
         if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
         for (const QPolygonF& line :
-             visiblePolylines(series.x, series.y, map, series.isCurve, shared_.density))
+             visiblePolylines(series.x, series.y, map, series.kind == SeriesKind::curve, shared_.density))
             drawPieces(painter, pen, line);
     }
-    if (series.isCells) drawCells(painter, map, series);
-    if (series.hasMarkers) {
+    if (series.kind == SeriesKind::cells) drawCells(painter, map, series);
+    if (hasMarks(series.kind)) {
         constexpr std::size_t few = 100;  // more are dots: a cloud, not points to be told apart
-        const bool isCloud = series.x.size() > few && !series.hasLine;
+        const bool isCloud = series.x.size() > few && !hasLine(series.kind);
         painter.setPen(isCloud ? QPen(Qt::NoPen) : QPen(shared_.theme.panel, 1.2));
         painter.setBrush(color);
         const double radius = (isCloud ? 1.7 : 4.5) + (isHighlighted ? 1 : 0) * (isCloud ? 0.6 : 1.5);
@@ -271,7 +273,7 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
 /// Unit squares with a hairline between them where there is room.
 void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const {
     QColor color = shared_.colorOf(series.style);
-    if (series.isHollow) color = shared_.theme.pale(color, 40);
+    if (series.tone == Tone::pale) color = shared_.theme.pale(color, 40);
     const double side = std::abs(map(1, 0).x() - map(0, 0).x()), gap = side > 5 ? 0.5 : 0;
     for (std::size_t i = 0; i < series.x.size(); ++i) {
         const QRectF cell =
@@ -284,7 +286,7 @@ void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Seri
 void MarksLayer::draw(QCPPainter* painter) {
     const PixelMap map = shared_.map();
     drawFailures(*painter, map);
-    if (shared_.figure.heat && !shared_.figure.heat->scale.empty()) drawMapScale(*painter, map, shared_);
+    if (shared_.figure.heat() && !shared_.figure.heat()->scale.empty()) drawMapScale(*painter, map, shared_);
     if (shared_.figure.message.empty()) return;
     painter->setFont(shared_.theme.caption());
     painter->setPen(shared_.theme.muted);
@@ -294,8 +296,8 @@ void MarksLayer::draw(QCPPainter* painter) {
 
 /// The last point of a scheme's curve that is inside the plot.
 std::optional<QPointF> MarksLayer::endOfCurve(const std::string& label, const PixelMap& map) const {
-    for (const Series& s : shared_.figure.series) {
-        if (s.label != label || !s.isCurve) continue;
+    for (const Series& s : shared_.figure.series()) {
+        if (s.label != label || s.kind != SeriesKind::curve) continue;
         for (std::size_t i = s.x.size(); i-- > 0;)
             if (const QPointF p = map(s.x[i], s.y[i]); map.rect.contains(p)) return p;
     }
@@ -306,7 +308,7 @@ void MarksLayer::drawFailures(QCPPainter& painter, const PixelMap& map) const {
     const Theme& theme = shared_.theme;
     const QFont font = small(theme);
     double top = map.rect.top() + 2;
-    for (const FailureMark& f : shared_.figure.failures) {
+    for (const FailureMark& f : shared_.figure.all<FailureMark>()) {
         const QString label = QString::fromStdString(f.label);
         if (shared_.hidden.contains(label)) continue;
         QPointF cross(map.rect.left() + 8, top + 9);
@@ -374,7 +376,7 @@ void CursorLayer::drawCursor(QCPPainter& painter, const PixelMap& map, double t,
                      theme.text);
         }
     }
-    for (const Series& s : shared_.figure.series) {
+    for (const Series& s : shared_.figure.series()) {
         if (!shared_.isShown(s) || (!shared_.figure.x.isTime && s.t.empty())) continue;
         const auto value = pointAt(s, t);
         if (!value) continue;

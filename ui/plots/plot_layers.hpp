@@ -54,8 +54,8 @@ protected:
     void applyDefaultAntialiasingHint(QCPPainter* painter) const override { painter->setAntialiasing(true); }
     QRect clipRect() const override {
         const QRect rect = shared_.plot.axisRect()->rect().adjusted(-8, -8, 8, 8);
-        return shared_.figure.heat ? rect.adjusted(0, 0, shared_.plot.axisRect()->margins().right(), 0)
-                                   : rect;
+        return shared_.figure.heat() ? rect.adjusted(0, 0, shared_.plot.axisRect()->margins().right(), 0)
+                                     : rect;
     }
     void draw(QCPPainter* painter) override;
 

@@ -56,8 +56,9 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     const QFontMetricsF metrics(font);
     const double rowHeight = std::ceil(metrics.height()) + 3, sample = 26, gap = 6, space = 16;
     double x = rect.left(), y = rect.top();
-    for (const Series& s : figure.series) {
-        if (s.isCells || s.style < 0) continue;  // named by the title, and in the plot itself
+    for (const Series& s : figure.series()) {
+        if (s.kind == SeriesKind::cells || s.style < 0)
+            continue;  // named by the title, and in the plot itself
         const QString label = metrics.elidedText(QString::fromStdString(seriesName(s)), Qt::ElideRight,
                                                  rect.width() - sample - gap);
         const double width = sample + gap + metrics.horizontalAdvance(label);
@@ -67,15 +68,15 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         if (painter) {
             const SeriesStyle style = theme.series(s.style);
-            QPen pen(s.isPale ? theme.pale(style.color, paleLine) : style.color, 1.8, Qt::SolidLine,
-                     Qt::FlatCap);
+            QPen pen(s.tone == Tone::pale ? theme.pale(style.color, paleLine) : style.color, 1.8,
+                     Qt::SolidLine, Qt::FlatCap);
             if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
             const double middle = y + metrics.height() / 2;
-            if (s.hasLine) {
+            if (hasLine(s.kind)) {
                 painter->setPen(pen);
                 painter->drawLine(QPointF(x, middle), QPointF(x + sample, middle));
             }
-            if (s.hasMarkers) {
+            if (hasMarks(s.kind)) {
                 painter->setPen(Qt::NoPen);
                 painter->setBrush(style.color);
                 painter->drawEllipse(QPointF(x + sample / 2, middle), 4, 4);
@@ -87,8 +88,9 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         x += width + space;
     }
-    const bool isNamed = std::any_of(figure.series.begin(), figure.series.end(),
-                                     [](const Series& s) { return !s.isCells && s.style >= 0; });
+    const bool isNamed = std::any_of(figure.series().begin(), figure.series().end(), [](const Series& s) {
+        return s.kind != SeriesKind::cells && s.style >= 0;
+    });
     return isNamed ? y + rowHeight - rect.top() : 0;
 }
 

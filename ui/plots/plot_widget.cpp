@@ -53,7 +53,7 @@ struct PlotWidget::Impl {
                                 valueAtPixel(map, PlotAxis::y, pixel));
     }
     QRectF rectOf(const HeatCell& cell) const {
-        const HeatMap& heat = *content->figure().heat;
+        const HeatMap& heat = *content->figure().heat();
         const PixelMap map = content->pixelMap();
         const QPointF corner = map(heat.left, heat.bottom), opposite = map(heat.right, heat.top);
         const double width = (opposite.x() - corner.x()) / heat.columns,
@@ -301,7 +301,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                     clearHover();
                     return true;
                 }
-                const Series& series = figure().series[hit->series];
+                const Series& series = figure().series()[hit->series];
                 c.hoverText = QStringLiteral("%1\n%2, %3")
                                   .arg(QString::fromStdString(seriesName(series)))
                                   .arg(series.x[hit->row], 0, 'g', 6)
@@ -336,8 +336,8 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 if (const auto cell = s.cellAt(mouse->position()))
                     emit cellChosen(cell->x, cell->y);
                 else if (const auto hit = s.content->hit(mouse->position(), hoverReach);
-                         hit && figure().series[hit->series].style >= 0)
-                    emit pointClicked(figure().series[hit->series].style);
+                         hit && figure().series()[hit->series].style >= 0)
+                    emit pointClicked(figure().series()[hit->series].style);
                 if (s.isTime() && map.rect.contains(mouse->position()))
                     emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));
             }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "engine/scene/view_axes.hpp"
+#include "engine/view/axes.hpp"
 
 namespace extremal {
 namespace {

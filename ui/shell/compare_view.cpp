@@ -11,7 +11,7 @@
 #include "engine/core/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
-#include "engine/scene/view_axes.hpp"
+#include "engine/view/axes.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
@@ -208,10 +208,9 @@ void CompareView::refresh() {
     stage_->setTime(playback_.time());
     if (!results) return;
     if (!(systemModel_ == results->scene.model) || system_.id.empty()) {
-        system_ = makeSystem(results->scene);
+        system_ = results->system ? *results->system : makeSystem(results->scene);
         systemModel_ = results->scene.model;
-        if (const bool draws = !kindOf<BoundaryProblem>(system_);
-            draws != hasStage_) {  // nothing moves there
+        if (const bool draws = system_.independent == "t"; draws != hasStage_) {  // nothing moves along a place
             hasStage_ = draws;
             columns_ = 0;
             arrange();

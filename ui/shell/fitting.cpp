@@ -1,40 +1,19 @@
 #include "ui/shell/fitting.hpp"
 
+#include <cstdlib>
+
 #include "engine/baseline/catalog.hpp"
-#include "engine/core/problem.hpp"
 #include "engine/family/scheme.hpp"
-#include "engine/family/wave/wave.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/space/catalog.hpp"
 
 namespace extremal {
-namespace {
-
-/// Where H is a full matrix there are few ways, and their makers know; a trial costs little with at most 512
-/// modes.
-bool isForBoundary(const BaselineEntry& e, const System& system) {
-    if (!hasFullMatrix(system)) return true;
-    Settings settings{e.item.id, {}, {}};
-    for (const FieldInfo& f : e.item.parameters) settings.keys.emplace_back(f.key, f.firstValue());
-    try {
-        (void)e.make(system, {{0, 1e-9}, 0, 0, settings});
-    } catch (const InvalidScene&) {
-        return false;
-    }
-    return true;
-}
-
-bool isForBoundary(const Discretization& pair, const System& system) {
-    return !isBetweenWalls(system) || pair.space.text("form") != "three-level";
-}
-
-}  // namespace
 
 std::vector<CatalogItem> fittingSpaces(const Scene& scene) {
     const System system = makeSystem(scene);
     std::vector<CatalogItem> items;
-    for (const SpaceEntry& e : spaceEntries())
-        if (appliesTo(e, system)) items.push_back(e.item);
+    for (const Family& family : families())
+        if (family.applies(system))
+            for (const SpaceEntry& e : family.spaces) items.push_back(e.item);
     return items;
 }
 
@@ -42,7 +21,7 @@ std::vector<const BaselineEntry*> fittingBaselines(const Scene& scene) {
     const System system = makeSystem(scene);
     std::vector<const BaselineEntry*> entries;
     for (const BaselineEntry& e : baselineCatalog())
-        if (appliesTo(e, system) && isForBoundary(e, system)) entries.push_back(&e);
+        if (canIntegrate(e, system)) entries.push_back(&e);
     return entries;
 }
 
@@ -50,17 +29,29 @@ std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene) {
     const System system = makeSystem(scene);
     std::vector<const SchemeEntry*> entries;
     for (const SchemeEntry& e : schemeCatalog())
-        if (const Discretization pair = e.make(e.minDegree);
-            isPairFor(pair, system) && isForBoundary(pair, system))
-            entries.push_back(&e);
+        if (isFor(e.make(e.minDegree), system)) entries.push_back(&e);
     return entries;
 }
 
-std::string pairSpace(const Scene& scene) {
-    const std::vector<CatalogItem> items = fittingSpaces(scene);
-    for (const CatalogItem& item : items)
-        if (item.id == "polynomial") return item.id;
-    return items.empty() ? "polynomial" : items.front().id;
+ChoiceGrid choicesFor(const Scene& scene) {
+    const System system = makeSystem(scene);
+    const Family* const family = familyFor(system);
+    return family ? family->choices(system) : ChoiceGrid{};
+}
+
+const ChoiceGrid::Cell* nearestChoice(const ChoiceGrid& grid, const std::string& rule, int degree) {
+    const ChoiceGrid::Cell* best = nullptr;
+    int least = 0;
+    for (const ChoiceGrid::Cell& cell : grid.cells) {
+        const auto& [space, quadrature, solver] = cell.discretization;
+        if (!describe(cell.discretization).refusal.empty()) continue;
+        const int distance =
+            std::abs(space.integer("degree") - degree) + (quadrature.type == rule ? 0 : 1000);
+        if (best && distance >= least) continue;
+        best = &cell;
+        least = distance;
+    }
+    return best;
 }
 
 }  // namespace extremal

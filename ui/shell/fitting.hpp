@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/core/catalog.hpp"
+#include "engine/family/choices.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace extremal {
@@ -16,8 +17,10 @@ std::vector<CatalogItem> fittingSpaces(const Scene& scene);
 std::vector<const BaselineEntry*> fittingBaselines(const Scene& scene);
 std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene);
 
-/// The id of the space that pairs are made of: polynomial for models with coordinates, lie-polynomial for
-/// bodies.
-std::string pairSpace(const Scene& scene);
+/// What the discretizer offers for the scene's model.
+ChoiceGrid choicesFor(const Scene& scene);
+/// The choice with this rule and the nearest degree, else the nearest degree with any rule; null where there
+/// is none.
+const ChoiceGrid::Cell* nearestChoice(const ChoiceGrid& grid, const std::string& rule, int degree);
 
 }  // namespace extremal

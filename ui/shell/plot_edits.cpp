@@ -15,11 +15,12 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/figure/view.hpp"
+#include "engine/figure/figure.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
-#include "engine/scene/view_axes.hpp"
 #include "engine/scene/view_choices.hpp"
+#include "engine/view/axes.hpp"
+#include "engine/view/catalog.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/workspace.hpp"

@@ -165,7 +165,8 @@ void RunControl::start() {
     retire();
     notices_.dismiss("offer");
     try {
-        run_ = std::make_unique<Run>(workspace_.scene());
+        run_ = std::make_unique<Run>(workspace_.scene(),
+                                     RunOptions{.products = {Product::denseOutput}});  // of the stage
         run_->start();
         notices_.dismiss("run");
     } catch (const InvalidScene& error) {

@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
-#include "engine/figure/view.hpp"
-#include "engine/family/elliptic/elliptic.hpp"
+#include "engine/view/catalog.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/quadrature/catalog.hpp"
-#include "engine/quadrature/tensor.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/map_grid.hpp"
-#include "engine/space/catalog.hpp"
 #include "ui/shell/fitting.hpp"
 
 namespace extremal {
@@ -54,14 +52,29 @@ Value settingsTree(const Settings& settings) {
 }
 
 std::string pairLabel(const Settings& space, const Settings& quadrature) {
-    const PairProperties known = describe(space, quadrature);
+    const Properties known = describe(space, quadrature);
     if (!known.knownAs.empty()) return known.knownAs;
     const CatalogItem* rule = itemOf(quadratureCatalog(), quadrature.type);
-    const std::string prefix = space.type == "lie-polynomial" ? "Lie " : "";
-    return prefix + (rule ? rule->title : quadrature.type) + " " + std::to_string(known.claims.order);
+    return known.prefix + (rule ? rule->title : quadrature.type) + " " + std::to_string(known.claims.order);
+}
+
+/// The length of an element follows from their number.
+bool hasImpliedStep(const Settings& space) {
+    const Family* const family = familyOf(space);
+    return family && family->impliedStep;
 }
 
 std::string place(int index) { return "/schemes/" + std::to_string(index); }
+
+/// The same space, degree, rule, nodes and panels.
+bool areSame(const Discretization& a, const Discretization& b) {
+    const auto same = [&](const Settings& one, const Settings& other, const char* key) {
+        return std::max(1, one.integer(key)) == std::max(1, other.integer(key));
+    };
+    return a.space.type == b.space.type && same(a.space, b.space, "degree") &&
+           a.quadrature.type == b.quadrature.type && same(a.quadrature, b.quadrature, "nodes") &&
+           same(a.quadrature, b.quadrature, "panels");
+}
 
 }  // namespace
 
@@ -88,11 +101,11 @@ std::string uniqueLabel(const Scene& scene, const std::string& wish) {
 }
 
 Value newPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
-    const PairProperties known = describe(space, quadrature);
+    const Properties known = describe(space, quadrature);
     Value scheme{Value::Object{}};
     scheme.set("label", uniqueLabel(scene, pairLabel(space, quadrature)));
-    // The step of finite elements is one over their number.
-    if (!isElliptic(space)) scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
+    if (!hasImpliedStep(space))
+        scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
     scheme.set("space", settingsTree(space));
     // Panels that follow the cells of the space are left to do so when these are edited.
     Settings rule = quadrature;
@@ -118,9 +131,9 @@ Value newBaseline(const Scene& scene, const std::string& id) {
 Value newNamed(const Scene& scene, const std::string& id) {
     Value scheme{Value::Object{}};
     const auto pair = namedScheme(id);
-    const PairProperties known = pair ? describe(pair->space, pair->quadrature) : PairProperties{};
+    const Properties known = pair ? describe(pair->space, pair->quadrature) : Properties{};
     scheme.set("label", uniqueLabel(scene, id));
-    if (!pair || !isElliptic(pair->space))
+    if (!pair || !hasImpliedStep(pair->space))
         scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
     scheme.set("scheme", id);
     return scheme;
@@ -177,23 +190,25 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
     next.model.type = entry.item.id;
     for (const FieldInfo& f : entry.item.parameters) next.model.keys.emplace_back(f.key, f.firstValue());
     const System system = entry.make(next.model);
+    const Family* const family = familyFor(system);
+    const ChoiceGrid choices = family ? family->choices(system) : ChoiceGrid{};
     next.end.value = entry.exampleEnd;
     Value::Array schemes;
     const Value document = toValue(scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const SchemeSpec& spec = scene.schemes[i];
-        const auto pair = innerPairOf(spec);
+        const auto pair = discretizationOf(spec);
         const BaselineEntry* baseline = findBaseline(spec.baseline.type);
-        const bool fits = pair ? isPairFor(*pair, system) : baseline && appliesTo(*baseline, system);
+        const bool fits = pair ? isFor(*pair, system) : baseline && appliesTo(*baseline, system);
         if (!fits && !pair) continue;
         Value scheme = fits ? document.find("schemes")->asArray()[i] : Value();
-        if (!fits && (isElliptic(pair->space) || kindOf<BoundaryProblem>(system)) && !schemes.empty())
-            continue;  // one stands for all
         if (!fits) {
-            const std::string space = pairSpace(next);
-            const int degree = isElliptic(pair->space) ? 2 : std::min(pair->space.integer("degree"), 8);
-            const Settings fitting = spaceOf(space, degree);
-            scheme = newPair(next, fitting, ruleFor(pair->quadrature.type, fitting));
+            const ChoiceGrid::Cell* const choice = nearestChoice(
+                choices, pair->quadrature.type, std::clamp(pair->space.integer("degree"), 2, 8));
+            const bool areElements =
+                hasImpliedStep(pair->space) || (choice && hasImpliedStep(choice->discretization.space));
+            if (!choice || (areElements && !schemes.empty())) continue;  // one stands for all
+            scheme = newPair(next, choice->discretization.space, choice->discretization.quadrature);
         }
         if (spec.step.value > 0 && scheme.find("step"))
             scheme.set("step", roundStep(spec.step.value * scale * 1.0001));
@@ -202,10 +217,8 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
         next.schemes.back().label = scheme.find("label")->asString();
         schemes.push_back(std::move(scheme));
     }
-    if (schemes.empty()) {
-        const Settings space = spaceOf(pairSpace(next), 2);
-        schemes.push_back(newPair(next, space, ruleFor("gauss", space)));
-    }
+    if (const ChoiceGrid::Cell* choice = nearestChoice(choices, "gauss", 2); choice && schemes.empty())
+        schemes.push_back(newPair(next, choice->discretization.space, choice->discretization.quadrature));
     edits.push_back({"/schemes", std::move(schemes)});
     const bool isOfOldModel = scene.reference.kind == ReferenceSpec::Kind::exact ||
                               scene.reference.kind == ReferenceSpec::Kind::file;
@@ -223,19 +236,14 @@ std::vector<Edit> editsForCase(const Scene& scene, const View& view, double valu
 
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
-        const auto pair = pairOf(scene.schemes[i]);
-        if (!pair) continue;
-        const Settings &s = pair->space, &q = pair->quadrature;
-        if (isElliptic(s) && isElliptic(space)) {
-            if (s.text("functions") == space.text("functions") &&
-                std::lround(1 / scene.schemes[i].step.value) == space.integer("elements"))
-                return static_cast<int>(i);
-            continue;
-        }
-        if (s.type == space.type && s.integer("degree") == space.integer("degree") &&
-            q.type == quadrature.type && q.integer("nodes") == quadrature.integer("nodes") &&
-            std::max(1, q.integer("panels")) == std::max(1, quadrature.integer("panels")))
-            return static_cast<int>(i);
+        const ResolvedScheme scheme = resolve(scene.schemes[i]);
+        const Discretization* const plain = scheme.plain();
+        const Family* const family = scheme.family;
+        if (!plain || family != familyOf(space)) continue;
+        const Discretization wanted{space, quadrature, {}};
+        const bool isSame =
+            family->isSame ? family->isSame(*plain, scheme.spec.step.value, wanted) : areSame(*plain, wanted);
+        if (isSame) return static_cast<int>(i);
     }
     return -1;
 }
@@ -266,15 +274,15 @@ Settings spaceOf(const std::string& id, int degree) {
 }
 
 std::string fittingRule(const std::string& rule, const Settings& space) {
-    if (isElliptic(space)) return "auto";
-    if (isTensorRule({rule, {}, {}})) return fittingRule("gauss", space);
-    const bool isFast = space.type == "oscillatory", isForFast = rule == "auto" || rule.starts_with("filon-");
-    if (isFast) return isForFast || rule == "gauss" || rule == "lobatto" ? rule : "auto";
-    return isForFast ? "gauss" : rule;
+    const Family* const family = familyOf(space);
+    if (!family) return rule;
+    const std::vector<std::string> fitting = family->rules(space);
+    const bool fits = std::find(fitting.begin(), fitting.end(), rule) != fitting.end();
+    return fits || fitting.empty() ? rule : fitting.front();
 }
 
 Settings ruleFor(const std::string& id, const Settings& space) {
-    const CatalogItem* item = itemOf(quadratureCatalog(), isElliptic(space) ? "auto" : id);
+    const CatalogItem* item = itemOf(quadratureCatalog(), id);
     return completeQuadrature(space, item ? withDefaults(*item) : Settings{});
 }
 

@@ -40,14 +40,12 @@ std::vector<Edit> editsForCase(const Scene& scene, const View& view, double valu
 /// The scheme that is this pair (same space and rule), or -1.
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 
-/// The settings of a pair of the discretizer, with every default filled in.
 /// Shows a view, with what it observes, or hides it.
 std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown);
 
 /// A space of the catalogue with its defaults and this degree.
 Settings spaceOf(const std::string& id, int degree);
-/// The rule, if a space of this kind goes with it, else the usual one of the space: Filon rules and "auto"
-/// are for oscillatory spaces, which seldom go with a plain rule of few nodes.
+/// The rule, if a space of this kind goes with it, else the usual one of the space.
 std::string fittingRule(const std::string& rule, const Settings& space);
 /// A rule of the catalogue as it fits the space.
 Settings ruleFor(const std::string& id, const Settings& space);

@@ -4,11 +4,11 @@
 #include <QMenu>
 #include <QMessageBox>
 
-#include "engine/figure/view.hpp"
-#include "engine/observe/catalog.hpp"
 #include "engine/run/export.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
+#include "engine/scene/view_choices.hpp"
+#include "engine/view/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
@@ -105,10 +105,11 @@ void MainWindow::fillPlots(QMenu& menu) {
     const Scene& scene = workspace_->scene();
     const System system = makeSystem(scene);
     for (const ViewEntry& entry : viewEntries()) {
-        if (!entry.make || entry.item.id == "work-precision") continue;  // that one is always there
+        if (!entry.isPlot() || entry.item.id == "work-precision") continue;  // that one is always there
         const std::string id = entry.item.id;
-        const ObservableEntry* needed = findObservable(entry.observable);
-        if (needed && !appliesTo(*needed, system)) continue;
+        if (!missingFor({id, "", ""}, system).empty()) continue;
+        const auto isShowable = [&](const SchemeSpec& s) { return unsuitableFor(entry, resolve(s)).empty(); };
+        if (std::none_of(scene.schemes.begin(), scene.schemes.end(), isShowable)) continue;
         if (id == mapView && !canBeMapped(scene, system)) continue;
         const bool isShown =
             std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == id; });

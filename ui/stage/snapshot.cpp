@@ -10,8 +10,8 @@
 
 #include "engine/core/text.hpp"
 #include "engine/figure/figure.hpp"
-#include "engine/figure/view.hpp"
 #include "engine/model/system.hpp"
+#include "engine/view/catalog.hpp"
 #include "ui/plots/plot_renderer.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/stage/image_compare.hpp"
@@ -62,9 +62,13 @@ void checkView(const Scene& scene, const std::string& name) {
         throw SnapshotError(Kind::unusable, "--view", "there is no view \"" + name + "\"",
                             suggestName(name, names));
     }
-    if (name == "stage" && !hasPicture(scene))
-        throw SnapshotError(Kind::unusable, "--view", "the model " + scene.model.type + " has no stage",
-                            "choose another view; extremal list views shows them");
+    const System system = findModel(scene.model.type)->make(scene.model);
+    const bool isInScene =
+        std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == name; });
+    if (const std::string missing = isInScene ? "" : missingFor({name, "", ""}, system); !missing.empty())
+        throw SnapshotError(
+            Kind::unusable, "--view", name + " is not defined for " + scene.model.type,
+            "it needs " + missing + "; " + scene.model.type + " has " + joinNames(viewsOf(system)));
     const ViewEntry* entry = findView(name);
     if (entry && !entry->observable.empty() &&
         std::find(scene.observe.begin(), scene.observe.end(), entry->observable) == scene.observe.end())
@@ -109,6 +113,24 @@ SnapshotPage pageOf(std::shared_ptr<const Comparison> comparison, const Snapshot
     if (request.time) page.cursor = page.time;
     page.comparison = std::move(comparison);
     return page;
+}
+
+/// A page of messages is no picture, unless they tell of a failure.
+void checkThatSomethingIsDrawn(const Comparison& comparison, const std::vector<View>& views) {
+    for (const auto& scheme : comparison.schemes)
+        if (scheme->summary.status != RunStatus::done) return;
+    const ModelEntry* model = findModel(comparison.scene.model.type);
+    const System system = model ? model->make(comparison.scene.model) : System{};
+    std::string messages;
+    for (const View& view : views) {
+        if (view.id == "stage" && !comparison.schemes.empty()) return;
+        if (view.id == "stage") continue;
+        const Figure figure = makeFigure(comparison, view, &system);
+        if (!isEmpty(figure)) return;
+        messages += (messages.empty() ? "" : "; ") + view.id + ": " + figure.message;
+    }
+    throw SnapshotError(Kind::unusable, "--view", "nothing of what was asked for can be drawn",
+                        comparison.schemes.empty() ? "no scheme is switched on" : messages);
 }
 
 void writePng(const QImage& image, const QString& file) {
@@ -182,6 +204,7 @@ SnapshotResult makeSnapshot(std::shared_ptr<const Comparison> comparison, const 
     const bool isVector = !request.file.endsWith(QLatin1String(".png"), Qt::CaseInsensitive);
     const QString title = QString::fromStdString(comparison->scene.title);
     const SnapshotPage page = pageOf(comparison, request, isVector);
+    checkThatSomethingIsDrawn(*comparison, page.views);
     SnapshotResult result;
     result.time = page.time;
     try {

@@ -45,7 +45,7 @@ Figure legendOf(const Comparison& comparison) {
         Series series;
         series.label = scheme->spec.label;
         series.style = scheme->style;
-        figure.series.push_back(std::move(series));
+        figure.add(std::move(series));
     }
     return figure;
 }

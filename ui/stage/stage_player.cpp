@@ -167,10 +167,11 @@ void StagePlayer::prepareInset() {
 void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
     if (!result) return;
     if (system_.field) {
-        if (result->frames.empty()) return;
+        const FieldFrames* frames = result->products.find<FieldFrames>();
+        if (!frames || frames->all.empty()) return;
         Track track;
         track.result = result;
-        for (const Frame& frame : result->frames) track.frameTimes.push_back(frame.t);
+        for (const Frame& frame : frames->all) track.frameTimes.push_back(frame.t);
         track.t = track.frameTimes;
         track.hasFailed = result->summary.status == RunStatus::failed;
         tracks_.push_back(std::move(track));  // the times stay where they are
@@ -178,7 +179,9 @@ void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
     }
     const std::size_t width = stateColumns(system_).size();
     // If there are few steps, along their dense output.
-    const Trajectory& from = result->curve.columns.size() > width ? result->curve : result->trajectory;
+    const DenseOutput* dense = result->products.find<DenseOutput>();
+    const Trajectory& from =
+        dense && dense->points.columns.size() > width ? dense->points : result->trajectory;
     const auto& columns = from.columns;
     if (columns.size() < 1 + width) return;
     std::size_t rows = from.rows();
@@ -199,7 +202,7 @@ void StagePlayer::addTrack(const std::shared_ptr<const SchemeResult>& result) {
 
 void StagePlayer::rowState(const Track& track, std::size_t row, std::vector<double>& x) const {
     if (!track.frameTimes.empty()) {
-        x = *track.result->frames[row].values;
+        x = *track.result->products.find<FieldFrames>()->all[row].values;
         return;
     }
     x.resize(track.state.size());

@@ -18,10 +18,7 @@ BaselineEntry crank_nicolson() {
     e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) {
-        Discretization pair;
-        pair.space = {"fourier", {{"degree", 1.0}, {"energy_shift", 0.0}}, {}};
-        pair.quadrature = {"gauss", {{"nodes", 1.0}, {"panels", 1.0}}, {}};
-        return makeWaveIntegrator(system, pair, {options.start.t, options.step});
+        return makeGaussWave(system, 1, 0, options.step);
     };
     return e;
 }

@@ -16,15 +16,17 @@ BaselineEntry leapfrog() {
               "a wave function"};
     e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = 1;
+    e.check = [](const SchemeCase& scheme, Findings& findings) {
+        checkWaveLimit(1, waveFrequency(scheme.system, 0), scheme.step, scheme.allowsUnstable, findings);
+    };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline", "leapfrog needs a potential that does not depend on t", "strang");
         requirePeriodic(system, "/baseline", "leapfrog",
                         "schrodinger-gauss-8, crank-nicolson or chebyshev-propagation");
-        const Settings space{"fourier", {{"degree", 2.0}}, {}};
         return makeThreeLevelWave(
             system.hamiltonian(), options.step, 0,
-            {0, WaveStart::gauss, planWave(system, space, {}, options.step).solver, 1e-14, 600});
+            {0, WaveStart::gauss, planWave(system, 2, {}, options.step).solver, 1e-14, 600});
     };
     return e;
 }

@@ -49,30 +49,12 @@ private:
 
 }  // namespace
 
-bool isElliptic(const Settings& space) { return space.type == "elliptic-elements"; }
-
-PairProperties describeElliptic(const Settings& space) {
-    const bool isLinear = space.text("functions") == "linear";
-    PairProperties p;
-    p.claims.order = isLinear ? 2 : 0;
-    p.curveOrder = 2;
-    p.knownAs = isLinear ? "linear elements" : "multiscale elements";
-    p.shortName = isLinear ? "P1" : "MsFEM";
-    p.stabilityLimit = std::numeric_limits<double>::infinity();
-    return p;
-}
-
 std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
-                                                   const Clock& clock) {
-    if (!kindOf<BoundaryProblem>(system))
-        throw InvalidScene(
-            "/space/type",
-            "elliptic-elements are for the model multiscale-elliptic, and " + system.id + " is another",
-            "take polynomial");
-    const double n = std::round(1 / clock.step);
-    if (!(n >= 2 && n <= 1e5) || clock.start != 0 || std::abs(n * clock.step - 1) > 1e-9)
+                                                   double step) {
+    const double n = std::round(1 / step);
+    if (!(n >= 2 && n <= 1e5) || std::abs(n * step - 1) > 1e-9)
         throw InvalidScene("/step",
-                           "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(clock.step),
+                           "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(step),
                            "leave it out: it is 1/elements");
     const bool isLinear = pair.space.text("functions") == "linear";
     return std::make_unique<Elliptic>(*std::get<BoundaryProblem>(system.kind).problem, static_cast<int>(n),

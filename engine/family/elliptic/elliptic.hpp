@@ -4,16 +4,13 @@
 
 #include <memory>
 
-#include "engine/family/scheme.hpp"
+#include "engine/family/family.hpp"
 
 namespace extremal {
-
-bool isElliptic(const Settings& space);
-PairProperties describeElliptic(const Settings& space);
 
 /// Throws InvalidScene (pointer relative to the scheme) where the system is none, or the step no whole part
 /// of 1.
 std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
-                                                   const Clock& clock);
+                                                   double step);
 
 }  // namespace extremal

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/family/galerkin/table_of.hpp"
+#include "engine/family/family.hpp"
+#include "engine/family/table_of.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
 
 namespace extremal {
@@ -13,7 +14,7 @@ namespace {
 /// Positions of the exact motion at equal times from the start to h: nodes of a far finer run.
 Eigen::MatrixXd exactPath(const System& system, const State& start, double h) {
     constexpr int pieces = 16;
-    const auto integrator = makeIntegrator(system, trustedPair(system), Clock{start.t, h / pieces});
+    const auto integrator = trustedIntegrator(system, start, h / pieces);
     const int d = system.dimension();
     Eigen::MatrixXd path(d, pieces + 1);
     State state = start;
@@ -82,10 +83,6 @@ ActionDefect actionDefect(const System& system, const Discretization& pair, doub
                           ExactActions& exact, const std::stop_token& stop) {
     constexpr int mostSteps = 20;
     ActionDefect result;
-    if (!hasOneTable(pair.space)) {
-        result.failure = "its functions change with the step";
-        return result;
-    }
     const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(pair.space, pair.quadrature));
     for (int i = 0; i < mostSteps && !stop.stop_requested(); ++i) {
         const ExactActions::Entry known = exact.at(i);

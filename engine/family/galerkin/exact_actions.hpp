@@ -39,7 +39,7 @@ private:
     std::vector<std::unique_ptr<Entry>> entries_;
 };
 
-/// Over at most 20 steps.
+/// Over at most 20 steps; of a pair that has one table (table_of.hpp).
 ActionDefect actionDefect(const System& system, const Discretization& pair, double startTime,
                           ExactActions& exact, const std::stop_token& stop);
 

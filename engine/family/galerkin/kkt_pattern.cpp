@@ -7,7 +7,8 @@
 
 #include "engine/action/saddle_point.hpp"
 #include "engine/core/outcome.hpp"
-#include "engine/family/galerkin/table_of.hpp"
+#include "engine/family/family.hpp"
+#include "engine/family/table_of.hpp"
 #include "engine/solve/multipliers.hpp"
 
 namespace extremal {
@@ -60,10 +61,6 @@ void countSupports(const Table<double>& table, KktPattern& p) {
 
 KktPattern kktPattern(const System& system, const Discretization& pair, const State& start, double step) {
     KktPattern p;
-    if (!hasOneTable(pair.space)) {
-        p.failure = "each coordinate has functions of its own, which change with the step";
-        return p;
-    }
     const Table<double> table = tableOf(pair.space, pair.quadrature);
     const int d = system.dimension(), each = d * (table.space.size + 1);
     p.dimension = d;

@@ -36,7 +36,8 @@ struct KktPattern {
     std::string failure;   ///< why there is nothing to show; empty if there is
 };
 
-/// Elements are as many as make a matrix of at most some hundred rows, 1 to 4.
+/// Of a pair that has one table (table_of.hpp). Elements are as many as make a matrix of at most some hundred
+/// rows, 1 to 4.
 KktPattern kktPattern(const System& system, const Discretization& pair, const State& start, double step);
 
 }  // namespace extremal

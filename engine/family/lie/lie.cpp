@@ -2,9 +2,10 @@
 
 #include <utility>
 
-#include "engine/core/problem.hpp"
 #include "engine/family/lie/lie_step_build.hpp"
-#include "engine/family/galerkin/table_of.hpp"
+#include "engine/core/memo_cache.hpp"
+#include "engine/integrator/condensed.hpp"
+#include "engine/space/polynomial.hpp"
 
 namespace extremal {
 namespace {
@@ -65,22 +66,23 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair,
-                                              const Clock& clock, const SolverPolicy& policy) {
-    if (!isBody(system))
-        throw InvalidScene("/space/type", "lie-polynomial needs a rigid body, and " + system.id + " is none",
-                           "take polynomial");
-    if (policy.method == SolverMethod::fixedPoint)
-        throw InvalidScene("/solver/method", "lie-polynomial is solved by Newton's method alone",
-                           "use newton or auto");
-    const Table<double> table = tableOf(pair.space, pair.quadrature);
+Table<double> lieTable(const Settings& space, const Settings& quadrature) {
+    static MemoCache<std::pair<Settings, Settings>, Table<double>> known(64);
+    return known.get({space, quadrature}, [&] {
+        return makeTable(polynomialSpace<double>(space.integer("degree"), PolynomialBasis::lobatto),
+                         makeRule<double>(quadrature));
+    });
+}
+
+std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair, double step) {
+    const SolverPolicy policy = solverPolicy(pair.solver, system);
+    const Table<double> table = lieTable(pair.space, pair.quadrature);
     const bool isReduced = pair.space.flag("reduced"), isSymmetrised = pair.space.flag("symmetric");
     const BodyMechanics<double>& body = system.body();
     if (body.dimension == 3)
-        return std::make_unique<Lie<RotationGroup<double>>>(body, table, clock.step, isReduced, isSymmetrised,
+        return std::make_unique<Lie<RotationGroup<double>>>(body, table, step, isReduced, isSymmetrised,
                                                             policy);
-    return std::make_unique<Lie<MotionGroup<double>>>(body, table, clock.step, isReduced, isSymmetrised,
-                                                      policy);
+    return std::make_unique<Lie<MotionGroup<double>>>(body, table, step, isReduced, isSymmetrised, policy);
 }
 
 }  // namespace extremal

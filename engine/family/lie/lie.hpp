@@ -4,13 +4,15 @@
 
 #include <memory>
 
-#include "engine/integrator/galerkin_step.hpp"
-#include "engine/family/scheme.hpp"
+#include "engine/action/table.hpp"
+#include "engine/family/family.hpp"
 
 namespace extremal {
 
-/// Throws InvalidScene (pointer relative to the scheme) where the system is no body.
-std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair,
-                                              const Clock& clock, const SolverPolicy& policy);
+std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair, double step);
+
+/// The table of the polynomials that xi is made of. Throws InvalidScene where space and rule do not go
+/// together.
+Table<double> lieTable(const Settings& space, const Settings& quadrature);
 
 }  // namespace extremal

@@ -57,7 +57,7 @@ double estimateFrequency(const System& system, const State& start) {
     };
     if (!(linear > 0)) throw none();
     const double step = 2 * std::acos(-1.0) / (linear * stepsPerPeriod);
-    const auto integrator = makeIntegrator(system, trustedPair(system), Clock{start.t, step});
+    const auto integrator = trustedIntegrator(system, start, step);
     const int k = fastestCoordinate(system, start);
     State state = start;
     state.node = 0;

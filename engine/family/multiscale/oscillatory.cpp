@@ -275,14 +275,15 @@ Settings completeOscillatoryRule(const Settings& space, const Settings& quadratu
     return completeRule(q, demand);
 }
 
-PairProperties describeOscillatory(const Settings& space, const Settings& quadrature) {
-    PairProperties p;
+Properties describeOscillatory(const Settings& space, const Settings& quadrature) {
+    Properties p;
     const RuleEntry* const rule = findRule(quadrature.type);
     p.claims.isSymmetric = rule && rule->isSymmetric;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"momentum"};
     p.stabilityLimit = std::numeric_limits<double>::infinity();
     // No order: the error depends on the step, on the periods in it, and on the harmonics that are left out.
+    p.space = "slow polynomials and harmonics of a fast frequency";
     p.knownAs = "multiscale";
     p.shortName = "MS";
     try {

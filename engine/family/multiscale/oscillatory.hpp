@@ -40,7 +40,7 @@ std::vector<Table<double>> oscillatoryTables(const System& system, const Discret
 /// The default keys of a rule, which follow from the highest degree D and harmonic H: a Filon grid has D + 2
 /// nodes and 2 K + 2 phases, K = 2 H + 1; "auto" stays what it is until the step is known.
 Settings completeOscillatoryRule(const Settings& space, const Settings& quadrature);
-PairProperties describeOscillatory(const Settings& space, const Settings& quadrature);
+Properties describeOscillatory(const Settings& space, const Settings& quadrature);
 
 /// The frequency of the fastest motion from a state on: of some periods of a resolved run, whose fastest
 /// coordinate is fitted by a cubic and (cos wt, sin wt): amplitudes that change would hide a part of w. The

@@ -365,11 +365,12 @@ Settings completeProductRule(const Settings&, const Settings& quadrature) {
     return completeOscillatoryRule({"oscillatory", {}, {}}, quadrature);
 }
 
-PairProperties describeProduct(const Settings&, const Settings& quadrature) {
-    PairProperties p;
+Properties describeProduct(const Settings&, const Settings& quadrature) {
+    Properties p;
     p.claims.isSymmetric = false;
     p.claims.isSymplectic = true;
     p.stabilityLimit = std::numeric_limits<double>::infinity();
+    p.space = "slow polynomials times one oscillation";
     p.knownAs = "product form";
     p.shortName = "MS*";
     p.caution =

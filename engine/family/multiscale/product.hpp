@@ -28,7 +28,7 @@
 namespace extremal {
 
 bool isProduct(const Settings& space);
-PairProperties describeProduct(const Settings& space, const Settings& quadrature);
+Properties describeProduct(const Settings& space, const Settings& quadrature);
 Settings completeProductRule(const Settings& space, const Settings& quadrature);
 
 /// Throws InvalidScene (pointer relative to the scheme) where a rule does not resolve the oscillation.

@@ -10,7 +10,6 @@
 #include "engine/family/wave/wave_slabs.hpp"
 #include "engine/family/wave/wave_step.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
-#include "engine/quadrature/catalog.hpp"
 #include "engine/solve/banded_poles.hpp"
 #include "engine/model/wave/eigen.hpp"
 
@@ -81,37 +80,6 @@ void checkSolver(WaveSolver solver, const Hamiltonian& h) {
                            "auto or krylov");
 }
 
-PairProperties describeThreeLevel(const Settings& space, const Settings& quadrature) {
-    PairProperties p;
-    if (space.integer("degree") != 1) {
-        p.refusal = "the three-level form has degree 1, got " + std::to_string(space.integer("degree"));
-        p.hint = "degree 1, or the one-step form";
-        return p;
-    }
-    if (const RuleEntry* rule = findRule(quadrature.type);
-        rule && !rule->make && quadrature.type != "exact") {
-        p.refusal = rule->refusal;
-        p.hint = "exact, trapezoid or midpoint";
-        return p;
-    }
-    const double alpha = threeLevelAlpha(quadrature);
-    const bool isExact = alpha == 1.0 / 6,
-               isSymmetric = quadrature.type == "exact" || makeRule<double>(quadrature).isSymmetric;
-    p.claims = {isExact && space.text("start") != "variational" ? 4 : 2, true, true, {"bilinear form"}};
-    p.claims.isOneStep = false;
-    p.curveOrder = p.claims.order;
-    p.shortName = "3L" + std::to_string(p.claims.order);
-    p.knownAs = isExact ? "Milne-Simpson" : alpha == 0 ? "leapfrog" : "";
-    p.isExplicit = alpha == 0;
-    p.stabilityLimit = threeLevelLimit(alpha);
-    if (!isSymmetric || !(alpha >= 0 && alpha <= 0.25 + 1e-14)) {
-        p.refusal =
-            "the three-level form takes symmetric rules with a weight of 0 to 1/4 on the outer levels";
-        p.hint = "exact, trapezoid or midpoint";
-    }
-    return p;
-}
-
 }  // namespace
 
 bool isBetweenWalls(const System& system) { return isWave(system) && !system.hamiltonian()->isPeriodic(); }
@@ -135,9 +103,8 @@ void requireSplit(const System& system, const std::string& pointer, const std::s
             hint);
 }
 
-WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step) {
+WavePlan planWave(const System& system, int degree, const Settings& solver, double step) {
     const Hamiltonian& h = *system.hamiltonian();
-    const int degree = space.integer("degree");
     WavePlan plan;
     for (const WaveSolver s : {WaveSolver::banded, WaveSolver::dense, WaveSolver::krylov})
         if (solver.type == name(s)) {
@@ -162,7 +129,7 @@ WavePlan planWave(const System& system, const Settings& space, const Settings& s
 
 Discretization withShift(const Discretization& pair, const System& system, const State& start) {
     Discretization known = pair;
-    if (!isWaveSpace(pair.space) || !isWave(system) || !std::isnan(shiftOf(pair.space))) return known;
+    if (!std::isnan(shiftOf(pair.space))) return known;
     const double shift = meanEnergy(*system.hamiltonian(), start);
     for (auto& [key, value] : known.space.keys)
         if (key == "energy_shift") {
@@ -174,9 +141,13 @@ Discretization withShift(const Discretization& pair, const System& system, const
 }
 
 double waveFrequency(const System& system, const Settings& space, const State& start) {
+    const double shift = shiftOf(space);
+    if (!std::isnan(shift)) return waveFrequency(system, shift);
+    return waveFrequency(system, system.hamiltonian()->energy(start.t, coefficients(start.x.data())));
+}
+
+double waveFrequency(const System& system, double shift) {
     const Hamiltonian& h = *system.hamiltonian();
-    double shift = shiftOf(space);
-    if (std::isnan(shift)) shift = h.energy(start.t, coefficients(start.x.data()));
     double low = h.lowest(), high = h.highest();
     if (h.size() <= Eigenstates::denseLimit && !h.isTimeDependent()) {
         const auto& energies = Eigenstates::of(system.hamiltonian())->energies();
@@ -227,17 +198,12 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair,
-                                               const Clock& clock) {
-    if (!isWave(system))
-        throw InvalidScene("/space/type",
-                           pair.space.type + " needs a wave function, and " + system.id + " has none",
-                           "another space: extremal list spaces");
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, double h) {
     const int slabs = std::max(1, pair.space.integer("slabs"));
     if (pair.space.text("time_basis") == "chebyshev")
         requireSplit(system, "/space/time_basis", "chebyshev", "legendre");
-    const WavePlan plan = planWave(system, pair.space, pair.solver, clock.step / slabs);
-    const double step = clock.step / slabs;
+    const WavePlan plan = planWave(system, pair.space.integer("degree"), pair.solver, h / slabs);
+    const double step = h / slabs;
     const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
     auto made = isChebyshev ? makeCollocationWave(system.hamiltonian(), step, shiftOf(pair.space),
                                                   chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
@@ -247,35 +213,26 @@ std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discr
                                      (plan.isForced ? " as wanted, about " : ", about ") +
                                      duration(slabs * plan.microseconds) + " a step");
     if (slabs == 1) return made;
-    return makeSlabs(std::move(made), slabs);
+    return makeSlabs(std::move(made), slabs, h);
 }
 
-PairProperties describeWave(const Settings& space, const Settings& quadrature) {
-    PairProperties p;
-    const int s = space.integer("degree");
-    if (space.text("form") == "three-level") return describeThreeLevel(space, quadrature);
-    p.claims = {2 * s, true, true, {"norm", "energy"}};
-    p.curveOrder = 2 * s;
-    p.shortName = "G" + std::to_string(2 * s);
-    p.knownAs = s == 1 ? "Crank-Nicolson" : "";
-    p.stabilityLimit = std::numeric_limits<double>::infinity();
-    if (space.text("time_basis") == "chebyshev") {
-        // The interpolatory rule of s symmetric nodes; as a space it is tested at its own nodes, whatever the
-        // rule.
-        p.claims.order = s + s % 2;
-        p.curveOrder = s;
-        p.claims.conserves = {"norm"};
-        p.claims.isSymplectic = false;
-        p.shortName = "C" + std::to_string(p.claims.order);
-    }
-    const bool isGauss =
-        quadrature.type == "gauss" && quadrature.integer("nodes") == s && quadrature.integer("panels") <= 1;
-    if (!isGauss) {
-        p.refusal = "the one-step form of degree " + std::to_string(s) + " takes Gauss with " +
-                    std::to_string(s) + (s == 1 ? " node" : " nodes");
-        p.hint = "quadrature auto";
-    }
-    return p;
+std::unique_ptr<Integrator> makeGaussWave(const System& system, int degree, double shift, double step) {
+    const Settings space{"fourier", {{"degree", static_cast<double>(degree)}, {"energy_shift", shift}}, {}};
+    return makeWaveIntegrator(system, {space, completeQuadrature(space, {}), {}}, step);
+}
+
+void checkWaveLimit(double limit, double frequency, double h, bool allowsUnstable, Findings& findings) {
+    const double longest = limit / frequency;
+    if (!std::isfinite(limit) || !(limit > 0) || !(h > longest)) return;
+    const std::string message = formatNumber(h) + " is beyond the stability limit " +
+                                formatNumber(longest, 6) + ": the phase of the largest energy advances by " +
+                                formatNumber(h * frequency, 4) + " per step, the limit is " +
+                                formatNumber(limit, 4);
+    if (allowsUnstable)
+        findings.warning("/step", message);
+    else
+        findings.error("/step", message,
+                       "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true");
 }
 
 }  // namespace extremal

@@ -18,7 +18,7 @@
 #include <memory>
 #include <string>
 
-#include "engine/family/scheme.hpp"
+#include "engine/family/family.hpp"
 
 namespace extremal {
 
@@ -46,22 +46,24 @@ struct WavePlan {
     double microseconds = 0;  ///< predicted, a step
 };
 /// Throws InvalidScene (pointer relative to the scheme) where a forced solver cannot be used.
-WavePlan planWave(const System& system, const Settings& space, const Settings& solver, double step);
+WavePlan planWave(const System& system, int degree, const Settings& solver, double step);
 
 /// Largest |E - Ec|/hbar: what the stability limit of a three-level scheme counts. By the eigenstates up to
 /// 512 modes, else by the bounds of kinetic and potential energy.
 double waveFrequency(const System& system, const Settings& space, const State& start);
+/// The same with energies counted from `shift`.
+double waveFrequency(const System& system, double shift);
+
+/// Gauss(degree) with energies counted from `shift`, solved in the way that costs least.
+std::unique_ptr<Integrator> makeGaussWave(const System& system, int degree, double shift, double step);
 
 /// The pair with the energy shift "mean" as a number, that of the start of a run. Other pairs as they are.
 Discretization withShift(const Discretization& pair, const System& system, const State& start);
 
-std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair,
-                                               const Clock& clock);
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, double step);
 
-/// What is known of a pair with the space fourier before it runs.
-PairProperties describeWave(const Settings& space, const Settings& quadrature);
-inline bool isWaveSpace(const Settings& space) {
-    return space.type == "fourier" || space.type == "space-time";
-}
+/// Findings of a step beyond the limit of a three-level scheme, step * frequency <= limit: it is known
+/// exactly, so that this is an error.
+void checkWaveLimit(double limit, double frequency, double step, bool allowsUnstable, Findings& findings);
 
 }  // namespace extremal

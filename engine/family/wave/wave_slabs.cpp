@@ -10,8 +10,8 @@ namespace {
 
 class Slabs final : public Integrator {
 public:
-    Slabs(std::unique_ptr<Integrator> slab, int slabs)
-        : slabs_(slabs), h_(slab->stepSize() * slabs), slab_(std::move(slab)) {}
+    Slabs(std::unique_ptr<Integrator> slab, int slabs, double step)
+        : slabs_(slabs), h_(step), slab_(std::move(slab)) {}
     Slabs(const Slabs& other)
         : Integrator(other),
           slabs_(other.slabs_),
@@ -73,8 +73,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeSlabs(std::unique_ptr<Integrator> slab, int slabs) {
-    return std::make_unique<Slabs>(std::move(slab), slabs);
+std::unique_ptr<Integrator> makeSlabs(std::unique_ptr<Integrator> slab, int slabs, double step) {
+    return std::make_unique<Slabs>(std::move(slab), slabs, step);
 }
 
 Rule<double> chebyshevRoots(int n) {

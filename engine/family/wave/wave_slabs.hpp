@@ -12,8 +12,8 @@
 
 namespace extremal {
 
-/// Steps of as many of `slab`'s steps.
-std::unique_ptr<Integrator> makeSlabs(std::unique_ptr<Integrator> slab, int slabs);
+/// Steps of as many of `slab`'s steps, which are step/slabs.
+std::unique_ptr<Integrator> makeSlabs(std::unique_ptr<Integrator> slab, int slabs, double step);
 
 /// n Chebyshev roots in [0, 1], as a rule whose nodes alone count.
 Rule<double> chebyshevRoots(int n);

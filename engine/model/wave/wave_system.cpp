@@ -21,6 +21,7 @@ using Shared = std::shared_ptr<const Hamiltonian>;
 ErrorMeasure errorOf(int n) {
     ErrorMeasure m;
     m.columns = {{"error", "", "‖ψ - ψ ref‖", ""}};
+    m.isOfPhase = true;
     m.evaluate = [n](const double* x, const double* reference, double* values) {
         double sum = 0;
         for (int i = 0; i < 2 * n; ++i) sum += (x[i] - reference[i]) * (x[i] - reference[i]);

@@ -11,7 +11,7 @@
 #include <memory>
 
 #include "engine/family/scheme.hpp"
-#include "engine/family/galerkin/table_of.hpp"
+#include "engine/family/table_of.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/solve/multipliers.hpp"
 
@@ -62,7 +62,8 @@ ObservableEntry multiplier() {
               "the momentum.",
               {},
               {},
-              "a pair"};
+              "coordinates"};
+    e.applies = [](const System& system) { return isMechanical(system); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         const auto& coordinates = context.system.coordinates;
@@ -70,7 +71,7 @@ ObservableEntry multiplier() {
         o.columns = {{"multiplier", "|λ|", unit, {}, {}}, {"multiplier_error", "|λ - p|", unit, {}, {}}};
         for (const Coordinate& c : coordinates)
             o.columns.push_back({"multiplier." + c.name, "λ_" + c.symbol, c.momentumUnit, {}, {}});
-        if (!context.pair || !isPairFor(*context.pair, context.system) || !hasOneTable(context.pair->space)) {
+        if (!context.pair || !isFor(*context.pair, context.system) || !hasTable(context.pair->space)) {
             o.evaluate = [n = o.columns.size()](const State&, const StepReport&, double* values) {
                 std::fill_n(values, n, std::numeric_limits<double>::quiet_NaN());
             };

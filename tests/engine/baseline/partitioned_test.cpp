@@ -26,7 +26,7 @@ class PartitionedTest : public QObject {
         const State exact = fine();
         std::vector<double> h, q, p;
         for (const int n : {40, 60, 90}) {
-            const auto method = makePartitioned(polar_.mechanics(), {0, 2.0 / n}, stages);
+            const auto method = makePartitioned(polar_.mechanics(), 2.0 / n, stages);
             const State end = laws::after(*method, start_, n).value();
             h.push_back(std::log(2.0 / n));
             q.push_back(std::log(laws::distance(end.x, exact.x, 0, 2)));
@@ -51,10 +51,8 @@ private slots:
     }
     void bothFormsAreTheSameWhereSeparable() {
         const System kepler = laws::systemNamed("kepler");
-        const auto a =
-            makePartitioned(kepler.mechanics(), {0, 0.05}, partitionedStages(blanesMoanS10(), true));
-        const auto b =
-            makePartitioned(kepler.mechanics(), {0, 0.05}, partitionedStages(blanesMoanS10(), false));
+        const auto a = makePartitioned(kepler.mechanics(), 0.05, partitionedStages(blanesMoanS10(), true));
+        const auto b = makePartitioned(kepler.mechanics(), 0.05, partitionedStages(blanesMoanS10(), false));
         const State x = laws::after(*a, laws::keplerStart, 20).value(),
                     y = laws::after(*b, laws::keplerStart, 20).value();
         QVERIFY(laws::distance(x.x, y.x, 0, 4) < 1e-13);  // measured: 4e-15

@@ -17,7 +17,7 @@ Settings polynomial(int degree) {
 Settings spline(int degree, int cells) {
     return {"spline", {{"degree", static_cast<double>(degree)}, {"cells", static_cast<double>(cells)}}, {}};
 }
-PairProperties known(const Settings& space, Settings rule) {
+Properties known(const Settings& space, Settings rule) {
     return describe(space, completeQuadrature(space, rule));
 }
 Settings nodes(const char* rule, int n, int panels = 1) {
@@ -45,15 +45,15 @@ private slots:
         QCOMPARE(known(spline(4, 2), nodes("clenshaw-curtis", 6, 2)).claims.order, 6);
     }
     void tooFewNodesAreRefusedWithTheReason() {
-        const PairProperties few = known(polynomial(4), nodes("gauss", 3));
+        const Properties few = known(polynomial(4), nodes("gauss", 3));
         QVERIFY2(few.refusal.find("too few nodes (3)") != std::string::npos, few.refusal.c_str());
         QVERIFY(few.hint.find("at least 4 nodes") != std::string::npos);
-        const PairProperties placed = known(spline(1, 8), nodes("gauss", 8));
+        const Properties placed = known(spline(1, 8), nodes("gauss", 8));
         QVERIFY2(placed.refusal.find("wrong places") != std::string::npos, placed.refusal.c_str());
     }
     void rulesThatDoNotIntegrateVelocitiesAreRefused() {
         for (const int panels : {4, 5, 9}) {
-            const PairProperties p =
+            const Properties p =
                 known(polynomial(4), {"trapezoid", {{"panels", static_cast<double>(panels)}}, {}});
             QVERIFY2(p.refusal.find("free particle") != std::string::npos, p.refusal.c_str());
         }

@@ -6,7 +6,7 @@
 #include "engine/figure/build.hpp"
 #include "engine/figure/digest.hpp"
 #include "engine/figure/range.hpp"
-#include "engine/observe/catalog.hpp"
+#include "engine/view/catalog.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/tools/test.hpp"
 
@@ -40,12 +40,12 @@ private slots:
     }
     void zerosAndInfinitiesAreGapsAndCounted() {
         const Figure f = energyFigure(handmade::comparison());
-        QCOMPARE(f.series.size(), std::size_t{5});
-        QCOMPARE(f.series[0].hidden, 1);  // the error at t = 0 is zero
-        QVERIFY(std::isnan(f.series[0].y[0]));
-        QCOMPARE(f.series[4].hidden, 2);  // and the last value is infinite
-        QVERIFY(std::isnan(f.series[4].y.back()));
-        for (const Series& s : f.series)
+        QCOMPARE(f.series().size(), std::size_t{5});
+        QCOMPARE(f.series()[0].hidden, 1);  // the error at t = 0 is zero
+        QVERIFY(std::isnan(f.series()[0].y[0]));
+        QCOMPARE(f.series()[4].hidden, 2);  // and the last value is infinite
+        QVERIFY(std::isnan(f.series()[4].y.back()));
+        for (const Series& s : f.series())
             for (double v : s.y) QVERIFY(std::isnan(v) || v > 0);
     }
     void boundednessIsSeen() {
@@ -99,45 +99,45 @@ private slots:
     }
     void failuresAreMarkedWithTimeAndCause() {
         const Figure f = energyFigure(handmade::comparison());
-        QCOMPARE(f.failures.size(), std::size_t{1});
-        QCOMPARE(f.failures[0].text, "not finite at t = 0.31 s");
-        QCOMPARE(f.failures[0].style, 4);
+        QCOMPARE(f.all<FailureMark>().size(), std::size_t{1});
+        QCOMPARE(f.all<FailureMark>()[0].text, "not finite at t = 0.31 s");
+        QCOMPARE(f.all<FailureMark>()[0].style, 4);
         QVERIFY(f.summary.find("Störmer-Verlet not finite at t = 0.31 s") != std::string::npos);
     }
     void unresolvedErrorsAreMarked() {
         Comparison c = handmade::comparison();
         const System system = handmade::pendulum();
         Figure f = makeFigure(c, {"error", "", ""}, &system);
-        QCOMPARE(*f.floor, 3e-12);
-        QCOMPARE(*f.doubtfulBelow, 3e-11);
+        QCOMPARE(floorOf(f), 3e-12);
+        QCOMPARE(f.find<DoubtfulBand>()->top, 3e-11);
         QCOMPARE(f.subtitle, "reference: Gauss(12), h = 0.01, good to 3e-12");
         c.reference = {"exact", Summary::unknown, ""};
         f = makeFigure(c, {"error", "", ""}, &system);
         QCOMPARE(f.subtitle, "reference: exact");
-        QCOMPARE(*f.floor, 0x1p-52);  // |q(0)| = 1
-        QVERIFY(!f.doubtfulBelow);
+        QCOMPARE(floorOf(f), 0x1p-52);  // |q(0)| = 1
+        QVERIFY(!f.find<DoubtfulBand>());
     }
     void energyFloorIsRelativeToTheEnergy() {
-        QCOMPARE(*energyFigure(handmade::comparison()).floor, 4 * 0x1p-52);  // H(0) = -4
+        QCOMPARE(floorOf(energyFigure(handmade::comparison())), 4 * 0x1p-52);  // H(0) = -4
     }
     void costPlotHasOnePointPerFinishedScheme() {
         const Figure f = makeFigure(handmade::comparison(), {"work-precision", "", ""}, nullptr);
-        QCOMPARE(f.series.size(), std::size_t{4});
-        for (const Series& s : f.series) QVERIFY(s.x.size() == 1 && s.hasMarkers && !s.hasLine);
+        QCOMPARE(f.series().size(), std::size_t{4});
+        for (const Series& s : f.series()) QVERIFY(s.x.size() == 1 && s.kind == SeriesKind::marks);
         QVERIFY(f.x.isLog && f.y.isLog);
     }
     void fixedStepsNeedNoColumn() {
         const Figure f = makeFigure(handmade::comparison(), {"step", "", ""}, nullptr);
-        QCOMPARE(f.series[1].y, (std::vector<double>{0.02, 0.02}));
+        QCOMPARE(f.series()[1].y, (std::vector<double>{0.02, 0.02}));
     }
     void orbitsHaveEqualScales() {
         const System kepler = handmade::kepler(), pendulum = handmade::pendulum();
         const Comparison c = handmade::comparison();
-        QVERIFY(makeFigure(c, {"trajectory", "", ""}, &kepler).hasEqualScales);
-        QVERIFY(!makeFigure(c, {"trajectory", "", ""}, &pendulum).hasEqualScales);
+        QVERIFY(makeFigure(c, {"trajectory", "", ""}, &kepler).aspect == Aspect::equal);
+        QVERIFY(makeFigure(c, {"trajectory", "", ""}, &pendulum).aspect == Aspect::free);
         const Figure other = makeFigure(c, {"phase", "p.theta", "q.theta"}, &pendulum);
         QCOMPARE(other.y.title, "θ  [rad]");
-        QVERIFY(other.series[0].isCurve);
+        QVERIFY(other.series()[0].kind == SeriesKind::curve);
     }
     void emptyComparisonsSayWhatIsMissing() {
         Comparison c;
@@ -160,15 +160,42 @@ private slots:
         scene.views = {{"stage", "", ""}, {"phase", "q.x", "p.y"}};
         QCOMPARE(plotViews(scene), (std::vector<View>{{"phase", "q.x", "p.y"}}));
     }
+    void layersOfAKindKeepTheirOrder() {
+        Figure f;
+        QVERIFY(isEmpty(f) && f.series().empty() && !f.heat() && floorOf(f) == 0);
+        f.add(Guide{{0, 1}, {0, 1}});
+        for (const char* label : {"a", "b", "c"}) {
+            Series s;
+            s.label = label;
+            f.add(std::move(s));
+            f.add(Label{0, 0, label});
+        }
+        f.put(RoundOffFloor{1e-16});
+        f.put(RoundOffFloor{2e-16});  // the only one of its kind
+        QCOMPARE(f.layers.size(), std::size_t{8});
+        QCOMPARE(floorOf(f), 2e-16);
+        std::string order;
+        for (const Series& s : std::as_const(f).series()) order += s.label;
+        QCOMPARE(order, std::string("abc"));
+        QCOMPARE(f.series().at(1).label, std::string("b"));
+        QVERIFY_THROWS_EXCEPTION(std::out_of_range, f.series().at(3));
+        f.series()[1].label = "d";
+        QCOMPARE(f.series().back().label + f.series()[1].label, std::string("cd"));
+        f.drop<Label>();
+        QCOMPARE(f.layers.size(), std::size_t{5});
+        QVERIFY(!isEmpty(f));
+        f.drop<Series>();
+        QVERIFY(isEmpty(f));  // guides and a floor are no data
+    }
     void digestSeesNineDigitsAndNotMore() {
         const Comparison c = handmade::comparison();
         Figure a = energyFigure(c), b = a, d = a;
-        for (double& v : b.series[1].y) v *= 1 + 1e-14;
-        for (double& v : d.series[1].y) v *= 1 + 1e-7;
+        for (double& v : b.series()[1].y) v *= 1 + 1e-14;
+        for (double& v : d.series()[1].y) v *= 1 + 1e-7;
         QCOMPARE(digest(a), digest(b));
         QVERIFY(digest(a) != digest(d));
         d = a;
-        d.series[1].style = 2;
+        d.series()[1].style = 2;
         QVERIFY(digest(a) != digest(d));
     }
     void numbersAreShort() {

@@ -47,7 +47,7 @@ inline Comparison mapComparison() {
                 if (cell.isDone()) cell.value = std::pow(10, i + j - 10 + 2 * static_cast<int>(s));
                 map->cells.push_back(cell);
             }
-        c.maps.push_back(std::move(map));
+        c.products.make<ParameterMaps>().all.push_back(std::move(map));
     }
     return c;
 }

@@ -22,11 +22,12 @@ private slots:
     void allHaveOneScale() {
         const Figure midpoint = handmade::mapFigure("midpoint"), rk4 = handmade::mapFigure("RK4");
         QCOMPARE(midpoint.title, std::string("midpoint"));
-        QCOMPARE(midpoint.heat->low, rk4.heat->low);
-        QCOMPARE(midpoint.heat->high, rk4.heat->high);
+        QCOMPARE(midpoint.heat()->low, rk4.heat()->low);
+        QCOMPARE(midpoint.heat()->high, rk4.heat()->high);
         // Of the 53 values 1e-10 and 10 are there once: one of the two percent at either end.
-        QVERIFY(std::abs(midpoint.heat->low / 1e-9 - 1) < 1e-9 && std::abs(midpoint.heat->high - 1) < 1e-9);
-        QCOMPARE(midpoint.heat->scale, std::string("max |H − H(0)|  [J]"));
+        QVERIFY(std::abs(midpoint.heat()->low / 1e-9 - 1) < 1e-9 &&
+                std::abs(midpoint.heat()->high - 1) < 1e-9);
+        QCOMPARE(midpoint.heat()->scale, std::string("max |H − H(0)|  [J]"));
         QCOMPARE(midpoint.x.title, std::string("k  [N/m]"));
         QCOMPARE(midpoint.y.title, std::string("h  [s]"));
         QVERIFY(midpoint.x.isLog && midpoint.y.isLog);
@@ -35,9 +36,9 @@ private slots:
     }
     void theDotIsTheScene() {
         const Figure rk4 = handmade::mapFigure("RK4");
-        QCOMPARE(rk4.series.size(), std::size_t(1));
-        QCOMPARE(rk4.series[0].x, std::vector<double>{100});
-        QCOMPARE(rk4.series[0].y, std::vector<double>{0.05});
+        QCOMPARE(rk4.series().size(), std::size_t(1));
+        QCOMPARE(rk4.series()[0].x, std::vector<double>{100});
+        QCOMPARE(rk4.series()[0].y, std::vector<double>{0.05});
     }
     void cellsSayWhatTheyAre() {
         const Figure figure = handmade::mapFigure("midpoint");
@@ -68,12 +69,13 @@ private slots:
     }
     void whatBlowsUpDoesNotTakeTheScale() {
         Comparison c = handmade::mapComparison();
-        auto wild = std::make_shared<ParameterMap>(*c.maps[1]);
+        auto& maps = c.products.make<ParameterMaps>().all;
+        auto wild = std::make_shared<ParameterMap>(*maps[1]);
         wild->cells[29].value = 1e200;
-        c.maps[1] = wild;
+        maps[1] = wild;
         View view = c.scene.views[0];
         const Figure figure = makeFigure(c, view);
-        QVERIFY(figure.heat->high < 100);
+        QVERIFY(figure.heat()->high < 100);
     }
 };
 

@@ -11,7 +11,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
-#include "engine/scene/view_axes.hpp"
+#include "engine/view/axes.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/tools/test.hpp"
 
@@ -96,12 +96,12 @@ private slots:
         QCOMPARE(steps.x.title, std::string("steps"));
         QVERIFY(axesOf(scene.views[0], system).isXLog && axesOf(scene.views[0], system).variable == "n");
         QVERIFY(!axesOf(scene.views[1], system).isXLog && axesOf(scene.views[1], system).variable == "t");
-        const Series& s = steps.series.at(0);
+        const Series& s = steps.series().at(0);
         QCOMPARE(s.x.size(), std::size_t(101));
         QVERIFY(std::isnan(s.x[0]) && s.hidden == 1);  // no step yet: not on a logarithmic axis
         for (std::size_t r = 1; r < s.x.size(); ++r) {
             QCOMPARE(s.x[r], static_cast<double>(r));
-            QVERIFY(s.y[r] == time.series.at(0).y[r]);
+            QVERIFY(s.y[r] == time.series().at(0).y[r]);
         }
         QVERIFY(steps.x.range->first < 1 && steps.x.range->second > 100 && steps.x.range->second < 200);
         const auto point = pointAt(s, 6);  // a cursor in time finds its step
@@ -112,11 +112,11 @@ private slots:
         const Scene scene = sceneWith(R"([{"view": "energy", "against": "steps"}])").scene;
         const System system = makeSystem(scene);
         const Figure figure = makeFigure(run(scene), scene.views.at(0), &system);
-        const Series& chance = figure.series.back();
+        const Series& chance = figure.series().back();
         QCOMPARE(chance.style, formulaStyle);
         QVERIFY(std::abs(std::log(chance.y[1] / chance.y[0]) / std::log(chance.x[1] / chance.x[0]) - 0.5) <
                 1e-12);
-        QVERIFY(chance.x[0] == 1 && std::abs(chance.y[0] / *figure.floor - 1) < 1e-12);
+        QVERIFY(chance.x[0] == 1 && std::abs(chance.y[0] / floorOf(figure) - 1) < 1e-12);
         QVERIFY(figure.subtitle.starts_with("relative, at most: ") && figure.subtitle.ends_with("(one)"));
     }
     /// 1e-12 n over 2000 rows: the first of them, a twentieth, are half of the logarithmic axis.
@@ -177,7 +177,7 @@ private slots:
         const auto read = sceneWith(R"([{"view": "energy", "against": "steps", "curve": "1e-6*n^2"}])");
         QVERIFY(read.errors.empty());
         const System system = makeSystem(read.scene);
-        const Series curve = makeFigure(run(read.scene), read.scene.views.at(0), &system).series.back();
+        const Series curve = makeFigure(run(read.scene), read.scene.views.at(0), &system).series().back();
         QVERIFY(curve.x.size() > 4000);
         for (std::size_t i = 0; i < curve.x.size(); ++i)
             QVERIFY(std::abs(curve.y[i] / (1e-6 * curve.x[i] * curve.x[i]) - 1) < 1e-9);

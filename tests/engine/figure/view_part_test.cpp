@@ -7,11 +7,11 @@
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
 #include "engine/figure/sample.hpp"
-#include "engine/figure/view.hpp"
+#include "engine/view/catalog.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
-#include "engine/scene/view_axes.hpp"
+#include "engine/view/axes.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/tools/test.hpp"
 
@@ -43,7 +43,7 @@ private slots:
         const Comparison comparison = handmade::comparison();
         for (const System& system : {handmade::pendulum(), handmade::kepler()})
             for (const ViewEntry& entry : viewEntries()) {
-                if (!entry.make) continue;
+                if (!entry.isPlot()) continue;
                 const View view{entry.item.id, "", ""};
                 const Figure f = makeFigure(comparison, view, &system);
                 const ViewAxes axes = axesOf(view, system);
@@ -75,14 +75,14 @@ private slots:
     }
     void aLineWhosePointsAreAllOutsideCounts() {
         Figure f;
-        f.series.push_back({});
-        f.series[0].x = {0, 10};
-        f.series[0].y = {0, 100};
+        f.add({});
+        f.series()[0].x = {0, 10};
+        f.series()[0].y = {0, 100};
         View view = part("phase", {4, 6});
         fitAxes(f, view, "");
         QVERIFY(f.y.range->first > 35 && f.y.range->first < 40 && f.y.range->second > 60 &&
                 f.y.range->second < 65);
-        f.series[0].hasLine = false;  // dots are outside altogether
+        f.series()[0].kind = SeriesKind::marks;  // dots are outside altogether
         f.x.range = f.y.range = {};
         fitAxes(f, view, "");
         QCOMPARE(*f.y.range, (std::pair<double, double>{0, 1}));
@@ -92,8 +92,8 @@ private slots:
         View view = part("trajectory", {2, 4});
         view.curve = {"0.5*cos(w*t)", {{"w", 3.0}}};
         const Figure f = makeFigure(handmade::comparison(), view, &system);
-        QCOMPARE(f.series.size(), std::size_t(6));
-        const Series& s = f.series.back();
+        QCOMPARE(f.series().size(), std::size_t(6));
+        const Series& s = f.series().back();
         QVERIFY(s.style == formulaStyle && s.label == "0.5*cos(w*t)" && s.x.size() == 4001);
         QVERIFY(s.x.front() == 2 && s.x.back() == 4);
         for (std::size_t i = 0; i < s.x.size(); ++i) QCOMPARE(s.y[i], 0.5 * std::cos(3 * s.x[i]));
@@ -115,21 +115,21 @@ private slots:
         const Scene scene = readScene(findPreset("seed-elliptic")->json).scene;
         const Comparison comparison = run(scene);
         const Figure f = makeFigure(comparison, scene.views[2]);
-        QVERIFY(f.series.size() == 2 && f.subtitle == "of node 2 of 10, x = 0.2 · zoomed");
+        QVERIFY(f.series().size() == 2 && f.subtitle == "of node 2 of 10, x = 0.2 · zoomed");
         QVERIFY(f.x.range->first == 0.2 && f.x.range->second == 0.3 &&
                 std::abs(f.x.whole->first - 0.1) < 1e-15);
-        QCOMPARE(f.series[0].y[f.series[0].y.size() / 2], 1.0);
+        QCOMPARE(f.series()[0].y[f.series()[0].y.size() / 2], 1.0);
         // Where the source hardly acts the solution is a multiple of the shape function; of the hat it is
         // none.
         const Figure u = makeFigure(comparison, {"trajectory", "", "u_exact"});
-        QVERIFY(u.series.size() == 1 && u.series[0].style == exactStyle && u.y.title == "u");
+        QVERIFY(u.series().size() == 1 && u.series()[0].style == exactStyle && u.y.title == "u");
         const auto at = [](const Series& s, double x) { return pointAt(s, x)->second; };
         double apart[2] = {0, 0};
         for (double x = 0.205; x < 0.3; x += 0.005)
             for (std::size_t i = 0; i < 2; ++i) {
-                const double share = (at(u.series[0], x) - at(u.series[0], 0.3)) /
-                                     (at(u.series[0], 0.2) - at(u.series[0], 0.3));
-                apart[i] = std::max(apart[i], std::abs(share - at(f.series[i], x)));
+                const double share = (at(u.series()[0], x) - at(u.series()[0], 0.3)) /
+                                     (at(u.series()[0], 0.2) - at(u.series()[0], 0.3));
+                apart[i] = std::max(apart[i], std::abs(share - at(f.series()[i], x)));
             }
         qInfo("the solution differs from the multiscale function by %.3f, from the hat by %.3f", apart[0],
               apart[1]);
@@ -139,12 +139,12 @@ private slots:
         const System system = handmade::pendulum();
         View view{"energy", "", ""};
         view.curve = {"t-5", {}};
-        const Series onLog = makeFigure(handmade::comparison(), view, &system).series.back();
+        const Series onLog = makeFigure(handmade::comparison(), view, &system).series().back();
         QVERIFY(onLog.hidden == 2001 && std::isnan(onLog.y[2000]) && onLog.y[2001] > 0);
         view = {"trajectory", "", ""};
         view.curve = {"sqrt(t-5)", {}};
         const Figure f = makeFigure(handmade::comparison(), view, &system);
-        QVERIFY(std::isnan(f.series.back().y.front()) && std::isfinite(f.y.range->second));
+        QVERIFY(std::isnan(f.series().back().y.front()) && std::isfinite(f.y.range->second));
     }
 };
 

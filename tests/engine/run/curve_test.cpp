@@ -32,7 +32,7 @@ Off offOrbit(const std::string& scheme, double step) {
     const System system = makeSystem(scene);
     const auto exact = system.exact(initialState(scene, system));
     const Comparison c = run(scene);
-    const Trajectory& curve = c.schemes[0]->curve;
+    const Trajectory& curve = c.schemes[0]->products.find<DenseOutput>()->points;
     const Trajectory& nodes = c.schemes[0]->trajectory;
     Off off;
     const auto distance = [&](double t, double x, double y) {
@@ -72,7 +72,7 @@ private slots:
                                      views + "]}";
             const ReadScene read = readScene(std::string_view(text));
             if (!read.errors.empty()) qWarning("%s", read.errors[0].message.c_str());
-            const Trajectory curve = run(read.scene).schemes.at(0)->curve;
+            const Trajectory curve = run(read.scene).schemes.at(0)->products.find<DenseOutput>()->points;
             const auto t = curve["t"];
             return std::pair{t.size(), std::count_if(t.begin(), t.end(),
                                                      [](double at) { return at > 0.501 && at < 0.599; })};
@@ -93,7 +93,10 @@ private slots:
                 R"_(},"initial":{"q":["0.05*sqrt(1e4/k)",1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":)_" +
                 step +
                 R"(,"scheme":"multiscale-r2"}],"reference":"none","observe":["energy"],"views":["trajectory"]})";
-            return run(readScene(std::string_view(text)).scene).schemes.at(0)->curve;
+            return run(readScene(std::string_view(text)).scene)
+                .schemes.at(0)
+                ->products.find<DenseOutput>()
+                ->points;
         };
         // 15.9 periods a step, 16 points each: as many zeros as the spring has, two a period.
         const Trajectory resolved = curveOf("1e6", "0.1");
@@ -125,26 +128,27 @@ private slots:
         const Scene scene = kepler("galerkin-gauss-4", 0.5, 6);
         const Comparison c = run(scene);
         const Figure f = makeFigure(c, {"trajectory", "", ""});
-        QCOMPARE(f.series[0].x.size(), c.schemes[0]->curve.rows());
-        QVERIFY(f.series[0].x.size() > 10 * c.schemes[0]->trajectory.rows());
-        QCOMPARE(f.series[0].t.size(), f.series[0].x.size());
+        QCOMPARE(f.series()[0].x.size(), c.schemes[0]->products.find<DenseOutput>()->points.rows());
+        QVERIFY(f.series()[0].x.size() > 10 * c.schemes[0]->trajectory.rows());
+        QCOMPARE(f.series()[0].t.size(), f.series()[0].x.size());
     }
     void errorsAlongTheCurveAreShownBesideThoseAtNodes() {
         Scene scene = kepler("galerkin-gauss-4", 0.1, 0.5);  // before phase errors grow
         scene.observe = {"error"};
         scene.views = {{"curve-error", "", ""}};
         const Comparison c = run(scene);
-        const std::span<const double> error = c.schemes[0]->curve["error"];
-        QCOMPARE(error.size(), c.schemes[0]->curve.rows());
+        const std::span<const double> error = c.schemes[0]->products.find<DenseOutput>()->points["error"];
+        QCOMPARE(error.size(), c.schemes[0]->products.find<DenseOutput>()->points.rows());
         const double most = *std::max_element(error.begin(), error.end());
         qInfo("largest on the curve %.2e, at nodes %.2e", most, c.schemes[0]->summary.maxError);
         QVERIFY(most >
                 3 * c.schemes[0]->summary.maxError);  // order 5 between nodes of order 8: measured 76 times
         const Figure f = makeFigure(c, scene.views[0]);
-        QCOMPARE(f.series.size(), std::size_t(1));
+        QCOMPARE(f.series().size(), std::size_t(1));
         QVERIFY(f.subtitle.starts_with("largest on the curve"));
-        scene.views.clear();
-        QVERIFY(!run(scene).schemes[0]->curve.find("error"));  // no view shows it
+        scene.views = {{"phase", "", ""}};
+        QVERIFY(
+            !run(scene).schemes[0]->products.find<DenseOutput>()->points.find("error"));  // no view shows it
     }
     void eventsAreFoundOnTheCurve() {
         // Kepler's orbit passes y = 0 upwards at every multiple of its period.
@@ -154,7 +158,7 @@ private slots:
             Scene scene = kepler("galerkin-gauss-3", h, 33);
             scene.views = {{"section", "", "", "q.y"}};
             const Comparison c = run(scene);
-            const Trajectory& events = c.schemes[0]->sections.at(0).events;
+            const Trajectory& events = c.schemes[0]->products.find<Sections>()->all.at(0).events;
             QCOMPARE(events.rows(), std::size_t(5));
             double w = 0, chord = 0;
             const Trajectory& nodes = c.schemes[0]->trajectory;
@@ -182,7 +186,7 @@ private slots:
         Scene scene = kepler("midpoint", 0.1, 2);
         scene.views = {{"section", "", "", "q.y"}};  // y grows from zero: at the start it does not pass
         const Comparison c = run(scene);
-        QCOMPARE(c.schemes[0]->sections.at(0).events.rows(), std::size_t(0));
+        QCOMPARE(c.schemes[0]->products.find<Sections>()->all.at(0).events.rows(), std::size_t(0));
         QVERIFY(!makeFigure(c, scene.views[0]).message.empty());
     }
     void columnsOfSectionsAreChecked() {
@@ -201,11 +205,11 @@ private slots:
     }
     void longRunsKeepTheirRowsAlone() {
         const Comparison c = run(kepler("midpoint", 0.01, 6));
-        QCOMPARE(c.schemes[0]->curve.rows(), std::size_t(0));
+        QVERIFY(!c.schemes[0]->products.find<DenseOutput>());
     }
     void nodesOfTheCurveAreThoseOfTheRun() {
         const Comparison c = run(kepler("galerkin-lobatto-3", 0.25, 6));
-        const Trajectory& curve = c.schemes[0]->curve;
+        const Trajectory& curve = c.schemes[0]->products.find<DenseOutput>()->points;
         const Trajectory& rows = c.schemes[0]->trajectory;
         const std::size_t points = (curve.rows() - 1) / (rows.rows() - 1);
         for (std::size_t i = 0; i < rows.rows(); ++i) QCOMPARE(curve["q.x"][i * points], rows["q.x"][i]);

@@ -33,9 +33,9 @@ private slots:
     void picturesAreThoseOfTheRows() {
         const Comparison result = run(scene(128, 10));
         const SchemeResult& s = *result.schemes.at(0);
-        QCOMPARE(s.frames.size(), s.trajectory.rows());
-        QCOMPARE(s.frames.back().t, s.trajectory["t"].back());
-        QCOMPARE(s.frames[0].values->size(), std::size_t{256});
+        QCOMPARE(s.products.find<FieldFrames>()->all.size(), s.trajectory.rows());
+        QCOMPARE(s.products.find<FieldFrames>()->all.back().t, s.trajectory["t"].back());
+        QCOMPARE(s.products.find<FieldFrames>()->all[0].values->size(), std::size_t{256});
         QVERIFY(s.summary.caution.empty());
         QVERIFY(s.summary.about.find("banded") != std::string::npos);
         QVERIFY(s.summary.maxNormError < 1e-13);
@@ -51,7 +51,8 @@ private slots:
         QVERIFY(file.open(QIODevice::ReadOnly));
         const QList<QByteArray> lines = file.readAll().split('\n');
         QCOMPARE(lines[0], QByteArray("t,x,re,im"));
-        QCOMPARE(lines.size(), static_cast<qsizetype>(2 + 64 * result.schemes[0]->frames.size()));
+        QCOMPARE(lines.size(), static_cast<qsizetype>(
+                                   2 + 64 * result.schemes[0]->products.find<FieldFrames>()->all.size()));
         double norm = 0;
         for (int j = 1; j <= 64; ++j) {
             const auto cells = lines[j].split(',');
@@ -81,7 +82,7 @@ private slots:
         constexpr int places = 64 * 32;
         const auto rows = static_cast<int>(lines.size()) - 2;
         QCOMPARE(rows % places, 0);
-        QVERIFY(s.frames.size() * places > 1 << 19);
+        QVERIFY(s.products.find<FieldFrames>()->all.size() * places > 1 << 19);
         QVERIFY(rows > 1 << 18 && rows <= (1 << 19) + places);
         QCOMPARE(lines[rows].split(',')[0].toDouble(), 1.0);
         double norm = 0;
@@ -109,8 +110,9 @@ private slots:
         const Comparison one = run(scene(64, 5, schemes), {1}), two = run(scene(64, 5, schemes), {2});
         for (std::size_t i = 0; i < one.schemes.size(); ++i) {
             QCOMPARE(csvText(one.schemes[i]->trajectory), csvText(two.schemes[i]->trajectory));
-            for (std::size_t k = 0; k < one.schemes[i]->frames.size(); ++k)
-                QCOMPARE(*one.schemes[i]->frames[k].values, *two.schemes[i]->frames[k].values);
+            for (std::size_t k = 0; k < one.schemes[i]->products.find<FieldFrames>()->all.size(); ++k)
+                QCOMPARE(*one.schemes[i]->products.find<FieldFrames>()->all[k].values,
+                         *two.schemes[i]->products.find<FieldFrames>()->all[k].values);
         }
     }
 };

@@ -44,7 +44,7 @@ Comparison runStiff(const std::string& view, unsigned threads = 0,
 }
 
 const ParameterMap& mapOf(const Comparison& c, const std::string& scheme) {
-    for (const auto& map : c.maps)
+    for (const auto& map : c.products.find<ParameterMaps>()->all)
         if (map->scheme == scheme) return *map;
     throw std::runtime_error("no map of " + scheme);
 }
@@ -111,6 +111,15 @@ private slots:
             }
         QVERIFY(stable > 20 && unstable > 50);
     }
+    void errorsWithoutAReferenceStayUnknown() {
+        const ReadScene read = readScene(
+            stiffScene(
+                R"({"view":"parameter-map","from":1e8,"to":1e9,"steps":[0.1,0.2],"cells":[2,2],"duration":2,"value":"error.p"})"),
+            {{"/reference", "none"}});
+        QVERIFY(read.errors.empty());
+        const MapCell cell = mapOf(run(read.scene), "R1").at(0, 0);
+        QVERIFY(cell.isDone() && std::isnan(cell.value));
+    }
     /// The momenta, of size 5 whatever k is: an implicit scheme is stable and wrong, the multiscale ones are
     /// right.
     void errorsTellWhatEnergiesDoNot() {
@@ -156,18 +165,18 @@ private slots:
         const std::string other =
             R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0211,0.16],"cells":[4,3],"duration":1,"value":"energy"})";
         const Comparison one = runStiff(view, 1), two = runStiff(view + "," + other, 2);
-        for (const auto& map : one.maps)
+        for (const auto& map : one.products.find<ParameterMaps>()->all)
             for (std::size_t i = 0; i < map->cells.size(); ++i) {
                 QCOMPARE(map->cells[i].end, mapOf(two, map->scheme).cells[i].end);
                 if (map->cells[i].isDone())
                     QCOMPARE(map->cells[i].value, mapOf(two, map->scheme).cells[i].value);
             }
-        QCOMPARE(two.maps.size(), std::size_t(8));
+        QCOMPARE(two.products.find<ParameterMaps>()->all.size(), std::size_t(8));
     }
     void whatWasComputedIsRemembered() {
         const std::string view =
             R"({"view":"parameter-map","from":1e4,"to":1e6,"steps":[0.0203,0.16],"cells":[12,12],"duration":4})";
-        QCOMPARE(runStiff(view).maps.size(), std::size_t(4));
+        QCOMPARE(runStiff(view).products.find<ParameterMaps>()->all.size(), std::size_t(4));
         // Another title, another step of the scene itself, one scheme less: the same cells.
         const ReadScene changed =
             readScene(stiffScene(view),
@@ -192,7 +201,8 @@ private slots:
         r.start();
         const auto doneCells = [&] {
             std::ptrdiff_t n = 0;
-            for (const auto& map : r.latest().maps)
+            const Comparison latest = r.latest();
+            for (const auto& map : latest.products.find<ParameterMaps>()->all)
                 n += std::count_if(map->cells.begin(), map->cells.end(),
                                    [](const MapCell& c) { return c.end != MapCell::End::waiting; });
             return n;

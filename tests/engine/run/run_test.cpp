@@ -103,12 +103,15 @@ private slots:
         for (const bool asks : {false, true}) {
             const Scene scene = sceneFrom(kepler, keplerData, "5", R"({"scheme":"midpoint","step":0.01})",
                                           asks ? R"(,"observe":["energy"])" : R"(,"observe":["momentum"])");
-            System system = makeSystem(scene);
+            ResolvedScene resolved = resolve(scene);
+            System system = *resolved.system;
             realEnergy = system.mechanics().energy;
             std::get<Mechanical>(system.kind).energy = &countedEnergy;
             energyCalls = 0;
-            SchemeRun task(scene, scene.schemes[0], 0);
-            task.run(system, initialState(scene, system), {}, nullptr, {});
+            resolved.system = std::make_shared<const System>(system);
+            const ProductPlan plan;
+            SchemeRun task(resolved, 0, plan);
+            task.run({}, nullptr, {});
             QVERIFY(task.latest()->summary.status == RunStatus::done);
             if (asks)
                 QVERIFY(energyCalls >= 501);

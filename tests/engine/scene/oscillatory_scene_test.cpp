@@ -63,7 +63,7 @@ private slots:
             R"({"step":0.1,"space":{"type":"polynomial","degree":2},"quadrature":"filon-lobatto"})",
             "/schemes/0: unsupported combination: a Filon rule");
         row("solver", R"({"step":0.2,"scheme":"multiscale-r1","solver":{"method":"fixed-point"}})",
-            "/schemes/0/solver/method: fixed-point iteration");
+            "/schemes/0/solver/method: fixed-point does not solve");
     }
     void whatIsWrongIsSaid() {
         QFETCH(QString, scheme);

@@ -4,6 +4,7 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/two_positions.hpp"
 #include "tests/tools/test.hpp"
@@ -94,9 +95,9 @@ private slots:
         QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
         const System system = makeSystem(read.scene);
         const SchemeSpec& spec = read.scene.schemes[0];
-        State state = schemeStart(read.scene, system, spec, step, initialState(read.scene, system));
+        State state = schemeStart(*read.resolved, read.resolved->schemes[0], step);
         const double own = std::hypot(state.x[2] - 0.1, state.x[3] - 1.95);
-        const auto integrator = makeScheme(system, spec, step, state, 4);
+        const auto integrator = resolve(spec).make(system, step, state);
         while (state.t < 0.1 - 1e-9) QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
         const double miss = std::hypot(state.x[0] - 0.38, state.x[1] - 0.19);
         qInfo("misses by %.1e", miss);

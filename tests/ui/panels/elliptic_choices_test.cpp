@@ -5,9 +5,10 @@
 #include <QStandardItemModel>
 #include <QTest>
 
-#include "engine/family/elliptic/elliptic.hpp"
+#include "engine/family/family.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/discretizer.hpp"
@@ -53,8 +54,9 @@ private slots:
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(waitForResults(window));
         for (const auto& scheme : window.runControl().results()->schemes) {
-            const auto pair = pairOf(scheme->spec);
-            QVERIFY(scheme->summary.status == RunStatus::done && pair && isElliptic(pair->space));
+            const auto pair = discretizationOf(scheme->spec);
+            QVERIFY(scheme->summary.status == RunStatus::done && pair &&
+                    familyOf(pair->space)->item.id == "elliptic");
             if (pair->space.text("functions") == "multiscale")
                 QVERIFY(scheme->summary.maxError < 1e-13);
             else

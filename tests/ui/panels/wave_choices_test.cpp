@@ -38,6 +38,8 @@ private slots:
                  (QStringList{"chebyshev-propagation", "crank-nicolson"}));
         for (const SchemeEntry* e : fittingSchemes(window.workspace().scene()))
             QVERIFY(e->make(e->minDegree).space.text("form") != "three-level");
+        // The layout of new cells waits for the event loop.
+        QTRY_VERIFY(window.discretizer().findChild<DiscretizerCell*>()->height() > 0);
         for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
             if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
         QCOMPARE(window.workspace().scene().schemes.size(), std::size_t(8));  // degrees 2 and 8 were there

@@ -142,7 +142,7 @@ private slots:
     void valuesThatCannotBeDrawnAreGapsAndCounted() {
         const Figure energy = figureOf("energy");  // a log axis: zeros and infinities
         int hidden = 0;
-        for (const Series& s : energy.series) {
+        for (const Series& s : energy.series()) {
             hidden += s.hidden;
             for (const double v : s.y) QVERIFY(std::isnan(v) || (std::isfinite(v) && v > 0));
         }
@@ -187,13 +187,13 @@ private slots:
         const Figure& figure = plot->figure();
         QSignalSpy clicked(plot.get(), &PlotWidget::pointClicked);
         QCustomPlot& c = canvas(*plot);
-        const Series& s = figure.series.front();
+        const Series& s = figure.series().front();
         const QPoint at(static_cast<int>(c.xAxis->coordToPixel(s.x[50])),
                         static_cast<int>(c.yAxis->coordToPixel(s.y[50])));
         QTest::mouseClick(&c, Qt::LeftButton, {}, at);
         QCOMPARE(clicked.count(), 1);
         bool isASeries = false;
-        for (const Series& any : figure.series) isASeries = isASeries || any.style == clicked[0][0].toInt();
+        for (const Series& any : figure.series()) isASeries = isASeries || any.style == clicked[0][0].toInt();
         QVERIFY(isASeries);
     }
 };

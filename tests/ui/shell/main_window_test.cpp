@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/json.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
@@ -48,7 +49,7 @@ private slots:
         QVERIFY(results && results->isFinished);
         for (const auto& s : results->schemes) QVERIFY(s->summary.status == RunStatus::done);
         QVERIFY(window.compareView().plots().size() >= 5);
-        for (const PlotWidget* plot : window.compareView().plots()) QVERIFY(!plot->figure().series.empty());
+        for (const PlotWidget* plot : window.compareView().plots()) QVERIFY(!plot->figure().series().empty());
     }
     void aClickInTheDiscretizerAddsAScheme() {
         MainWindow window(Theme::light(), false);
@@ -153,7 +154,7 @@ private slots:
         });
         QVERIFY(found != plots.end());
         PlotWidget& plot = **found;
-        QCOMPARE(plot.figure().heat->faults.size(), std::size_t(25));
+        QCOMPARE(plot.figure().heat()->faults.size(), std::size_t(25));
         auto& canvas = *plot.findChild<QCustomPlot*>();
         canvas.replot();
         const QRect rect = canvas.axisRect()->rect();
@@ -163,15 +164,15 @@ private slots:
         QTest::mouseClick(&canvas, Qt::LeftButton, {}, at);
         const Scene& after = window.workspace().scene();
         QCOMPARE(after.model.number("k"), 10.0);
-        const std::string label = plot.figure().series[0].label;
+        const std::string label = plot.figure().series()[0].label;
         for (std::size_t i = 0; i < after.schemes.size(); ++i)
             QCOMPARE(after.schemes[i].step.value,
                      after.schemes[i].label == label ? 0.0316 : before.schemes[i].step.value);
         const auto& notices = window.notices().all();
         QVERIFY(std::any_of(notices.begin(), notices.end(), [](const Notice& n) { return n.key == "case"; }));
         QVERIFY(waitForResults(window));
-        QCOMPARE((*found)->figure().series[0].x.front(), 10.0);  // the dot moves along
-        window.actions().find("undo")->trigger();                // one edit
+        QCOMPARE((*found)->figure().series()[0].x.front(), 10.0);  // the dot moves along
+        window.actions().find("undo")->trigger();                  // one edit
         QVERIFY(window.workspace().scene() == before);
         QVERIFY(waitForResults(window));
         // The same with the pointer over the cell and Return.
@@ -205,7 +206,7 @@ private slots:
         const auto& schemes = window.workspace().scene().schemes;
         const auto indexOf = [&](bool isSymmetric) {
             const auto found = std::find_if(schemes.begin(), schemes.end(), [&](const SchemeSpec& s) {
-                return !s.tolerance && innerClaimsOf(s).isSymmetric == isSymmetric;
+                return !s.tolerance && resolve(s).claims.isSymmetric == isSymmetric;
             });
             return static_cast<int>(found - schemes.begin());
         };
@@ -225,10 +226,10 @@ private slots:
         const auto spec = [&]() -> const SchemeSpec& {
             return window.workspace().scene().schemes[static_cast<std::size_t>(symmetric)];
         };
-        const int order = claimsOf(spec()).order;
+        const int order = resolve(spec()).claims.order;
         QVERIFY(choose("suzuki"));
         QCOMPARE(spec().composition.type, std::string("suzuki"));
-        QCOMPARE(claimsOf(spec()).order, order + 2);
+        QCOMPARE(resolve(spec()).claims.order, order + 2);
         QVERIFY(editor.findChild<QSpinBox*>("field.order") || editor.findChild<QLineEdit*>("field.order"));
         QVERIFY(waitForResults(window));
         QVERIFY(window.runControl().results()->schemes[static_cast<std::size_t>(symmetric)]->summary.status ==

@@ -32,7 +32,7 @@ class PlotEditsTest : public QObject {
     /// Whether the plot has been drawn with all its data along x.
     static bool showsAll(MainWindow& window, std::size_t i) {
         const auto range = plot(window, i)->figure().x.range;
-        return range && !plot(window, i)->figure().series.empty() &&
+        return range && !plot(window, i)->figure().series().empty() &&
                plot(window, i)->visibleRange(PlotAxis::x) == PlotRange{range->first, range->second};
     }
     /// Chooses an entry of the menu of a plot's card as a click does.
@@ -261,7 +261,7 @@ private slots:
         QVERIFY2(shown.contains("a bracket that is not closed"), qPrintable(shown));
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(waitForResults(window));
-        const auto curve = [&] { return plot(window, 1)->figure().series.back(); };
+        const auto curve = [&] { return plot(window, 1)->figure().series().back(); };
         QTRY_COMPARE(curve().style, formulaStyle);
         QCOMPARE(curve().label, std::string("1e-3*sqrt(g/l)*t"));
     }

@@ -9,7 +9,7 @@ SchemeEntry elliptic_linear() {
               "linear elements",
               "Hat functions: they see the mean of the coefficient until the mesh resolves it.",
               {},
-              Claims{2, false, false, {}},
+              {},
               "the elliptic problem"};
     e.source = "Leok 2004, sec. 7.1";
     e.make = [](int) {

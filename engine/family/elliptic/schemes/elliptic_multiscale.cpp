@@ -10,7 +10,7 @@ SchemeEntry elliptic_multiscale() {
         "multiscale elements",
         "Functions that solve the problem without a source: exact at the nodes, however coarse the mesh.",
         {},
-        Claims{0, false, false, {}},
+        {},
         "the elliptic problem"};
     e.source = "Leok 2004, sec. 7.1";
     e.make = [](int) {

@@ -9,7 +9,7 @@ SchemeEntry galerkin_gauss() {
               "Galerkin Gauss",
               "Degree s with Gauss(s): Gauss collocation, order 2s, stable for every step.",
               {},
-              Claims{2, true, true, {"momentum", "quadratic invariants"}},
+              {},
               ""};
     e.source = "Leok 2004, sec. 2.1";
     e.minDegree = 1;

@@ -9,7 +9,7 @@ SchemeEntry galerkin_lobatto() {
               "Galerkin Lobatto",
               "Degree s with Lobatto(s + 1): the pair Lobatto IIIA-IIIB, order 2s.",
               {},
-              Claims{2, true, true, {"momentum"}},
+              {},
               ""};
     e.source = "Leok 2004, sec. 2.1; Marsden and West 2001, 2.6.6";
     e.minDegree = 1;

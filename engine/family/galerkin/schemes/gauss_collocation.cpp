@@ -9,7 +9,7 @@ SchemeEntry gauss_collocation() {
               "Gauss collocation",
               "The s-stage Gauss collocation method as the pair it is, order 2s, stable for every step.",
               {},
-              Claims{2, true, true, {"momentum", "quadratic invariants"}},
+              {},
               ""};
     e.source = "Hairer, Lubich, Wanner 2006, II.1.3 and VI.6.3";
     e.minDegree = 1;

@@ -10,7 +10,7 @@ SchemeEntry lobatto_iiia_iiib() {
               "The partitioned Runge-Kutta pair with s stages as the pair it is, order 2s - 2; s = 2 is "
               "Störmer-Verlet.",
               {},
-              Claims{2, true, true, {"momentum"}},
+              {},
               ""};
     e.source = "Hairer, Lubich, Wanner 2006, II.2.2 and VI.6.4; Marsden and West 2001, 2.6.5";
     e.minDegree = 2;

@@ -5,12 +5,8 @@ namespace extremal::schemes {
 
 SchemeEntry midpoint() {
     SchemeEntry e;
-    e.item = {"midpoint",
-              "midpoint",
-              "Linear pieces with the midpoint rule: order 2, stable for every step.",
-              {},
-              Claims{2, true, true, {"momentum", "quadratic invariants"}},
-              ""};
+    e.item = {"midpoint", "midpoint", "Linear pieces with the midpoint rule: order 2, stable for every step.",
+              {},         {},         ""};
     e.source = "Marsden and West 2001, 1.3.2";
     e.minDegree = 0;
     e.maxDegree = 0;

@@ -10,7 +10,7 @@ SchemeEntry spectral_clenshaw_curtis() {
               "Degree s with Clenshaw-Curtis on s + 1 nodes, as in spectral variational integrators: order 4 "
               "for odd, 6 for even degrees from 3 on.",
               {},
-              Claims{2, true, true, {"momentum"}},
+              {},
               ""};
     e.source = "Hall and Leok 2015";
     e.minDegree = 1;

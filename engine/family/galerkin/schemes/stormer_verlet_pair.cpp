@@ -9,7 +9,7 @@ SchemeEntry stormer_verlet_pair() {
               "Störmer-Verlet as a pair",
               "Linear pieces with both ends as nodes: kick, drift, kick for separable systems, order 2.",
               {},
-              Claims{2, true, true, {"momentum"}},
+              {},
               ""};
     e.source = "Marsden and West 2001, 2.4.3; Hairer, Lubich, Wanner 2006, I.1.4 and VI.6.2";
     e.minDegree = 0;

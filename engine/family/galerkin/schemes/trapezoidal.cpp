@@ -9,7 +9,7 @@ SchemeEntry trapezoidal() {
               "trapezoidal",
               "Linear pieces with the trapezoidal rule: Störmer-Verlet as a pair, order 2.",
               {},
-              Claims{2, true, true, {"momentum"}},
+              {},
               ""};
     e.source = "Marsden and West 2001, 2.4.3";
     e.minDegree = 0;

@@ -10,7 +10,7 @@ SchemeEntry lie() {
               "Degree s in the algebra with Gauss(s), for rigid bodies: order 2s, keeps the spatial momentum "
               "to round-off.",
               {},
-              Claims{2, true, true, {"momentum"}},
+              {},
               "a rigid body"};
     e.source = "Leok 2004, sec. 3.2";
     e.minDegree = 1;

@@ -10,7 +10,7 @@ SchemeEntry lie_symmetric() {
               "Half a step of the adjoint of lie-<s>, then half a step of it: order 2s, and back and forth "
               "returns to the start.",
               {},
-              Claims{2, true, true, {"momentum"}},
+              {},
               "a rigid body"};
     e.source = "Leok 2004, sec. 3.2; Hairer, Lubich and Wanner 2006, II.3";
     e.minDegree = 1;

@@ -10,7 +10,7 @@ SchemeEntry multiscale_r1() {
               "Slow degree 4, fast 2, one harmonic with linear amplitudes: the cheapest step over fast "
               "oscillations.",
               {},
-              Claims{0, true, true, {"momentum"}},
+              {},
               "a fast frequency of its own"};
     e.source = "Leok 2004, sec. 7.2, with additive fast parts";
     e.make = [](int) { return multiscalePair(4, 2, {1}); };

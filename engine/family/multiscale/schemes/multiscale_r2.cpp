@@ -9,7 +9,7 @@ SchemeEntry multiscale_r2() {
               "multiscale R2",
               "Slow degree 6, fast 4, two harmonics with amplitudes of degree 3 and 1.",
               {},
-              Claims{0, true, true, {"momentum"}},
+              {},
               "a fast frequency of its own"};
     e.source = "Leok 2004, sec. 7.2, with additive fast parts";
     e.make = [](int) { return multiscalePair(6, 4, {3, 1}); };

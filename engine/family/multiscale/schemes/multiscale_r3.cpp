@@ -9,7 +9,7 @@ SchemeEntry multiscale_r3() {
               "multiscale R3",
               "Slow degree 8, fast 5, three harmonics with amplitudes of degree 4, 2 and 1.",
               {},
-              Claims{0, true, true, {"momentum"}},
+              {},
               "a fast frequency of its own"};
     e.source = "Leok 2004, sec. 7.2, with additive fast parts";
     e.make = [](int) { return multiscalePair(8, 5, {4, 2, 1}); };

@@ -9,7 +9,7 @@ SchemeEntry product_form() {
               "product form",
               "The printed multiscale space, a polynomial times an oscillation: an experiment that fails.",
               {},
-              Claims{0, false, true, {}},
+              {},
               "a fast frequency of its own"};
     e.source = "Leok 2004, sec. 7.2, as printed";
     e.make = [](int) {

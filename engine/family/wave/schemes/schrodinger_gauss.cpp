@@ -10,7 +10,7 @@ SchemeEntry schrodinger_gauss() {
         "Schrödinger Gauss",
         "Fourier in space, degree s with Gauss(s) in time: order 2s, keeps norm and energy to round-off.",
         {},
-        Claims{2, true, true, {"norm", "energy"}},
+        {},
         "a wave function"};
     e.source = "Leok 2004, sec. 8.2";
     e.minDegree = 1;

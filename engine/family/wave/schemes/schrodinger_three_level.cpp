@@ -10,7 +10,7 @@ SchemeEntry schrodinger_three_level() {
               "Fourier in space, linear in time with the exact integral: order 4 with a Gauss start, stable "
               "for |E| dt < √3 ħ.",
               {},
-              Claims{4, true, true, {"bilinear form"}, false},
+              {},
               "a wave function"};
     e.source = "Leok 2004, sec. 8.2";
     e.minDegree = 0;

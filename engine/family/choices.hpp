@@ -1,0 +1,29 @@
+/// The discretizations of a family that the window offers side by side: rows x columns of cells.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/family/discretization.hpp"
+
+namespace extremal {
+
+struct ChoiceGrid {
+    struct Heading {
+        std::string text;         ///< "poly 3", "Gauss"
+        std::string description;  ///< "polynomials of degree 3"
+    };
+    struct Cell {
+        Discretization discretization;  ///< complete
+        std::string id;                 ///< unique in the grid: "3.gauss"
+        std::string text, superscript;  ///< "G" and "6"; "mid"
+        std::string title;  ///< "polynomials of degree 3, Gauss-Legendre": without colour or place
+    };
+    std::string subtitle = "space × quadrature";
+    std::vector<Heading> rows, columns;  ///< columns may be empty: then without headings
+    std::vector<Cell> cells;             ///< row by row
+
+    std::size_t width() const { return rows.empty() ? 0 : cells.size() / rows.size(); }
+};
+
+}  // namespace extremal

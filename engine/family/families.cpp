@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "engine/core/dense.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/rule_choices.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/quadrature/tensor.hpp"
+#include "engine/family/table_of.hpp"
+
+namespace extremal {
+namespace {
+
+/// A key for the memory: everything the result depends on.
+std::string keyOf(const Settings& s) {
+    std::string key = s.type;
+    const std::function<void(const Value&)> add = [&](const Value& value) {
+        if (value.isNumber()) key += formatNumber(value.asNumber());
+        if (value.isString()) key += value.asString();
+        if (value.isBool()) key += value.asBool() ? "true" : "false";
+        if (value.isArray())
+            for (const Value& entry : value.asArray()) {
+                key += ',';
+                add(entry);
+            }
+        if (value.isObject())
+            for (const auto& [name, entry] : value.asObject()) {
+                key += '{' + name + ':';
+                add(entry);
+                key += '}';
+            }
+    };
+    for (const auto& [name, value] : s.keys) {
+        key += '|' + name + '=';
+        add(value);
+    }
+    return key;
+}
+
+/// What was made for a space and a rule before. A result is a function of the settings alone, so it does not
+/// matter who asked first.
+template <class V>
+class Memory {
+public:
+    template <class Make>
+    V get(const Settings& space, const Settings& quadrature, Make make) {
+        const std::string key = keyOf(space) + "||" + keyOf(quadrature);
+        {
+            const std::lock_guard lock(mutex_);
+            if (const auto found = known_.find(key); found != known_.end()) return found->second;
+        }
+        V made = make();
+        const std::lock_guard lock(mutex_);
+        if (known_.size() >= 256) known_.clear();
+        return known_.emplace(key, std::move(made)).first->second;
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, V> known_;
+};
+
+/// The family of a space that the reader has found in the catalogue.
+const Family& knownFamily(const Settings& space) {
+    const Family* const family = familyOf(space);
+    if (!family) throw InvalidScene("/space/type", "there is no space \"" + space.type + "\"");
+    return *family;
+}
+
+}  // namespace
+
+const Family* familyOf(const Settings& space) {
+    for (const Family& family : families())
+        for (const SpaceEntry& entry : family.spaces)
+            if (entry.item.id == space.type) return &family;
+    return nullptr;
+}
+
+const Family* familyFor(const System& system) {
+    for (const Family& family : families())
+        if (family.choices && family.applies(system)) return &family;
+    return nullptr;
+}
+
+const Family* findFamily(std::string_view id) {
+    for (const Family& family : families())
+        if (family.item.id == id) return &family;
+    return nullptr;
+}
+
+const std::vector<CatalogItem>& spaceCatalog() {
+    static const std::vector<CatalogItem> items = [] {
+        std::vector<CatalogItem> all;
+        for (const Family& family : families())
+            for (const SpaceEntry& entry : family.spaces) all.push_back(entry.item);
+        std::sort(all.begin(), all.end(),
+                  [](const CatalogItem& a, const CatalogItem& b) { return a.id < b.id; });
+        return all;
+    }();
+    return items;
+}
+
+Properties describe(const Discretization& discretization) {
+    static Memory<Properties> known;
+    const auto& [space, quadrature, solver] = discretization;
+    if (isTensorRule(quadrature) && !knownFamily(space).takesTensorRules) {
+        Properties p;
+        refuseRule(quadrature, p);
+        return p;
+    }
+    return known.get(space, quadrature, [&] { return knownFamily(space).describe(discretization); });
+}
+
+Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
+    if (isTensorRule(quadrature)) return quadrature;  // complete since it was read
+    const Family* const family = familyOf(space);
+    return family ? family->completeRule(space, quadrature)
+                  : completePlainRule(quadrature, std::max(1, space.integer("degree")), 1);
+}
+
+std::string mismatch(const Discretization& discretization, const System& system) {
+    const Family* const family = familyOf(discretization.space);
+    if (!family) return "there is no space \"" + discretization.space.type + "\"";
+    if (!family->applies(system))
+        return discretization.space.type + " needs " + family->item.needs + ", and " + system.id +
+               " has none";
+    return family->mismatch ? family->mismatch(discretization, system) : std::string();
+}
+
+Discretization settled(const Discretization& discretization, const System& system, const State& start) {
+    const Family* const family = familyOf(discretization.space);
+    const bool isSettled = family && family->settle && family->applies(system);
+    return isSettled ? family->settle(discretization, system, start) : discretization;
+}
+
+std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,
+                                           const Clock& clock) {
+    const Family& family = knownFamily(discretization.space);
+    if (!family.applies(system)) {
+        std::vector<std::string> fitting;
+        for (const Family& other : families())
+            if (other.applies(system))
+                for (const SpaceEntry& entry : other.spaces) fitting.push_back(entry.item.id);
+        throw InvalidScene("/space/type", mismatch(discretization, system),
+                           fitting.empty() ? "a baseline" : "it has " + joinNames(fitting));
+    }
+    const std::string& method = discretization.solver.type;
+    const auto& methods = family.solverMethods;
+    if (!method.empty() && method != "auto" &&
+        std::find(methods.begin(), methods.end(), method) == methods.end())
+        throw InvalidScene("/solver/method",
+                           method + " does not solve the equations of " + family.item.title + " schemes",
+                           methods.empty() ? "leave it out" : "auto or " + joinNames(methods));
+    return family.make(system, discretization, clock.step);
+}
+
+std::unique_ptr<Integrator> trustedIntegrator(const System& system, const State& start, double step) {
+    const Family* const family = familyFor(system);
+    if (!family || !family->reference)
+        throw InvalidScene("/reference", "no scheme of references is known for " + system.id, "take none");
+    return family->reference(system, start, step).make(step);
+}
+
+bool hasTable(const Settings& space) {
+    const Family* const family = familyOf(space);
+    return family && family->table;
+}
+
+Table<double> tableOf(const Settings& space, const Settings& quadrature) {
+    static Memory<Table<double>> known;
+    return known.get(space, quadrature, [&] { return knownFamily(space).table(space, quadrature); });
+}
+
+std::optional<Discretization> namedScheme(std::string_view id) {
+    const auto complete = [](Discretization made) {
+        made.quadrature = completeQuadrature(made.space, made.quadrature);
+        return made;
+    };
+    for (const SchemeEntry& e : schemeCatalog()) {
+        if (e.maxDegree == 0) {
+            if (e.item.id == id) return complete(e.make(0));
+            continue;
+        }
+        const std::string_view family = std::string_view(e.item.id).substr(0, e.item.id.find('<'));
+        if (!id.starts_with(family) || id.size() == family.size() || id.size() > family.size() + 2) continue;
+        int degree = 0;
+        for (const char c : id.substr(family.size())) {
+            if (c < '0' || c > '9' || (degree == 0 && c == '0')) {
+                degree = -1;
+                break;
+            }
+            degree = 10 * degree + (c - '0');
+        }
+        if (degree >= e.minDegree && degree <= e.maxDegree) return complete(e.make(degree));
+    }
+    return std::nullopt;
+}
+
+double highestFrequency(const System& system, const State& state) {
+    if (system.frequency) return system.frequency(state.t, state.x.data());
+    if (!isMechanical(system)) return 0;
+    const int d = system.dimension();
+    const auto& m = system.mechanics();
+    Eigen::VectorXd v(d), gradient(2 * d);
+    Eigen::MatrixXd H(2 * d, 2 * d);
+    const double* q = state.x.data();
+    double value = 0;
+    if (!m.velocity(m.model.get(), state.t, q, q + d, v.data())) return 0;
+    m.jet(m.model.get(), state.t, q, v.data(), &value, gradient.data(), H.data());
+    if (!H.allFinite()) return 0;
+    // Largest growth rate of the linearised flow by power iteration on (M^{-1} K)^2, K = -L_qq: enough for a
+    // warning.
+    const Eigen::MatrixXd A = dense::solve<double>(H.bottomRightCorner(d, d), -H.topLeftCorner(d, d));
+    Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(d, 1, 1.5);
+    double eigenvalue = 0;
+    for (int i = 0; i < 500 && x.norm() > 0; ++i) {
+        x.normalize();
+        const Eigen::VectorXd y = A * x;
+        eigenvalue = x.dot(y);
+        x = y + 1e-3 * y.norm() * x;  // a small shift breaks ties between eigenvalues of opposite sign
+    }
+    return eigenvalue > 0 && std::isfinite(eigenvalue) ? std::sqrt(eigenvalue) : 0;
+}
+
+}  // namespace extremal

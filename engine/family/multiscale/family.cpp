@@ -1,0 +1,142 @@
+/// Spaces that contain a fast oscillation: steps of many of its periods (Leok 2004, sec. 7).
+#include <algorithm>
+#include <string>
+
+#include "engine/core/text.hpp"
+#include "engine/family/family.hpp"
+#include "engine/family/multiscale/basis.hpp"
+#include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/multiscale/product.hpp"
+#include "engine/family/multiscale/resonance.hpp"
+#include "engine/integrator/condensed.hpp"
+
+namespace extremal::family {
+namespace {
+
+FieldInfo json(const char* key, const char* title, const char* symbol, Value fallback,
+               const char* description) {
+    FieldInfo f = jsonField(key, title, symbol, std::move(fallback), description);
+    f.isOptional = f.fallback.isNull();
+    return f;
+}
+
+FieldInfo slowDegree() {
+    FieldInfo f =
+        integerField("degree", "n", 1, OscillatoryBasis::mostDegree, 4.0, "Degree of the slow part.");
+    f.whyLimits =
+        "a slow part of degree 0 stands still; above 24 more steps are cheaper than a higher degree";
+    return f;
+}
+
+/// A slow polynomial and harmonics of a fast frequency with polynomial amplitudes; each coordinate its own.
+SpaceEntry oscillatory() {
+    FieldInfo omega =
+        json("omega", "frequency", "ω", "model",
+             "Frequency of the fast motion: a number or expression, two of them in an array, \"model\" (what "
+             "the model says), or \"estimate\" (from a short resolved run).");
+    omega.choices = {"model", "estimate"};
+    SpaceEntry e;
+    e.item = {
+        "oscillatory",
+        "oscillatory",
+        "A slow polynomial and harmonics of a fast frequency with polynomial amplitudes: steps of many "
+        "fast periods.",
+        {omega, slowDegree(),
+         json("harmonics", "harmonics", "m", Value::Array{1.0},
+              "Degree of the amplitudes of the first harmonic, of the second, ... of each frequency; with "
+              "two frequencies { of, degree } is a combination, such as [1, -1]."),
+         json("fast", "fast coordinates", "", {},
+              "degree and harmonics of the coordinates the model calls fast."),
+         json("variables", "variables", "", {}, "degree and harmonics of single coordinates, by name.")},
+        {},
+        ""};
+    return e;
+}
+
+/// The printed space: a slow polynomial times one oscillation. For teaching: it fails.
+SpaceEntry productForm() {
+    FieldInfo omega =
+        jsonField("omega", "frequency", "ω", "model",
+                  "Frequency of the fast motion, or where it starts from: a number or expression, or "
+                  "\"model\".");
+    omega.choices = {"model"};
+    SpaceEntry e;
+    e.item = {
+        "oscillatory-product",
+        "product form",
+        "A slow polynomial times 1 + alpha sin wt + beta cos wt, as printed. Experimental: steps soon "
+        "have no solution.",
+        {omega, integerField("degree", "n", 1, OscillatoryBasis::mostDegree, 4.0, "Degree of the slow part."),
+         choiceField("frequency", "frequency is", {"fixed", "free"},
+                     "Whether each coordinate has its frequency as an unknown."),
+         json("fast", "fast coordinates", "", {}, "degree of the coordinates the model calls fast."),
+         json("variables", "variables", "", {}, "degree of single coordinates, by name.")},
+        {},
+        ""};
+    return e;
+}
+
+std::string mismatchOf(const Discretization& d, const System& system) {
+    if (d.space.text("omega") != "model" || system.fast.frequency > 0) return {};
+    return system.id + " does not say how fast it oscillates";
+}
+
+Discretization settle(const Discretization& d, const System& system, const State& start) {
+    Discretization known = d;
+    if (isOscillatory(d.space) && d.space.text("omega") == "estimate")
+        for (auto& [key, value] : known.space.keys)
+            if (key == "omega") value = estimateFrequency(system, start);
+    return known;
+}
+
+/// A step near one at which it is singular.
+void checkResonance(const SchemeCase& scheme, Findings& findings) {
+    const double h = scheme.step;
+    const auto found =
+        resonanceOf(scheme.system, settle(scheme.discretization, scheme.system, scheme.initial), h);
+    if (!found) return;
+    findings.warning(
+        "/step",
+        formatNumber(h) + " may be near a resonance of the space: it has " +
+            formatNumber(2 * found->periods, 6) +
+            " half periods of the fast motion, and only a fractional part from 0.1 to 0.5 is safe; "
+            "conditioning of the step " +
+            formatNumber(found->conditioning, 2) + ", at the next safe one " + formatNumber(found->usual, 2),
+        "the step " + formatNumber(found->near), found->near);
+}
+
+}  // namespace
+
+Family multiscale() {
+    Family f;
+    f.item = {"multiscale", "multiscale", "Spaces that contain a fast oscillation.", {}, {}, "coordinates"};
+    f.source = "Leok 2004, sec. 7";
+    f.spaces = {oscillatory(), productForm()};
+    f.solverMethods = {"newton"};  // fixed-point iteration diverges on fast oscillations
+    f.applies = isMechanical;
+    f.mismatch = mismatchOf;
+    f.completeRule = [](const Settings& space, const Settings& quadrature) {
+        return isProduct(space) ? completeProductRule(space, quadrature)
+                                : completeOscillatoryRule(space, quadrature);
+    };
+    f.settle = settle;
+    f.describe = [](const Discretization& d) {
+        return isProduct(d.space) ? describeProduct(d.space, d.quadrature)
+                                  : describeOscillatory(d.space, d.quadrature);
+    };
+    f.check = checkResonance;
+    f.rules = [](const Settings&) {
+        return std::vector<std::string>{"auto", "filon-lobatto", "filon-gauss", "gauss", "lobatto"};
+    };
+    f.make = [](const System& system, const Discretization& d, double first) {
+        const SolverPolicy policy = solverPolicy(d.solver, system);
+        if (isProduct(d.space)) return makeProductIntegrator(system, d, {0, first}, policy);
+        auto tables = [system, d, first, made = oscillatoryTables(system, d, first)](double step) {
+            return step == first ? made : oscillatoryTables(system, d, step);
+        };
+        return makeCondensed(system, std::move(tables), first, policy);
+    };
+    return f;
+}
+
+}  // namespace extremal::family

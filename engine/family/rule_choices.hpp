@@ -1,0 +1,34 @@
+/// Grids of choices with a space per row and a plain rule per column: the rules that have a heading
+/// (quadrature/catalog.hpp).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/family/choices.hpp"
+
+namespace extremal {
+
+/// A row: the space with all keys, and what stands before the degree in the id of its cells.
+struct SpaceRow {
+    std::string text;  ///< "poly 3"
+    std::string idPrefix;
+    Settings space;
+};
+
+ChoiceGrid ruleChoices(const std::vector<SpaceRow>& rows);
+
+/// The ids of the rules that have nodes of their own, Gauss first.
+std::vector<std::string> plainRules();
+
+/// Whether the rule has nodes of its own, as those of spaces without fast oscillations must.
+bool isPlainRule(const Settings& quadrature);
+
+/// Sets the refusal of a rule that is not plain, with its remedy.
+void refuseRule(const Settings& quadrature, Properties& properties);
+
+/// The rule with its default keys; an empty or automatic one is Gauss. A tensor product is complete since it
+/// was read.
+Settings completePlainRule(const Settings& quadrature, int degree, int cells);
+
+}  // namespace extremal

@@ -1,0 +1,101 @@
+/// A field over time and space as a heat map; wave functions with their phase as the colour, those over a
+/// rectangle as their density along x.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/figure/build.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
+
+namespace extremal::recipes {
+namespace {
+
+constexpr int mostColumns = 800, mostRows = 400, interpolatedRows = 256;
+
+/// Both parts at equal cells, from the nodes of a Dirichlet boundary, which are not equally spaced: N
+/// numbers, then N.
+std::vector<double> resampled(const Eigen::MatrixXd& to, const std::vector<double>& values) {
+    const Eigen::MatrixXd parts = to * Eigen::Map<const Eigen::MatrixXd>(values.data(), to.cols(), 2);
+    return {parts.data(), parts.data() + parts.size()};
+}
+
+/// sqrt of the integral of |psi|^2 over y, at the nodes along x.
+std::vector<double> marginal(const wave::Grid& grid, const std::vector<double>& values) {
+    const auto columns = static_cast<std::size_t>(grid.nx), n = values.size() / 2;
+    std::vector<double> sums(columns);
+    for (std::size_t j = 0; j < n; ++j)
+        sums[j % columns] += values[j] * values[j] + values[n + j] * values[n + j];
+    for (double& sum : sums) sum = std::sqrt(sum * grid.y.length / grid.ny);
+    return sums;
+}
+
+HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, double end) {
+    const FieldSampling& field = system.field;
+    const std::vector<Frame>& frames = *framesOf(scheme);
+    const bool isUneven = isWave(system) && !system.hamiltonian()->isPeriodic();
+    const std::size_t n = isUneven ? interpolatedRows : field.x.size();
+    const Eigen::MatrixXd to =
+        isUneven ? system.hamiltonian()->resampling(interpolatedRows) : Eigen::MatrixXd();
+    HeatMap heat;
+    heat.columns = static_cast<int>(std::min<std::size_t>(frames.size(), mostColumns));
+    heat.rows = static_cast<int>(std::min<std::size_t>(n, mostRows));
+    const double step = isUneven ? 0 : n > 1 ? field.x[1] - field.x[0] : 1;
+    heat.left = start;
+    heat.right = end;
+    heat.bottom = field.x.front();
+    heat.top = field.x.back() + step;
+    if (isUneven) {
+        heat.bottom = system.hamiltonian()->domain().left;
+        heat.top = heat.bottom + system.hamiltonian()->domain().length;
+    }
+    const bool isPlane = isWave(system) && system.hamiltonian()->isPlane();
+    const bool isComplex = field.components.size() == 2 && field.components[0] == "re" && !isPlane;
+    const double last = frames.back().t, seconds = end - start;
+    for (int column = 0; column < heat.columns; ++column) {
+        const double t = start + seconds * (column + 0.5) / heat.columns;
+        auto after = std::lower_bound(frames.begin(), frames.end(), t,
+                                      [](const Frame& f, double at) { return f.t < at; });
+        if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
+        const bool isThere = t <= last + seconds / heat.columns;
+        const std::vector<double> made = isUneven  ? resampled(to, *after->values)
+                                         : isPlane ? marginal(system.hamiltonian()->grid(), *after->values)
+                                                   : std::vector<double>();
+        const std::vector<double>& values = made.empty() ? *after->values : made;
+        for (int row = 0; row < heat.rows; ++row) {
+            const auto j = static_cast<std::size_t>((row + 0.5) * static_cast<double>(n) / heat.rows);
+            const double a = values[j], b = isComplex ? values[n + j] : 0;
+            heat.values.push_back(!isThere ? Summary::unknown : isComplex ? std::hypot(a, b) : a);
+            if (isComplex) heat.hues.push_back(std::atan2(b, a) / (2 * std::numbers::pi));
+        }
+    }
+    heat.high = maxMagnitude(heat.values);
+    if (!isComplex) heat.low = isPlane ? 0 : -heat.high;
+    return heat;
+}
+
+Figure makeCarpet(const FigureContext& context) {
+    Figure figure = startFigure(context, context.entry.item.title);
+    figure.x = timeAxis(context);
+    figure.y.title = "x";
+    const SchemeResult* scheme =
+        schemeOf(context, [](const SchemeResult& s) { return framesOf(s) != nullptr; });
+    if (scheme && context.system && context.system->field) {
+        const auto& time = context.comparison.scene;
+        figure.title = "Carpet of " + scheme->spec.label;
+        figure.add(heatOf(*context.system, *scheme, time.start.value, time.end.value));
+        figure.y.range = {figure.heat()->bottom, figure.heat()->top};
+        const std::string most = " · at most " + shortNumber(figure.heat()->high);
+        if (!figure.heat()->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase" + most;
+        if (!context.system->field.y.empty()) figure.subtitle = "√∫|ψ|² dy" + most;
+    } else if (context.system && !context.system->field) {
+        figure.message = "The model is no field";
+    }
+    finishFigure(figure, context, "Field over time and space");
+    return figure;
+}
+
+}  // namespace
+
+RecipeEntry carpet() { return {"carpet", makeCarpet}; }
+
+}  // namespace extremal::recipes

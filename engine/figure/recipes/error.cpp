@@ -1,0 +1,51 @@
+/// Distance to the reference on a logarithmic axis, with the floor below which the reference itself is no
+/// better.
+#include <cmath>
+
+#include "engine/figure/against.hpp"
+
+namespace extremal::recipes {
+namespace {
+
+std::string symbolOf(const FigureContext& context) {
+    if (context.system && context.system->error.evaluate) return context.system->error.columns.front().symbol;
+    const bool isSingle = context.system && context.system->dimension() == 1;
+    const std::string q = isSingle ? context.system->coordinates.front().symbol : "q";
+    return isSingle ? "|" + q + " − " + q + " ref|" : "‖q − q ref‖";
+}
+
+std::string referenceText(const ReferenceInfo& reference) {
+    if (reference.type == "none") return "no reference";
+    if (reference.type == "exact") return "reference: exact";
+    std::string text =
+        "reference: " + (reference.description.empty() ? reference.type : reference.description);
+    if (std::isfinite(reference.estimatedError))
+        text += ", good to " + shortNumber(reference.estimatedError, 1);
+    return text;
+}
+
+Figure makeError(const FigureContext& context) {
+    Figure figure = startFigure(context, "Error");
+    figure.y = logAxis(axisTitle(symbolOf(context), columnInfo(context, "error").unit));
+    addErrors(figure, context, "error");
+
+    const ReferenceInfo& reference = context.comparison.reference;
+    figure.subtitle = referenceText(reference);
+    const bool hasOwnMeasure = context.system && context.system->error.evaluate;
+    const double scale = hasOwnMeasure ? context.system->error.scale : initialNorm(context.comparison, "q.");
+    if (scale > 0) figure.put(RoundOffFloor{0x1p-52 * scale});
+    if (reference.estimatedError > 0 && std::isfinite(reference.estimatedError)) {
+        figure.put(RoundOffFloor{std::max(floorOf(figure), reference.estimatedError)});
+        figure.put(DoubtfulBand{10 * reference.estimatedError});
+    }
+    if (reference.type == "none") figure.message = "Without a reference there is no error to show";
+    finishFigure(figure, context,
+                 "Distance to the reference " + againstText(context.view) + " (" + figure.subtitle + ")");
+    return figure;
+}
+
+}  // namespace
+
+RecipeEntry error() { return {"error", makeError}; }
+
+}  // namespace extremal::recipes

@@ -1,0 +1,57 @@
+/// Measured cost against measured error, one point per scheme: lower and further left is better.
+#include <cmath>
+
+#include "engine/figure/build.hpp"
+
+namespace extremal::recipes {
+namespace {
+
+/// The error that the schemes can be judged by: the distance to the reference, else the energy error.
+struct Metric {
+    double Summary::*value;
+    std::string title;
+};
+
+Metric metricOf(const FigureContext& context) {
+    for (const auto& scheme : context.comparison.schemes)
+        if (std::isfinite(scheme->summary.maxError)) {
+            if (context.system && context.system->error.evaluate)
+                return {&Summary::maxError, axisTitle("max " + context.system->error.columns.front().symbol,
+                                                      columnInfo(context, "error").unit)};
+            const std::string q = context.system && context.system->dimension() == 1
+                                      ? context.system->coordinates.front().symbol
+                                      : "q";
+            return {&Summary::maxError, axisTitle("max error in " + q, columnInfo(context, "error").unit)};
+        }
+    const std::string unit = context.system ? context.system->energyUnit : columnInfo(context, "energy").unit;
+    return {&Summary::maxEnergyError, axisTitle("max |H − H(0)|", unit)};
+}
+
+Figure makeWorkPrecision(const FigureContext& context) {
+    Figure figure = startFigure(context, "Speed against accuracy");
+    const Metric metric = metricOf(context);
+    figure.x = logAxis(axisTitle("CPU time", "s"));
+    figure.y = logAxis(metric.title);
+    for (const auto& scheme : context.comparison.schemes) {
+        const Summary& summary = scheme->summary;
+        if (summary.status != RunStatus::done) continue;
+        Series s;
+        s.label = scheme->spec.label;
+        s.style = scheme->style;
+        s.kind = SeriesKind::marks;
+        s.x = {summary.cpuSeconds};
+        s.y = {summary.*metric.value};
+        figure.add(std::move(s));
+    }
+    figure.subtitle = "lower left is better";
+    finishFigure(figure, context, "Largest error against CPU time");
+    figure.drop<FailureMark>();  // a scheme without an error has no place here; its card and the other plots
+                                 // tell
+    return figure;
+}
+
+}  // namespace
+
+RecipeEntry work_precision() { return {"work_precision", makeWorkPrecision}; }
+
+}  // namespace extremal::recipes

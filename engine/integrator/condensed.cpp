@@ -1,0 +1,87 @@
+#include "engine/integrator/condensed.hpp"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/core/dimension.hpp"
+#include "engine/core/problem.hpp"
+
+namespace extremal {
+namespace {
+
+/// The step of a pair as an Integrator.
+template <int D>
+class Condensed final : public Integrator {
+public:
+    Condensed(const Mechanics<double>& mechanics, TablesOfStep tables, double step, SolverPolicy policy)
+        : mechanics_(mechanics), tables_(std::move(tables)), policy_(policy), h_(step), step_(own()) {}
+
+    double stepSize() const override { return h_; }
+    void setStep(double h) override {
+        h_ = h;
+        step_ = own();
+    }
+    void begin(State& state) override {
+        state.memory.clear();
+        step_.restart();
+    }
+
+    StepReport advance(State& state, double until) override {
+        const StepReport report =
+            step_.advance(state.t, state.x.data(), state.x.data() + mechanics_.dimension, stop());
+        if (report.outcome != Outcome::converged) return report;
+        state.t = until;
+        ++state.node;
+        return report;
+    }
+    void denseOutput(double tau, std::span<double> x) const override {
+        step_.denseOutput(tau, x.data(), x.data() + mechanics_.dimension);
+    }
+    double periodsPerStep() const override { return periods_; }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<Condensed>(*this); }
+
+private:
+    GalerkinStep<double, D> own() {
+        std::vector<Table<double>> tables = tables_(h_);
+        periods_ = std::abs(tables.front().frequency) / (2 * std::numbers::pi);
+        return {mechanics_, std::move(tables), h_, policy_};
+    }
+
+    Mechanics<double> mechanics_;
+    TablesOfStep tables_;
+    SolverPolicy policy_;
+    double h_, periods_ = 0;
+    GalerkinStep<double, D> step_;
+};
+
+}  // namespace
+
+SolverPolicy solverPolicy(const Settings& solver, const System& system) {
+    SolverPolicy policy;
+    if (solver.type == "newton") policy.method = SolverMethod::newton;
+    if (solver.type == "fixed-point") {
+        policy.method = SolverMethod::fixedPoint;
+        if (isMechanical(system) && !system.mechanics().isSeparable)
+            throw InvalidScene(
+                "/solver/method",
+                "fixed-point iteration needs a separable Lagrangian, and that of " + system.id + " is not",
+                "use newton or auto");
+    }
+    policy.tolerance = solver.number("tolerance");
+    if (const int n = solver.integer("max_iterations"); n > 0) policy.maxIterations = n;
+    return policy;
+}
+
+std::unique_ptr<Integrator> makeCondensed(const System& system, TablesOfStep tables, double step,
+                                          const SolverPolicy& policy) {
+    return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
+        return std::make_unique<Condensed<decltype(d)::value>>(system.mechanics(), std::move(tables), step,
+                                                               policy);
+    });
+}
+
+}  // namespace extremal

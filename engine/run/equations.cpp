@@ -1,0 +1,36 @@
+#include "engine/run/equations.hpp"
+
+#include <algorithm>
+
+#include "engine/scene/view_choices.hpp"
+
+namespace extremal {
+
+std::shared_ptr<ExactActions> exactActionsOf(const ResolvedScene& scene, const ProductPlan& plan) {
+    if (!isMechanical(*scene.system) || !plan.has(Product::actionDefect)) return nullptr;
+    double largest = 0;
+    for (const ResolvedScheme& s : scene.schemes)
+        if (s.spec.isEnabled && s.plain()) largest = std::max(largest, 2 * s.spec.step.value);
+    return largest > 0 ? std::make_shared<ExactActions>(*scene.system, scene.initial, largest) : nullptr;
+}
+
+void addEquations(SchemeResult& result, const ProductPlan& plan, const ResolvedScene& scene,
+                  const ResolvedScheme& scheme, const State& start, ExactActions* exact,
+                  const std::stop_token& stop) {
+    const System& system = *scene.system;
+    if (!isMechanical(system)) return;
+    const Discretization* const plain = scheme.plain();
+    const auto failureOf = [&](const char* view) { return unsuitableFor(*findView(view), scheme); };
+    if (plan.has(Product::kktPattern)) {
+        KktPattern& pattern = result.products.make<KktPattern>();
+        pattern.failure = failureOf("sparsity");
+        if (pattern.failure.empty()) pattern = kktPattern(system, *plain, start, scheme.spec.step.value);
+    }
+    if (plan.has(Product::actionDefect)) {
+        ActionDefect& defect = result.products.make<ActionDefect>();
+        defect.failure = failureOf("discrete-lagrangian");
+        if (defect.failure.empty() && exact) defect = actionDefect(system, *plain, start.t, *exact, stop);
+    }
+}
+
+}  // namespace extremal

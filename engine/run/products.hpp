@@ -1,0 +1,92 @@
+/// What a run makes besides the rows of its schemes, because a view or the export asks for it: each product
+/// by its type, at most one of a type. What is not asked for is not computed (neededProducts).
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/family/galerkin/action_defect.hpp"
+#include "engine/family/galerkin/kkt_pattern.hpp"
+#include "engine/run/parameter_map.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/trajectory/frames.hpp"
+#include "engine/trajectory/trajectory.hpp"
+#include "engine/view/catalog.hpp"
+
+namespace extremal {
+
+/// t and the state of a run of few steps, several times in each step; with Product::denseError the column
+/// "error" as well.
+struct DenseOutput {
+    Trajectory points;
+};
+
+/// Samples of a field at rows, all of them while they fit into their memory.
+struct FieldFrames {
+    std::vector<Frame> all;
+};
+
+/// States where a column passes zero upwards, found on the dense output: one for each view that needs them.
+struct Sections {
+    struct Section {
+        std::string column;
+        Trajectory events;  ///< t and the state
+    };
+    std::vector<Section> all;
+};
+
+/// Of a comparison: one map per scheme that has a step.
+struct ParameterMaps {
+    std::vector<std::shared_ptr<const ParameterMap>> all;
+};
+
+class Products {
+public:
+    /// Null where it was not made.
+    template <class P>
+    const P* find() const {
+        for (const Value& each : all_)
+            if (const P* product = std::get_if<P>(&each)) return product;
+        return nullptr;
+    }
+    /// The product, empty where it was not there.
+    template <class P>
+    P& make() {
+        for (Value& each : all_)
+            if (P* product = std::get_if<P>(&each)) return *product;
+        return std::get<P>(all_.emplace_back(P{}));
+    }
+    template <class P>
+    void drop() {
+        std::erase_if(all_, [](const Value& each) { return std::holds_alternative<P>(each); });
+    }
+    std::size_t size() const { return all_.size(); }
+
+private:
+    using Value = std::variant<DenseOutput, FieldFrames, Sections, KktPattern, ActionDefect, ParameterMaps>;
+    std::vector<Value> all_;
+};
+
+/// A set of products.
+class ProductPlan {
+public:
+    ProductPlan() = default;
+    /// What the views of a scene need, its default views where it names none, and what its export needs.
+    ProductPlan(const Scene& scene, const System& system);
+
+    bool has(Product product) const { return std::find(all_.begin(), all_.end(), product) != all_.end(); }
+    void add(Product product) {
+        if (!has(product)) all_.push_back(product);
+    }
+
+private:
+    std::vector<Product> all_;
+};
+
+/// Whether a view needs a product.
+bool needs(const View& view, Product product);
+
+}  // namespace extremal

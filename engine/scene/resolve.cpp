@@ -1,0 +1,94 @@
+#include "engine/scene/resolve.hpp"
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/integrator/composition.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/composed_stability.hpp"
+
+namespace extremal {
+namespace {
+
+/// Throws InvalidScene, naming those that can.
+void refuseBaseline(const BaselineEntry& entry, const System& system) {
+    std::vector<std::string> fitting;
+    for (const BaselineEntry& e : baselineCatalog())
+        if (appliesTo(e, system)) fitting.push_back(e.item.id);
+    const std::string reason = entry.item.needs.empty() ? "" : ": it needs " + entry.item.needs;
+    throw InvalidScene("/baseline", entry.item.id + " cannot integrate " + system.id + reason,
+                       fitting.empty() ? "take a space and a quadrature" : "it has " + joinNames(fitting));
+}
+
+}  // namespace
+
+double ResolvedScheme::stabilityLimit() const {
+    if (isComposed()) return composedStabilityLimit(*this);
+    return family ? properties.stabilityLimit : baseline->stabilityLimit;
+}
+
+bool ResolvedScheme::fits(const System& system) const {
+    return family ? isFor(discretization, system) : appliesTo(*baseline, system);
+}
+
+std::unique_ptr<Integrator> ResolvedScheme::make(const System& system, double step,
+                                                 const State& start) const {
+    std::unique_ptr<Integrator> integrator;
+    if (family) {
+        integrator = makeIntegrator(system, settled(discretization, system, start), {start.t, step});
+    } else {
+        if (!appliesTo(*baseline, system)) refuseBaseline(*baseline, system);
+        BaselineOptions options;
+        options.step = step;
+        options.start = start;
+        options.tolerance = spec.tolerance.value_or(0);
+        options.settings = spec.baseline;
+        integrator = baseline->make(system, options);
+    }
+    return isComposed() ? composed(parts, *integrator) : std::move(integrator);
+}
+
+std::optional<Discretization> discretizationOf(const SchemeSpec& scheme) {
+    if (scheme.kind == SchemeSpec::Kind::pair)
+        return Discretization{scheme.space, completeQuadrature(scheme.space, scheme.quadrature),
+                              scheme.solver};
+    if (scheme.kind != SchemeSpec::Kind::named) return {};
+    auto found = namedScheme(scheme.named);
+    if (found && !scheme.solver.type.empty()) found->solver = scheme.solver;
+    return found;
+}
+
+ResolvedScheme resolve(const SchemeSpec& scheme) {
+    ResolvedScheme r;
+    r.spec = scheme;
+    if (auto discretization = discretizationOf(scheme)) {
+        r.discretization = std::move(*discretization);
+        r.family = familyOf(r.discretization.space);
+        if (!r.family) throw InvalidScene("/space/type", "there is no space \"" + scheme.space.type + "\"");
+        r.properties = describe(r.discretization);
+        r.claims = r.properties.claims;
+    } else {
+        if (scheme.kind == SchemeSpec::Kind::named)
+            throw InvalidScene("/scheme", "unknown scheme \"" + scheme.named + "\"");
+        r.baseline = findBaseline(scheme.baseline.type);
+        if (!r.baseline) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
+        r.claims = claimsOf(*r.baseline, scheme.baseline);
+        if (r.baseline->isAdaptive) r.grid = TimeGrid::landing;
+    }
+    if (scheme.composition.type.empty()) return r;
+    r.parts = compositionParts(scheme.composition, r.claims.order);
+    r.claims = composedClaims(scheme.composition, r.claims);
+    return r;
+}
+
+ResolvedScene resolve(const Scene& scene) {
+    ResolvedScene r;
+    r.scene = scene;
+    r.system = std::make_shared<const System>(makeSystem(scene));
+    r.initial = initialState(scene, *r.system);
+    for (const SchemeSpec& scheme : scene.schemes) r.schemes.push_back(resolve(scheme));
+    for (const SchemeSpec& scheme : scene.reference.scheme) r.reference.push_back(resolve(scheme));
+    return r;
+}
+
+}  // namespace extremal

@@ -1,0 +1,58 @@
+/// A scene as it runs: what reading it makes of its model and its schemes, once. Everything behind the codec
+/// takes it; nothing derives it again.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/family/family.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/system.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace extremal {
+
+/// A scheme: a discretization of a family, or a baseline, and perhaps a composition of it.
+struct ResolvedScheme {
+    SchemeSpec spec;                          ///< as the scene has it: label, step, tolerance
+    const Family* family = nullptr;           ///< null: a baseline
+    const BaselineEntry* baseline = nullptr;  ///< null: of a family
+    Discretization discretization;  ///< of a family: complete, but for what the start of a run decides
+    std::vector<double> parts;      ///< of its step, where it is composed
+    Properties properties;          ///< of a family, without its composition
+    Claims claims;                  ///< with its composition
+    TimeGrid grid = TimeGrid::fixed;
+
+    bool isComposed() const { return !parts.empty(); }
+    /// The discretization that the scheme is, not one that it is composed of; null for baselines.
+    const Discretization* plain() const { return family && !isComposed() ? &discretization : nullptr; }
+    /// Largest step * frequency on the harmonic oscillator; infinity: none; 0: not known. That of a
+    /// composition is measured when it is first asked for.
+    double stabilityLimit() const;
+    bool isAdaptive() const { return grid == TimeGrid::landing; }
+    /// Whether it can integrate the system.
+    bool fits(const System& system) const;
+    /// Its integrator, for a run from a state. Throws InvalidScene (pointer relative to the scheme).
+    std::unique_ptr<Integrator> make(const System& system, double step, const State& start) const;
+};
+
+/// The complete discretization that a scheme is or is composed of; none for baselines.
+std::optional<Discretization> discretizationOf(const SchemeSpec& scheme);
+
+/// Keys must be checked and complete. Throws InvalidScene where a name is not known.
+ResolvedScheme resolve(const SchemeSpec& scheme);
+
+struct ResolvedScene {
+    Scene scene;
+    std::shared_ptr<const System> system;
+    State initial;  ///< of the scene; schemes start from schemeStart (two_positions.hpp)
+    std::vector<ResolvedScheme> schemes;    ///< one for each of scene.schemes, disabled ones as well
+    std::vector<ResolvedScheme> reference;  ///< one where a scheme is the reference
+};
+
+/// Throws InvalidScene where the scene is not valid.
+ResolvedScene resolve(const Scene& scene);
+
+}  // namespace extremal

@@ -1,0 +1,34 @@
+/// Phase portrait: one state column against another, by default the first momentum over the first coordinate.
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+namespace {
+
+std::string xOfPhase(const View& view, const System& system) {
+    return view.x.empty() ? system.phaseX : view.x;
+}
+std::string yOfPhase(const View& view, const System& system) {
+    return view.y.empty() ? system.phaseY : view.y;
+}
+
+}  // namespace
+
+ViewEntry phase() {
+    return {
+        .item = viewItem("phase", "Phase portrait", "momentum over coordinate, or any two state columns",
+                         {textField("x", "x", "", "state column to the right, by default the model's choice"),
+                          textField("y", "y", "", "state column upwards, by default the model's choice")}),
+        .recipe = ColumnAgainstColumn{xOfPhase, yOfPhase},
+        .scales = againstColumn,
+        .products = {Product::denseOutput},
+        .missing =
+            [](const View& view, const System& system) {
+                const bool hasColumns = !xOfPhase(view, system).empty() && !yOfPhase(view, system).empty();
+                return std::string(hasColumns ? ""
+                                              : "a state of a few numbers, or two columns, \"x\" and \"y\"");
+            },
+        .keys = {.hasColumns = true, .hasObserved = true},
+        .xColumn = xOfPhase};
+}
+
+}  // namespace extremal::views

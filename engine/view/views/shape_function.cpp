@@ -1,0 +1,21 @@
+/// The shape function of a node: what the finite elements of each scheme are made of.
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+
+ViewEntry shape_function() {
+    return {
+        .item = viewItem("shape-function", "Shape function",
+                         "the function of a node that each scheme of the elliptic problem is made of",
+                         {integerField("node", "i", 1, 1e5, nullptr,
+                                       "node inside, from left to right; by default the one in the middle")}),
+        .recipe = OwnRecipe{"shape_function"},
+        .scales = againstPlace,
+        .missing =
+            [](const View&, const System& system) {
+                return std::string(kindOf<BoundaryProblem>(system) ? "" : "a boundary-value problem");
+            },
+        .keys = {.hasNode = true}};
+}
+
+}  // namespace extremal::views

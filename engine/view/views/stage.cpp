@@ -1,0 +1,17 @@
+/// The animated picture: a view, but no plot.
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+
+ViewEntry stage() {
+    return {.item = viewItem("stage", "Stage", "the moving picture of all schemes at one time"),
+            .recipe = NoPlot{},
+            .scales = noScales,
+            .products = {Product::denseOutput, Product::frames},
+            .missing = [](const View&, const System& system) {
+                return std::string(
+                    system.draw && !kindOf<BoundaryProblem>(system) ? "" : "a motion with a picture");
+            }};
+}
+
+}  // namespace extremal::views

@@ -1,0 +1,15 @@
+/// The step size against time. A scheme with a fixed step needs no column for it.
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+
+ViewEntry step() {
+    return {.item = viewItem("step", "Step size", "the time step of every scheme against time, logarithmic"),
+            .recipe = OwnRecipe{"step"},
+            .scales = logAgainstTime,
+            .missing = [](const View&, const System& system) {
+                return std::string(kindOf<BoundaryProblem>(system) ? "a motion" : "");
+            }};
+}
+
+}  // namespace extremal::views

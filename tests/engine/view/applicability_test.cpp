@@ -1,0 +1,210 @@
+/// Which system has which view: every view of the catalogue on every model, and what is said where one does
+/// not apply.
+#include <QTest>
+
+#include <algorithm>
+
+#include "engine/figure/figure.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/map_grid.hpp"
+#include "engine/scene/preset.hpp"
+#include "engine/view/catalog.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::applicability_test {
+namespace {
+
+/// A short run of the model as the window first shows it, with these views.
+ReadScene exampleOf(const ModelEntry& entry, const Value::Array& views, const std::string& scheme,
+                    const Value::Array& observe) {
+    Value model(Value::Object{{"type", entry.item.id}});
+    for (const FieldInfo& field : entry.item.parameters)
+        if (!field.example.isNull()) model.set(field.key, field.example);
+    Value first(Value::Object{{"label", "first"}, {"scheme", scheme}, {"step", entry.exampleStep}});
+    Value document(Value::Object{{"extremal", 1}, {"model", model}, {"schemes", Value::Array{first}}});
+    if (entry.item.id != "multiscale-elliptic")
+        document.set("time", Value(Value::Object{{"end", 20 * entry.exampleStep}}));
+    document.set("observe", observe);
+    document.set("views", views);
+    return readScene(document);
+}
+
+std::string schemeFor(const System& system) {
+    if (kindOf<BoundaryProblem>(system)) return "elliptic-multiscale";
+    if (isWave(system)) return "schrodinger-gauss-1";
+    return isBody(system) ? "lie-2" : "galerkin-gauss-2";
+}
+
+Value::Array observablesOf(const System& system) {
+    Value::Array all;
+    for (const ObservableEntry& entry : observableEntries())
+        if (isObservableOf(entry, system) && entry.item.id != "order") all.emplace_back(entry.item.id);
+    return all;
+}
+
+Value asked(const std::string& id, double step) {
+    if (id != mapView) return id;
+    return Value::Object{{"view", id},
+                         {"cells", Value::Array{2, 2}},
+                         {"steps", Value::Array{step, 2 * step}},
+                         {"duration", 10 * step},
+                         {"value", "error"}};
+}
+
+ReadScene kepler(const std::string& views, const std::string& schemes = R"({"step": 0.1, "baseline": "rk4"})",
+                 const std::string& observe = R"(["energy"])") {
+    const std::string text =
+        R"({"extremal": 1, "model": {"type": "kepler"}, "initial": {"q": [1, 0], "p": [0, 1]},
+        "time": {"end": 1}, "schemes": [)" +
+        schemes + R"(], "observe": )" + observe + R"(, "views": )" + views + "}";
+    return readScene(std::string_view(text));
+}
+
+}  // namespace
+
+class ApplicabilityTest : public QObject {
+    Q_OBJECT
+private slots:
+    void aViewIsAnErrorOfTheSceneOrShowsSomething_data() {
+        QTest::addColumn<QString>("model");
+        for (const ModelEntry& entry : modelCatalog())
+            QTest::newRow(entry.item.id.c_str()) << QString::fromStdString(entry.item.id);
+    }
+    void aViewIsAnErrorOfTheSceneOrShowsSomething() {
+        QFETCH(QString, model);
+        const ModelEntry& entry = *findModel(model.toStdString());
+        const ReadScene plain = exampleOf(entry, {}, "midpoint", {});
+        const System system = makeSystem(plain.scene);
+        const std::string scheme = schemeFor(system);
+        const Value::Array observe = observablesOf(system);
+        Value::Array fitting;
+        for (const ViewEntry& view : viewEntries()) {
+            const ReadScene read =
+                exampleOf(entry, {asked(view.item.id, entry.exampleStep)}, scheme, observe);
+            const std::string missing = missingFor({view.item.id, "", ""}, system);
+            // A model whose parameters the user names may have none; and a coefficient that is a thousand
+            // times faster takes long.
+            const bool isMap = view.item.id == mapView;
+            if (isMap && (kindOf<BoundaryProblem>(system) || parametersOf(read.scene).empty())) continue;
+            if (missing.empty()) {
+                QVERIFY2(read.errors.empty(),
+                         (view.item.id + (read.errors.empty() ? "" : ": " + read.errors[0].message)).c_str());
+                fitting.push_back(asked(view.item.id, entry.exampleStep));
+                continue;
+            }
+            QCOMPARE(read.errors.size(), std::size_t(1));
+            QCOMPARE(read.errors[0].pointer, std::string("/views/0"));
+            QCOMPARE(read.errors[0].message,
+                     view.item.id + " is not defined for " + entry.item.id + "; remove the view");
+            const std::string& hint = read.errors[0].hint;
+            QVERIFY2(hint.starts_with("it needs " + missing + "; " + entry.item.id + " has "), hint.c_str());
+            QVERIFY2(hint.find("work-precision") != std::string::npos, hint.c_str());
+        }
+        const ReadScene all = exampleOf(entry, fitting, scheme, observe);
+        QVERIFY(all.errors.empty());
+        const Comparison comparison = run(all.scene);
+        for (const View& view : plotViews(all.scene)) {
+            const Figure figure = makeFigure(comparison, view, &system);
+            // In so short a run a column may never pass zero.
+            QVERIFY2(!isEmpty(figure) || view.id == "section", (view.id + ": " + figure.message).c_str());
+        }
+    }
+    void whatTheModelLacksIsNamed() {
+        const auto hint = [](const std::string& id) {
+            const ReadScene read = kepler("[\"" + id + "\"]");
+            return read.errors.size() == 1 ? read.errors[0].hint : "";
+        };
+        const std::string has =
+            "; kepler has curve-error, discrete-lagrangian, energy, error, momentum, parameter-map, phase, "
+            "section, sparsity, stage, step, trajectory and work-precision";
+        QCOMPARE(hint("carpet"), "it needs a field or a wave function" + has);
+        QCOMPARE(hint("norm"), "it needs a wave function" + has);
+        QCOMPARE(hint("polhode"), "it needs a rigid body" + has);
+        QCOMPARE(hint("fast-energy"), "it needs a fast oscillation of its own" + has);
+        QCOMPARE(hint("shape-function"), "it needs a boundary-value problem" + has);
+    }
+    void presetsHaveOnlyViewsThatApply() {
+        for (const Preset& preset : presets()) {
+            const ReadScene read = readScene(preset.json);
+            QVERIFY2(read.errors.empty(), std::string(preset.id).c_str());
+        }
+    }
+    void defaultViewsAreThoseThatApply() {
+        const auto ids = [](const char* preset) {
+            Value document{Value::Object{}};
+            const Value whole = toValue(readScene(findPreset(preset)->json).scene);
+            for (const auto& [key, value] : whole.asObject())
+                if (key != "views") document.set(key, value);
+            const ReadScene read = readScene(document);
+            std::string all;
+            for (const View& view : read.scene.views) all += view.id + " ";
+            return all;
+        };
+        QCOMPARE(ids("kepler"), std::string("stage energy momentum error trajectory phase "));
+        QCOMPARE(ids("elliptic"), std::string("error trajectory phase "));
+        QVERIFY(ids("tunnelling").find("phase") == std::string::npos);
+        QVERIFY(ids("tunnelling").starts_with("stage "));
+    }
+    void columnsGivenByNameMakeAPhasePortraitOfAnything() {
+        const Scene scene = readScene(findPreset("tunnelling")->json).scene;
+        const auto errors = [&](const Value& view) {
+            return readScene(toValue(scene),
+                             {{"/observe", Value::Array{"position"}}, {"/views", Value::Array{view}}})
+                .errors;
+        };
+        QVERIFY(errors(Value::Object{{"view", "phase"}, {"x", "t"}, {"y", "position"}}).empty());
+        QCOMPARE(errors(Value::Object{{"view", "phase"}, {"y", "position"}}).size(), std::size_t(1));
+        QCOMPARE(errors("phase").at(0).message,
+                 std::string("phase is not defined for schrodinger; remove the view"));
+    }
+    void theEquationsOfASchemeNeedADiscretization() {
+        const std::string
+            rk4 = R"({"label": "RK4", "step": 0.1, "baseline": "rk4"})",
+            gauss = R"({"label": "Gauss", "step": 0.1, "scheme": "galerkin-gauss-1"})",
+            yoshida = R"({"label": "Y", "step": 0.1, "scheme": "midpoint", "composition": "yoshida"})";
+        for (const char* id : {"sparsity", "discrete-lagrangian"}) {
+            const std::string views = std::string("[\"") + id + "\"]";
+            const ReadScene none = kepler(views, rk4 + "," + yoshida);
+            QCOMPARE(none.errors.size(), std::size_t(1));
+            QCOMPARE(none.errors[0].message,
+                     id + std::string(" is not defined for any scheme of this scene; remove the view"));
+            QCOMPARE(
+                none.errors[0].hint,
+                std::string("RK4 is a baseline, which no discrete action defines; Y is a composition, whose "
+                            "step is several elements"));
+            QVERIFY(kepler(views, rk4 + "," + gauss).errors.empty());
+        }
+        // Of a body the families are named, and no scheme is said to be no discretization.
+        const auto body = exampleOf(*findModel("rigid-body"), {Value("sparsity")}, "lie-2", {}).errors;
+        QCOMPARE(body.size(), std::size_t(1));
+        QVERIFY(body[0].hint.find("Lie group, wave or elliptic") != std::string::npos);
+    }
+    void theMultiplierBelongsToCoordinates() {
+        for (const char* id : {"rigid-body", "schrodinger"}) {
+            const ModelEntry& entry = *findModel(id);
+            const System system = makeSystem(exampleOf(entry, {}, "midpoint", {}).scene);
+            const ReadScene read = exampleOf(entry, {}, schemeFor(system), {Value("multiplier")});
+            QCOMPARE(read.errors.size(), std::size_t(1));
+            QCOMPARE(read.errors[0].pointer, std::string("/observe/0"));
+            QCOMPARE(read.errors[0].message, "multiplier is not defined for " + std::string(id));
+            QVERIFY(read.errors[0].hint.find("energy") != std::string::npos);
+        }
+        QVERIFY(kepler("[]", R"({"step": 0.1, "scheme": "midpoint"})", R"(["multiplier"])").errors.empty());
+    }
+    void aViewOfWhatIsNotObservedIsAWarning() {
+        const ReadScene read = kepler(R"(["momentum"])");
+        QVERIFY(read.errors.empty());
+        const auto own = std::find_if(read.warnings.begin(), read.warnings.end(),
+                                      [](const Problem& p) { return p.pointer == "/views/0"; });
+        QVERIFY(own != read.warnings.end());
+        QCOMPARE(own->message, std::string("momentum stays empty: momentum is not observed"));
+    }
+};
+
+EXTREMAL_TEST(ApplicabilityTest)
+}  // namespace extremal::applicability_test
+
+#include "applicability_test.moc"

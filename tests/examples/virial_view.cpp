@@ -1,0 +1,13 @@
+/// The virial of each scheme against time.
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+
+ViewEntry virial() {
+    return {.item = viewItem("virial", "Virial", "q p of every scheme against time"),
+            .recipe = ColumnAgainstTime{"virial"},
+            .scales = againstTime,
+            .observable = "virial"};
+}
+
+}  // namespace extremal::views
