@@ -1,5 +1,5 @@
 /// The augmented action of N elements, nothing condensed: every element has its own degrees of freedom z_k in
-/// the basis of the space, and multipliers glue them,
+/// the basis of the space, and multipliers join them,
 ///     A = sum_k S(z_k) + p_0 . (s-(z_0) - q_0) + sum_{k=1}^{N-1} p_k . (s-(z_k) - s+(z_{k-1})) - p_N .
 ///     (s+(z_{N-1}) - q_N).
 /// Its stationarity conditions are the KKT conditions of the discrete action under continuity,
@@ -16,6 +16,7 @@
 
 #include <vector>
 
+#include "engine/action/element_kernel.hpp"
 #include "engine/action/table.hpp"
 #include "engine/action/unknown_block.hpp"
 #include "engine/model/mechanics.hpp"
@@ -27,11 +28,11 @@ public:
     /// Elements of length h. The table says space and rule; its change of basis is not used.
     SaddlePoint(Mechanics<double> mechanics, const Table<double>& table, double h, int elements);
 
-    int dimension() const { return mechanics_.dimension; }
+    int dimension() const { return kernel_.dimension(); }
     int elements() const { return elements_; }
     int size() const { return (elements_ + 1) * dimension() + elements_ * elementSize(); }
-    int elementSize() const { return functions() * dimension(); }
-    int functions() const { return static_cast<int>(value_.cols()); }
+    int elementSize() const { return kernel_.size(); }
+    int functions() const { return kernel_.functions(); }
     std::vector<UnknownBlock> blocks() const;
     int multiplierOffset(int k) const { return k * (dimension() + elementSize()); }
     int elementOffset(int k) const { return multiplierOffset(k) + dimension(); }
@@ -44,12 +45,11 @@ public:
     Eigen::VectorXd broken(const Eigen::MatrixXd& nodes) const;
 
 private:
-    Mechanics<double> mechanics_;
+    ElementKernel<double> kernel_;  ///< in the basis of the space
     double h_;
     int elements_;
-    Eigen::VectorXd node_, weight_, start_, end_;  ///< of the rule; traces of the basis
-    Eigen::MatrixXd value_, slope_;                ///< (i, a): the basis at the nodes
-    Eigen::VectorXd one_, rise_;  ///< coefficients of the functions 1 and (0 at the start, 1 at the end)
+    Eigen::VectorXd start_, end_;  ///< traces of the basis
+    Eigen::VectorXd one_, rise_;   ///< coefficients of the functions 1 and (0 at the start, 1 at the end)
 };
 
 }  // namespace extremal

@@ -65,7 +65,7 @@ struct Family {
     std::string source;  ///< "Leok 2004, sec. 3"
     std::vector<SpaceEntry> spaces;
     std::vector<std::string> solverMethods;  ///< besides "auto"
-    bool takesTensorRules = false;  ///< a rule for each direction: {"space": .., "time": ..}
+    bool takesTensorRules = false;           ///< a rule for each direction: {"space": .., "time": ..}
     /// Whether a solution is read off between nodes; else it is made anew there, and solutions are compared
     /// at nodes.
     bool hasDenseOutput = true;

@@ -65,6 +65,13 @@ public:
     /// The curve of the last step at tau in [0, 1]: q, and p by the momentum equation integrated to tau.
     void denseOutput(const T& tau, T* q, T* p) const;
 
+    /// Steps of another length from now on, without allocating. Not for tables whose functions change with
+    /// the step (oscillatory ones): these are made anew.
+    void setStep(const T& step);
+
+    /// Y of the last step: entry a of coordinate k after the m_0 + ... + m_{k-1} of those before it.
+    void coefficients(T* Y) const;
+
     /// Forgets the previous curve: the next step starts from a Taylor guess.
     void restart() {
         hasPrevious_ = false;
@@ -87,7 +94,7 @@ private:
     struct Functions {
         Square value, slope;      ///< (i, a): phi_a(c_i), and phi_a'(c_i) by time, over h
         Square valueAt, slopeAt;  ///< (a, i), with rows of 0 up to a multiple of 8
-        Square kineticInverse;    ///< (a, b): inverse of the kinetic Jacobian for unit mass
+        Square kineticInverse;  ///< (a, b): inverse of the kinetic Jacobian for unit mass, on the first step
     };
 
     int d() const { return mechanics_.dimension; }
@@ -104,6 +111,7 @@ private:
     }
     int offset(int k) const { return offset_[static_cast<std::size_t>(k)]; }
     void addProduct(const Square& A, int height, const T* B, int columns, T* C, int strideC) const;
+    void scaleToStep();
     void placeNodes();
     void evaluateGradients(const T& t);
     Accumulator actionGradient(int k, T* grad);
@@ -128,6 +136,7 @@ private:
     std::vector<Functions> functions_;
     std::vector<int> offset_;
     T h_;
+    T kineticScale_ = T(1);  ///< of kineticInverse: h over that of the first step
     SolverPolicy policy_;
     T tolerance_;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -37,21 +38,17 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         const int own = t.unknowns(), height = isVectorised_ ? (own + 7) / 8 * 8 : own;
         Functions f;
         f.value = f.slope = Square::Zero(rows(), own);
-        for (int a = 0; a < own; ++a) {
-            f.value.col(a) = padded(t.value.col(a));
-            f.slope.col(a) = padded(t.derivative.col(a)) / h_;
-        }
+        for (int a = 0; a < own; ++a) f.value.col(a) = padded(t.value.col(a));
         f.valueAt = f.slopeAt = Square::Zero(height, rows());
         f.valueAt.topRows(own) = f.value.transpose();
-        f.slopeAt.topRows(own) = f.slope.transpose();
         f.kineticInverse = Square(t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative / h_)
                                .partialPivLu()
                                .inverse();
         functions_.push_back(std::move(f));
     }
     node_ = times_ = padded(tables_.front().node);
-    weight_ = padded(tables_.front().weight) * h_;
-    weight_.tail(rows() - n()).setZero();
+    weight_ = Flat::Zero(rows());
+    scaleToStep();
     weightedLq_ = weightedLv_ = Flat::Zero(rows());
     for (Flat* f : {&Y_, &previousY_, &R_, &delta_}) *f = Flat::Zero(size);
     for (Columns* c : {&nodeQ_, &nodeV_}) *c = Columns::Zero(rows(), d());
@@ -68,6 +65,41 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     lu_ = Eigen::PartialPivLU<Square>(size);
     if (mechanics_.isSeparable && tables_.size() == 1 && tables_.front().frequency == T(0))
         fixedPointSolver_.emplace(mechanics_, tables_.front(), h_, tolerance_);
+}
+
+/// Slopes by time and weights by h.
+template <class T, int D>
+void GalerkinStep<T, D>::scaleToStep() {
+    for (int i = 0; i < n(); ++i) weight_(i) = tables_.front().weight(i) * h_;
+    for (std::size_t j = 0; j < functions_.size(); ++j) {
+        const auto& derivative = tables_[j].derivative;
+        Functions& f = functions_[j];
+        for (int a = 0; a < derivative.cols(); ++a)
+            for (int i = 0; i < rows(); ++i)
+                f.slope(i, a) = f.slopeAt(a, i) = derivative(std::min(i, n() - 1), a) / h_;
+    }
+}
+
+template <class T, int D>
+void GalerkinStep<T, D>::setStep(const T& step) {
+    assert(tables_.front().frequency == T(0));
+    if (step == h_) return;
+    kineticScale_ *= step / h_;
+    h_ = step;
+    scaleToStep();
+    if (fixedPointSolver_) fixedPointSolver_->setStep(step);
+    restart();
+}
+
+template <class T, int D>
+void GalerkinStep<T, D>::coefficients(T* Y) const {
+    if (!isSolvedByFixedPoint_) {
+        std::copy_n(Y_.data(), Y_.size(), Y);
+        return;
+    }
+    Square own(m(0), d()), forces(n(), d());
+    fixedPointSolver_->coefficients(own, forces);
+    std::copy_n(own.data(), own.size(), Y);
 }
 
 /// Starts from (q, p), and from what the last step could not add if this is where it ended.

@@ -69,6 +69,7 @@ bool GalerkinStep<T, D>::startFrom(const T& t, StartingValue start) {
         for (int a = 0; a < m(k); ++a) R(a) = -h_ * own.weight.dot(own.testValue.col(a)) * a0_(k);
         R(m(k) - 1) -= v0_(k);
         Y_.segment(offset(k), m(k)).noalias() = functions(k).kineticInverse.lazyProduct(R);
+        Y_.segment(offset(k), m(k)) *= kineticScale_;
     }
     return true;
 }

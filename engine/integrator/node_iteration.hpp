@@ -60,6 +60,9 @@ public:
     void remember(const Eigen::Ref<const Square>& forces);
     void forget() { hasForces_ = false; }
 
+    /// Steps of another length from now on; nothing is allocated.
+    void setStep(const T& step);
+
 private:
     using Array = std::vector<T>;
 
@@ -77,7 +80,13 @@ private:
     Mechanics<T> mechanics_;
     int d_, n_, m_, stride_;
     T h_, tolerance_;
-    bool isExact_;         ///< solve to round-off
+    bool isExact_;  ///< solve to round-off
+    /// The tables of the first step, not yet rounded.
+    struct {
+        T step;
+        Square N, start, toForces;
+        Eigen::Matrix<T, Eigen::Dynamic, 1> times, velocities, weight;
+    } made_;
     Array node_;           ///< c_i
     Array N_, start_;      ///< by columns: N, and G_ij = N_ij h b_j times the extrapolation of the forces
     Array slope_, toEnd_;  ///< s_i, S - s_i

@@ -72,7 +72,16 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     const Square inverse = kinetic.partialPivLu().inverse();
     const Square moments = h * (table.testValue.transpose() * table.weight.asDiagonal());  // m x n
     const Square toForces = -inverse * moments;                                            // m x n
-    const Square G = table.value * toForces, start = G * detail::extrapolation<T>(table.rule).transpose();
+    const Square G = table.value * toForces;
+    made_.step = h;
+    made_.start = G * detail::extrapolation<T>(table.rule).transpose();
+    made_.toForces = toForces;
+    made_.N = G;
+    for (int j = 0; j < n_; ++j)
+        made_.N.col(j) *= table.weight(j) != T(0) ? T(1 / (h * table.weight(j))) : T(0);
+    made_.times = -table.value * inverse.col(m_ - 1);
+    made_.velocities = -inverse.col(m_ - 1);
+    made_.weight = table.weight;
 
     const auto size = static_cast<std::size_t>(stride_), d = static_cast<std::size_t>(d_);
     const auto unknowns = static_cast<std::size_t>(m_);
@@ -83,46 +92,55 @@ NodeIteration<T>::NodeIteration(const Mechanics<T>& mechanics, const Table<T>& t
     toForces_.assign(size * unknowns, T(0));
     toVelocity_.assign(unknowns, T(0));
     size_.resize(d);
-    for (int i = 0; i < stride_; ++i) {
-        const int node = std::min(i, n_ - 1);  // the lanes beyond the last node repeat it
-        node_[at(0, i)] = table.node(node);
-        if (i < n_) weight_[at(0, i)] = h * table.weight(i);
-        for (int j = 0; j < n_; ++j) start_[at(j, i)] = start(node, j);
-    }
-    for (int a = 0; a < m_; ++a) {
-        toVelocity_[static_cast<std::size_t>(a)] = -inverse(a, m_ - 1);
-        for (int i = 0; i < n_; ++i) toForces_[at(a, i)] = toForces(a, i);
-    }
-    Square N = G;
-    for (int j = 0; j < n_; ++j) N.col(j) *= table.weight(j) != T(0) ? T(1 / (h * table.weight(j))) : T(0);
-    using std::abs;
-    const auto orLinear = [&](const T& time,
-                              const T& c) {  // the space has the linear functions, but for rounding
-        return abs(T(time - h * c)) <= 16 * std::numeric_limits<T>::epsilon() * abs(h) ? T(h * c) : time;
-    };
-    typename Table<T>::Vector times = -table.value * inverse.col(m_ - 1);
-    for (int i = 0; i < n_; ++i) times(i) = orLinear(times(i), table.node(i));
-    const T end = orLinear(T(-inverse(m_ - 1, m_ - 1)), T(1));
-    // From here on multiples of one unit: differences are exact, and so is the condition N_ij - N_ji = s_i -
-    // s_j.
-    const detail::Grid<T> round(
-        std::max({T(abs(end)), T(N.cwiseAbs().maxCoeff()), T(times.cwiseAbs().maxCoeff())}));
-    velocityToEnd_ = round(end);
-    for (int i = 0; i < stride_; ++i) {
-        slope_[at(0, i)] = round(times(std::min(i, n_ - 1)));
-        toEnd_[at(0, i)] = velocityToEnd_ - slope_[at(0, i)];
-    }
-    for (int j = 0; j < n_; ++j)
-        for (int i = 0; i < stride_; ++i) {
-            const int node = std::min(i, n_ - 1);
-            N_[at(j, i)] =
-                node >= j ? round(N(node, j)) : round(N(j, node)) + (slope_[at(0, node)] - slope_[at(0, j)]);
-        }
+    for (int i = 0; i < stride_; ++i)
+        node_[at(0, i)] = table.node(std::min(i, n_ - 1));  // the lanes beyond the last node repeat it
+    setStep(h);
     for (int k = 0; k < d_; ++k) inverseMass_[static_cast<std::size_t>(k)] = 1 / mechanics.masses[k];
     if constexpr (std::is_same_v<T, double>)
         sweep_ = nodeParallelSweep();
     else
         sweep_ = &sweep<T>;
+}
+
+/// Scales the tables as they were made: N and s by h, what is by forces in place of impulses by h^2.
+template <class T>
+void NodeIteration<T>::setStep(const T& step) {
+    const T ratio = step / made_.step, square = ratio * ratio;
+    h_ = step;
+    hasForces_ = false;
+    for (int a = 0; a < m_; ++a) {
+        toVelocity_[static_cast<std::size_t>(a)] = made_.velocities(a) * ratio;
+        for (int i = 0; i < n_; ++i) toForces_[at(a, i)] = made_.toForces(a, i) * square;
+    }
+    // The space has the linear functions, but for rounding.
+    using std::abs;
+    const T roundOff = 16 * std::numeric_limits<T>::epsilon() * abs(step);
+    const auto orLinear = [&](const T& time, const T& c) {
+        return abs(T(time - step * c)) <= roundOff ? T(step * c) : time;
+    };
+    const T end = orLinear(T(made_.velocities(m_ - 1) * ratio), T(1));
+    T largest = abs(end);
+    for (int i = 0; i < n_; ++i) {
+        slope_[at(0, i)] = orLinear(T(made_.times(i) * ratio), node_[at(0, i)]);
+        largest = std::max(largest, T(abs(slope_[at(0, i)])));
+        for (int j = 0; j < n_; ++j) largest = std::max(largest, T(abs(T(made_.N(i, j) * ratio))));
+    }
+    // From here on multiples of one unit: differences are exact, and so is the condition N_ij - N_ji = s_i -
+    // s_j.
+    const detail::Grid<T> round(largest);
+    velocityToEnd_ = round(end);
+    for (int i = 0; i < stride_; ++i) {
+        slope_[at(0, i)] = i < n_ ? round(slope_[at(0, i)]) : slope_[at(0, n_ - 1)];
+        toEnd_[at(0, i)] = velocityToEnd_ - slope_[at(0, i)];
+        if (i < n_) weight_[at(0, i)] = step * made_.weight(i);
+    }
+    const auto N = [&](int i, int j) { return round(T(made_.N(i, j) * ratio)); };
+    for (int j = 0; j < n_; ++j)
+        for (int i = 0; i < stride_; ++i) {
+            const int node = std::min(i, n_ - 1);
+            start_[at(j, i)] = made_.start(node, j) * square;
+            N_[at(j, i)] = node >= j ? N(node, j) : N(j, node) + (slope_[at(0, node)] - slope_[at(0, j)]);
+        }
 }
 
 /// Times of the nodes, and where they would be without a force.

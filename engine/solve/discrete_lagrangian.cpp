@@ -15,34 +15,29 @@ namespace extremal {
 
 template <class T>
 ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, const Vector& q0,
-                                                   const Vector& q1, const Vector* interior) const {
-    const int d = action_.dimension(), inner = action_.interior() * d;
+                                                   const Vector& q1, const Vector* guess) const {
+    const int d = kernel_.dimension(), inner = interior() * d;
     // A straight line has no interior: the interior functions are orthogonal to it in the velocities.
-    Vector x = interior ? *interior : Vector(Vector::Zero(inner));
-    Matrix Z(d, action_.functions());
-    Vector gradient;
-    Matrix hessian;
+    Vector x = guess ? *guess : Vector(Vector::Zero(inner)), z(kernel_.size());
+    ElementDerivatives<T> element;
     ActionBetween<T> result;
-    auto place = [&](const Vector& Y) {
-        Z.col(0) = q0;
-        Z.middleCols(1, action_.interior()) = Eigen::Map<const Matrix>(Y.data(), d, action_.interior());
-        Z.col(action_.functions() - 1) = q1;
-    };
     result.outcome = solveNewton<T>(
         x,
         [&](const Vector& Y, Vector& F, Matrix* J) {
-            place(Y);
-            T S;
-            if (!action_.evaluate(t0, h, Z, S, &gradient, J ? &hessian : nullptr)) return false;
-            F = gradient.segment(d, inner);
-            if (J) *J = hessian.block(d, d, inner, inner);
+            z << q0, Y, q1;
+            const auto order = J ? DerivativeOrder::second : DerivativeOrder::first;
+            if (!kernel_.evaluate(t0, h, z, order, element)) return false;
+            F = element.gradient.segment(d, inner);
+            if (J) *J = element.hessian.block(d, d, inner, inner);
             return true;
         },
         std::max(T(q0.cwiseAbs().maxCoeff()), T(q1.cwiseAbs().maxCoeff())));
-    place(x);
-    if (!action_.evaluate(t0, h, Z, result.action, &gradient, &hessian)) result.outcome = Outcome::notFinite;
-    result.startMomentum = -gradient.head(d);
-    result.endMomentum = gradient.tail(d);
+    z << q0, x, q1;
+    if (!kernel_.evaluate(t0, h, z, DerivativeOrder::second, element)) result.outcome = Outcome::notFinite;
+    const Matrix& hessian = element.hessian;
+    result.action = element.action;
+    result.startMomentum = -element.gradient.head(d);
+    result.endMomentum = element.gradient.tail(d);
     result.nodes.resize(d, 2);
     result.nodes << q0, q1;
     result.interior = x;
@@ -61,7 +56,7 @@ ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, cons
 
 template <class T>
 ActionBetween<T> DiscreteLagrangian<T>::between(const T& t0, const T& h, const Matrix& guess) const {
-    const int d = action_.dimension(), N = static_cast<int>(guess.cols()) - 1, inner = action_.interior() * d;
+    const int d = kernel_.dimension(), N = static_cast<int>(guess.cols()) - 1, inner = interior() * d;
     ActionBetween<T> result;
     result.interior = Matrix::Zero(inner, N);
     result.nodes = guess;
@@ -107,7 +102,7 @@ ActionBetween<T> DiscreteLagrangian<T>::between(const T& t0, const T& h, const M
 template <class T>
 typename DiscreteLagrangian<T>::Matrix DiscreteLagrangian<T>::eulerLagrange(const T& t0, const T& h,
                                                                             const Matrix& nodes) const {
-    const int d = action_.dimension(), N = static_cast<int>(nodes.cols()) - 1;
+    const int d = kernel_.dimension(), N = static_cast<int>(nodes.cols()) - 1;
     Matrix residual = Matrix::Zero(d, N - 1);
     for (int k = 0; k < N; ++k) {
         const auto element = (*this)(t0 + h * k, h, nodes.col(k), nodes.col(k + 1));

@@ -16,7 +16,7 @@
 
 #include <vector>
 
-#include "engine/action/element_action.hpp"
+#include "engine/action/element_kernel.hpp"
 #include "engine/core/outcome.hpp"
 
 namespace extremal {
@@ -42,8 +42,8 @@ public:
     using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
 
     DiscreteLagrangian(Mechanics<T> mechanics, Table<T> table)
-        : action_(std::move(mechanics), std::move(table)) {}
-    const ElementAction<T>& action() const { return action_; }
+        : kernel_(std::move(mechanics), std::move(table)) {}
+    const ElementKernel<T>& kernel() const { return kernel_; }
 
     /// L_d of one element of length h from t0. `interior`: guess, d (m - 1) entries; null: none, a straight
     /// line.
@@ -59,7 +59,9 @@ public:
     Matrix eulerLagrange(const T& t0, const T& h, const Matrix& nodes) const;
 
 private:
-    ElementAction<T> action_;
+    int interior() const { return kernel_.functions() - 2; }
+
+    ElementKernel<T> kernel_;
 };
 
 /// The exact discrete Lagrangian, resolved: Gauss collocation of degree 12 on 2, 4, 8, ... elements until the

@@ -133,8 +133,7 @@ private slots:
                 if (advance(*integrator, state).outcome != Outcome::converged) return std::vector<double>();
             return state.x;
         };
-        const auto finest = end(327680, {1, 0.3}), coarse = end(2560, {1, 0.3}),
-                   fine = end(5120, {1, 0.3});
+        const auto finest = end(327680, {1, 0.3}), coarse = end(2560, {1, 0.3}), fine = end(5120, {1, 0.3});
         for (std::size_t i = 0; i < 2; ++i) {
             const double order = std::log2(std::abs(coarse[i] - finest[i]) / std::abs(fine[i] - finest[i]));
             QVERIFY2(std::abs(order - known.claims.order) < 0.1,

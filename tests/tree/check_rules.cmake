@@ -54,7 +54,7 @@ expect(part_of_a_word app/a.cpp "f(\"fourier-like\", \"reduced model\");\n" "")
 expect(families_in_tests tests/a_test.cpp "f(\"fourier\");\n#include \"engine/family/wave/wave.hpp\"\n" "")
 expect(header_of_a_family engine/run/a.cpp "#include \"engine/family/wave/wave.hpp\"\n"
     "a.cpp:1: includes \"engine/family/wave/wave.hpp\" of a family that is not its own")
-expect(header_of_another_family engine/family/lie/a.cpp "#include \"engine/family/galerkin/table_of.hpp\"\n" "not its own")
+expect(header_of_another_family engine/family/lie/a.cpp "#include \"engine/family/galerkin/kkt_pattern.hpp\"\n" "not its own")
 expect(header_of_its_family engine/family/lie/a.cpp "#include \"engine/family/lie/lie.hpp\"\n" "")
 expect(header_in_a_baseline engine/baseline/a.cpp "#include \"engine/family/wave/wave.hpp\"\n" "")
 expect(header_of_all_families engine/run/a.cpp "#include \"engine/family/scheme.hpp\"\n" "")

@@ -210,7 +210,8 @@ void CompareView::refresh() {
     if (!(systemModel_ == results->scene.model) || system_.id.empty()) {
         system_ = results->system ? *results->system : makeSystem(results->scene);
         systemModel_ = results->scene.model;
-        if (const bool draws = system_.independent == "t"; draws != hasStage_) {  // nothing moves along a place
+        if (const bool draws = system_.independent == "t";
+            draws != hasStage_) {  // nothing moves along a place
             hasStage_ = draws;
             columns_ = 0;
             arrange();

@@ -28,8 +28,10 @@
 #include <stop_token>
 #include <vector>
 
+#include "engine/action/chain_rule.hpp"
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
+#include "engine/family/lie/chart_lagrangian.hpp"
 #include "engine/family/lie/lie_groups.hpp"
 #include "engine/model/body.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -55,6 +57,11 @@ public:
     /// The pose of the last step at tau in [0, 1] from its start.
     Pose<T> denseOutput(const T& tau) const;
 
+    /// Y of the last step, n x m: column a is the coefficient of the table's function a.
+    const Eigen::Matrix<T, n, Eigen::Dynamic>& coefficients() const { return Y_; }
+    /// Steps of another length from now on.
+    void setStep(const T& step) { h_ = isAdjoint_ ? T(-step) : step; }
+
 private:
     using Columns = Eigen::Matrix<T, n, Eigen::Dynamic>;
     using Square = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
@@ -76,7 +83,12 @@ private:
     void correct();
     void updateImpulse();
     Attempt iterate(const std::stop_token& stop);
-    Vector weigh(const Vector& eta) const { return eta.cwiseProduct(inertia_); }
+    /// Test functions of the table at node i.
+    auto testAt(int i) const {
+        return [this, i](int a) {
+            return testFunction(table_.weight(i), h_, table_.value(i, a), table_.derivative(i, a));
+        };
+    }
 
     BodyMechanics<T> body_;
     Table<T> table_;
@@ -84,7 +96,7 @@ private:
     bool hasPotential_, isAdjoint_;
     SolverPolicy policy_;
     T tolerance_;
-    Vector inertia_;
+    ChartLagrangian<T, G> lagrangian_;
 
     Pose<T> known_, foot_;  ///< the start of the step; the foot of the chart (the same, or the end)
     typename G::Element footElement_;

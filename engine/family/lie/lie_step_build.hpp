@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/action/chain_rule.hpp"
 #include "engine/family/lie/lie_guess.hpp"
 #include "engine/family/lie/lie_step.hpp"
 
@@ -21,9 +22,9 @@ LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& st
       h_(isAdjoint ? T(-step) : step),
       hasPotential_(!body.isFree() || !isReduced),
       isAdjoint_(isAdjoint),
-      policy_(policy) {
-    tolerance_ = toleranceOf<T>(policy);
-    for (int i = 0; i < n; ++i) inertia_(i) = body.inertia[static_cast<std::size_t>(i)];
+      policy_(policy),
+      tolerance_(toleranceOf<T>(policy)),
+      lagrangian_(body) {
     for (Columns* c : {&Y_, &R_, &points_}) *c = Columns::Zero(n, m());
     for (Columns* c : {&xi_, &v_, &force_}) *c = Columns::Zero(n, nodes());
     W_ = mu_ = Vector::Zero();
@@ -74,7 +75,7 @@ bool LieStep<T, G>::predict() {
     // The points are symmetric in time: the adjoint step sees the same ones from the end.
     const auto last = static_cast<std::size_t>(m());
     const Pose<T>& foot = poses_[isAdjoint_ ? last : 0];
-    const so3::Vector<T> w = mu_.template head<3>().cwiseQuotient(inertia_.template head<3>());
+    const so3::Vector<T> w = mu_.template head<3>().cwiseQuotient(lagrangian_.inertia.template head<3>());
     for (int k = 0; k < m(); ++k) {
         const auto at = static_cast<std::size_t>(k + 1);
         const Pose<T>& place = poses_[isAdjoint_ ? last - at : at];
@@ -86,7 +87,8 @@ bool LieStep<T, G>::predict() {
     return isfinite(Y_.squaredNorm());
 }
 
-/// R, the equations at the present Y; fills force_ (as momenta at the foot) and W.
+/// R, the equations at the present Y: dL_d/dY by the chain rule, less the momentum at the end of the chart.
+/// Fills force_ (as momenta at the foot) and W.
 template <class T, class G>
 void LieStep<T, G>::residual() {
     R_.setZero();
@@ -94,9 +96,8 @@ void LieStep<T, G>::residual() {
     if (hasPotential_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
         const typename G::template Chart<1> at(xi_.col(i));
-        const Vector v = v_.col(i), momentum = weigh(at.dexp(v));
-        Vector forXi = at.gradient(v, momentum);
-        const Vector forV = at.dexpTransposed(momentum);
+        Vector forXi, forV;
+        lagrangian_.gradient(at, v_.col(i), forXi, forV);
         if (hasPotential_) {
             Vector f = Vector::Zero();
             if (!body_.isFree()) {
@@ -108,9 +109,7 @@ void LieStep<T, G>::residual() {
             force_.col(i) = at.rotateMomentum(f);
             W_ -= (h_ * table_.weight(i)) * force_.col(i);
         }
-        for (int a = 0; a < m(); ++a)
-            R_.col(a) += (table_.weight(i) * h_ * table_.value(i, a)) * forXi +
-                         (table_.weight(i) * table_.derivative(i, a)) * forV;
+        addGradient(m(), testAt(i), forXi, forV, [&](int a) { return R_.col(a); });
     }
     const typename G::template Chart<0> end(Y_.col(m() - 1));
     if (isAdjoint_)
@@ -128,7 +127,7 @@ void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& a
     Vector f;
     Matrix slope;
     body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), slope.data());
-    xiXi += at.derivativeOfTransposed(f) + A.transpose() * slope * A;
+    ChartLagrangian<T, G>::addPotential(at, A, f, slope, xiXi);
     auto jacobian = this->jacobian();
     const int last = n * (m() - 1);
     const Vector xiEnd = Y_.col(m() - 1);
@@ -161,22 +160,16 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
     if (hasPotential_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
         const typename G::template Chart<2> at(xi_.col(i));
-        const Vector v = v_.col(i), momentum = weigh(at.dexp(v));
-        const Matrix A = at.dexpMatrix(), D = at.derivative(v);
-        const Matrix MA = inertia_.asDiagonal() * A;
-        const Matrix vv = A.transpose() * MA;
-        const Matrix vXi = at.derivativeOfTransposed(momentum) + MA.transpose() * D;
-        Matrix xiXi = at.hessian(v, momentum) + D.transpose() * inertia_.asDiagonal() * D;
-        if (!body_.isFree()) addPotentialAt(i, at, A, xiXi);
-        const T b = table_.weight(i);
-        for (int a = 0; a < m(); ++a) {
-            const T value = b * table_.value(i, a), slope = b * table_.derivative(i, a);
-            const Matrix forXi = (h_ * value) * xiXi + slope * vXi;
-            const Matrix forV = value * vXi.transpose() + (slope / h_) * vv;
-            for (int c = 0; c < m(); ++c)
-                jacobian.template block<n, n>(n * a, n * c) +=
-                    table_.value(i, c) * forXi + table_.derivative(i, c) * forV;
-        }
+        auto L = lagrangian_.second(at, v_.col(i));
+        if (!body_.isFree()) addPotentialAt(i, at, L.A, L.xiXi);
+        const Matrix xiV = L.vXi.transpose();
+        addHessian(
+            m(), m(), testAt(i),
+            [&](int c) {
+                return TrialFunction<T>{table_.value(i, c), table_.derivative(i, c)};
+            },
+            L.xiXi, xiV, L.vXi, L.vv,
+            [&](int a, int c) { return jacobian.template block<n, n>(n * a, n * c); });
     }
     const typename G::template Chart<1> end(Y_.col(m() - 1));
     const int last = n * (m() - 1);
@@ -218,11 +211,12 @@ T LieStep<T, G>::correction() {
 /// the whole body on its way, and move the lightest axis.
 template <class T, class G>
 T LieStep<T, G>::floor() const {
-    T heaviest = inertia_.template head<3>().maxCoeff();
+    T heaviest = lagrangian_.inertia.template head<3>().maxCoeff();
     if constexpr (n == 6)
         for (int a = 0; a < m(); ++a)
-            heaviest = std::max(heaviest, T(inertia_(3) * Y_.col(a).template tail<3>().squaredNorm()));
-    return std::numeric_limits<T>::epsilon() * heaviest / inertia_.template head<3>().minCoeff();
+            heaviest =
+                std::max(heaviest, T(lagrangian_.inertia(3) * Y_.col(a).template tail<3>().squaredNorm()));
+    return std::numeric_limits<T>::epsilon() * heaviest / lagrangian_.inertia.template head<3>().minCoeff();
 }
 
 template <class T, class G>

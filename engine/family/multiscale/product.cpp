@@ -7,67 +7,19 @@
 #include <utility>
 #include <vector>
 
+#include "engine/action/chain_rule.hpp"
 #include "engine/family/multiscale/oscillatory_table.hpp"
 #include "engine/core/dense.hpp"
-#include "engine/core/jet.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
+#include "engine/family/multiscale/product_curve.hpp"
 #include "engine/quadrature/rule.hpp"
 #include "engine/solve/small_lu.hpp"
 
 namespace extremal {
 namespace {
-
-/// A function of time and its rate.
-using Moving = Dual<double, 1>;
-
-/// The curve of one coordinate on a step: X = (p_0..p_n, alpha, beta), and w where it is free.
-struct ProductCurve {
-    int degree;
-    bool isFree;
-    double frequency;  ///< where it is not
-
-    int size() const { return degree + (isFree ? 4 : 3); }
-
-    struct At {
-        Moving q;
-        std::vector<Moving> first, second;  ///< dq/dX_j; d^2 q / dX_j dX_k at j * size + k
-    };
-    void evaluate(double t, double h, const double* X, At& at) const {
-        const int n = size(), alpha = degree + 1, beta = alpha + 1, omega = beta + 1;
-        const double a = X[alpha], b = X[beta], w = isFree ? X[omega] : frequency;
-        at.first.resize(static_cast<std::size_t>(n));
-        at.second.assign(static_cast<std::size_t>(n * n), Moving(0.0));
-        const Moving time = Moving::variable(t, 0), x = time * (2 / h) - 1.0;
-        const Moving s = sin(time * w), c = cos(time * w), F = 1.0 + s * a + c * b,
-                     G = time * (c * a - s * b);
-        const auto pair = [&](int j, int k, const Moving& value) {
-            at.second[static_cast<std::size_t>(j * n + k)] = at.second[static_cast<std::size_t>(k * n + j)] =
-                value;
-        };
-        Moving P(1.0), lower(0.0), slow(0.0);
-        for (int j = 0; j <= degree; ++j) {
-            slow += P * X[j];
-            at.first[static_cast<std::size_t>(j)] = P * F;
-            pair(j, alpha, P * s);
-            pair(j, beta, P * c);
-            if (isFree) pair(j, omega, P * G);
-            const Moving next = (x * P * (2.0 * j + 1) - lower * static_cast<double>(j)) * (1.0 / (j + 1));
-            lower = P;
-            P = next;
-        }
-        at.q = slow * F;
-        at.first[static_cast<std::size_t>(alpha)] = slow * s;
-        at.first[static_cast<std::size_t>(beta)] = slow * c;
-        if (!isFree) return;
-        at.first[static_cast<std::size_t>(omega)] = slow * G;
-        pair(alpha, omega, slow * time * c);
-        pair(beta, omega, slow * time * s * -1.0);
-        pair(omega, omega, slow * time * time * (s * a + c * b) * -1.0);
-    }
-};
 
 class Product final : public Integrator {
 public:
@@ -168,6 +120,8 @@ public:
     }
 
     double periodsPerStep() const override { return additive_->periodsPerStep(); }
+
+    std::span<const double> unknowns() const { return unknowns_; }
 
 private:
     static constexpr int fitSamples = 24;
@@ -295,32 +249,37 @@ private:
     void evaluate(double t, std::vector<ProductCurve::At>& at) {
         for (std::size_t k = 0; k < curves_.size(); ++k) curves_[k].evaluate(t, h_, own(k), at[k]);
     }
+    /// What the node in at_ adds to the equations of coordinate k: the chain rule, with w L' and w L'' in
+    /// place of test functions with weights.
     void addNode(int k, double weight) {
         const int d = static_cast<int>(curves_.size()), n = curves_[static_cast<std::size_t>(k)].size();
         const ProductCurve::At& at = at_[static_cast<std::size_t>(k)];
         const double onQ = weight * gradient_[static_cast<std::size_t>(k)],
                      onV = weight * gradient_[static_cast<std::size_t>(d + k)];
+        const int row = offset_[static_cast<std::size_t>(k)];
+        const auto test = [&](int j) {
+            const Moving& f = at.first[static_cast<std::size_t>(j)];
+            return TestFunction<double>{f.value, f.g[0], f.value, f.g[0]};
+        };
+        addGradient(n, test, onQ, onV,
+                    [&](int j) -> double& { return residual_[static_cast<std::size_t>(row + j)]; });
+        addSecondDerivatives(
+            n, [&](int j, int i) { return trial(at.second[static_cast<std::size_t>(i * n + j)]); }, onQ, onV,
+            [&](int j, int i) -> double& { return lu_.column(row + i)[row + j]; });
         const auto H = [&](int i, int j) {
             return weight * hessian_[static_cast<std::size_t>(i * 2 * d + j)];
         };
-        const int row = offset_[static_cast<std::size_t>(k)];
-        for (int j = 0; j < n; ++j) {
-            const Moving& phi = at.first[static_cast<std::size_t>(j)];
-            residual_[static_cast<std::size_t>(row + j)] += onQ * phi.value + onV * phi.g[0];
-            for (int i = 0; i < n; ++i) {
-                const Moving& bent = at.second[static_cast<std::size_t>(i * n + j)];
-                lu_.column(row + i)[row + j] += onQ * bent.value + onV * bent.g[0];
-            }
-            for (int l = 0; l < d; ++l) {
-                const double byQ = H(k, l) * phi.value + H(d + k, l) * phi.g[0];
-                const double byV = H(k, d + l) * phi.value + H(d + k, d + l) * phi.g[0];
-                const std::vector<Moving>& others = at_[static_cast<std::size_t>(l)].first;
-                for (std::size_t i = 0; i < others.size(); ++i)
-                    lu_.column(offset_[static_cast<std::size_t>(l)] + static_cast<int>(i))[row + j] +=
-                        byQ * others[i].value + byV * others[i].g[0];
-            }
+        for (int l = 0; l < d; ++l) {
+            const std::vector<Moving>& others = at_[static_cast<std::size_t>(l)].first;
+            const int column = offset_[static_cast<std::size_t>(l)];
+            addHessian(
+                n, static_cast<int>(others.size()), test,
+                [&](int i) { return trial(others[static_cast<std::size_t>(i)]); }, H(k, l), H(k, d + l),
+                H(d + k, l), H(d + k, d + l),
+                [&](int j, int i) -> double& { return lu_.column(column + i)[row + j]; });
         }
     }
+    static TrialFunction<double> trial(const Moving& f) { return {f.value, f.g[0]}; }
     /// Continuity, its multipliers, and the momentum at the start.
     void addEnds(int k, const State& state) {
         const auto at = static_cast<std::size_t>(k);
@@ -357,6 +316,10 @@ private:
 };
 
 }  // namespace
+
+std::span<const double> productUnknowns(const Integrator& product) {
+    return dynamic_cast<const Product&>(product).unknowns();
+}
 
 bool isProduct(const Settings& space) { return space.type == "oscillatory-product"; }
 

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "engine/family/scheme.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -34,5 +35,9 @@ Settings completeProductRule(const Settings& space, const Settings& quadrature);
 /// Throws InvalidScene (pointer relative to the scheme) where a rule does not resolve the oscillation.
 std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& pair,
                                                   const Clock& clock, const SolverPolicy& policy);
+
+/// (X, p_1) of the last step, coordinate by coordinate, of an integrator made here: for those who look at its
+/// equations.
+std::span<const double> productUnknowns(const Integrator& product);
 
 }  // namespace extremal
