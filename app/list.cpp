@@ -6,7 +6,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/integrator/composition.hpp"
-#include "engine/family/scheme.hpp"
+#include "engine/family/scheme_claims.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/view/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -21,6 +21,7 @@ namespace {
 struct Kind {
     std::string name;
     std::vector<CatalogItem> items;
+    std::vector<Value> more = {};  ///< further members of each item; may be empty
 };
 
 template <class Entries>
@@ -43,11 +44,48 @@ std::vector<CatalogItem> presetItems() {
     return items;
 }
 
+Value claimsValue(const Claims& claims) {
+    Value::Array conserves;
+    for (const std::string& c : claims.conserves) conserves.emplace_back(c);
+    Value value{Value::Object{}};
+    value.set("order", claims.order);
+    value.set("symmetric", claims.isSymmetric);
+    value.set("symplectic", claims.isSymplectic);
+    value.set("conserves", conserves);
+    return value;
+}
+
+/// Schemes claim what their discretizations do: of those with degrees, `claims` are of the lowest, with a
+/// formula of the order where there is one, and "claims_by_degree" of the first eight.
+Kind schemeKind() {
+    Kind kind{"schemes", itemsOf(schemeCatalog())};
+    for (std::size_t i = 0; i < kind.items.size(); ++i) {
+        const auto claims = claimsByDegree(schemeCatalog()[i], 8);
+        Value more{Value::Object{}}, lowest = claimsValue(claims.front().claims);
+        if (const std::string formula = orderFormula(claims); !formula.empty())
+            lowest.set("order_formula", formula);
+        more.set("claims", lowest);
+        more.set("needs", kind.items[i].needs);
+        if (claims.size() > 1) {
+            Value::Array all;
+            for (const DegreeClaims& c : claims) {
+                const Value claimed = claimsValue(c.claims);
+                Value entry(Value::Object{{"degree", c.degree}});
+                for (const auto& [key, value] : claimed.asObject()) entry.set(key, value);
+                all.push_back(entry);
+            }
+            more.set("claims_by_degree", all);
+        }
+        kind.more.push_back(more);
+    }
+    return kind;
+}
+
 std::vector<Kind> kinds() {
     return {{"models", itemsOf(modelCatalog())},
             {"spaces", spaceCatalog()},
             {"quadratures", quadratureCatalog()},
-            {"schemes", itemsOf(schemeCatalog())},
+            schemeKind(),
             {"baselines", itemsOf(baselineCatalog())},
             {"compositions", compositionCatalog()},
             {"observables", observableCatalog()},
@@ -107,21 +145,19 @@ Value itemValue(const CatalogItem& item) {
     for (const FieldInfo& field : item.parameters) parameters.push_back(fieldValue(field));
     value.set("parameters", parameters);
     if (!item.claims) return value;
-    Value::Array conserves;
-    for (const std::string& c : item.claims->conserves) conserves.emplace_back(c);
-    Value claims{Value::Object{}};
-    claims.set("order", item.claims->order);
-    claims.set("symmetric", item.claims->isSymmetric);
-    claims.set("symplectic", item.claims->isSymplectic);
-    claims.set("conserves", conserves);
-    value.set("claims", claims);
+    value.set("claims", claimsValue(*item.claims));
     value.set("needs", item.needs);
     return value;
 }
 
 Value kindValue(const Kind& kind) {
     Value::Array items;
-    for (const CatalogItem& item : kind.items) items.push_back(itemValue(item));
+    for (std::size_t i = 0; i < kind.items.size(); ++i) {
+        Value value = itemValue(kind.items[i]);
+        if (!kind.more.empty())
+            for (const auto& [key, member] : kind.more[i].asObject()) value.set(key, member);
+        items.push_back(value);
+    }
     return items;
 }
 

@@ -123,6 +123,29 @@ private slots:
         QVERIFY(baselines[0].toObject()["claims"].toObject()["order"].isDouble());
     }
 
+    void schemesClaimWhatTheirDiscretizationsDoAtEachDegree() {
+        const QJsonArray schemes =
+            QJsonDocument::fromJson(extremal({"list", "schemes", "--json"}).out.toUtf8()).array();
+        const auto entry = [&](const QString& id) {
+            for (const QJsonValue& scheme : schemes)
+                if (scheme.toObject()["id"] == id) return scheme.toObject();
+            return QJsonObject();
+        };
+        const QJsonObject gauss = entry("galerkin-gauss-<s>"), curtis = entry("spectral-clenshaw-curtis-<s>");
+        QCOMPARE(gauss["claims"].toObject()["order"].toInt(), 2);
+        QCOMPARE(gauss["claims"].toObject()["order_formula"].toString(), QString("2s"));
+        QCOMPARE(gauss["claims_by_degree"].toArray().size(), 8);
+        QCOMPARE(gauss["claims_by_degree"].toArray()[2].toObject()["order"].toInt(), 6);
+        // No formula holds for all of these.
+        QVERIFY(!curtis["claims"].toObject().contains("order_formula"));
+        QList<int> orders;
+        for (int s = 1; s <= 5; ++s)
+            orders << curtis["claims_by_degree"].toArray()[s - 1].toObject()["order"].toInt();
+        QCOMPARE(orders, QList<int>({2, 4, 4, 6, 4}));
+        QVERIFY(!entry("midpoint").contains("claims_by_degree"));
+        QCOMPARE(entry("midpoint")["claims"].toObject()["order"].toInt(), 2);
+    }
+
     void aFailedSchemeLeavesTheOthersAlone() {
         QTemporaryDir dir;
         const Answer a =

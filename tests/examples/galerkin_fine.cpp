@@ -5,7 +5,7 @@ namespace extremal::schemes {
 
 SchemeEntry galerkin_fine() {
     SchemeEntry e;
-    // The claims of the smallest degree; those of the others follow from space and rule.
+    // What it claims follows from space and rule, at each degree.
     e.item = {
         "galerkin-fine-<s>", "Galerkin, fine rule", "Degree s with Gauss(s + 1): order 2s.", {}, {}, ""};
     e.source = "Leok 2004, sec. 2.1";
