@@ -25,7 +25,7 @@ using namespace extremal;
 
 namespace {
 
-struct Cost {
+struct RunCost {
     double seconds = HUGE_VAL, error = HUGE_VAL, errorTheta = 0, step = 0;
     long long evaluations = 0;
     std::string name;
@@ -35,7 +35,7 @@ struct Cost {
 using Rows = std::vector<std::array<double, 2>>;
 using Make = std::function<std::unique_ptr<Integrator>(const System&, const Clock&)>;
 
-struct Problem {
+struct SpringProblem {
     double k;
     System system;
     Rows reference;
@@ -44,8 +44,8 @@ struct Problem {
 };
 
 /// Makes the integrator and goes to t = 10; set-up included, comparison not.
-Cost run(const Problem& p, const Make& make, double step) {
-    Cost cost;
+RunCost run(const SpringProblem& p, const Make& make, double step) {
+    RunCost cost;
     cost.step = step;
     const double begin = cpuSeconds();
     const auto integrator = make(p.system, {0, step});
@@ -74,10 +74,11 @@ Cost run(const Problem& p, const Make& make, double step) {
 }
 
 /// Median of five.
-Cost measure(const Problem& p, const Make& make, double step) {
-    std::vector<Cost> all;
+RunCost measure(const SpringProblem& p, const Make& make, double step) {
+    std::vector<RunCost> all;
     for (int i = 0; i < 5; ++i) all.push_back(run(p, make, step));
-    std::sort(all.begin(), all.end(), [](const Cost& x, const Cost& y) { return x.seconds < y.seconds; });
+    std::sort(all.begin(), all.end(),
+              [](const RunCost& x, const RunCost& y) { return x.seconds < y.seconds; });
     return all[2];
 }
 
@@ -97,14 +98,14 @@ Make impulse(int order) {
     };
 }
 
-void keepBest(Cost& best, const Cost& found, double wanted, const std::string& name) {
+void keepBest(RunCost& best, const RunCost& found, double wanted, const std::string& name) {
     if (!(found.error <= wanted) || found.seconds >= best.seconds) return;
     best = found;
     best.name = name;
 }
 
-Cost bestMultiscale(const Problem& p, double wanted) {
-    Cost best;
+RunCost bestMultiscale(const SpringProblem& p, double wanted) {
+    RunCost best;
     for (const auto& [name, pair] : pairs())
         for (const int steps : {10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 90, 100, 150, 200, 300, 400})
             keepBest(best, measure(p, multiscale(pair), 10.0 / steps), wanted, name);
@@ -112,12 +113,12 @@ Cost bestMultiscale(const Problem& p, double wanted) {
 }
 
 /// Where no step reaches the error, the nearest error.
-Cost bestPeer(const Problem& p, double wanted) {
-    Cost best, nearest;
+RunCost bestPeer(const SpringProblem& p, double wanted) {
+    RunCost best, nearest;
     for (const int order : {4, 6, 8})
         for (double steps = 100; steps <= 6e6; steps *= 1.25) {
             const double n = 100 * std::ceil(steps / 100);
-            const Cost once = run(p, impulse(order), 10 / n);
+            const RunCost once = run(p, impulse(order), 10 / n);
             if (once.error < nearest.error) {
                 nearest = once;
                 nearest.name = "impulse " + std::to_string(order);
@@ -130,7 +131,7 @@ Cost bestPeer(const Problem& p, double wanted) {
     return best.name.empty() ? nearest : best;
 }
 
-void print(const char* who, const Cost& c) {
+void print(const char* who, const RunCost& c) {
     std::printf("  %-10s %-10s h = %-9.4g error %.1e (theta %.1e)  %.3e s  %lld evaluations\n", who,
                 c.name.c_str(), c.step, c.error, c.errorTheta, c.seconds, c.evaluations);
 }
@@ -147,10 +148,10 @@ Rows rowsOf(double k) {
     return rows;
 }
 
-Problem problemOf(double k) {
+SpringProblem problemOf(double k) {
     const ModelEntry* entry = findModel("spring-pendulum");
     Settings keys{"spring-pendulum", {{"m", 1.0}, {"g", 9.81}, {"l", 1.0}, {"k", k}}, {}};
-    Problem p{k, entry->make(keys), {}};
+    SpringProblem p{k, entry->make(keys), {}};
     if (k < 1e9) {
         p.reference = rowsOf(k);
         return p;
@@ -172,13 +173,13 @@ int main() {
     double at6 = HUGE_VAL, peerAt8 = HUGE_VAL;
     for (const double k : {1e4, 1e6, 1e8, 1e12})
         for (const double wanted : {1e-6, 1e-9}) {
-            const Problem p = problemOf(k);
+            const SpringProblem p = problemOf(k);
             if (p.reference.size() != 101 || (k > 1e9 && wanted < 1e-6)) continue;
-            const Cost ours = bestMultiscale(p, wanted);
+            const RunCost ours = bestMultiscale(p, wanted);
             std::printf("k = %g, both to %g\n", k, wanted);
             print("multiscale", ours);
             if (k < 1e9) {
-                const Cost peer = bestPeer(p, wanted);
+                const RunCost peer = bestPeer(p, wanted);
                 print("peer", peer);
                 std::printf("  ratio %.3f%s\n", ours.seconds / peer.seconds,
                             peer.error > wanted ? " (the peer misses the error)" : "");

@@ -57,15 +57,15 @@ void compareTransforms(int n) {
 int main() {
     for (const int n : {64, 128, 256, 512}) compareTransforms(n);
 
-    Problem p{"P",
-              makeSystem("schrodinger-2d", {{"potential", "20*(2 - cos(x) - cos(y)) + 10*cos(x - y)"},
-                                            {"modes", 128.0},
-                                            {"modes_y", 128.0}}),
-              {},
-              1,
-              {},
-              1e-12,
-              2};
+    WaveProblem p{"P",
+                  makeSystem("schrodinger-2d", {{"potential", "20*(2 - cos(x) - cos(y)) + 10*cos(x - y)"},
+                                                {"modes", 128.0},
+                                                {"modes_y", 128.0}}),
+                  {},
+                  1,
+                  {},
+                  1e-12,
+                  2};
     p.start = makeStart(p.system, {{"packet", "periodic-gaussian"},
                                    {"kappa", 10.0},
                                    {"centre", 1.2},

@@ -31,7 +31,7 @@ State packet(const System& system, double kappa, double k) {
         system, {{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", 1.2}, {"wave_number", k}});
 }
 
-std::vector<double> bareSrkn14a(const Problem& p, int n) {
+std::vector<double> bareSrkn14a(const WaveProblem& p, int n) {
     const Hamiltonian& h = *p.system.hamiltonian();
     const auto size = static_cast<std::size_t>(h.size());
     const double dt = p.T / n;
@@ -75,7 +75,7 @@ std::vector<double> bareSrkn14a(const Problem& p, int n) {
     return x;
 }
 
-void compare(const Problem& p, const char* solver) {
+void compare(const WaveProblem& p, const char* solver) {
     const double targets[] = {1e-3, 1e-6, 1e-9, 1e-12};
     printHeading(p, targets);
     double best[4], peer[4];
@@ -119,17 +119,17 @@ std::vector<double> referenceA(const System& system) {
 }  // namespace
 
 int main() {
-    Problem a{"A", onCircle("50*(1 - cos(x))", 1, 256), {}, 1, {}, 3e-16};
+    WaveProblem a{"A", onCircle("50*(1 - cos(x))", 1, 256), {}, 1, {}, 3e-16};
     a.start = packet(a.system, 20, 5);
     a.exact = referenceA(a.system);
     compare(a, "banded");
 
-    Problem s{"S", onCircle("1 - cos(x)", 0.01, 512), {}, 2, {}, 1e-13};
+    WaveProblem s{"S", onCircle("1 - cos(x)", 0.01, 512), {}, 2, {}, 1e-13};
     s.start = packet(s.system, 50, 50);
     s.exact = pairMethod(12, "banded", 0)(s, 300);
     compare(s, "banded");
 
-    Problem g{"G", onCircle("50*(1 - exp(cos(x) - 1) + sin(5*x)/20)", 1, 256), {}, 1, {}, 5e-13};
+    WaveProblem g{"G", onCircle("50*(1 - exp(cos(x) - 1) + sin(5*x)/20)", 1, 256), {}, 1, {}, 5e-13};
     g.start = packet(g.system, 20, 5);
     g.exact = g.start.x;
     g.system.exact(g.start)(1, g.exact);

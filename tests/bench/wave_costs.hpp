@@ -17,7 +17,7 @@
 
 namespace extremal::bench {
 
-struct Problem {
+struct WaveProblem {
     const char* name;
     System system;
     State start;
@@ -59,10 +59,10 @@ inline Discretization gauss(int degree, const char* solver, double tolerance) {
 }
 
 /// n steps; the state at the end.
-using Method = std::function<std::vector<double>(const Problem&, int n)>;
+using Method = std::function<std::vector<double>(const WaveProblem&, int n)>;
 
 inline Method pairMethod(int degree, const char* solver, double tolerance) {
-    return [=](const Problem& p, int n) {
+    return [=](const WaveProblem& p, int n) {
         const auto integrator = makeIntegrator(p.system, gauss(degree, solver, tolerance), {0, p.T / n});
         State state = p.start;
         for (int k = 0; k < n; ++k)
@@ -72,8 +72,11 @@ inline Method pairMethod(int degree, const char* solver, double tolerance) {
 }
 
 inline Method baselineMethod(const char* id) {
-    return [=](const Problem& p, int n) {
-        const auto integrator = findBaseline(id)->make(p.system, {{0, p.T / n}, 0, 0, {id, {}, {}}});
+    return [=](const WaveProblem& p, int n) {
+        BaselineOptions options;
+        options.step = p.T / n;
+        options.settings = {id, {}, {}};
+        const auto integrator = findBaseline(id)->make(p.system, options);
         State state = p.start;
         for (int k = 0; k < n; ++k) (void)advance(*integrator, state);
         return state.x;
@@ -84,14 +87,14 @@ struct Point {
     double error, time;
 };
 
-inline double errorOf(const Problem& p, const std::vector<double>& x) {
+inline double errorOf(const WaveProblem& p, const std::vector<double>& x) {
     if (x.empty()) return 1;
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i) sum += (x[i] - p.exact[i]) * (x[i] - p.exact[i]);
     return std::sqrt(sum);
 }
 
-inline std::vector<Point> curveOf(const Problem& p, const Method& method) {
+inline std::vector<Point> curveOf(const WaveProblem& p, const Method& method) {
     std::vector<Point> points;
     method(p, 1);  // plans, tables and caches
     double best = 1;
@@ -129,7 +132,7 @@ inline double costAt(const std::vector<Point>& points, double error) {
 
 /// CPU seconds of one method to some errors, as a row; the least of all rows so far is kept in `least`, which
 /// may be null.
-inline void printCosts(const Problem& p, const std::string& name, const Method& method,
+inline void printCosts(const WaveProblem& p, const std::string& name, const Method& method,
                        std::span<const double> targets, double* least) {
     const auto points = curveOf(p, method);
     std::printf("%-34s", name.c_str());
@@ -144,7 +147,7 @@ inline void printCosts(const Problem& p, const std::string& name, const Method& 
     std::printf("\n");
 }
 
-inline void printHeading(const Problem& p, std::span<const double> targets) {
+inline void printHeading(const WaveProblem& p, std::span<const double> targets) {
     std::printf("\n%s (reference good to %.0e)\n%-34s", p.name, p.referenceError,
                 "CPU seconds to an L2 error of");
     for (const double t : targets) std::printf("%12.0e", t);
