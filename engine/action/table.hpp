@@ -60,8 +60,8 @@ struct Table {
     int unknowns() const { return static_cast<int>(value.cols()); }
 };
 
-/// Builds the table. Throws InvalidScene for an unsupported pair: constants are not in the space, its
-/// traces do not determine the end points, or the rule has too few nodes to see all of its functions
+/// Builds the table. Throws InvalidScene for an unsupported discretization: constants are not in the space,
+/// its traces do not determine the end points, or the rule has too few nodes to see all of its functions
 /// (singular for every step). Defined for double and quadruple precision.
 template <class T>
 Table<T> makeTable(const Space<T>& space, const Rule<T>& rule);

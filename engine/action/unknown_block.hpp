@@ -1,5 +1,5 @@
-/// A stretch of the unknowns of a glued system: the degrees of freedom z_k of an element, or the multiplier
-/// p_k before it.
+/// A stretch of the unknowns of an assembled system: the degrees of freedom z_k of an element, or the
+/// multiplier p_k before it.
 #pragma once
 
 namespace extremal {

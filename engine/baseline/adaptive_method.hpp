@@ -37,7 +37,7 @@ protected:
     virtual Outcome take(double& t, Vector& x, double& next, StepReport& report, bool isContinued) = 0;
 
     bool flow(double t, const double* x, double* dx) const { return rate_(t, x, dx); }
-    /// A cautious first step: 1/1000 of the time scale |x| / |xdot|, at most a hundredth of what is left.
+    /// The first step: 1/1000 of the time scale |x| / |xdot|, at most a hundredth of what is left.
     double firstStep(double t, const Vector& x) const;
 
     std::size_t size() const { return x_.size(); }

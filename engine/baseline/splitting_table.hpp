@@ -32,7 +32,7 @@ struct Splitting {
 
 Splitting strang();         ///< order 2, kick first, 1 kick
 Splitting suzuki4();        ///< order 4: five Strang steps, g = 1/(4 - 4^(1/3)), g, 1 - 4g, g, g; 5 kicks
-Splitting blanesMoanS6();   ///< order 4, any A and B, 6 kicks a step (the last is the first of the next)
+Splitting blanesMoanS6();   ///< order 4, any A and B, 6 kicks per step (the last is the first of the next)
 Splitting blanesMoanS10();  ///< order 6, any A and B, 10 kicks
 Splitting srkn6b();         ///< order 4, Nystrom, 6 kicks
 Splitting srkn11b();        ///< order 6, Nystrom, 11 kicks

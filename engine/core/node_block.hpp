@@ -34,8 +34,10 @@ public:
         return NodeBlock(Referring{}, width, quantities);
     }
     /// A block of one node, which refers to the state.
-    NodeBlock(const State& state, const StepReport& report) : NodeBlock(Referring{}, state.x.size(), 0) {
+    NodeBlock(const State& state, const StepReport& report, std::span<const double> quantities = {})
+        : NodeBlock(Referring{}, state.x.size(), quantities.size()) {
         push(state, report);
+        std::copy(quantities.begin(), quantities.end(), quantities_.begin());
     }
     NodeBlock(const NodeBlock&) = delete;
     NodeBlock& operator=(const NodeBlock&) = delete;
@@ -69,7 +71,8 @@ public:
     const State* referredState() const { return only_; }
     /// Report of the step that ended at node i; empty at the first node of a run.
     const StepReport& report(std::size_t i) const { return reports_[i]; }
-    /// What the integrator said of the step that ended at node i; none for the first node of a run.
+    /// What the integrator said of the step that ended at node i, NaN at the first node of a run; empty where
+    /// it was not asked.
     std::span<const double> quantities(std::size_t i) const {
         return {quantities_.data() + i * quantityCount_, quantityCount_};
     }

@@ -132,10 +132,10 @@ std::string mismatch(const Discretization& discretization, const System& system)
     return family->mismatch ? family->mismatch(discretization, system) : std::string();
 }
 
-Discretization settled(const Discretization& discretization, const System& system, const State& start) {
+Discretization withEstimates(const Discretization& discretization, const System& system, const State& start) {
     const Family* const family = familyOf(discretization.space);
-    const bool isSettled = family && family->settle && family->applies(system);
-    return isSettled ? family->settle(discretization, system, start) : discretization;
+    const bool estimates = family && family->estimate && family->applies(system);
+    return estimates ? family->estimate(discretization, system, start) : discretization;
 }
 
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,

@@ -77,7 +77,7 @@ struct Family {
     /// on the step.
     Settings (*completeRule)(const Settings& space, const Settings& quadrature) = nullptr;
     /// What the start of a run decides (a frequency to be estimated). Null: nothing.
-    Discretization (*settle)(const Discretization&, const System&, const State& start) = nullptr;
+    Discretization (*estimate)(const Discretization&, const System&, const State& start) = nullptr;
     Properties (*describe)(const Discretization&) = nullptr;
     /// Null where the user gives the step.
     std::optional<ImpliedStep> (*impliedStep)(const Settings& space, const ParameterValue&) = nullptr;
@@ -134,7 +134,7 @@ inline bool isFor(const Discretization& discretization, const System& system) {
 }
 
 /// With everything decided that depends on the start of a run.
-Discretization settled(const Discretization& discretization, const System& system, const State& start);
+Discretization withEstimates(const Discretization& discretization, const System& system, const State& start);
 
 /// Makes the integrator of a discretization. Throws InvalidScene.
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,

@@ -14,8 +14,8 @@ namespace extremal {
 
 /// "galerkin-gauss-<s>" is one entry with a range of degrees s.
 struct SchemeEntry {
-    CatalogItem item;  ///< id "midpoint", or a family "galerkin-gauss-<s>"; its claims follow from the pair
-                       ///< (scheme_claims.hpp)
+    CatalogItem item;  ///< id "midpoint", or a family "galerkin-gauss-<s>"; its claims follow from the
+                       ///< discretization (scheme_claims.hpp)
     std::string source;
     int minDegree = 0, maxDegree = 0;  ///< both 0: a single name; else ids end in the degree
     std::function<Discretization(int degree)> make;

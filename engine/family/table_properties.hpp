@@ -10,8 +10,8 @@
 namespace extremal {
 
 /// `table` makes it, and throws InvalidScene where it cannot. The order is min(2 degree, order of the rule,
-/// 2 consistency), consistency as in action/table.hpp. It is measured for every pair of the handbook's table
-/// of orders.
+/// 2 consistency), consistency as in action/table.hpp. It is measured for every discretization of the
+/// handbook's table of orders.
 Properties describeTable(const std::function<Table<double>()>& table, const Settings& quadrature);
 
 }  // namespace extremal

@@ -2,7 +2,7 @@
 /// step is seen.
 ///
 /// Against steps both axes are logarithmic, and a thin line shows what round-off would give by chance: a
-/// random walk of one rounding a step, ε √n times the scale of the quantity, a line of slope 1/2. A bias
+/// random walk of one rounding per step, ε √n times the scale of the quantity, a line of slope 1/2. A bias
 /// gives slope 1. Rows inside a step, from dense output, have fractions of a step.
 #pragma once
 

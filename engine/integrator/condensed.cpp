@@ -13,7 +13,7 @@
 namespace extremal {
 namespace {
 
-/// The step of a pair as an Integrator.
+/// The step of a discretization as an Integrator.
 template <int D>
 class Condensed final : public Integrator {
 public:
@@ -23,7 +23,10 @@ public:
     double stepSize() const override { return h_; }
     void setStep(double h) override {
         h_ = h;
-        step_ = own();
+        if (periods_ > 0)
+            step_ = own();  // the functions are others
+        else
+            step_.setStep(h);
     }
     void begin(State& state) override {
         state.memory.clear();

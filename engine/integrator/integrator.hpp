@@ -56,15 +56,15 @@ public:
             report = advance(state, clock.at(state.node + 1));
             if (report.outcome != Outcome::converged) break;
             nodes.push(state, report);
-            if (double* values = nodes.lastQuantities()) measure(values);
+            if (double* values = nodes.lastQuantities()) measure(state, values);
         }
         return report;
     }
 
-    /// What the integrator says of its last step besides the report: a discrete energy, a residual, ...
+    /// What the integrator can say of its last step besides the report: a discrete energy, a residual, ...
     virtual std::span<const Quantity> quantities() const { return {}; }
-    /// Their values, one for each.
-    virtual void measure(double*) const {}
+    /// Their values, one for each, where something reads them. `state`: as the last advance() left it.
+    virtual void measure(const State& /*state*/, double* /*values*/) const {}
 
     /// The scheme's own solution inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in
     /// State. Only valid after a converged advance().
@@ -77,7 +77,8 @@ public:
     /// steps are to resolve the motion.
     virtual double periodsPerStep() const { return 0; }
 
-    /// How it solves its equations, where that was a choice, for people: "banded, 4.1 us a step"; else empty.
+    /// How it solves its equations, where that was a choice, for people: "banded, 4.1 us per step"; else
+    /// empty.
     virtual std::string about() const { return {}; }
 
     /// Asks the iteration inside advance() to give up with Outcome::stopped. Polled in every iteration.

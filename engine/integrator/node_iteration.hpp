@@ -1,5 +1,5 @@
-/// The step of a pair on a separable Lagrangian, L = 1/2 sum_k m_k v_k^2 - V(t, q), solved by fixed-point
-/// iteration on the positions at the nodes.
+/// The step of a discretization on a separable Lagrangian, L = 1/2 sum_k m_k v_k^2 - V(t, q), solved by
+/// fixed-point iteration on the positions at the nodes.
 ///
 /// Stationarity (galerkin_step.hpp) is then linear in Y but for the forces F_j = -V'(q(c_j)), so Y can be
 /// eliminated once and for all: with K_ab = sum_i b_i psi_a'(c_i) phi_b'(c_i) / h and B_aj = h b_j

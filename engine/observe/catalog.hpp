@@ -23,11 +23,20 @@ struct ObserveContext {
     const State& initial;
     /// The reference solution, one per run because it may keep a warm start; empty where there is none.
     ExactSolution reference;
-    /// The pair and the step of the scheme; null for baselines, and where only the columns are asked for.
-    const Discretization* pair = nullptr;
+    /// The discretization and the step of the scheme; null for baselines, and where only the columns are
+    /// asked for.
+    const Discretization* discretization = nullptr;
     double step = 0;
-    /// What the integrator says of each step: their values are in NodeBlock::quantities.
+    /// What the integrator can say of each step. An observer that reads them finds their values in
+    /// NodeBlock::quantities.
     std::span<const Quantity> quantities = {};
+
+    /// Where the quantity of a name is among them.
+    std::optional<std::size_t> quantity(std::string_view name) const {
+        for (std::size_t i = 0; i < quantities.size(); ++i)
+            if (quantities[i].name == name) return i;
+        return std::nullopt;
+    }
 };
 
 /// An observable bound to one run: its columns, and a pure function from a node to their values.
@@ -38,6 +47,8 @@ struct Observer {
     /// Column whose size goes into the summary as a maximum over every node ("energy_error", ...); -1 if
     /// none.
     int extreme = -1;
+    /// Whether it reads NodeBlock::quantities: they are measured only then.
+    bool readsQuantities = false;
 };
 
 struct ObservableEntry {

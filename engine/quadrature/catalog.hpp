@@ -22,7 +22,7 @@ struct RuleEntry {
     CatalogItem item;
     std::string heading;  ///< of its column in a table of discretizations: "Gauss"; empty: it has no column
     std::string letter;   ///< stands before the order in a cell of that column: "G"
-    int place = 100;      ///< in lists, from simple to rich; equal ones by the names of their files
+    int place = 100;      ///< in lists, the simplest first; equal ones by the names of their files
     int (*nodes)(int degree) = nullptr;  ///< the key "nodes" where it is left out, by the degree of the space
     bool isSymmetric = true;             ///< its nodes and weights are mirror images of themselves
     std::optional<FilonNodes> filon;     ///< set: its weights follow from the frequencies of the space

@@ -5,7 +5,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "engine/family/galerkin/exact_actions.hpp"
+#include "engine/run/exact_actions.hpp"
 #include "engine/run/comparison.hpp"
 
 namespace extremal {

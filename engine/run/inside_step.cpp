@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t mostPoints = 20000;
 
-/// Points inside a step: enough to bend where steps are few, none where they are many.
+/// Points inside a step: enough for a smooth curve where steps are few, none where they are many.
 int pointsPerStep(bool isAdaptive, long long steps) {
     constexpr long long fewSteps = 500, points = 2000;
     if (isAdaptive) return 8;

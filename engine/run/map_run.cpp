@@ -126,7 +126,7 @@ struct MapColumn {
         result.end = MapCell::End::done;
         // Without a reference an error stays unknown; a state that grows is seen all the same.
         const bool isKnown = !observable.needsReference || reference.isKnown();
-        const MarchSink measure{[&](const Stretch& stretch) {
+        const auto measure = [&](const Stretch& stretch) {
             const NodeBlock& nodes = stretch.nodes;
             values.resize(std::max(values.size(), width * nodes.capacity()),
                           std::numeric_limits<double>::quiet_NaN());
@@ -138,12 +138,13 @@ struct MapColumn {
                 if (limit > 0 && sizeOf(nodes.x(i), size) > limit) result.end = MapCell::End::blownUp;
             }
             return result.isDone();
-        }};
+        };
+        const MarchSink sink{measure, false, observer.readsQuantities};
         State state = start;
         MarchGrid nodesOfTime;
         nodesOfTime.clock = {start.t, step};
         nodesOfTime.steps = stepCount(scene.start.value, scene.end.value, step);
-        const Outcome outcome = march(*integrator, state, nodesOfTime, {&measure, 1}, stop).outcome;
+        const Outcome outcome = march(*integrator, state, nodesOfTime, {&sink, 1}, stop).outcome;
         if (outcome == Outcome::stopped) return {};
         if (outcome != Outcome::converged && result.isDone()) return {MapCell::End::failed, outcome};
         return result.isDone() ? result : MapCell{result.end};

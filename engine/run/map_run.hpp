@@ -1,7 +1,7 @@
 /// Computes the maps of the views "parameter-map" of a scene, a column (one value of the parameter, every
 /// step, every scheme) as a task: its scene is read anew with the parameter changed, as --set would, so that
 /// what is written in terms of the parameter follows. A cell is the same run as that scene with this step.
-/// Its reference runs once a column.
+/// Its reference runs once per column.
 ///
 /// Columns that were computed before in this program are remembered: an edit that does not touch them costs
 /// nothing.

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace extremal {
 namespace {
@@ -27,6 +28,8 @@ public:
         if (state_.memory.empty()) integrator_.begin(state_);
         remember();
         nodes.push(state_, {});
+        if (double* values = nodes.lastQuantities())
+            std::fill_n(values, nodes.quantities(0).size(), std::numeric_limits<double>::quiet_NaN());
         bool goesOn = show(nodes, true);
         std::size_t blockSize = 1;
         long long taken = 0;
@@ -56,6 +59,8 @@ public:
             }
             if (nodes.size() > 0) {
                 report_.last = nodes.report(nodes.size() - 1);
+                const std::span<const double> said = nodes.quantities(nodes.size() - 1);
+                report_.lastQuantities.assign(said.begin(), said.end());
                 goesOn = show(nodes, false);
             }
             if (taken >= grid_.budget && !isDone() && report_.outcome == Outcome::converged)
@@ -80,7 +85,7 @@ private:
                 report = integrator_.advance(state_, grid_.end);
                 if (report.outcome != Outcome::converged) break;
                 nodes.push(state_, report);
-                if (double* values = nodes.lastQuantities()) integrator_.measure(values);
+                if (double* values = nodes.lastQuantities()) integrator_.measure(state_, values);
             }
         }
         return report;
@@ -130,7 +135,10 @@ MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
     integrator.setStop(stop);
     const bool looksInside =
         std::any_of(sinks.begin(), sinks.end(), [](const MarchSink& sink) { return sink.looksInsideSteps; });
-    const std::size_t width = state.x.size(), quantities = integrator.quantities().size();
+    const bool readsQuantities =
+        std::any_of(sinks.begin(), sinks.end(), [](const MarchSink& sink) { return sink.readsQuantities; });
+    const std::size_t width = state.x.size(),
+                      quantities = readsQuantities ? integrator.quantities().size() : 0;
     const std::size_t capacity =
         looksInside ? 1
                     : std::clamp<std::size_t>(numbersOfBlock / std::max<std::size_t>(1, width), 1, mostNodes);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <span>
 #include <stop_token>
+#include <vector>
 
 #include "engine/core/step_events.hpp"
 #include "engine/integrator/integrator.hpp"
@@ -31,7 +32,8 @@ struct MarchReport {
     Cost cost = {};
     StepEvents events = {};
     double cpuSeconds = 0;
-    StepReport last = {};  ///< of the step to the last node
+    StepReport last = {};                     ///< of the step to the last node
+    std::vector<double> lastQuantities = {};  ///< of the same step, where a sink reads them
 };
 
 /// What sinks are shown: the nodes of a block, in order. The first block of a march is the node it starts
@@ -48,6 +50,7 @@ struct Stretch {
 struct MarchSink {
     std::function<bool(const Stretch&)> see;  ///< false: the march need not go on
     bool looksInsideSteps = false;            ///< at dense output, which is that of the last step alone
+    bool readsQuantities = false;             ///< NodeBlock::quantities, which are not measured otherwise
 };
 
 /// Goes on from `state`, which ends at the last node reached. A state without memory begins a run, one with

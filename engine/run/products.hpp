@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "engine/family/galerkin/action_defect.hpp"
-#include "engine/family/galerkin/kkt_pattern.hpp"
+#include "engine/run/action_defect.hpp"
+#include "engine/run/kkt_pattern.hpp"
 #include "engine/run/parameter_map.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/frames.hpp"

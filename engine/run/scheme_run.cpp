@@ -181,8 +181,9 @@ struct SchemeRun::Recording {
             result.products.make<FieldFrames>().all);
     }
     /// A row off the nodes, or at the last of them.
-    void recordAlone(const State& at, const StepReport& report, double done) {
-        const NodeBlock one(at, report);
+    void recordAlone(const State& at, const StepReport& report, std::span<const double> quantities,
+                     double done) {
+        const NodeBlock one(at, report, quantities);
         evaluate(one);
         record(one, 0, done);
     }
@@ -217,7 +218,7 @@ struct SchemeRun::Recording {
                 done += part - 1;
             }
             at.t = t;
-            recordAlone(at, stretch.soFar.last, done);
+            recordAlone(at, stretch.soFar.last, stretch.soFar.lastQuantities, done);
             isLastNodeRow = t >= after - 1e-12 * (after - before);
         }
     }
@@ -266,11 +267,14 @@ struct SchemeRun::Recording {
             inside.emplace(result, scene, plan, system, isAdaptiveScheme, steps, std::move(denseError));
         if (inside && !inside->isWanted()) inside.reset();
         std::vector<MarchSink> sinks;
-        sinks.push_back({[&](const Stretch& stretch) {
+        const bool readsQuantities = std::any_of(observers.begin(), observers.end(),
+                                                 [](const Bound& b) { return b.observer.readsQuantities; });
+        const auto observe = [&](const Stretch& stretch) {
             evaluate(stretch.nodes);
             growExtremes(stretch.nodes);
             return true;
-        }});
+        };
+        sinks.push_back({observe, false, readsQuantities});
         sinks.push_back({[&](const Stretch& stretch) {
                              recordRows(stretch, isDense);
                              return true;
@@ -298,7 +302,8 @@ struct SchemeRun::Recording {
         grid.end = scene.end.value;
         grid.budget = std::max(steps, static_cast<long long>(std::min(scene.maxSteps, 9e18)));
         const MarchReport report = march(*integrator, state, grid, sinks, stop);
-        if (!isLastNodeRow) recordAlone(state, report.last, static_cast<double>(state.node));
+        if (!isLastNodeRow)
+            recordAlone(state, report.last, report.lastQuantities, static_cast<double>(state.node));
         if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);
         finish(report);
     }

@@ -56,7 +56,7 @@ void checkStability(Reader& reader, const SchemeCase& scheme, const Family* fami
                    "a smaller step, or another scheme");
 }
 
-/// A rule with fewer nodes than it would have by itself, which costs the pair its order.
+/// A rule with fewer nodes than it would have by itself, which costs the discretization its order.
 void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const Properties& properties,
                     const std::string& pointer) {
     const Settings usual = completeQuadrature(scheme.space, {scheme.quadrature.type, {}, {}});
@@ -82,7 +82,7 @@ bool checkDiscretization(Reader& reader, const SchemeSpec& scheme, const Propert
                      "another quadrature, or \"allow_unstable\": true");
         return false;
     }
-    if (!properties.shortfall.empty() && scheme.kind == SchemeSpec::Kind::pair)
+    if (!properties.shortfall.empty() && scheme.kind == SchemeSpec::Kind::discretization)
         warnOfFewNodes(reader, scheme, properties, pointer);
     return true;
 }

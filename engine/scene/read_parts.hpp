@@ -44,9 +44,8 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
 void readMap(Reader& reader, const Value& object, const std::string& pointer,
              const std::vector<std::string>& others, const System& system, const Scene& scene, View& view);
 
-/// What needs several parts at once: numbers of steps and rows, refused and unstable pairs, stability limits,
-/// cost.
-/// A scene whose model is wrong has no system. Fills in the state at the start.
+/// What needs several parts at once: numbers of steps and rows, refused and unstable discretizations,
+/// stability limits, cost. A scene whose model is wrong has no system. Fills in the state at the start.
 void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::size_t>& places);
 
 Value schemeValue(const SchemeSpec& scheme);

@@ -85,8 +85,8 @@ bool checkSolverMethod(Reader& reader, const std::string& method, const std::str
                      "leave the solver out");
         return false;
     }
-    const auto pair = discretizationOf(spec);
-    const Family* const family = pair ? familyOf(pair->space) : nullptr;
+    const auto discretization = discretizationOf(spec);
+    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
     if (!family) return false;  // reported elsewhere
     const auto& own = family->solverMethods;
     if (std::find(own.begin(), own.end(), method) != own.end()) return true;
@@ -137,7 +137,7 @@ bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, S
     const std::size_t errorsBefore = reader.errors.size();
     const std::string place = childPointer(pointer, given[0]);
     if (given[0] == "space") {
-        spec.kind = SchemeSpec::Kind::pair;
+        spec.kind = SchemeSpec::Kind::discretization;
         readSpaceAndQuadrature(reader, scheme, pointer, spec);
     } else if (given[0] == "baseline") {
         spec.kind = SchemeSpec::Kind::baseline;
@@ -159,7 +159,9 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
     if (isAdaptive)
         return reader.error(pointer, "requires a fixed step, and " + spec.baseline.type + " is adaptive",
                             "a scheme with a fixed step, or no composition");
-    if (const auto pair = discretizationOf(spec); pair && !describe(*pair).refusal.empty()) return;
+    if (const auto discretization = discretizationOf(spec);
+        discretization && !describe(*discretization).refusal.empty())
+        return;
     const Claims claims = resolve(spec).claims;
     const bool isGiven = composition->find("order");
     if (!isGiven) composition->keys.emplace_back("order", static_cast<double>(defaultOrder(claims)));
@@ -173,10 +175,10 @@ void readComposition(Reader& reader, const Value& value, const std::string& poin
 
 /// The step that follows from the space, with the parameters of the model.
 std::optional<ImpliedStep> impliedStepOf(const Reader& reader, const SchemeSpec& spec) {
-    const auto pair = discretizationOf(spec);
-    const Family* const family = pair ? familyOf(pair->space) : nullptr;
+    const auto discretization = discretizationOf(spec);
+    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
     if (!family || !family->impliedStep) return {};
-    return family->impliedStep(pair->space, [&](std::string_view name) -> std::optional<double> {
+    return family->impliedStep(discretization->space, [&](std::string_view name) -> std::optional<double> {
         const auto known = reader.parameters.find(name);
         return known == reader.parameters.end() ? std::nullopt : known->second;
     });

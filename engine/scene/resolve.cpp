@@ -35,7 +35,7 @@ std::unique_ptr<Integrator> ResolvedScheme::make(const System& system, double st
                                                  const State& start) const {
     std::unique_ptr<Integrator> integrator;
     if (family) {
-        integrator = makeIntegrator(system, settled(discretization, system, start), {start.t, step});
+        integrator = makeIntegrator(system, withEstimates(discretization, system, start), {start.t, step});
     } else {
         if (!appliesTo(*baseline, system)) refuseBaseline(*baseline, system);
         BaselineOptions options;
@@ -49,7 +49,7 @@ std::unique_ptr<Integrator> ResolvedScheme::make(const System& system, double st
 }
 
 std::optional<Discretization> discretizationOf(const SchemeSpec& scheme) {
-    if (scheme.kind == SchemeSpec::Kind::pair)
+    if (scheme.kind == SchemeSpec::Kind::discretization)
         return Discretization{scheme.space, completeQuadrature(scheme.space, scheme.quadrature),
                               scheme.solver};
     if (scheme.kind != SchemeSpec::Kind::named) return {};

@@ -16,15 +16,15 @@
 
 namespace extremal {
 
-/// A row of the comparison: a pair space x quadrature, a baseline, or a named scheme.
+/// A row of the comparison: a discretization space x quadrature, a baseline, or a named scheme.
 struct SchemeSpec {
-    enum class Kind { pair, baseline, named };
-    Kind kind = Kind::pair;
+    enum class Kind { discretization, baseline, named };
+    Kind kind = Kind::discretization;
     std::string label;
     bool isEnabled = true;
     Number step;                      ///< 0 for adaptive baselines
     std::optional<double> tolerance;  ///< adaptive baselines
-    Settings space, quadrature;       ///< pair
+    Settings space, quadrature;       ///< discretization
     Settings baseline;                ///< baseline: type = its name, keys = its options
     std::string named;                ///< named: id from the scheme catalogue
     Settings composition;             ///< type = "yoshida", ...; empty: the scheme as it is

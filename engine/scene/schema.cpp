@@ -178,7 +178,7 @@ Value schemeDefinition() {
     p.set("scheme", namedSchemes());
     p.set("composition", typedChoice(compositionCatalog()));
     p.set("solver", object(solver, {}));
-    p.set("allow_unstable", typed("boolean", "Accept a pair that is unstable for every step."));
+    p.set("allow_unstable", typed("boolean", "Accept a discretization that is unstable for every step."));
     return object(p, {}, "A row of the comparison: a space and a quadrature, a baseline, or a named scheme.");
 }
 

@@ -123,9 +123,10 @@ State schemeStart(const ResolvedScene& resolved, const ResolvedScheme& scheme, d
     const ActionBetween<double> exact = exactBetween(scene, system);
     Eigen::VectorXd p0 = exact.startMomentum;
     Outcome outcome = Outcome::converged;
-    const Discretization* const pair = scheme.plain();
-    if (pair && hasTable(pair->space) && n <= mostElements) {
-        const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(pair->space, pair->quadrature));
+    const Discretization* const discretization = scheme.plain();
+    if (discretization && hasTable(discretization->space) && n <= mostElements) {
+        const DiscreteLagrangian<double> Ld(system.mechanics(),
+                                            tableOf(discretization->space, discretization->quadrature));
         const ActionBetween<double> motion = Ld.between(scene.start.value, at / n, sampled(exact.nodes, n));
         outcome = motion.outcome;
         p0 = motion.startMomentum;

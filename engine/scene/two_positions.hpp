@@ -1,8 +1,8 @@
 /// Starts given by two positions: q at the start and q_1 a time `at` later, in place of a momentum.
 ///
 /// The exact motion between them gives the start of the scene, p_0 = -D_1 L_d^exact(q_0, q_1, at): errors are
-/// measured from it. Every scheme passes through both positions as well, with its own momentum. For a pair
-/// with n = at / step:
+/// measured from it. Every scheme passes through both positions as well, with its own momentum. For a
+/// discretization with n = at / step:
 ///     n = 1: p_0 = -D_1 L_d(q_0, q_1, h);  n > 1: the same of n elements, discrete Euler-Lagrange at the
 ///     nodes between.
 /// Baselines with a fixed step find theirs by shooting; adaptive ones start from the exact momentum.

@@ -74,7 +74,7 @@ Value schemeValue(const SchemeSpec& scheme) {
     else
         value.set("step", numberValue(scheme.step));
     switch (scheme.kind) {
-        case SchemeSpec::Kind::pair:
+        case SchemeSpec::Kind::discretization:
             value.set("space", settingsValue(scheme.space));
             value.set("quadrature", ruleValue(scheme.quadrature));
             break;

@@ -1,12 +1,12 @@
-/// Discrete Lagrangians: what a pair makes of the action between two positions, the same over several
-/// elements, and the exact one.
+/// Discrete Lagrangians: what a discretization makes of the action between two positions, the same over
+/// several elements, and the exact one.
 ///
 ///     L_d(q_0, q_1, h) = stationary value over the interior of the element of S                     (one
 ///     element) dL_d = p_1 . dq_1 - p_0 . dq_0,   p_0 = -D_1 L_d,  p_1 = D_2 L_d (momenta) D_2 L_d(q_{k-1},
 ///     q_k) + D_1 L_d(q_k, q_{k+1}) = 0,   k = 1..N-1                  (nodes between fixed ends)
 ///     L_d^exact(q_0, q_1, h) = action of the motion from q_0 to q_1 in the time h.
 /// The stationary points are found by Newton from the given guess; positions far apart may be joined by
-/// several motions, or by none (Outcome). A pair of order r has L_d - L_d^exact = O(h^{r+1}).
+/// several motions, or by none (Outcome). A discretization of order r has L_d - L_d^exact = O(h^{r+1}).
 ///
 /// T: double or quadruple precision; Mechanics of any dimension d. Source: Marsden and West 2001, 1.2.4, 1.6
 /// and 2.3.

@@ -5,7 +5,7 @@
 namespace extremal {
 namespace {
 
-void readMultipliers(const SaddlePoint& problem, GluedElements& result) {
+void readMultipliers(const SaddlePoint& problem, AssembledElements& result) {
     result.multipliers.resize(problem.dimension(), problem.elements() + 1);
     for (int k = 0; k <= problem.elements(); ++k)
         result.multipliers.col(k) = result.x.segment(problem.multiplierOffset(k), problem.dimension());
@@ -13,8 +13,8 @@ void readMultipliers(const SaddlePoint& problem, GluedElements& result) {
 
 }  // namespace
 
-GluedElements solveBetween(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes) {
-    GluedElements result;
+AssembledElements solveBetween(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes) {
+    AssembledElements result;
     result.start = nodes.col(0);
     result.end = nodes.col(nodes.cols() - 1);
     result.x = problem.broken(nodes);
@@ -26,11 +26,11 @@ GluedElements solveBetween(const SaddlePoint& problem, double t0, const Eigen::M
     return result;
 }
 
-GluedElements solveFrom(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes,
-                        const Eigen::VectorXd& p0) {
+AssembledElements solveFrom(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes,
+                            const Eigen::VectorXd& p0) {
     const int d = problem.dimension(), size = problem.size(),
               last = problem.multiplierOffset(problem.elements());
-    GluedElements result;
+    AssembledElements result;
     result.start = nodes.col(0);
     result.x = problem.broken(nodes);
     result.x.head(d) = p0;

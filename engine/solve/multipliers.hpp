@@ -13,7 +13,7 @@
 
 namespace extremal {
 
-struct GluedElements {
+struct AssembledElements {
     Outcome outcome = Outcome::diverged;
     Eigen::VectorXd x;            ///< all unknowns in the order of SaddlePoint
     Eigen::MatrixXd multipliers;  ///< d x (N + 1): p_0 ... p_N
@@ -22,10 +22,10 @@ struct GluedElements {
 
 /// From q_0 to q_N, the first and the last column of `nodes`; the others are a guess, as are straight lines
 /// between.
-GluedElements solveBetween(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes);
+AssembledElements solveBetween(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes);
 
 /// From q_0 with the momentum p_0; the first column of `nodes` is q_0, the others are a guess.
-GluedElements solveFrom(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes,
-                        const Eigen::VectorXd& p0);
+AssembledElements solveFrom(const SaddlePoint& problem, double t0, const Eigen::MatrixXd& nodes,
+                            const Eigen::VectorXd& p0);
 
 }  // namespace extremal

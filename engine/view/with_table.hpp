@@ -14,8 +14,9 @@ inline std::string coordinatesMissing(const View&, const System& system) {
            "made for Galerkin schemes, not for Lie group, wave or elliptic ones";
 }
 
-inline std::string tableMissing(const Discretization& pair) {
-    return hasTable(pair.space) ? "" : "made of functions that change with the step, not of one table";
+inline std::string tableMissing(const Discretization& discretization) {
+    return hasTable(discretization.space) ? ""
+                                          : "made of functions that change with the step, not of one table";
 }
 
 }  // namespace extremal

@@ -20,13 +20,13 @@ int main(int argc, char** argv) {
     constexpr double h = 0.25, energy = 0.13;
     const System s = findModel("henon-heiles")->make({"henon-heiles", {{"lambda", 1.0}}, {}});
     const auto& m = s.mechanics();
-    const Discretization pair = *namedScheme("galerkin-gauss-8");
+    const Discretization discretization = *namedScheme("galerkin-gauss-8");
     std::vector<double> spread(samples + 1), mean(samples + 1);
     for (int orbit = 0; orbit < orbits; ++orbit) {
         const double y = 0.02 * orbit - 0.05, V = y * y / 2 - y * y * y / 3;
         State state{0, 0, {0, y, std::sqrt(2 * (energy - V)), 0}};
         const auto H = [&] { return m.energy(m.model.get(), state.t, state.x.data(), state.x.data() + 2); };
-        const auto integrator = makeIntegrator(s, pair, {0, h});
+        const auto integrator = makeIntegrator(s, discretization, {0, h});
         const double start = H();
         double worst = 0, sxy = 0, sxx = 0, last = 0, jumps = 0;
         long long iterations = 0;
@@ -52,7 +52,8 @@ int main(int argc, char** argv) {
         // origin.
         const double slope = sxy / sxx, chance = std::sqrt(1.2 * jumps / samples / samples);
         std::printf(
-            "orbit %d: |dH| at most %.2e, at the end %+.2e; slope %+.2f of chance; %.2f iterations a step\n",
+            "orbit %d: |dH| at most %.2e, at the end %+.2e; slope %+.2f of chance; %.2f iterations per "
+            "step\n",
             orbit, worst, last, slope / chance, static_cast<double>(iterations) / static_cast<double>(steps));
     }
     double n = 0, mx = 0, my = 0, sxx = 0, sxy = 0;

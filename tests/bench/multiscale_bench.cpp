@@ -82,8 +82,8 @@ RunCost measure(const SpringProblem& p, const Make& make, double step) {
     return all[2];
 }
 
-Make multiscale(const Discretization& pair) {
-    return [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); };
+Make multiscale(const Discretization& discretization) {
+    return [discretization](const System& s, const Clock& c) { return makeIntegrator(s, discretization, c); };
 }
 /// R1 to R3, and R2 with its second harmonic constant: between R1 and R2 in cost and accuracy.
 std::vector<std::pair<std::string, Discretization>> pairs() {
@@ -106,9 +106,9 @@ void keepBest(RunCost& best, const RunCost& found, double wanted, const std::str
 
 RunCost bestMultiscale(const SpringProblem& p, double wanted) {
     RunCost best;
-    for (const auto& [name, pair] : pairs())
+    for (const auto& [name, discretization] : pairs())
         for (const int steps : {10, 15, 20, 25, 30, 40, 50, 60, 70, 80, 90, 100, 150, 200, 300, 400})
-            keepBest(best, measure(p, multiscale(pair), 10.0 / steps), wanted, name);
+            keepBest(best, measure(p, multiscale(discretization), 10.0 / steps), wanted, name);
     return best;
 }
 

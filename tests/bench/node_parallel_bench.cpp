@@ -53,8 +53,8 @@ double odeint(double tolerance) {
 
 /// After 100 periods the planet is back at (0.4, 0).
 double galerkin(const System& kepler, int degree, int steps) {
-    const Discretization pair = *namedScheme("galerkin-gauss-" + std::to_string(degree));
-    const auto integrator = makeIntegrator(kepler, pair, {0, end / steps});
+    const Discretization discretization = *namedScheme("galerkin-gauss-" + std::to_string(degree));
+    const auto integrator = makeIntegrator(kepler, discretization, {0, end / steps});
     State state{0, 0, {0.4, 0, 0, 2}};
     for (int k = 0; k < steps; ++k)
         if (advance(*integrator, state).outcome != Outcome::converged) return HUGE_VAL;

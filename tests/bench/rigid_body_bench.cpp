@@ -56,9 +56,9 @@ Result cheapest(double wanted, const std::vector<double>& settings, Run&& run) {
 
 const Known& known() { return standard().at[2]; }
 
-double runIntegrator(const System& system, const Discretization& pair, double steps) {
+double runIntegrator(const System& system, const Discretization& discretization, double steps) {
     const auto n = static_cast<long long>(steps);
-    const auto integrator = makeIntegrator(system, pair, {0, T / static_cast<double>(n)});
+    const auto integrator = makeIntegrator(system, discretization, {0, T / static_cast<double>(n)});
     const auto end = after(*integrator, bodyState(standard().start), n);
     return end ? attitudeError(end->x, known().q) : 1e300;
 }

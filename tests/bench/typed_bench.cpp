@@ -53,9 +53,9 @@ void benchmark(const System& typed, const System& builtIn, const State& start, d
             return makeIntegrator(s, polynomialPair(degree, {"gauss", {}, {}}), {0, h});
         });
     schemes("Newton, degree 2", [&](const System& s) {
-        Discretization pair = polynomialPair(2, {"gauss", {}, {}});
-        pair.solver.type = "newton";
-        return makeIntegrator(s, pair, {0, h});
+        Discretization discretization = polynomialPair(2, {"gauss", {}, {}});
+        discretization.solver.type = "newton";
+        return makeIntegrator(s, discretization, {0, h});
     });
     for (const char* id : {"stormer-verlet", "rk4", "implicit-midpoint"})
         schemes(id, [&](const System& s) { return findBaseline(id)->make(s, {h, {}, 0, {}}); });

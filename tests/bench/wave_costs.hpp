@@ -46,16 +46,9 @@ inline State makeStart(const System& system, Value::Object psi) {
 }
 
 inline Discretization gauss(int degree, const char* solver, double tolerance) {
-    Discretization pair;
-    pair.space = {"fourier",
-                  {{"degree", static_cast<double>(degree)},
-                   {"energy_shift", "mean"},
-                   {"form", "one-step"},
-                   {"start", "gauss"}},
-                  {}};
-    pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
-    pair.solver = {solver, {{"tolerance", tolerance}}, {}};
-    return pair;
+    Discretization discretization = *namedScheme("schrodinger-gauss-" + std::to_string(degree));
+    discretization.solver = {solver, {{"tolerance", tolerance}}, {}};
+    return discretization;
 }
 
 /// n steps; the state at the end.

@@ -29,8 +29,9 @@ System harmonic() {
     return findModel("harmonic-oscillator")->make({"harmonic-oscillator", {{"m", 1}, {"k", 1}}, {}});
 }
 
-State integrate(const System& system, const Discretization& pair, State state, double step, int steps) {
-    const auto integrator = makeIntegrator(system, pair, Clock{0, step});
+State integrate(const System& system, const Discretization& discretization, State state, double step,
+                int steps) {
+    const auto integrator = makeIntegrator(system, discretization, Clock{0, step});
     for (int i = 0; i < steps; ++i)
         if (advance(*integrator, state).outcome != Outcome::converged) return {};
     return state;
@@ -108,10 +109,12 @@ private slots:
     }
 
     void schemeClaimsAndHasTheOrderOfItsDegree() {
-        const Discretization pair = schemes::galerkin_fine().make(2);
-        QCOMPARE(describe(pair.space, pair.quadrature).claims.order, 4);
+        const Discretization discretization = schemes::galerkin_fine().make(2);
+        QCOMPARE(describe(discretization.space, discretization.quadrature).claims.order, 4);
         const System system = quartic();
-        const auto end = [&](int n) { return integrate(system, pair, {0, 0, {1, 0}}, 3.0 / n, n).x; };
+        const auto end = [&](int n) {
+            return integrate(system, discretization, {0, 0, {1, 0}}, 3.0 / n, n).x;
+        };
         const auto finest = end(1280), coarse = end(40), fine = end(80);
         for (std::size_t i = 0; i < 2; ++i) {
             const double order = std::log2(std::abs(coarse[i] - finest[i]) / std::abs(fine[i] - finest[i]));

@@ -12,10 +12,10 @@ SchemeEntry galerkin_fine() {
     e.minDegree = 1;
     e.maxDegree = 12;
     e.make = [](int s) {
-        Discretization pair;
-        pair.space = {"polynomial", {{"degree", s}, {"basis", "lobatto"}}, {}};
-        pair.quadrature = {"gauss", {{"nodes", s + 1}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"polynomial", {{"degree", s}, {"basis", "lobatto"}}, {}};
+        discretization.quadrature = {"gauss", {{"nodes", s + 1}}, {}};
+        return discretization;
     };
     return e;
 }

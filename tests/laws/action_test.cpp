@@ -1,5 +1,5 @@
 /// What follows from the discrete action: multipliers are momenta, nodal and element-wise assembly agree, and
-/// L_d is close to the exact discrete Lagrangian to the order of the pair.
+/// L_d is close to the exact discrete Lagrangian to the order of the discretization.
 #include <QTest>
 
 #include <boost/multiprecision/float128.hpp>
@@ -15,6 +15,7 @@
 #include "engine/solve/multipliers.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/pendulum_model.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::action_test {
@@ -22,20 +23,8 @@ namespace {
 
 using Quad = boost::multiprecision::float128;
 
-struct PendulumModel {
-    static constexpr int dimension = 1;
-    template <class T>
-    std::array<T, 1> masses() const {
-        return {T(1)};
-    }
-    template <class T, class S>
-    S potential(const T&, const std::array<S, 1>& q) const {
-        return -cos(q[0]);
-    }
-};
-
-Table<double> tableOf(const Discretization& pair) {
-    return makeTable(makeSpace(pair.space), makeRule<double>(pair.quadrature));
+Table<double> tableOf(const Discretization& discretization) {
+    return makeTable(makeSpace(discretization.space), makeRule<double>(discretization.quadrature));
 }
 
 /// Nodes of a run, d x (n + 1), and momenta.
@@ -57,7 +46,7 @@ double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a 
 
 struct PairCase {
     const char* name;
-    Discretization pair;
+    Discretization discretization;
     double tolerance;  ///< round-off of the explicit system in the basis of the space
 };
 std::vector<PairCase> pairCases() {
@@ -121,14 +110,14 @@ private slots:
         const PairCase c = current();
         onBoth([&](const System& system, const State& start, double h) {
             constexpr int n = 3;
-            const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, n);
+            const Path path = pathOf(*makeIntegrator(system, c.discretization, {0, h}), start, n);
             QVERIFY(path.q.cols() == n + 1);
-            const SaddlePoint glued(system.mechanics(), tableOf(c.pair), h, n);
+            const SaddlePoint assembled(system.mechanics(), tableOf(c.discretization), h, n);
             // The element-wise system with explicit multipliers, from the same start: no momentum formula in
             // it.
-            const GluedElements from = solveFrom(glued, 0, path.q, path.p.col(0));
+            const AssembledElements from = solveFrom(assembled, 0, path.q, path.p.col(0));
             QVERIFY(from.outcome == Outcome::converged);
-            const GluedElements between = solveBetween(glued, 0, path.q);
+            const AssembledElements between = solveBetween(assembled, 0, path.q);
             QVERIFY(between.outcome == Outcome::converged);
             const double forward = relative(from.multipliers, path.p),
                          fixed = relative(between.multipliers, path.p);
@@ -144,8 +133,8 @@ private slots:
         const PairCase c = current();
         onBoth([&](const System& system, const State& start, double h) {
             constexpr int n = 6;
-            const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, n);
-            const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(c.pair));
+            const Path path = pathOf(*makeIntegrator(system, c.discretization, {0, h}), start, n);
+            const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(c.discretization));
             // Discrete Euler-Lagrange equations at the nodes of the element-wise run.
             const double residual =
                 Ld.eulerLagrange(0, h, path.q).cwiseAbs().maxCoeff() / path.p.cwiseAbs().maxCoeff();
@@ -176,16 +165,16 @@ private slots:
             pathOf(*makeIntegrator(kepler_, polynomialPair(2, {"gauss", {}, {}}), {0, 0.05}), keplerStart, 3);
         const SaddlePoint other(kepler_.mechanics(), tableOf(polynomialPair(2, {"lobatto", {}, {}})), 0.05,
                                 3);
-        const GluedElements between = solveBetween(other, 0, path.q);
+        const AssembledElements between = solveBetween(other, 0, path.q);
         QVERIFY(between.outcome == Outcome::converged);
         QVERIFY(relative(between.multipliers, path.p) > 1e-7);
     }
     void theActionsOfBothAssembliesAgree() {
-        const Discretization pair = polynomialPair(3, {"gauss", {}, {}});
+        const Discretization discretization = polynomialPair(3, {"gauss", {}, {}});
         constexpr int n = 5;
         constexpr double h = 0.05;
-        const Path path = pathOf(*makeIntegrator(kepler_, pair, {0, h}), keplerStart, n);
-        const DiscreteLagrangian<double> Ld(kepler_.mechanics(), tableOf(pair));
+        const Path path = pathOf(*makeIntegrator(kepler_, discretization, {0, h}), keplerStart, n);
+        const DiscreteLagrangian<double> Ld(kepler_.mechanics(), tableOf(discretization));
         const ActionBetween<double> nodal = Ld.between(0, h, path.q);
         double sum = 0;
         for (int k = 0; k < n; ++k) sum += Ld(k * h, h, path.q.col(k), path.q.col(k + 1)).action;
@@ -196,8 +185,8 @@ private slots:
     void startsFromTwoPositionsHaveTheMomentumOfTheStep() {
         const PairCase c = current();
         onBoth([&](const System& system, const State& start, double h) {
-            const Path path = pathOf(*makeIntegrator(system, c.pair, {0, h}), start, 1);
-            const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(c.pair));
+            const Path path = pathOf(*makeIntegrator(system, c.discretization, {0, h}), start, 1);
+            const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(c.discretization));
             const auto found = Ld(0, h, path.q.col(0), path.q.col(1));
             QVERIFY(found.outcome == Outcome::converged);
             const double p0 = (found.startMomentum - path.p.col(0)).norm() / path.p.col(0).norm();

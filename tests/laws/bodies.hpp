@@ -148,13 +148,13 @@ inline const KnownBody& top() {
 
 inline Discretization liePair(int degree, Settings quadrature = {"gauss", {}, {}}, bool isSymmetric = false,
                               bool isReduced = true) {
-    Discretization pair;
-    pair.space = {
+    Discretization discretization;
+    discretization.space = {
         "lie-polynomial",
         {{"degree", static_cast<double>(degree)}, {"symmetric", isSymmetric}, {"reduced", isReduced}},
         {}};
-    pair.quadrature = completeQuadrature(pair.space, quadrature);
-    return pair;
+    discretization.quadrature = completeQuadrature(discretization.space, quadrature);
+    return discretization;
 }
 
 struct BodyErrors {
@@ -166,10 +166,11 @@ inline BodyErrors errorsAt(const KnownBody& body, const Known& known, Integrator
     if (!end) return {};
     return {attitudeError(end->x, known.q), momentumError(end->x, known.Pi)};
 }
-inline BodyErrors errorsOf(const KnownBody& body, std::size_t index, const Discretization& pair,
+inline BodyErrors errorsOf(const KnownBody& body, std::size_t index, const Discretization& discretization,
                            long long n) {
     const Known& known = body.at[index];
-    const auto integrator = makeIntegrator(body.system(), pair, {0, known.t / static_cast<double>(n)});
+    const auto integrator =
+        makeIntegrator(body.system(), discretization, {0, known.t / static_cast<double>(n)});
     return errorsAt(body, known, *integrator, n);
 }
 

@@ -15,12 +15,12 @@ struct LongRun {
     double momentum = 0, norm = 0;
     bool hasFailed = false;
 };
-LongRun longRun(const System& system, const Discretization& pair, const State& start, double h,
+LongRun longRun(const System& system, const Discretization& discretization, const State& start, double h,
                 long long steps) {
     LongRun r;
     const EnergyFunction energy = energyOf(system);
     const double before = energy(0, start.x.data());
-    const auto integrator = makeIntegrator(system, pair, {0, h});
+    const auto integrator = makeIntegrator(system, discretization, {0, h});
     State s = start;
     for (long long k = 0; k < steps; ++k) {
         if (advance(*integrator, s).outcome != Outcome::converged) {
@@ -69,8 +69,8 @@ private slots:
         QFETCH(QString, rule);
         QFETCH(bool, isSymmetric);
         const KnownBody& body = isTop ? top() : standard();
-        const Discretization pair = liePair(degree, {rule.toStdString(), {}, {}}, isSymmetric);
-        QCOMPARE(describe(pair.space, pair.quadrature).claims.order, 2 * degree);
+        const Discretization discretization = liePair(degree, {rule.toStdString(), {}, {}}, isSymmetric);
+        QCOMPARE(describe(discretization.space, discretization.quadrature).claims.order, 2 * degree);
         // Largest errors at five times against a far finer run; steps between round-off and where the first
         // term reigns.
         constexpr int samples = 5;
@@ -93,7 +93,7 @@ private slots:
         for (const double factor : {1.0, 1.5, 2.0}) {
             const int n = samples * static_cast<int>(std::lround(first * factor / samples));
             double worstAngle = 0, worstMomentum = 0;
-            const auto states = at(pair, n);
+            const auto states = at(discretization, n);
             for (std::size_t k = 0; k < states.size(); ++k) {
                 const auto& r = reference[k].x;
                 worstAngle = std::max(worstAngle, attitudeError(states[k].x, {r[0], r[1], r[2], r[3]}));
@@ -115,8 +115,9 @@ private slots:
         // Measured by another program, from the same equations: errors at T = 10 with n steps.
         const auto check = [](const KnownBody& body, int degree, const char* rule, int nodes, long long n,
                               double expected) {
-            Discretization pair = liePair(degree, {rule, {{"nodes", static_cast<double>(nodes)}}, {}});
-            const double e = errorsOf(body, 1, pair, n).attitude;
+            Discretization discretization =
+                liePair(degree, {rule, {{"nodes", static_cast<double>(nodes)}}, {}});
+            const double e = errorsOf(body, 1, discretization, n).attitude;
             qInfo("%s, degree %d, %s(%d), n = %lld: %.3e, expected %.3e", body.name.c_str(), degree, rule,
                   nodes, n, e, expected);
             QVERIFY(std::abs(e / expected - 1) < 0.03);
@@ -197,13 +198,16 @@ private slots:
             for (int degree = 1; degree <= 4; ++degree)
                 for (const bool isSymmetric : {false, true}) {
                     const KnownBody& body = isTop ? top() : standard();
-                    const Discretization pair = liePair(degree, {"gauss", {}, {}}, isSymmetric);
+                    const Discretization discretization = liePair(degree, {"gauss", {}, {}}, isSymmetric);
                     const State start = bodyState(body.start);
                     const double h = isTop ? 0.4 : 0.8;
-                    const auto there = after(*makeIntegrator(body.system(), pair, {0, h}), start, 1);
-                    const auto back = after(*makeIntegrator(body.system(), pair, {h, -h}), *there, 1);
+                    const auto there =
+                        after(*makeIntegrator(body.system(), discretization, {0, h}), start, 1);
+                    const auto back =
+                        after(*makeIntegrator(body.system(), discretization, {h, -h}), *there, 1);
                     const double defect = largestDifference(back->x, start.x);
-                    const bool claims = describe(pair.space, pair.quadrature).claims.isSymmetric;
+                    const bool claims =
+                        describe(discretization.space, discretization.quadrature).claims.isSymmetric;
                     qInfo("%s, degree %d%s: %.1e", body.name.c_str(), degree,
                           isSymmetric ? ", symmetric" : "", defect);
                     QCOMPARE(claims, isSymmetric || degree == 1);

@@ -16,10 +16,12 @@ std::vector<Case> everyBodyScheme(const System& system) {
         if (c.isPair) cases.push_back(c);
     for (const int degree : {2, 3})
         for (const char* rule : {"gauss", "lobatto"}) {
-            const Discretization pair = liePair(degree, {rule, {}, {}}, true);
+            const Discretization discretization = liePair(degree, {rule, {}, {}}, true);
             cases.push_back({"symmetric lie " + std::string(rule) + " " + std::to_string(degree),
-                             describe(pair.space, pair.quadrature).claims,
-                             [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); },
+                             describe(discretization.space, discretization.quadrature).claims,
+                             [discretization](const System& s, const Clock& c) {
+                                 return makeIntegrator(s, discretization, c);
+                             },
                              true});
         }
     for (const BaselineEntry& e : baselineCatalog()) {

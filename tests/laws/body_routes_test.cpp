@@ -90,10 +90,11 @@ Complex action(const Curve& curve, const KnownBody& body, const Rule<double>& ru
 
 /// Largest residual of the unreduced discrete Euler-Lagrange equations over two steps, D_2 L_d(g_0, g_1) +
 /// D_1 L_d(g_1, g_2) and the stationarity of the interior points.
-double eulerLagrangeResidual(const KnownBody& body, const Discretization& pair, double h, double spoil = 0) {
-    const int degree = pair.space.integer("degree");
-    const Rule<double> rule = makeRule<double>(pair.quadrature);
-    const auto integrator = makeIntegrator(body.system(), pair, {0, h});
+double eulerLagrangeResidual(const KnownBody& body, const Discretization& discretization, double h,
+                             double spoil = 0) {
+    const int degree = discretization.space.integer("degree");
+    const Rule<double> rule = makeRule<double>(discretization.quadrature);
+    const auto integrator = makeIntegrator(body.system(), discretization, {0, h});
     State s = bodyState(body.start, {0.5, -0.5, 0.5, 0.5});
     std::array<Curve, 2> curves;
     for (Curve& c : curves) {

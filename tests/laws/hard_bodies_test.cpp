@@ -16,11 +16,11 @@ struct Run {
     double attitude = 0, momentum = 0, energy = 0;
     Outcome outcome = Outcome::converged;
 };
-Run runOf(const System& system, const Three& Pi, const Discretization& pair, double T, int n) {
+Run runOf(const System& system, const Three& Pi, const Discretization& discretization, double T, int n) {
     Run r;
     const State start = bodyState(Pi);
     const EnergyFunction energy = energyOf(system);
-    const auto integrator = makeIntegrator(system, pair, {0, T / n});
+    const auto integrator = makeIntegrator(system, discretization, {0, T / n});
     State s = start;
     for (int k = 0; k < n; ++k) {
         r.outcome = advance(*integrator, s).outcome;

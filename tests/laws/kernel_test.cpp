@@ -34,16 +34,16 @@ std::vector<std::pair<std::string, Table<double>>> everyTable(const System& syst
     for (const SpaceEntry& space : tableSpaces())
         for (int degree = 1; degree <= 4; ++degree)
             for (const CatalogItem& rule : quadratureCatalog()) {
-                Discretization pair;
-                pair.space.type = space.item.id;
+                Discretization discretization;
+                discretization.space.type = space.item.id;
                 for (const FieldInfo& f : space.item.parameters)
-                    pair.space.keys.emplace_back(f.key,
-                                                 f.key == "degree" ? Value(double(degree)) : f.firstValue());
-                if (!hasTable(pair.space) || !isFor(pair, system)) continue;
-                pair.quadrature = completeQuadrature(pair.space, {rule.id, {}, {}});
-                if (!describe(pair.space, pair.quadrature).refusal.empty()) continue;
+                    discretization.space.keys.emplace_back(
+                        f.key, f.key == "degree" ? Value(double(degree)) : f.firstValue());
+                if (!hasTable(discretization.space) || !isFor(discretization, system)) continue;
+                discretization.quadrature = completeQuadrature(discretization.space, {rule.id, {}, {}});
+                if (!describe(discretization.space, discretization.quadrature).refusal.empty()) continue;
                 all.emplace_back(space.item.id + " " + std::to_string(degree) + ", " + rule.id,
-                                 tableOf(pair.space, pair.quadrature));
+                                 tableOf(discretization.space, discretization.quadrature));
             }
     return all;
 }
@@ -168,11 +168,11 @@ private slots:
         Worst worst;
         for (const char* rule : {"filon-lobatto", "filon-gauss", "auto"})
             for (const double h : {0.05, 0.2}) {
-                Discretization pair = multiscalePair(4, 2, {1});
-                pair.quadrature = completeQuadrature(pair.space, {rule, {}, {}});
+                Discretization discretization = multiscalePair(4, 2, {1});
+                discretization.quadrature = completeQuadrature(discretization.space, {rule, {}, {}});
                 Tables tables;
                 try {
-                    tables = oscillatoryTables(system, pair, h);
+                    tables = oscillatoryTables(system, discretization, h);
                 } catch (const InvalidScene&) {
                     continue;
                 }
@@ -200,7 +200,7 @@ private slots:
                 s.p0 = Eigen::Map<const Eigen::VectorXd>(start.state.x.data() + d, d);
                 Eigen::MatrixXd nodes(d, 2);
                 nodes << s.q0, s.q0;
-                const GluedElements found = solveFrom(problem, 0, nodes, s.p0);
+                const AssembledElements found = solveFrom(problem, 0, nodes, s.p0);
                 QVERIFY2(found.outcome == Outcome::converged, name.c_str());
                 s.q1 = found.end;
                 s.p1 = found.multipliers.col(1);
@@ -256,8 +256,8 @@ private slots:
             const System system = systemNamed(start.id);
             for (const SolverMethod method : {SolverMethod::newton, SolverMethod::automatic})
                 for (const int degree : {1, 3, 8}) {
-                    const Discretization pair = polynomialPair(degree, {"gauss", {}, {}});
-                    const Table<double> table = tableOf(pair.space, pair.quadrature);
+                    const Discretization discretization = polynomialPair(degree, {"gauss", {}, {}});
+                    const Table<double> table = tableOf(discretization.space, discretization.quadrature);
                     SolverPolicy policy;
                     policy.method = method;
                     GalerkinStep<double, 2> changed(system.mechanics(), table, start.h, policy);

@@ -52,25 +52,28 @@ inline std::vector<Settings> variantsOf(const CatalogItem& item, int maxStages) 
     return all;
 }
 
-/// Every pair of the scheme catalogue up to the given degree, and every fixed-step baseline, that fit the
-/// system. Experiments that come with a caution promise nothing.
+/// Every discretization of the scheme catalogue up to the given degree, and every fixed-step baseline, that
+/// fit the system. Experiments that come with a caution promise nothing.
 inline std::vector<Case> everyScheme(int maxDegree, const System& system = systemNamed("kepler")) {
     std::vector<Case> cases;
-    std::vector<Discretization> known;  // some names are of the same pair
+    std::vector<Discretization> known;  // some names are of the same discretization
     for (const SchemeEntry& e : schemeCatalog()) {
         const int low = e.maxDegree == 0 ? 0 : e.minDegree,
                   high = e.maxDegree == 0 ? 0 : std::min(maxDegree, e.maxDegree);
         for (int degree = low; degree <= high; ++degree) {
-            const Discretization pair = e.make(degree);
-            if (!isFor(pair, system) || std::find(known.begin(), known.end(), pair) != known.end() ||
-                !describe(pair.space, pair.quadrature).caution.empty())
+            const Discretization discretization = e.make(degree);
+            if (!isFor(discretization, system) ||
+                std::find(known.begin(), known.end(), discretization) != known.end() ||
+                !describe(discretization.space, discretization.quadrature).caution.empty())
                 continue;
-            known.push_back(pair);
+            known.push_back(discretization);
             std::string name = e.item.id;
             if (const auto at = name.find('<'); at != std::string::npos)
                 name = name.substr(0, at) + std::to_string(degree);
-            cases.push_back({name, describe(pair.space, pair.quadrature).claims,
-                             [pair](const System& s, const Clock& c) { return makeIntegrator(s, pair, c); },
+            cases.push_back({name, describe(discretization.space, discretization.quadrature).claims,
+                             [discretization](const System& s, const Clock& c) {
+                                 return makeIntegrator(s, discretization, c);
+                             },
                              true});
         }
     }
@@ -89,18 +92,18 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
 }
 
 inline Discretization polynomialPair(int degree, Settings quadrature, const std::string& basis = "lobatto") {
-    Discretization pair;
-    pair.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", basis}}, {}};
-    pair.quadrature = completeQuadrature(pair.space, quadrature);
-    return pair;
+    Discretization discretization;
+    discretization.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", basis}}, {}};
+    discretization.quadrature = completeQuadrature(discretization.space, quadrature);
+    return discretization;
 }
 
 inline Discretization splinePair(int degree, int cells, Settings quadrature) {
-    Discretization pair;
-    pair.space = {
+    Discretization discretization;
+    discretization.space = {
         "spline", {{"degree", static_cast<double>(degree)}, {"cells", static_cast<double>(cells)}}, {}};
-    pair.quadrature = completeQuadrature(pair.space, quadrature);
-    return pair;
+    discretization.quadrature = completeQuadrature(discretization.space, quadrature);
+    return discretization;
 }
 
 /// The state after n steps, or nothing if one failed.

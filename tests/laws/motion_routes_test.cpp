@@ -126,10 +126,10 @@ double actionSlope(const Curve& curve, const Rule<double>& rule, double h, const
 
 /// Largest residual of D_2 L_d(g_0, g_1) + D_1 L_d(g_1, g_2) = 0 and of the stationarity of the interior
 /// points.
-double eulerLagrangeResidual(const Discretization& pair, double h, double spoil = 0) {
-    const int degree = pair.space.integer("degree");
-    const Rule<double> rule = makeRule<double>(pair.quadrature);
-    const auto integrator = makeIntegrator(satellite(), pair, {0, h});
+double eulerLagrangeResidual(const Discretization& discretization, double h, double spoil = 0) {
+    const int degree = discretization.space.integer("degree");
+    const Rule<double> rule = makeRule<double>(discretization.quadrature);
+    const auto integrator = makeIntegrator(satellite(), discretization, {0, h});
     State s = start();
     std::array<Curve, 2> curves;
     for (Curve& c : curves) {
@@ -192,12 +192,12 @@ Eigen::Matrix<double, 12, 12> canonicalForm(const State& s, double sign) {
     w.bottomLeftCorner<6, 6>() = -Eigen::Matrix<double, 6, 6>::Identity();
     return w;
 }
-double symplecticDefect(const Discretization& pair, double sign) {
+double symplecticDefect(const Discretization& discretization, double sign) {
     constexpr double delta = 1e-3;
     constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
     const System system = satellite();
     const auto step = [&](const State& s) {
-        return after(*makeIntegrator(system, pair, {0, 0.2}), s, 1).value();
+        return after(*makeIntegrator(system, discretization, {0, 0.2}), s, 1).value();
     };
     const State end = step(start());
     Eigen::Matrix<double, 12, 12> M = Eigen::Matrix<double, 12, 12>::Zero();
@@ -219,9 +219,9 @@ private slots:
     void theUnreducedEquationsHoldOnTheTrajectory() {
         for (int degree = 1; degree <= 4; ++degree)
             for (const char* rule : {"gauss", "lobatto"}) {
-                const Discretization pair = liePair(degree, {rule, {}, {}});
-                const double r = eulerLagrangeResidual(pair, 0.2),
-                             broken = eulerLagrangeResidual(pair, 0.2, 1e-6);
+                const Discretization discretization = liePair(degree, {rule, {}, {}});
+                const double r = eulerLagrangeResidual(discretization, 0.2),
+                             broken = eulerLagrangeResidual(discretization, 0.2, 1e-6);
                 qInfo("degree %d, %s: %.1e; a curve that is 1e-6 off: %.1e", degree, rule, r, broken);
                 QVERIFY(r < 1e-13);  // measured: at most 1.0e-14
                 QVERIFY(broken > 1e-8);
@@ -248,8 +248,9 @@ private slots:
     void theStepIsSymplectic() {
         for (int degree = 1; degree <= 4; ++degree)
             for (const bool isSymmetric : {false, true}) {
-                const Discretization pair = liePair(degree, {"gauss", {}, {}}, isSymmetric);
-                const double defect = symplecticDefect(pair, 1), broken = symplecticDefect(pair, -1);
+                const Discretization discretization = liePair(degree, {"gauss", {}, {}}, isSymmetric);
+                const double defect = symplecticDefect(discretization, 1),
+                             broken = symplecticDefect(discretization, -1);
                 qInfo("degree %d%s: %.1e; with the wrong sign of the bracket %.1e", degree,
                       isSymmetric ? ", symmetric" : "", defect, broken);
                 QVERIFY(defect < 2e-11);  // measured: at most 3.6e-12

@@ -93,8 +93,8 @@ private slots:
         const System system = isFree ? freelyMoving() : satellite();
         const State start = isFree ? freeStart() : satelliteStart();
         const double T = 3, spin = isFree ? 1 : 0.0076;
-        const auto run = [&](const Discretization& pair, int n) {
-            return after(*makeIntegrator(system, pair, {0, T / n}), start, n);
+        const auto run = [&](const Discretization& discretization, int n) {
+            return after(*makeIntegrator(system, discretization, {0, T / n}), start, n);
         };
         const auto reference = run(liePair(8), isFree ? 40 : 160);
         QVERIFY(reference.has_value());
@@ -253,9 +253,10 @@ private slots:
     void symmetrisedStepsReturn() {
         for (int degree = 2; degree <= 4; ++degree)
             for (const bool isSymmetric : {false, true}) {
-                const Discretization pair = liePair(degree, {"gauss", {}, {}}, isSymmetric);
-                const auto there = after(*makeIntegrator(satellite(), pair, {0, 0.2}), satelliteStart(), 1);
-                const auto back = after(*makeIntegrator(satellite(), pair, {0.2, -0.2}), *there, 1);
+                const Discretization discretization = liePair(degree, {"gauss", {}, {}}, isSymmetric);
+                const auto there =
+                    after(*makeIntegrator(satellite(), discretization, {0, 0.2}), satelliteStart(), 1);
+                const auto back = after(*makeIntegrator(satellite(), discretization, {0.2, -0.2}), *there, 1);
                 const double defect = largestDifference(back->x, satelliteStart().x);
                 qInfo("degree %d%s: %.1e", degree, isSymmetric ? ", symmetric" : "", defect);
                 if (isSymmetric) QVERIFY(defect < 1e-14);

@@ -86,13 +86,14 @@ private slots:
         QFETCH(int, index);
         const Row& row = table[static_cast<std::size_t>(index)];
         const System s = systemNamed("spring-pendulum", {{"k", row.k}});
-        // With the grid the figures were measured with, but below some three periods a step, where the
+        // With the grid the figures were measured with, but below some three periods per step, where the
         // automatic rule of the richer schemes is Gauss: R3 on its grid is then too ill-conditioned, and
         // Gauss is the more accurate one.
-        Discretization pair = *namedScheme("multiscale-r" + std::to_string(row.scheme));
+        Discretization discretization = *namedScheme("multiscale-r" + std::to_string(row.scheme));
         const bool isFilon = row.h * std::sqrt(row.k) > (row.scheme == 1 ? 19 : 21);
-        if (isFilon) pair.quadrature = completeQuadrature(pair.space, {"filon-lobatto", {}, {}});
-        const auto integrator = makeIntegrator(s, pair, {0, row.h});
+        if (isFilon)
+            discretization.quadrature = completeQuadrature(discretization.space, {"filon-lobatto", {}, {}});
+        const auto integrator = makeIntegrator(s, discretization, {0, row.h});
         State state{0, 0, {0.05 * std::sqrt(1e4 / row.k), 1, 0, 0}};
         const auto& m = s.mechanics();
         const auto H = [&] { return m.energy(m.model.get(), state.t, state.x.data(), state.x.data() + 2); };
@@ -126,7 +127,7 @@ private slots:
                 worst[i] = std::max(worst[i], std::abs(state.x[i] - exact[i]));
         }
         qInfo(
-            "theta %.1e a %.1e p_a %.1e p_theta %.1e energy %.1e %.1e; %.1f iterations a step, %d at most, "
+            "theta %.1e a %.1e p_a %.1e p_theta %.1e energy %.1e %.1e; %.1f iterations per step, %d at most, "
             "%.2f Jacobians",
             worst[1], worst[0], worst[2], worst[3], worst[4], worst[5],
             1.0 * iterations / static_cast<double>(state.node), mostIterations,

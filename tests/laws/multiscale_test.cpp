@@ -21,8 +21,8 @@ Discretization named(int r) { return *namedScheme("multiscale-r" + std::to_strin
 double energyAt(const System& s, const State& x) { return energyOf(s)(x.t, x.x.data()); }
 
 /// Largest |H - H(0)| to `end`; infinity where a step fails.
-double energyError(const System& s, const Discretization& pair, double h, State state, double end) {
-    const auto integrator = makeIntegrator(s, pair, {0, h});
+double energyError(const System& s, const Discretization& discretization, double h, State state, double end) {
+    const auto integrator = makeIntegrator(s, discretization, {0, h});
     const double start = energyAt(s, state);
     double worst = 0;
     while (state.t < end - h / 2) {
@@ -32,10 +32,10 @@ double energyError(const System& s, const Discretization& pair, double h, State 
     return worst;
 }
 
-Discretization withOmega(Discretization pair, Value omega) {
-    for (auto& [key, value] : pair.space.keys)
+Discretization withOmega(Discretization discretization, Value omega) {
+    for (auto& [key, value] : discretization.space.keys)
         if (key == "omega") value = omega;
-    return pair;
+    return discretization;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ private slots:
         const System s = spring(1e4);
         for (int r = 1; r <= 3; ++r)
             for (const double h : {0.05, 0.21}) {
-                // Central differences of order 6; the fast pair in its own units.
+                // Central differences of order 6; the fast discretization in its own units.
                 const std::array<double, 4> unit = {0.01, 1, 1, 1};
                 Eigen::Matrix4d M = Eigen::Matrix4d::Zero(), J = Eigen::Matrix4d::Zero();
                 for (int j = 0; j < 4; ++j)
@@ -165,8 +165,8 @@ private slots:
                               0,
                               {between(-amplitude, amplitude), between(-2.8, 2.8),
                                between(-1, 1) * amplitude * std::sqrt(k), between(-3, 3)}};
-            const Discretization pair = named(1 + i % 3);
-            const auto integrator = makeIntegrator(s, pair, {0, between(0.05, 0.4)});
+            const Discretization discretization = named(1 + i % 3);
+            const auto integrator = makeIntegrator(s, discretization, {0, between(0.05, 0.4)});
             State state = start;
             const double H = energyAt(s, start);
             for (int n = 0; n < 40; ++n) {

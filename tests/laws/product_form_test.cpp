@@ -14,19 +14,19 @@ namespace extremal::laws::product_form_test {
 namespace {
 
 Discretization product(int slow, int fast, const char* frequency, Value omega = "model") {
-    Discretization pair = *namedScheme("product-form");
-    for (auto& [key, value] : pair.space.keys) {
+    Discretization discretization = *namedScheme("product-form");
+    for (auto& [key, value] : discretization.space.keys) {
         if (key == "degree") value = static_cast<double>(slow);
         if (key == "fast") value = Value(Value::Object{{"degree", static_cast<double>(fast)}});
         if (key == "frequency") value = frequency;
         if (key == "omega") value = omega;
     }
-    return pair;
+    return discretization;
 }
 
 /// Time of the first step that has no solution; infinity where there is none to t = 10.
-double failsAt(const System& s, const Discretization& pair, double h, Outcome& outcome) {
-    const auto integrator = makeIntegrator(s, pair, {0, h});
+double failsAt(const System& s, const Discretization& discretization, double h, Outcome& outcome) {
+    const auto integrator = makeIntegrator(s, discretization, {0, h});
     State state{0, 0, {0.05, 1, 0, 0}};
     while (state.t < 10 - h / 2) {
         const double t = state.t;
@@ -107,8 +107,8 @@ private slots:
     void angularMomentumIsLostWithoutGravity() {
         // Constants are no variations of a product; of added amplitudes they are.
         const System s = systemNamed("spring-pendulum", {{"k", 1e4}, {"g", 0.0}});
-        const auto change = [&](const Discretization& pair) {
-            const auto integrator = makeIntegrator(s, pair, {0, 0.1});
+        const auto change = [&](const Discretization& discretization) {
+            const auto integrator = makeIntegrator(s, discretization, {0, 0.1});
             State state{0, 0, {0.02, 0.3, 0, 0.8}};
             if (advance(*integrator, state).outcome != Outcome::converged) return double(NAN);
             return std::abs(state.x[3] - 0.8);

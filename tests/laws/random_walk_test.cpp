@@ -20,8 +20,8 @@ struct Walk {
 Walk walkOf(double tolerance, int steps) {
     const System system = systemNamed("henon-heiles");
     const auto& m = system.mechanics();
-    Discretization pair = *namedScheme("galerkin-gauss-8");
-    if (tolerance > 0) pair.solver = {"fixed-point", {{"tolerance", tolerance}}, {}};
+    Discretization discretization = *namedScheme("galerkin-gauss-8");
+    if (tolerance > 0) discretization.solver = {"fixed-point", {{"tolerance", tolerance}}, {}};
     constexpr int orbits = 8, samples = 1000;
     Walk walk;
     for (int orbit = 0; orbit < orbits; ++orbit) {
@@ -29,7 +29,7 @@ Walk walkOf(double tolerance, int steps) {
         State s{0, 0, {0, y, std::sqrt(2 * (0.13 - y * y / 2 + y * y * y / 3)), 0}};
         const auto energy = [&] { return m.energy(m.model.get(), s.t, s.x.data(), s.x.data() + 2); };
         const double start = energy();
-        const auto integrator = makeIntegrator(system, pair, {0, 0.3});
+        const auto integrator = makeIntegrator(system, discretization, {0, 0.3});
         double squares = 0, slope = 0, spread = 0;
         for (int k = 1; k <= samples; ++k) {
             for (int i = 0; i < steps / samples; ++i)

@@ -91,9 +91,9 @@ private slots:
         for (const ModelEntry& e : modelCatalog()) {
             const System s = systemNamed(e.item.id);
             if (!isMechanical(s)) continue;
-            const auto pair = makeIntegrator(s, polynomialPair(1, {"midpoint", {}, {}}), {0, 0.02});
+            const auto discretization = makeIntegrator(s, polynomialPair(1, {"midpoint", {}, {}}), {0, 0.02});
             const auto rule = findBaseline("implicit-midpoint")->make(s, {0.02, {}, 0, {}});
-            const double difference = stepDifference(s, *pair, *rule);
+            const double difference = stepDifference(s, *discretization, *rule);
             qInfo("%s: %.2e", e.item.id.c_str(), difference);
             QVERIFY(difference < 1e-13);
         }
@@ -101,9 +101,10 @@ private slots:
     void degreeOneWithTheTrapezoidIsVerletWhereSeparable() {
         for (const char* id : {"kepler", "pendulum", "harmonic-oscillator"}) {
             const System s = systemNamed(id);
-            const auto pair = makeIntegrator(s, polynomialPair(1, {"trapezoid", {}, {}}), {0, 0.05});
+            const auto discretization =
+                makeIntegrator(s, polynomialPair(1, {"trapezoid", {}, {}}), {0, 0.05});
             const auto verlet = findBaseline("stormer-verlet")->make(s, {0.05, {}, 0, {}});
-            QVERIFY(stepDifference(s, *pair, *verlet) < 1e-14);
+            QVERIFY(stepDifference(s, *discretization, *verlet) < 1e-14);
         }
     }
     void everyBasisGivesTheSameStep_data() {
@@ -183,12 +184,12 @@ private slots:
             for (int degree = 1; degree <= 4; ++degree)
                 for (const bool isGauss : {true, false}) {
                     const Rule<double> rule = isGauss ? gauss<double>(degree) : lobatto<double>(degree + 1);
-                    const auto pair = makeIntegrator(
+                    const auto discretization = makeIntegrator(
                         s, polynomialPair(degree, {isGauss ? "gauss" : "lobatto", {}, {}}), {0, 0.05});
                     double worst = 0;
                     for (int i = 0; i < 50; ++i) {
                         const State start = randomState(random, s);
-                        const State end = after(*pair, start, 1).value();
+                        const State end = after(*discretization, start, 1).value();
                         const auto expected = partitionedRungeKutta(rule, s, start.x, 0.05);
                         worst = std::max(worst, distance(end.x, expected, 0, expected.size()));
                     }
@@ -207,10 +208,11 @@ private slots:
         QFETCH(QString, model);
         const System s = systemNamed(model.toStdString());
         for (const int stages : {1, 2, 3, 4, 6, 8, 12}) {
-            const auto pair = makeIntegrator(s, polynomialPair(stages, {"gauss", {}, {}}), {0, 0.01});
+            const auto discretization =
+                makeIntegrator(s, polynomialPair(stages, {"gauss", {}, {}}), {0, 0.01});
             const Settings keys{"gauss-collocation", {{"stages", static_cast<double>(stages)}}, {}};
             const auto collocation = findBaseline("gauss-collocation")->make(s, {0.01, {}, 0, keys});
-            const double difference = stepDifference(s, *pair, *collocation);
+            const double difference = stepDifference(s, *discretization, *collocation);
             qInfo("%d stages: %.2e", stages, difference);
             QVERIFY(difference < 1e-14);  // measured: at most 1.1e-15
         }
@@ -219,15 +221,15 @@ private slots:
         for (const char* id : {"kepler", "spring-pendulum"}) {
             const System s = systemNamed(id);
             std::mt19937 random(3);
-            const auto pair = makeIntegrator(s, polynomialPair(5, {"gauss", {}, {}}), {0, 0.02});
+            const auto discretization = makeIntegrator(s, polynomialPair(5, {"gauss", {}, {}}), {0, 0.02});
             const auto collocation =
                 findBaseline("gauss-collocation")->make(s, {0.02, {}, 0, {"", {{"stages", 5.0}}, {}}});
             const State start = randomState(random, s);
-            (void)after(*pair, start, 3).value();
+            (void)after(*discretization, start, 3).value();
             (void)after(*collocation, start, 3).value();
             std::vector<double> x(4), y(4);
             for (const double tau : {0.0, 0.3, 0.77, 1.0}) {
-                pair->denseOutput(tau, x);
+                discretization->denseOutput(tau, x);
                 collocation->denseOutput(tau, y);
                 qInfo("%s at %.2f: %.2e", id, tau, distance(x, y, 0, 4));
                 QVERIFY(distance(x, y, 0, 4) < 2e-14);  // measured: at most 1.8e-15

@@ -12,10 +12,10 @@ namespace extremal::laws::spectral_test {
 namespace {
 
 /// Largest error over four steps of half a unit each, on Kepler's orbit.
-double errorOf(const Discretization& pair) {
+double errorOf(const Discretization& discretization) {
     static const System kepler = systemNamed("kepler");
     const ExactSolution exact = kepler.exact(keplerStart);
-    const auto step = makeIntegrator(kepler, pair, {0, 0.5});
+    const auto step = makeIntegrator(kepler, discretization, {0, 0.5});
     State state = keplerStart;
     double worst = 0;
     std::vector<double> x(4);
@@ -30,10 +30,10 @@ double errorOf(const Discretization& pair) {
 /// Slope of the logarithm of the error over the degree, while it is above round-off.
 double digitsPerDegree(const std::vector<Discretization>& pairs) {
     std::vector<double> degree, digits;
-    for (const Discretization& pair : pairs) {
-        const double e = errorOf(pair);
+    for (const Discretization& discretization : pairs) {
+        const double e = errorOf(discretization);
         if (e < 1e-12) break;
-        degree.push_back(pair.space.number("degree"));
+        degree.push_back(discretization.space.number("degree"));
         digits.push_back(-std::log10(e));
     }
     return slope(degree, digits);
@@ -70,10 +70,11 @@ private slots:
         // decides.
         std::vector<Discretization> pairs;
         for (int s = 3; s <= 16; ++s) {
-            Discretization pair;
-            pair.space = {"polynomial", {{"degree", static_cast<double>(s)}, {"basis", "lobatto"}}, {}};
-            pair.quadrature = {"gauss", {{"nodes", 2.0}, {"panels", static_cast<double>(s)}}, {}};
-            pairs.push_back(pair);
+            Discretization discretization;
+            discretization.space = {
+                "polynomial", {{"degree", static_cast<double>(s)}, {"basis", "lobatto"}}, {}};
+            discretization.quadrature = {"gauss", {{"nodes", 2.0}, {"panels", static_cast<double>(s)}}, {}};
+            pairs.push_back(discretization);
         }
         const double digits = digitsPerDegree(pairs);
         qInfo("%.3f digits a degree", digits);

@@ -185,9 +185,10 @@ private slots:
         QFETCH(int, degree);
         QFETCH(double, h);
         QFETCH(double, expected);
-        const Discretization pair = polynomialPair(degree, {"gauss", {}, {}});
-        const Case c{
-            "", {}, [&](const System& s, const Clock& clock) { return makeIntegrator(s, pair, clock); }};
+        const Discretization discretization = polynomialPair(degree, {"gauss", {}, {}});
+        const Case c{"", {}, [&](const System& s, const Clock& clock) {
+                         return makeIntegrator(s, discretization, clock);
+                     }};
         const EnergyRun r = energyRun(c, kepler_, keplerStart, h, 50);
         qInfo("max |H - H(0)| = %.4e, max |L - L(0)| = %.2e", r.largest, r.momentum);
         QVERIFY(std::abs(r.largest / expected - 1) < 0.05);

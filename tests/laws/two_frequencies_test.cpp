@@ -71,12 +71,12 @@ private slots:
         const double soft = evaluations(asItIs_), stiff = evaluations(c);
         qInfo("error %.1e, evaluations %g against %g", largest(c, 0, "error"), stiff, soft);
         QVERIFY(largest(c, 0, "error") < 1e-11);
-        // 1.5: four iterations a step in place of three, where a resolved run would take a hundred times the
-        // steps.
+        // 1.5: four iterations per step in place of three, where a resolved run would take a hundred times
+        // the steps.
         QVERIFY(stiff < 2 * soft);
     }
     void energiesOfStiffStepsDoNotDrift() {
-        // What 12 starts gain or lose in 4000 steps at k = 1e12: 40,000 fast periods a step.
+        // What 12 starts gain or lose in 4000 steps at k = 1e12: 40,000 fast periods per step.
         const double k = 1e12, h = 0.25;
         const System s = systemNamed("spring-pendulum", {{"k", k}});
         const auto energy = energyOf(s);

@@ -56,12 +56,13 @@ private slots:
                 for (int n = std::string(type) == "gauss" || std::string(type) == "radau" ? 1 : 2; n <= 13;
                      ++n) {
                     const Settings rule = withNodes(type, n);
-                    const Discretization pair = polynomialPair(s, rule);
-                    const Rule<double> r = makeRule<double>(pair.quadrature);
+                    const Discretization discretization = polynomialPair(s, rule);
+                    const Rule<double> r = makeRule<double>(discretization.quadrature);
                     // Solvable: every motion costs; and a free particle keeps its speed: int phi' = 0 is seen
                     // for all phi that vanish at both ends, which have degree s.
                     const bool isSound = rankAtNodes(s, r) == s && exactness(r) >= s - 1;
-                    const bool isRefused = !describe(pair.space, pair.quadrature).refusal.empty();
+                    const bool isRefused =
+                        !describe(discretization.space, discretization.quadrature).refusal.empty();
                     QVERIFY2(isSound != isRefused,
                              qPrintable(QString("degree %1, %2 %3").arg(s).arg(type).arg(n)));
                     ++(isRefused ? refused : accepted);
@@ -73,12 +74,12 @@ private slots:
         // Made all the same: the step of degree 3 with two Gauss nodes fails, or the solution is not
         // determined.
         const System kepler = systemNamed("kepler");
-        const Discretization pair = polynomialPair(3, withNodes("gauss", 2));
-        QVERIFY(!describe(pair.space, pair.quadrature).refusal.empty());
+        const Discretization discretization = polynomialPair(3, withNodes("gauss", 2));
+        QVERIFY(!describe(discretization.space, discretization.quadrature).refusal.empty());
         Outcome outcome = Outcome::singular;
         try {
             State state = keplerStart;
-            outcome = advance(*makeIntegrator(kepler, pair, {0, 0.1}), state).outcome;
+            outcome = advance(*makeIntegrator(kepler, discretization, {0, 0.1}), state).outcome;
         } catch (const InvalidScene&) {
         }
         QVERIFY(outcome != Outcome::converged);
@@ -93,9 +94,10 @@ private slots:
         for (int s = 1; s <= 8; ++s)
             for (const char* type : {"gauss", "lobatto", "radau", "clenshaw-curtis"})
                 for (int n = 2; n <= 10; ++n) {
-                    const Discretization pair = polynomialPair(s, withNodes(type, n));
-                    if (!describe(pair.space, pair.quadrature).refusal.empty()) continue;
-                    const auto end = after(*makeIntegrator(system, pair, {0, 0.5}), {0, 0, {1, 3}}, 4);
+                    const Discretization discretization = polynomialPair(s, withNodes(type, n));
+                    if (!describe(discretization.space, discretization.quadrature).refusal.empty()) continue;
+                    const auto end =
+                        after(*makeIntegrator(system, discretization, {0, 0.5}), {0, 0, {1, 3}}, 4);
                     QVERIFY2(end && std::abs(end->x[0] - 7) < 1e-12 && std::abs(end->x[1] - 3) < 1e-12,
                              qPrintable(QString("degree %1, %2 %3").arg(s).arg(type).arg(n)));
                 }

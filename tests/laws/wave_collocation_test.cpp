@@ -99,11 +99,13 @@ private slots:
         const System system = systemA(64);
         const State start = startA(system);
         for (const char* basis : {"legendre", "chebyshev"}) {
-            Discretization pair = wavePair(16);
-            pair.space = {"space-time", {{"degree", 16.0}, {"time_basis", basis}, {"slabs", 4.0}}, {}};
-            const auto whole = makeIntegrator(system, pair, {0, 0.25});
-            pair.space = {"space-time", {{"degree", 16.0}, {"time_basis", basis}, {"slabs", 1.0}}, {}};
-            const auto parts = makeIntegrator(system, pair, {0, 0.0625});
+            Discretization discretization = wavePair(16);
+            discretization.space = {
+                "space-time", {{"degree", 16.0}, {"time_basis", basis}, {"slabs", 4.0}}, {}};
+            const auto whole = makeIntegrator(system, discretization, {0, 0.25});
+            discretization.space = {
+                "space-time", {{"degree", 16.0}, {"time_basis", basis}, {"slabs", 1.0}}, {}};
+            const auto parts = makeIntegrator(system, discretization, {0, 0.0625});
             const State a = run(*whole, start, 3), b = run(*parts, start, 12);
             QCOMPARE(a.node, 3LL);
             QCOMPARE(a.t, 0.75);
@@ -112,7 +114,7 @@ private slots:
             // Inside the step it is the same curve.
             State inside = start, there = start;
             whole->denseOutput(0.75, inside.x);
-            there = run(*makeIntegrator(system, pair, {0, 0.0625}), start, 11);
+            there = run(*makeIntegrator(system, discretization, {0, 0.0625}), start, 11);
             QVERIFY(waveDistance(inside, there) < 1e-11);
         }
         // Degree 48 in a single slab of a quarter: 6.6e-7 predicted.

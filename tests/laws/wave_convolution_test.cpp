@@ -25,8 +25,8 @@ System systemOf(int modes, const char* product, const Value& potential = "20*exp
         "schrodinger",
         {{"modes", static_cast<double>(modes)}, {"potential", potential}, {"product", product}});
 }
-State run(const System& system, const Discretization& pair, const State& start, double T, int n) {
-    const auto integrator = makeIntegrator(system, pair, {0, T / n});
+State run(const System& system, const Discretization& discretization, const State& start, double T, int n) {
+    const auto integrator = makeIntegrator(system, discretization, {0, T / n});
     const auto end = after(*integrator, start, n);
     return end ? *end : State{};
 }
@@ -48,9 +48,9 @@ double apart(const System& a, const State& x, const System& b, const State& y) {
         sum += std::norm(u[j] - v[j]) * 2 * std::numbers::pi / static_cast<double>(u.size());
     return std::sqrt(sum);
 }
-std::string refusal(const System& system, const Discretization& pair) {
+std::string refusal(const System& system, const Discretization& discretization) {
     try {
-        (void)makeIntegrator(system, pair, {0, 0.01});
+        (void)makeIntegrator(system, discretization, {0, 0.01});
     } catch (const InvalidScene& e) {
         return e.problems()[0].pointer;
     }

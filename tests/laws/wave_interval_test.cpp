@@ -1,5 +1,5 @@
-/// Wave functions between walls: the box by its sines, harmonic levels, revival, norm, reversal, what is
-/// refused, and the squared differentiation matrix that loses the norm.
+/// Wave functions with a Dirichlet boundary: the box by its sines, harmonic levels, revival, norm, reversal,
+/// what is refused, and the squared differentiation matrix that loses the norm.
 #include <QTest>
 
 #include <numbers>
@@ -234,7 +234,7 @@ private slots:
     }
 
     void meanValuesFollowEhrenfest() {
-        // d<x>/dt = <p>/m, by differences of the exact motion; the walls push, so <p> is not kept.
+        // d<x>/dt = <p>/m, by differences of the exact motion; the ends push, so <p> is not kept.
         const System system = between(48);
         const State start = boxState(system, 0);
         const auto exact = system.exact(start);

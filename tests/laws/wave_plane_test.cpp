@@ -82,8 +82,8 @@ State run(Integrator& integrator, const State& start, int n) {
 State run(const char* id, const System& system, const State& start, double T, int n) {
     return run(*baseline(id, system, T / n), start, n);
 }
-State run(const Discretization& pair, const System& system, const State& start, double T, int n) {
-    return run(*makeIntegrator(system, pair, {0, T / n}), start, n);
+State run(const Discretization& discretization, const System& system, const State& start, double T, int n) {
+    return run(*makeIntegrator(system, discretization, {0, T / n}), start, n);
 }
 double norm(const System& system, const State& state) {
     return std::sqrt(squaredNorm(coefficients(state.x.data()), system.hamiltonian()->size()));
@@ -238,12 +238,12 @@ private slots:
         const System system = rectangle(24, 20, coupled);
         State start = widePacket(system), exact = start;
         system.exact(start)(1, exact.x);
-        Discretization pair = wavePair(1, "krylov");
-        pair.quadrature = {"exact", {}, {}};
-        for (auto& [key, value] : pair.space.keys)
+        Discretization discretization = wavePair(1, "krylov");
+        discretization.quadrature = {"exact", {}, {}};
+        for (auto& [key, value] : discretization.space.keys)
             if (key == "form") value = "three-level";
         const auto errorOf = [&](int n) {
-            return n < 150 ? 1 : waveDistance(run(pair, system, start, 1, n), exact);
+            return n < 150 ? 1 : waveDistance(run(discretization, system, start, 1, n), exact);
         };
         const double measured = timeOrder(errorOf, 1e-9);
         qInfo("order %.3f", measured);

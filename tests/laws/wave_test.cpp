@@ -15,8 +15,8 @@
 namespace extremal::laws::wave_test {
 namespace {
 
-State run(const System& system, const Discretization& pair, const State& start, double T, int n) {
-    const auto integrator = makeIntegrator(system, pair, {start.t, T / n});
+State run(const System& system, const Discretization& discretization, const State& start, double T, int n) {
+    const auto integrator = makeIntegrator(system, discretization, {start.t, T / n});
     const auto end = after(*integrator, start, n);
     return end ? *end : State{};
 }
@@ -231,7 +231,7 @@ private slots:
                 makeIntegrator(system, wavePair(1, "krylov", 0.0, {{"tolerance", 1e-12}}), {0, 1.0 / 64});
             int iterations = 0;
             for (int k = 0; k < 64; ++k) iterations += advance(*integrator, state).cost.iterations;
-            qInfo("N = %d: %.1f iterations a step", modes, iterations / 64.0);
+            qInfo("N = %d: %.1f iterations per step", modes, iterations / 64.0);
             QVERIFY(iterations <= 18 * 64);  // 15.5 measured at every N
         }
     }
@@ -249,8 +249,9 @@ private slots:
         for (const double hbar : {1.0, 1e-2, 1e-4}) {
             const System system = waveSystem(4096, "1 - cos(x)", hbar);
             const State start = waveStart(system, 0.5 / hbar, 1.2, std::round(0.2 / hbar));
-            const Discretization pair = wavePair(8);
-            const State end = run(system, pair, start, 0.1, 200), fine = run(system, pair, start, 0.1, 400);
+            const Discretization discretization = wavePair(8);
+            const State end = run(system, discretization, start, 0.1, 200),
+                        fine = run(system, discretization, start, 0.1, 400);
             qInfo("hbar %.0e: %.2g", hbar, waveDistance(end, fine));
             QVERIFY(waveDistance(end, fine) < 1e-9);
             QVERIFY(system.caution(end.x.data()).empty());

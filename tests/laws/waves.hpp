@@ -37,16 +37,16 @@ inline State startS(const System& system) { return waveStart(system, 50, 1.2, 50
 
 inline Discretization wavePair(int degree, const std::string& solver = "auto", const Value& shift = "mean",
                                Value::Object limits = {}) {
-    Discretization pair;
-    pair.space = {"fourier",
-                  {{"degree", static_cast<double>(degree)},
-                   {"energy_shift", shift},
-                   {"form", "one-step"},
-                   {"start", "gauss"}},
-                  {}};
-    pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
-    pair.solver = {solver, std::move(limits), {}};
-    return pair;
+    Discretization discretization;
+    discretization.space = {"fourier",
+                            {{"degree", static_cast<double>(degree)},
+                             {"energy_shift", shift},
+                             {"form", "one-step"},
+                             {"start", "gauss"}},
+                            {}};
+    discretization.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
+    discretization.solver = {solver, std::move(limits), {}};
+    return discretization;
 }
 
 inline double waveDistance(const State& a, const State& b) { return distance(a.x, b.x, 0, a.x.size()); }

@@ -21,7 +21,7 @@ struct Orders {
 
 enum class Motion { kepler, pendulum };
 
-/// `budget`: evaluations of the finest run. The pair must not be one that the program refuses.
+/// `budget`: evaluations of the finest run. The discretization must not be one that the program refuses.
 Orders measureOrders(const Settings& space, const Settings& quadrature, Motion motion, long long budget);
 
 struct OrderRow {
@@ -35,7 +35,7 @@ struct OrderRow {
 std::vector<OrderRow> pairsOfTable();
 void measure(OrderRow& row, long long budget);
 
-/// Evaluations of the finest run of each pair, for the page.
+/// Evaluations of the finest run of each discretization, for the page.
 constexpr long long orderBudget = 8000;
 
 /// A line of the page's tables, and the page.

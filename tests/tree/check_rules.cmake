@@ -54,26 +54,11 @@ expect(part_of_a_word app/a.cpp "f(\"fourier-like\", \"reduced model\");\n" "")
 expect(families_in_tests tests/a_test.cpp "f(\"fourier\");\n#include \"engine/family/wave/wave.hpp\"\n" "")
 expect(header_of_a_family engine/run/a.cpp "#include \"engine/family/wave/wave.hpp\"\n"
     "a.cpp:1: includes \"engine/family/wave/wave.hpp\" of a family that is not its own")
-expect(header_of_another_family engine/family/lie/a.cpp "#include \"engine/family/galerkin/kkt_pattern.hpp\"\n" "not its own")
+expect(header_of_another_family engine/family/lie/a.cpp "#include \"engine/family/wave/wave.hpp\"\n" "not its own")
+expect(family_without_names engine/family/new/family.cpp "int a;\n" "whose names are not listed")
 expect(header_of_its_family engine/family/lie/a.cpp "#include \"engine/family/lie/lie.hpp\"\n" "")
 expect(header_in_a_baseline engine/baseline/a.cpp "#include \"engine/family/wave/wave.hpp\"\n" "")
 expect(header_of_all_families engine/run/a.cpp "#include \"engine/family/scheme.hpp\"\n" "")
-
-# Files on the list are tolerated, but may not stay on it for nothing.
-function(expect_listed name text pattern)
-    file(REMOVE_RECURSE ${SCRATCH}/${name})
-    file(WRITE ${SCRATCH}/${name}/${list_of_family_names} "# a comment\nengine/run/a.cpp\n")
-    if(NOT text STREQUAL "no file")
-        file(WRITE ${SCRATCH}/${name}/engine/run/a.cpp "${text}")
-    endif()
-    extremal_tree_violations(${SCRATCH}/${name} violations)
-    if(NOT "${violations}" MATCHES "${pattern}")
-        message(SEND_ERROR "${name}: expected '${pattern}', found: ${violations}")
-    endif()
-endfunction()
-expect_listed(tolerated "f(\"fourier\");\n" "^$")
-expect_listed(clean_but_listed "int a;\n" "a.cpp:1: names no other family any more")
-expect_listed(gone_but_listed "no file" "a.cpp:1: does not exist")
 
 # Declared low and defined high: the definition of `listed` is in another folder, that of `here` is not.
 expect(defined_elsewhere engine/scene/a.hpp "${header}\nnamespace extremal {\nint listed(int a,\n           int b = {});\n}\n"

@@ -31,18 +31,19 @@ DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent)
 }
 
 QString DiscretizerCell::tooltip(const Properties& known) const {
-    const QString pair = QString::fromStdString(choice_.title);
+    const QString discretization = QString::fromStdString(choice_.title);
     if (!known.refusal.empty())
         return tr("<b>%1</b><br>No scheme: %2")
-            .arg(pair, QString::fromStdString(known.refusal).toHtmlEscaped());
+            .arg(discretization, QString::fromStdString(known.refusal).toHtmlEscaped());
     if (!known.remark.empty())
-        return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + pair + "<br>" +
+        return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + discretization + "<br>" +
                QString::fromStdString(known.remark) + "<br><i>" + tr("Click to add it to the comparison.") +
                "</i>";
-    QString text = "<b>" +
-                   (known.knownAs.empty() ? pair : QString::fromStdString(known.knownAs).toHtmlEscaped()) +
-                   "</b>";
-    if (!known.knownAs.empty()) text += "<br>" + pair;
+    QString text =
+        "<b>" +
+        (known.knownAs.empty() ? discretization : QString::fromStdString(known.knownAs).toHtmlEscaped()) +
+        "</b>";
+    if (!known.knownAs.empty()) text += "<br>" + discretization;
     QStringList badges{tr("order %1").arg(known.claims.order)};
     badges << tr("order %1 between the nodes").arg(known.curveOrder);
     if (known.claims.isSymplectic) badges << tr("symplectic");

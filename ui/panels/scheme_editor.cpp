@@ -90,7 +90,7 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
     first_ = addChoice(tr("choice"), "choice");
     connect(first_, &QComboBox::activated, this, [this] {
         const Scene& scene = workspace_.scene();
-        if (spec().kind == SchemeSpec::Kind::pair) {
+        if (spec().kind == SchemeSpec::Kind::discretization) {
             const Settings space = spaceOf(chosen(*first_), std::max(1, spec().space.integer("degree")));
             const bool isOtherFamily = familyOf(space) != familyOf(spec().space);
             const std::string rule = fittingRule(isOtherFamily ? "auto" : spec().quadrature.type, space);
@@ -157,9 +157,9 @@ void SchemeEditor::rebuild() {
     if (auto* kinds = qobject_cast<QStandardItemModel*>(kind_->model()))  // a model may have no baselines
         kinds->item(static_cast<int>(SchemeSpec::Kind::baseline))
             ->setEnabled(!baselineItems(workspace_.scene()).empty());
-    ruleRow_->setVisible(s.kind == SchemeSpec::Kind::pair);
+    ruleRow_->setVisible(s.kind == SchemeSpec::Kind::discretization);
     std::vector<FormField> fields;
-    if (s.kind == SchemeSpec::Kind::pair) {
+    if (s.kind == SchemeSpec::Kind::discretization) {
         fill(*first_, fittingSpaces(workspace_.scene()));
         choose(*first_, s.space.type);
         rule_->clear();

@@ -55,10 +55,10 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
 void SchemeList::fillAddMenu() {
     addMenu_->clear();
     const ChoiceGrid grid = choicesFor(workspace_.scene());
-    QMenu* pairs = addMenu_->addMenu(tr("Space × quadrature"));
-    pairs->menuAction()->setVisible(!grid.columns.empty());
+    QMenu* discretizations = addMenu_->addMenu(tr("Space × quadrature"));
+    discretizations->menuAction()->setVisible(!grid.columns.empty());
     for (std::size_t column = 0; column < grid.columns.size(); ++column) {
-        QMenu* sub = pairs->addMenu(QString::fromStdString(grid.columns[column].description));
+        QMenu* sub = discretizations->addMenu(QString::fromStdString(grid.columns[column].description));
         for (std::size_t row = 0; row < grid.rows.size(); ++row) {
             const Discretization& made = grid.cells[row * grid.columns.size() + column].discretization;
             const Properties known = describe(made);

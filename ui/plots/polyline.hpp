@@ -1,9 +1,9 @@
 /// From the values of a series to what a screen can show of them: polylines in pixels, clipped and thinned.
 ///
 /// NaN starts a new piece. Segments are clipped a little outside the plot, so that values of any size draw
-/// with the right slope and no painter meets huge coordinates. Along a monotone x at most four points a pixel
-/// column remain (first, lowest, highest, last: the picture is the same); on other curves points closer than
-/// half a pixel are dropped, and more than that if they would still be more than 20,000.
+/// with the right slope and no painter meets huge coordinates. Along a monotone x at most four points per
+/// pixel column remain (first, lowest, highest, last: the picture is the same); on other curves points closer
+/// than half a pixel are dropped, and more than that if they would still be more than 20,000.
 #pragma once
 
 #include <QPolygonF>

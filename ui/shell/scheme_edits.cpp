@@ -82,7 +82,7 @@ double sensibleStep(const Scene& scene, int order, double stabilityLimit) {
     const ModelEntry* entry = findModel(scene.model.type);
     double step = entry ? entry->exampleStep : (scene.end.value - scene.start.value) / 200;
     for (const SchemeSpec& spec : scene.schemes)
-        if (spec.kind == SchemeSpec::Kind::pair && spec.step.value > 0 &&
+        if (spec.kind == SchemeSpec::Kind::discretization && spec.step.value > 0 &&
             describe(spec.space, spec.quadrature).claims.order == order)
             return spec.step.value;
     if (std::isfinite(stabilityLimit) && stabilityLimit > 0) step /= 2;
@@ -130,10 +130,11 @@ Value newBaseline(const Scene& scene, const std::string& id) {
 
 Value newNamed(const Scene& scene, const std::string& id) {
     Value scheme{Value::Object{}};
-    const auto pair = namedScheme(id);
-    const Properties known = pair ? describe(pair->space, pair->quadrature) : Properties{};
+    const auto discretization = namedScheme(id);
+    const Properties known =
+        discretization ? describe(discretization->space, discretization->quadrature) : Properties{};
     scheme.set("label", uniqueLabel(scene, id));
-    if (!pair || !hasImpliedStep(pair->space))
+    if (!discretization || !hasImpliedStep(discretization->space))
         scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
     scheme.set("scheme", id);
     return scheme;
@@ -197,16 +198,18 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
     const Value document = toValue(scene);
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const SchemeSpec& spec = scene.schemes[i];
-        const auto pair = discretizationOf(spec);
+        const auto discretization = discretizationOf(spec);
         const BaselineEntry* baseline = findBaseline(spec.baseline.type);
-        const bool fits = pair ? isFor(*pair, system) : baseline && appliesTo(*baseline, system);
-        if (!fits && !pair) continue;
+        const bool fits =
+            discretization ? isFor(*discretization, system) : baseline && appliesTo(*baseline, system);
+        if (!fits && !discretization) continue;
         Value scheme = fits ? document.find("schemes")->asArray()[i] : Value();
         if (!fits) {
-            const ChoiceGrid::Cell* const choice = nearestChoice(
-                choices, pair->quadrature.type, std::clamp(pair->space.integer("degree"), 2, 8));
-            const bool areElements =
-                hasImpliedStep(pair->space) || (choice && hasImpliedStep(choice->discretization.space));
+            const ChoiceGrid::Cell* const choice =
+                nearestChoice(choices, discretization->quadrature.type,
+                              std::clamp(discretization->space.integer("degree"), 2, 8));
+            const bool areElements = hasImpliedStep(discretization->space) ||
+                                     (choice && hasImpliedStep(choice->discretization.space));
             if (!choice || (areElements && !schemes.empty())) continue;  // one stands for all
             scheme = newPair(next, choice->discretization.space, choice->discretization.quadrature);
         }

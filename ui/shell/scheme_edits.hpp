@@ -31,13 +31,13 @@ std::vector<Edit> editsForToggle(const Scene& scene, int index);
 /// The model with the values it starts from, where they are not its defaults.
 Value exampleModel(const ModelEntry& entry);
 /// Another model: its example data and views, and a step that suits it for every scheme. Schemes that the
-/// model has no use for turn into pairs of the same order, or go.
+/// model has no use for turn into discretizations of the same order, or go.
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 
 /// A case of a view "parameter-map" of one scheme: the parameter, and the step of this scheme.
 std::vector<Edit> editsForCase(const Scene& scene, const View& view, double value, double step);
 
-/// The scheme that is this pair (same space and rule), or -1.
+/// The scheme that is this discretization (same space and rule), or -1.
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 
 /// Shows a view, with what it observes, or hides it.

@@ -11,7 +11,7 @@ BaselineEntry crank_nicolson() {
     BaselineEntry e;
     e.item = {"crank-nicolson",
               "Crank-Nicolson",
-              "The implicit midpoint rule for wave functions: order 2, unitary; one solve a step.",
+              "The implicit midpoint rule for wave functions: order 2, unitary; one solve per step.",
               {},
               Claims{2, true, true, {"norm", "energy"}},
               "a wave function"};

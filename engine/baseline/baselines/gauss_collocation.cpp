@@ -9,8 +9,8 @@
 /// Starting values continue the polynomial through the previous step's F or K. The update is compensated:
 /// what rounding takes away is added to the next step.
 ///
-/// Written on the Hamiltonian side, independently of the Galerkin step, whose pair (degree s, Gauss(s)) it
-/// must equal to round-off. Arrays: node i, coordinate k at (i, k).
+/// Written on the Hamiltonian side, independently of the Galerkin step, whose discretization (degree s,
+/// Gauss(s)) it must equal to round-off. Arrays: node i, coordinate k at (i, k).
 #include <algorithm>
 #include <cmath>
 #include <limits>

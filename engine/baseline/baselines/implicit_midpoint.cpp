@@ -1,8 +1,9 @@
 /// Implicit midpoint rule on Hamilton's equations, z_1 = z_0 + h X_H((z_0 + z_1)/2), solved for the midpoint
 /// by Newton.
 ///
-/// Written on the Hamiltonian side, independently of the Galerkin step, whose pair (degree 1, midpoint) it
-/// must equal to round-off. The Jacobian of X_H follows from the Hessian of L at v = v(q, p): with M = L_vv,
+/// Written on the Hamiltonian side, independently of the Galerkin step, whose discretization (degree 1,
+/// midpoint) it must equal to round-off. The Jacobian of X_H follows from the Hessian of L at v = v(q, p):
+/// with M = L_vv,
 ///     v_q = -M^{-1} L_vq,  v_p = M^{-1},   pdot_q = L_qq + L_qv v_q,  pdot_p = L_qv v_p.
 #include <Eigen/LU>
 

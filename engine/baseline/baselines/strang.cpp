@@ -1,12 +1,12 @@
-/// Split-step of order 2: half a kick, a drift, half a kick; one kick a step.
+/// Split-step of order 2: half a kick, a drift, half a kick; one kick per step.
 #include "engine/baseline/wave_splitting.hpp"
 
 namespace extremal::baselines {
 
 BaselineEntry strang() {
-    return waveSplittingBaseline("strang", "Strang splitting",
-                                 "Split-step of order 2: half a kick, a drift, half a kick; one kick a step.",
-                                 extremal::strang());
+    return waveSplittingBaseline(
+        "strang", "Strang splitting",
+        "Split-step of order 2: half a kick, a drift, half a kick; one kick per step.", extremal::strang());
 }
 
 }  // namespace extremal::baselines

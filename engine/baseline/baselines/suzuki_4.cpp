@@ -1,4 +1,4 @@
-/// Split-step of order 4: five Strang steps, one of them backwards; five kicks a step.
+/// Split-step of order 4: five Strang steps, one of them backwards; five kicks per step.
 #include "engine/baseline/wave_splitting.hpp"
 
 namespace extremal::baselines {
@@ -6,7 +6,7 @@ namespace extremal::baselines {
 BaselineEntry suzuki_4() {
     return waveSplittingBaseline(
         "suzuki-4", "Suzuki 4",
-        "Split-step of order 4: five Strang steps, one of them backwards; five kicks a step.",
+        "Split-step of order 4: five Strang steps, one of them backwards; five kicks per step.",
         extremal::suzuki4());
 }
 

@@ -49,14 +49,14 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
+std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& discretization,
                                                    double step) {
     const double n = std::round(1 / step);
     if (!(n >= 2 && n <= 1e5) || std::abs(n * step - 1) > 1e-9)
         throw InvalidScene("/step",
                            "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(step),
                            "leave it out: it is 1/elements");
-    const bool isLinear = pair.space.text("functions") == "linear";
+    const bool isLinear = discretization.space.text("functions") == "linear";
     return std::make_unique<Elliptic>(*std::get<BoundaryProblem>(system.kind).problem, static_cast<int>(n),
                                       isLinear ? EllipticElements::linear : EllipticElements::multiscale);
 }

@@ -10,7 +10,7 @@ namespace extremal {
 
 /// Throws InvalidScene (pointer relative to the scheme) where the system is none, or the step no whole part
 /// of 1.
-std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& pair,
+std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const Discretization& discretization,
                                                    double step);
 
 }  // namespace extremal

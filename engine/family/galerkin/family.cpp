@@ -6,8 +6,9 @@
 
 #include "engine/action/table.hpp"
 #include "engine/family/family.hpp"
-#include "engine/family/table_of.hpp"
 #include "engine/family/rule_choices.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/quadrature/catalog.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 std::string ordinal(const char* prefix, int order) { return prefix + std::to_string(order); }
 
-/// Name by which the field knows the pair; degree s, rule with n nodes.
+/// Name by which the field knows the discretization; degree s, rule with n nodes.
 void nameOf(const Settings& space, const Settings& rule, int n, Properties& p) {
     const int s = space.integer("degree");
     if (space.type != "polynomial") {
@@ -78,13 +79,11 @@ Properties describeGalerkin(const Discretization& discretization) {
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {
-    constexpr double degree = 12;
-    const Discretization gauss{{"polynomial", {{"degree", degree}, {"basis", "lobatto"}}, {}},
-                               {"gauss", {{"nodes", degree}, {"panels", 1.0}}, {}},
-                               {}};
     ReferencePlan plan;
     plan.description = "Gauss collocation of degree 12";
-    plan.make = [system, gauss](double step) { return makeIntegrator(system, gauss, {0, step}); };
+    plan.make = [system, gauss = *namedScheme("gauss-collocation-12")](double step) {
+        return makeIntegrator(system, gauss, {0, step});
+    };
     return plan;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/family/family.hpp"
 #include "engine/family/lie/lie.hpp"
 #include "engine/family/rule_choices.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/family/table_properties.hpp"
 
 namespace extremal::family {
@@ -82,10 +83,11 @@ void checkRotation(const SchemeCase& scheme, Findings& findings) {
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {
-    const Discretization gauss{lieSpace(8, false), {"gauss", {{"nodes", 8.0}, {"panels", 1.0}}, {}}, {}};
     ReferencePlan plan;
     plan.description = "Lie group Gauss of degree 8";
-    plan.make = [system, gauss](double step) { return makeIntegrator(system, gauss, {0, step}); };
+    plan.make = [system, gauss = *namedScheme("lie-8")](double step) {
+        return makeIntegrator(system, gauss, {0, step});
+    };
     return plan;
 }
 

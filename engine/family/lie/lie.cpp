@@ -74,10 +74,12 @@ Table<double> lieTable(const Settings& space, const Settings& quadrature) {
     });
 }
 
-std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair, double step) {
-    const SolverPolicy policy = solverPolicy(pair.solver, system);
-    const Table<double> table = lieTable(pair.space, pair.quadrature);
-    const bool isReduced = pair.space.flag("reduced"), isSymmetrised = pair.space.flag("symmetric");
+std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& discretization,
+                                              double step) {
+    const SolverPolicy policy = solverPolicy(discretization.solver, system);
+    const Table<double> table = lieTable(discretization.space, discretization.quadrature);
+    const bool isReduced = discretization.space.flag("reduced"),
+               isSymmetrised = discretization.space.flag("symmetric");
     const BodyMechanics<double>& body = system.body();
     if (body.dimension == 3)
         return std::make_unique<Lie<RotationGroup<double>>>(body, table, step, isReduced, isSymmetrised,

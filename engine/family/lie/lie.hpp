@@ -1,5 +1,5 @@
 /// The integrator of the space lie-polynomial: LieStep on the system's group, or, symmetrised, half a step of
-/// its adjoint and then half a step of it, whose charts have their foot at the middle.
+/// its adjoint and then half a step of it, whose charts have their base point at the middle.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,8 @@
 
 namespace extremal {
 
-std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& pair, double step);
+std::unique_ptr<Integrator> makeLieIntegrator(const System& system, const Discretization& discretization,
+                                              double step);
 
 /// The table of the polynomials that xi is made of. Throws InvalidScene where space and rule do not go
 /// together.

@@ -3,11 +3,11 @@
 /// A pose holds the attitude as a quaternion of length 1 and the angular momentum about the centre of mass in
 /// space axes; on SE(3) the position and the linear momentum, in space axes too. Momenta in space, and not in
 /// the body, are what is carried from step to step: those of a free body are then never touched by round-off.
-/// A chart goes from a foot g to a tip g exp(xi). Where a potential has taken the impulse W on the way (a
-/// momentum at the foot, in its axes), the momenta at the ends satisfy mu_tip = Ad_exp(xi)^T (mu_foot - W);
-/// in space
-///     p_tip = p_foot - R W_p,   pi_tip = pi_foot - R W_pi - (x_tip - x_foot) x p_tip,   R: attitude of the
-///     foot.
+/// A chart goes from a base point g to an end point g exp(xi). Where a potential has taken the impulse W on
+/// the way (a momentum at the base point, in its axes), the momenta at the ends satisfy mu_end = Ad_exp(xi)^T
+/// (mu_base - W); in space
+///     p_end = p_base - R W_p,   pi_end = pi_base - R W_pi - (x_end - x_base) x p_end,   R: attitude of the
+///     base point.
 #pragma once
 
 #include "engine/group/se3.hpp"
@@ -55,7 +55,7 @@ struct RotationGroup {
     static Vector bodyMomentum(const Element& g, const Pose<T>& p) { return g.transpose() * p.momentum; }
     static Matrix precessionMatrix(const Vector& m) { return so3::precessionMatrix(m); }
 
-    /// The chart's coordinates of a place seen from the foot, whose turn is omega.
+    /// The chart's coordinates of a place seen from the base point, whose rotation vector is omega.
     static Vector coordinates(const Pose<T>&, const Pose<T>&, const Vector& omega) { return omega; }
     /// xi after a Newton correction.
     static Vector corrected(const Vector& xi, const Vector& change) { return xi + change; }
@@ -66,12 +66,12 @@ struct RotationGroup {
         r.attitude = so3::normalised(so3::product(p.attitude, so3::quaternionExp(xi)));
         return r;
     }
-    /// Gives the tip, placed already, its momentum; or the foot.
-    static void carry(const Pose<T>& foot, const Element& g, const Vector& W, Pose<T>& tip) {
-        tip.momentum = foot.momentum - g * W;
+    /// Gives the end point, placed already, its momentum; or the base point.
+    static void carry(const Pose<T>& base, const Element& g, const Vector& W, Pose<T>& end) {
+        end.momentum = base.momentum - g * W;
     }
-    static void fetch(Pose<T>& foot, const Element& g, const Vector& W, const Pose<T>& tip) {
-        foot.momentum = tip.momentum + g * W;
+    static void fetch(Pose<T>& base, const Element& g, const Vector& W, const Pose<T>& end) {
+        base.momentum = end.momentum + g * W;
     }
 };
 
@@ -111,16 +111,16 @@ struct MotionGroup {
     }
     static Matrix precessionMatrix(const Vector& m) { return se3::precessionMatrix(m); }
 
-    /// The chart's coordinates of a place seen from the foot, whose turn is omega.
-    static Vector coordinates(const Pose<T>& foot, const Pose<T>& place, const Three& omega) {
+    /// The chart's coordinates of a place seen from the base point, whose rotation vector is omega.
+    static Vector coordinates(const Pose<T>& base, const Pose<T>& place, const Three& omega) {
         Vector xi;
-        const Three way = so3::matrix(foot.attitude).transpose() * (place.position - foot.position);
+        const Three way = so3::matrix(base.attitude).transpose() * (place.position - base.position);
         xi << omega, fromDisplacement(omega, way);
         return xi;
     }
     /// The displacement of the position changes linearly, and rho with it: for a small body on a long way
-    /// Newton's corrections of rho itself would be good only as long as the turn changes by less than inertia
-    /// / (mass way^2).
+    /// Newton's corrections of rho itself would be good only as long as the rotation changes by less than
+    /// inertia / (mass way^2).
     static Vector corrected(const Vector& xi, const Vector& change) {
         const Three omega = xi.template head<3>(), rho = xi.template tail<3>();
         const so3::Exponential<T, 1> at(omega);
@@ -137,15 +137,15 @@ struct MotionGroup {
         r.position = times(g, Chart<0>(xi)).position;
         return r;
     }
-    static void carry(const Pose<T>& foot, const Element& g, const Vector& W, Pose<T>& tip) {
-        tip.linear = foot.linear - g.rotation * W.template tail<3>();
-        tip.momentum = foot.momentum - g.rotation * W.template head<3>() -
-                       so3::cross(Three(tip.position - foot.position), tip.linear);
+    static void carry(const Pose<T>& base, const Element& g, const Vector& W, Pose<T>& end) {
+        end.linear = base.linear - g.rotation * W.template tail<3>();
+        end.momentum = base.momentum - g.rotation * W.template head<3>() -
+                       so3::cross(Three(end.position - base.position), end.linear);
     }
-    static void fetch(Pose<T>& foot, const Element& g, const Vector& W, const Pose<T>& tip) {
-        foot.linear = tip.linear + g.rotation * W.template tail<3>();
-        foot.momentum = tip.momentum + g.rotation * W.template head<3>() +
-                        so3::cross(Three(tip.position - foot.position), tip.linear);
+    static void fetch(Pose<T>& base, const Element& g, const Vector& W, const Pose<T>& end) {
+        base.linear = end.linear + g.rotation * W.template tail<3>();
+        base.momentum = end.momentum + g.rotation * W.template head<3>() +
+                        so3::cross(Three(end.position - base.position), end.linear);
     }
 
 private:

@@ -1,8 +1,8 @@
-/// One step of a Galerkin variational integrator on a Lie group, in the natural chart at its foot.
+/// One step of a Galerkin variational integrator on a Lie group, in the natural chart at its base point.
 ///
 /// The curve is g(t) = g_0 exp(xi(t)) with xi in the polynomial space of the table, xi = sum_a Y_a
-/// phi_a(tau), 0 at the foot. With eta_i = dexp(xi_i) xi'_i, m_i = M eta_i and the force f_i of the potential
-/// at node i,
+/// phi_a(tau), 0 at the base point. With eta_i = dexp(xi_i) xi'_i, m_i = M eta_i and the force f_i of the
+/// potential at node i,
 ///     L_d = h sum_i b_i [ 1/2 eta_i . M eta_i - U(g_0 exp xi_i) ],      p_a = dL_d / dY_a
 ///         = sum_i b_i { h phi_a(c_i) [ (D_xi eta_i)^T m_i + dexp(xi_i)^T f_i ] + phi_a'(c_i) dexp(xi_i)^T
 ///         m_i },
@@ -12,8 +12,8 @@
 /// The last two are the discrete Euler-Poincare equations, and the multiplied form has no singularity at
 /// |xi_s| = 2 pi. No logarithm is ever taken. Momenta are updated by the last line and not by p_s, so that
 /// they are kept to round-off even where the iteration is not. For a free body g and W drop out: the reduced
-/// step. The adjoint step has its chart at the tip of the step: the same equations with -h from g_1 = g_0
-/// exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 3.2 and 4.2.
+/// step. The adjoint step has its chart at the end point of the step: the same equations with -h from g_1 =
+/// g_0 exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 3.2 and 4.2.
 /// Corrected: the body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is dexp_{-ad} l'/h + l
 /// D_xi[dexp_{-ad xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed inverted);
 /// the curve ends at g_1 (printed g_0^{-1} g_1).
@@ -98,8 +98,8 @@ private:
     T tolerance_;
     ChartLagrangian<T, G> lagrangian_;
 
-    Pose<T> known_, foot_;  ///< the start of the step; the foot of the chart (the same, or the end)
-    typename G::Element footElement_;
+    Pose<T> known_, base_;  ///< the start of the step; the base point of the chart (the same, or the end)
+    typename G::Element baseElement_;
     Vector mu_;  ///< momentum at the start, in the body
     Vector W_;
     Columns Y_, xi_, v_, force_, R_;

@@ -53,12 +53,12 @@ void LieStep<T, G>::placeNodes() {
     v_ /= h_;
 }
 
-/// The foot of the adjoint step follows from the unknowns.
+/// The base point of the adjoint step follows from the unknowns.
 template <class T, class G>
 void LieStep<T, G>::placeFoot() {
     if (!isAdjoint_) return;
-    foot_ = G::place(known_, G::element(known_), -Y_.col(m() - 1));
-    footElement_ = G::element(foot_);
+    base_ = G::place(known_, G::element(known_), -Y_.col(m() - 1));
+    baseElement_ = G::element(base_);
 }
 
 /// Y of the curve through guessed poses at the m points; false where the step is so long that there is none.
@@ -74,13 +74,13 @@ bool LieStep<T, G>::predict() {
     }
     // The points are symmetric in time: the adjoint step sees the same ones from the end.
     const auto last = static_cast<std::size_t>(m());
-    const Pose<T>& foot = poses_[isAdjoint_ ? last : 0];
+    const Pose<T>& base = poses_[isAdjoint_ ? last : 0];
     const so3::Vector<T> w = mu_.template head<3>().cwiseQuotient(lagrangian_.inertia.template head<3>());
     for (int k = 0; k < m(); ++k) {
         const auto at = static_cast<std::size_t>(k + 1);
         const Pose<T>& place = poses_[isAdjoint_ ? last - at : at];
         const so3::Vector<T> near = (h_ * times_[at - 1]) * w;
-        points_.col(k) = G::coordinates(foot, place, turnBetween(foot.attitude, place.attitude, near));
+        points_.col(k) = G::coordinates(base, place, turnBetween(base.attitude, place.attitude, near));
     }
     Y_.noalias() = points_.lazyProduct(fit_.transpose());
     using std::isfinite;
@@ -88,7 +88,7 @@ bool LieStep<T, G>::predict() {
 }
 
 /// R, the equations at the present Y: dL_d/dY by the chain rule, less the momentum at the end of the chart.
-/// Fills force_ (as momenta at the foot) and W.
+/// Fills force_ (as momenta at the base point) and W.
 template <class T, class G>
 void LieStep<T, G>::residual() {
     R_.setZero();
@@ -101,7 +101,7 @@ void LieStep<T, G>::residual() {
         if (hasPotential_) {
             Vector f = Vector::Zero();
             if (!body_.isFree()) {
-                const typename G::Element g = G::times(footElement_, at);
+                const typename G::Element g = G::times(baseElement_, at);
                 body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(),
                                 nullptr);
             }
@@ -123,7 +123,7 @@ void LieStep<T, G>::residual() {
 template <class T, class G>
 void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& at, const Matrix& A,
                                    Matrix& xiXi) {
-    const typename G::Element g = G::times(footElement_, at);
+    const typename G::Element g = G::times(baseElement_, at);
     Vector f;
     Matrix slope;
     body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), slope.data());
@@ -133,10 +133,10 @@ void LieStep<T, G>::addPotentialAt(int i, const typename G::template Chart<2>& a
     const Vector xiEnd = Y_.col(m() - 1);
     const typename G::template Chart<0> end(xiEnd), opposite(-xiEnd);
     if (isAdjoint_) {
-        // The foot moves by -dexp(-xi_s) with the last unknown, and the node with it.
+        // The base point moves by -dexp(-xi_s) with the last unknown, and the node with it.
         Matrix moved;
-        const Matrix foot = opposite.dexpMatrix();
-        for (int k = 0; k < n; ++k) moved.col(k) = -at.rotateBack(foot.col(k));
+        const Matrix base = opposite.dexpMatrix();
+        for (int k = 0; k < n; ++k) moved.col(k) = -at.rotateBack(base.col(k));
         const Matrix change = A.transpose() * slope * moved;
         for (int a = 0; a < m(); ++a)
             jacobian.template block<n, n>(n * a, last) +=
@@ -243,7 +243,7 @@ void LieStep<T, G>::updateImpulse() {
     if (body_.isFree()) return;
     for (int i = 0; i < nodes(); ++i) {
         const typename G::template Chart<0> at(xi_.col(i));
-        const typename G::Element g = G::times(footElement_, at);
+        const typename G::Element g = G::times(baseElement_, at);
         Vector f;
         body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(), nullptr);
         force_.col(i) = at.rotateMomentum(f);
@@ -292,9 +292,9 @@ typename LieStep<T, G>::Attempt LieStep<T, G>::iterate(const std::stop_token& st
 template <class T, class G>
 Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::stop_token& stop) {
     report_ = &report;
-    known_ = foot_ = pose;
-    footElement_ = G::element(known_);
-    mu_ = G::bodyMomentum(footElement_, known_);
+    known_ = base_ = pose;
+    baseElement_ = G::element(known_);
+    mu_ = G::bodyMomentum(baseElement_, known_);
     if (!predict()) return isRateFinite(body_, poses_[0]) ? Outcome::diverged : Outcome::notFinite;
     switch (iterate(stop)) {
         case Attempt::solved:
@@ -309,16 +309,15 @@ Outcome LieStep<T, G>::advance(Pose<T>& pose, StepReport& report, const std::sto
             return Outcome::stopped;
     }
     // Beyond, the chart folds over itself at 2 pi, and the solution is hardly the wanted one.
-    const Vector end = Y_.col(m() - 1);
-    using std::sqrt;
-    if (end.template head<3>().squaredNorm() > T(25)) return Outcome::diverged;
+    const Vector xiEnd = Y_.col(m() - 1);
+    if (xiEnd.template head<3>().squaredNorm() > T(25)) return Outcome::diverged;
     if (isAdjoint_) {
-        G::fetch(foot_, footElement_, W_, known_);
-        pose = foot_;
+        G::fetch(base_, baseElement_, W_, known_);
+        pose = base_;
     } else {
-        Pose<T> tip = G::place(foot_, footElement_, end);
-        G::carry(foot_, footElement_, W_, tip);
-        pose = tip;
+        Pose<T> end = G::place(base_, baseElement_, xiEnd);
+        G::carry(base_, baseElement_, W_, end);
+        pose = end;
     }
     return Outcome::converged;
 }
@@ -335,8 +334,8 @@ Pose<T> LieStep<T, G>::denseOutput(const T& tau) const {
         const std::vector<T> share = weightsUpTo(table_, s);
         for (int i = 0; i < nodes(); ++i) W -= (h_ * share[static_cast<std::size_t>(i)]) * force_.col(i);
     }
-    Pose<T> at = G::place(foot_, footElement_, xi);
-    G::carry(foot_, footElement_, W, at);
+    Pose<T> at = G::place(base_, baseElement_, xi);
+    G::carry(base_, baseElement_, W, at);
     return at;
 }
 

@@ -81,7 +81,7 @@ std::string mismatchOf(const Discretization& d, const System& system) {
     return system.id + " does not say how fast it oscillates";
 }
 
-Discretization settle(const Discretization& d, const System& system, const State& start) {
+Discretization estimate(const Discretization& d, const System& system, const State& start) {
     Discretization known = d;
     if (isOscillatory(d.space) && d.space.text("omega") == "estimate")
         for (auto& [key, value] : known.space.keys)
@@ -93,7 +93,7 @@ Discretization settle(const Discretization& d, const System& system, const State
 void checkResonance(const SchemeCase& scheme, Findings& findings) {
     const double h = scheme.step;
     const auto found =
-        resonanceOf(scheme.system, settle(scheme.discretization, scheme.system, scheme.initial), h);
+        resonanceOf(scheme.system, estimate(scheme.discretization, scheme.system, scheme.initial), h);
     if (!found) return;
     findings.warning(
         "/step",
@@ -119,7 +119,7 @@ Family multiscale() {
         return isProduct(space) ? completeProductRule(space, quadrature)
                                 : completeOscillatoryRule(space, quadrature);
     };
-    f.settle = settle;
+    f.estimate = estimate;
     f.describe = [](const Discretization& d) {
         return isProduct(d.space) ? describeProduct(d.space, d.quadrature)
                                   : describeOscillatory(d.space, d.quadrature);

@@ -1,4 +1,4 @@
-/// The oscillatory pairs that have names, from small to rich.
+/// The oscillatory discretizations that have names, from the smallest space to the largest.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@ inline Discretization multiscalePair(int slow, int fast, const std::vector<int>&
     Value::Array degrees;
     for (const int m : harmonics) degrees.emplace_back(static_cast<double>(m));
     Value ofFast(Value::Object{{"degree", static_cast<double>(fast)}});
-    Discretization pair;
-    pair.space = {
+    Discretization discretization;
+    discretization.space = {
         "oscillatory",
         {{"omega", "model"}, {"degree", static_cast<double>(slow)}, {"harmonics", degrees}, {"fast", ofFast}},
         {}};
-    pair.quadrature = {"auto", {}, {}};
-    return pair;
+    discretization.quadrature = {"auto", {}, {}};
+    return discretization;
 }
 
 }  // namespace extremal

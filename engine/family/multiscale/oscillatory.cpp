@@ -14,7 +14,7 @@ namespace extremal {
 namespace {
 
 constexpr int maxHarmonics = 6;
-/// Below, a Filon grid and a rich space do not go together (handbook, Multiscale).
+/// Below, a Filon grid and a large space do not go together (handbook, Multiscale).
 constexpr double smallestFilonPhase = 20;
 constexpr double pointsPerPeriod = 24;
 constexpr int panelNodes = 12;
@@ -232,16 +232,17 @@ Phases<double> oscillatoryPhases(const System& system, const Settings& space, do
     return {step * frequency[0], step * frequency[1]};
 }
 
-std::vector<Table<double>> oscillatoryTables(const System& system, const Discretization& pair, double step) {
-    const std::vector<OscillatoryBasis> bases = oscillatoryBases(pair.space, system);
-    const Phases<double> z = oscillatoryPhases(system, pair.space, step);
+std::vector<Table<double>> oscillatoryTables(const System& system, const Discretization& discretization,
+                                             double step) {
+    const std::vector<OscillatoryBasis> bases = oscillatoryBases(discretization.space, system);
+    const Phases<double> z = oscillatoryPhases(system, discretization.space, step);
     const double fastest = std::max(std::abs(z[0]), std::abs(z[1]));
     if (!(fastest <= 1e15))
         throw InvalidScene("/step",
                            "times the frequency is " + formatNumber(fastest, 3) +
                                ": the phase after a step is lost to round-off beyond 1e15",
                            "a smaller step");
-    const Settings rule = ruleFor(pair.quadrature, Extent(bases), z);
+    const Settings rule = ruleFor(discretization.quadrature, Extent(bases), z);
     const FilonNodes nodes = isFilon(rule) ? *findRule(rule.type)->filon : FilonNodes::lobatto;
     std::vector<Table<double>> tables;
     for (std::size_t k = 0; k < bases.size(); ++k) {
@@ -270,7 +271,7 @@ Settings completeOscillatoryRule(const Settings& space, const Settings& quadratu
         demand.degree = extent.degree;
         demand.harmonic = extent.highest();
     } catch (const InvalidScene&) {
-        // Wrong keys are reported where the pair is made.
+        // Wrong keys are reported where the discretization is made.
     }
     return completeRule(q, demand);
 }
@@ -302,7 +303,7 @@ Properties describeOscillatory(const Settings& space, const Settings& quadrature
                      std::to_string(extent.filonPhases()) + " are accurate";
         }
     } catch (const InvalidScene&) {
-        // Wrong keys are reported where the pair is made.
+        // Wrong keys are reported where the discretization is made.
     }
     return p;
 }

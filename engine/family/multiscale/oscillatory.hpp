@@ -5,8 +5,8 @@
 /// resolved run from the start), `degree` and `harmonics` of every coordinate, `fast` {degree, harmonics} of
 /// those the system calls fast, and `variables` {name: {degree, harmonics}} of single ones. Rules: a Filon
 /// grid, whose cost does not depend on the frequency; a plain rule that resolves the oscillation; or "auto",
-/// the cheaper of the two where both are stable: below some three fast periods a step the phases of a grid
-/// are no longer independent of its nodes, and rich spaces fail on it.
+/// the cheaper of the two where both are stable: below some three fast periods per step the phases of a grid
+/// are no longer independent of its nodes, and large spaces fail on it.
 ///
 /// Functions that read keys throw InvalidScene with pointers relative to the scheme.
 #pragma once
@@ -29,13 +29,14 @@ std::vector<OscillatoryBasis> oscillatoryBases(const Settings& space, const Syst
 
 /// z = step * frequency, for each frequency of the space; the second 0 where there is one.
 Phases<double> oscillatoryPhases(const System& system, const Settings& space, double step);
-/// A plain rule that resolves a step of phase z: 24 Gauss points a period, and enough for amplitudes of this
-/// degree.
+/// A plain rule that resolves a step of phase z: 24 Gauss points per period, and enough for amplitudes of
+/// this degree.
 Settings resolvingRule(double z, int degree);
 
-/// One table for each coordinate. `omega` must not be "estimate" any more: see settled
+/// One table for each coordinate. `omega` must not be "estimate" any more: see withEstimates
 /// (family/scheme.hpp).
-std::vector<Table<double>> oscillatoryTables(const System& system, const Discretization& pair, double step);
+std::vector<Table<double>> oscillatoryTables(const System& system, const Discretization& discretization,
+                                             double step);
 
 /// The default keys of a rule, which follow from the highest degree D and harmonic H: a Filon grid has D + 2
 /// nodes and 2 K + 2 phases, K = 2 H + 1; "auto" stays what it is until the step is known.

@@ -1,7 +1,7 @@
 /// The table of an oscillatory space (basis.hpp) and a rule, on steps with z = step * frequency.
 ///
 /// A node of a Filon grid is a pair (c_i, phase_m): all M phases of a slow node share its time, and the
-/// weights belong to the pairs, so that the action stays one weighted sum of the Lagrangian and the step
+/// weights belong to these pairs, so that the action stays one weighted sum of the Lagrangian and the step
 /// needs nothing but the table (action/table.hpp). A plain rule has phase = z c_i at its nodes, and must
 /// resolve the oscillation.
 ///

@@ -347,9 +347,9 @@ Properties describeProduct(const Settings&, const Settings& quadrature) {
     return p;
 }
 
-std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& pair,
+std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& discretization,
                                                   const Clock& clock, const SolverPolicy& policy) {
-    Discretization additive = pair;
+    Discretization additive = discretization;
     additive.space.type = "oscillatory";
     std::erase_if(additive.space.keys, [](const auto& member) { return member.first == "frequency"; });
     additive.quadrature = {"auto", {}, {}};
@@ -362,15 +362,15 @@ std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Di
         throw InvalidScene(
             "/step", "has " + formatNumber(periods, 3) + " fast periods, and products resolve each of them",
             "a smaller step, or the space oscillatory");
-    const bool isFree = pair.space.text("frequency") == "free";
+    const bool isFree = discretization.space.text("frequency") == "free";
     std::vector<ProductCurve> curves;
     int degree = 0;
     for (const OscillatoryBasis& basis : oscillatoryBases(additive.space, system)) {
         curves.push_back({basis.degree, isFree, z[0] / clock.step});
         degree = std::max(degree, basis.degree);
     }
-    const Rule<double> made =
-        makeRule<double>(pair.quadrature.type == "auto" ? resolvingRule(z[0], degree) : pair.quadrature);
+    const Rule<double> made = makeRule<double>(
+        discretization.quadrature.type == "auto" ? resolvingRule(z[0], degree) : discretization.quadrature);
     checkResolution(z[0], made);
     return std::make_unique<Product>(system, std::move(curves), made, clock.step, policy,
                                      makeIntegrator(system, additive, clock));

@@ -33,7 +33,7 @@ Properties describeProduct(const Settings& space, const Settings& quadrature);
 Settings completeProductRule(const Settings& space, const Settings& quadrature);
 
 /// Throws InvalidScene (pointer relative to the scheme) where a rule does not resolve the oscillation.
-std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& pair,
+std::unique_ptr<Integrator> makeProductIntegrator(const System& system, const Discretization& discretization,
                                                   const Clock& clock, const SolverPolicy& policy);
 
 /// (X, p_1) of the last step, coordinate by coordinate, of an integrator made here: for those who look at its

@@ -65,12 +65,12 @@ double fewDigits(double step, const Phases<double>& frequency) {
 
 }  // namespace
 
-double stepConditioning(const System& system, const Discretization& pair, double step) {
-    if (!isOscillatory(pair.space)) return 0;
+double stepConditioning(const System& system, const Discretization& discretization, double step) {
+    if (!isOscillatory(discretization.space)) return 0;
     // Coordinates that follow the fast ones are no oscillators; where none is known to be fast, all may be.
-    const std::vector<Table<double>> tables = oscillatoryTables(system, pair, step);
+    const std::vector<Table<double>> tables = oscillatoryTables(system, discretization, step);
     double worst = 0;
-    for (const double z : oscillatoryPhases(system, pair.space, step)) {
+    for (const double z : oscillatoryPhases(system, discretization.space, step)) {
         if (z == 0) continue;
         for (const int k : system.fast.coordinates)
             worst = std::max(worst, conditioningOf(tables[static_cast<std::size_t>(k)], z));
@@ -80,15 +80,16 @@ double stepConditioning(const System& system, const Discretization& pair, double
     return worst;
 }
 
-std::optional<Resonance> resonanceOf(const System& system, const Discretization& pair, double step) {
-    if (!isOscillatory(pair.space)) return {};
-    const Phases<double> z = oscillatoryPhases(system, pair.space, step);
+std::optional<Resonance> resonanceOf(const System& system, const Discretization& discretization,
+                                     double step) {
+    if (!isOscillatory(discretization.space)) return {};
+    const Phases<double> z = oscillatoryPhases(system, discretization.space, step);
     if (isSafe(z)) return {};
     Resonance r;
     r.periods = std::max(std::abs(z[0]), std::abs(z[1])) / (2 * std::numbers::pi);
     r.near = fewDigits(step * nearestSafe(z), scaled(z, 1 / step));
-    r.conditioning = stepConditioning(system, pair, step);
-    r.usual = stepConditioning(system, pair, r.near);
+    r.conditioning = stepConditioning(system, discretization, step);
+    r.usual = stepConditioning(system, discretization, r.near);
     return r;
 }
 

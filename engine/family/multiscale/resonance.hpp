@@ -18,11 +18,11 @@ struct Resonance {
     double near = 0;     ///< a step nearby where the fractional part of z/pi is between 0.1 and 0.5
 };
 
-/// Conditioning of the step of a pair on the harmonic oscillator of its frequency; 0 where the pair does not
-/// oscillate.
-double stepConditioning(const System& system, const Discretization& pair, double step);
+/// Conditioning of the step of a discretization on the harmonic oscillator of its frequency; 0 where the
+/// discretization does not oscillate.
+double stepConditioning(const System& system, const Discretization& discretization, double step);
 
-/// What stands against a step, if anything. Throws InvalidScene where the pair cannot be made.
-std::optional<Resonance> resonanceOf(const System& system, const Discretization& pair, double step);
+/// What stands against a step, if anything. Throws InvalidScene where the discretization cannot be made.
+std::optional<Resonance> resonanceOf(const System& system, const Discretization& discretization, double step);
 
 }  // namespace extremal

@@ -7,6 +7,7 @@
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/rule_choices.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/family/wave/chebyshev_series.hpp"
 #include "engine/family/wave/wave.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
@@ -130,7 +131,7 @@ Settings completeRule(const Settings& space, const Settings& quadrature) {
 }
 
 std::string mismatchOf(const Discretization& d, const System& system) {
-    if (isThreeLevel(d.space) && isBetweenWalls(system))
+    if (isThreeLevel(d.space) && hasDirichletBoundary(system))
         return "the three-level form needs a periodic domain";
     return {};
 }
@@ -149,7 +150,7 @@ void checkStep(const SchemeCase& scheme, Findings& findings) {
 ReferencePlan trusted(const System& system, const State& start, double duration) {
     const Hamiltonian& h = *system.hamiltonian();
     ReferencePlan plan;
-    if (h.isPlane() && !h.isTimeDependent()) {
+    if (h.dimension() == 2 && !h.isTimeDependent()) {
         constexpr double perStep = 60;
         const double products = duration * (h.highest() - h.lowest()) / (2 * h.hbar());
         plan.step = duration / std::ceil(std::max(1.0, products / perStep));
@@ -160,20 +161,14 @@ ReferencePlan trusted(const System& system, const State& start, double duration)
         };
         return plan;
     }
-    const Discretization gauss =
-        withShift({{"fourier",
-                    {{"degree", 8.0}, {"energy_shift", "mean"}, {"form", "one-step"}, {"start", "gauss"}},
-                    {}},
-                   {"gauss", {{"nodes", 8.0}, {"panels", 1.0}}, {}},
-                   {}},
-                  system, start);
+    const Discretization gauss = withShift(*namedScheme("schrodinger-gauss-8"), system, start);
     plan.description = "Gauss of degree 8";
     plan.make = [system, gauss](double step) { return makeIntegrator(system, gauss, {0, step}); };
     return plan;
 }
 
 ChoiceGrid choices(const System& system) {
-    const bool isPeriodic = !isBetweenWalls(system);
+    const bool isPeriodic = !hasDirichletBoundary(system);
     const auto row = [&](int degree, const char* form) -> SpaceRow {
         const bool isOneStep = std::string(form) == "one-step";
         const std::string name = !isOneStep ? "3-level" : isPeriodic ? "Fourier" : "modes";
@@ -204,7 +199,7 @@ Family wave() {
     f.applies = isWave;
     f.mismatch = mismatchOf;
     f.completeRule = completeRule;
-    f.settle = withShift;
+    f.estimate = withShift;
     f.describe = describeWave;
     f.check = checkStep;
     // Three-level schemes alone have a limit, and checkStep knows it exactly.

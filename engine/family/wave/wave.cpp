@@ -61,7 +61,7 @@ void checkSolver(WaveSolver solver, const Hamiltonian& h) {
             "/solver/method",
             std::string(name(solver)) + " needs a potential that acts at the nodes, not by convolution",
             "auto or dense");
-    if (solver == WaveSolver::banded && h.isPlane())
+    if (solver == WaveSolver::banded && h.dimension() == 2)
         throw InvalidScene("/solver/method", "banded is for one dimension", "auto or krylov");
     if (solver != WaveSolver::krylov && h.isTimeDependent())
         throw InvalidScene("/solver/method",
@@ -82,13 +82,15 @@ void checkSolver(WaveSolver solver, const Hamiltonian& h) {
 
 }  // namespace
 
-bool isBetweenWalls(const System& system) { return isWave(system) && !system.hamiltonian()->isPeriodic(); }
+bool hasDirichletBoundary(const System& system) {
+    return isWave(system) && !system.hamiltonian()->isPeriodic();
+}
 
 bool hasFullMatrix(const System& system) { return isWave(system) && !system.hamiltonian()->isSplit(); }
 
 void requirePeriodic(const System& system, const std::string& pointer, const std::string& what,
                      const std::string& hint) {
-    if (isBetweenWalls(system))
+    if (hasDirichletBoundary(system))
         throw InvalidScene(
             pointer, what + " needs a periodic domain, and the boundary of this model is dirichlet", hint);
 }
@@ -127,9 +129,9 @@ WavePlan planWave(const System& system, int degree, const Settings& solver, doub
     return plan;
 }
 
-Discretization withShift(const Discretization& pair, const System& system, const State& start) {
-    Discretization known = pair;
-    if (!std::isnan(shiftOf(pair.space))) return known;
+Discretization withShift(const Discretization& discretization, const System& system, const State& start) {
+    Discretization known = discretization;
+    if (!std::isnan(shiftOf(discretization.space))) return known;
     const double shift = meanEnergy(*system.hamiltonian(), start);
     for (auto& [key, value] : known.space.keys)
         if (key == "energy_shift") {
@@ -159,22 +161,23 @@ double waveFrequency(const System& system, double shift) {
 
 namespace {
 
-std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& pair, double step,
+std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& discretization, double step,
                                    WaveSolver solver) {
-    const int degree = pair.space.integer("degree");
-    const double shift = shiftOf(pair.space), given = pair.solver.number("tolerance");
-    if (system.hamiltonian()->isTimeDependent() && pair.space.text("form") == "three-level")
+    const int degree = discretization.space.integer("degree");
+    const double shift = shiftOf(discretization.space), given = discretization.solver.number("tolerance");
+    if (system.hamiltonian()->isTimeDependent() && discretization.space.text("form") == "three-level")
         throw InvalidScene("/space/form", "three-level needs a potential that does not depend on t",
                            "one-step");
-    if (pair.space.text("form") == "three-level")
+    if (discretization.space.text("form") == "three-level")
         requirePeriodic(system, "/space/form", "three-level", "one-step");
-    const int iterations =
-        pair.solver.integer("max_iterations") > 0 ? pair.solver.integer("max_iterations") : 600;
+    const int iterations = discretization.solver.integer("max_iterations") > 0
+                               ? discretization.solver.integer("max_iterations")
+                               : 600;
     const double tolerance = given > 0 ? given : 1e-14;
-    if (pair.space.text("form") == "three-level") {
-        const std::string start = pair.space.text("start");
+    if (discretization.space.text("form") == "three-level") {
+        const std::string start = discretization.space.text("start");
         return makeThreeLevelWave(system.hamiltonian(), step, shift,
-                                  {threeLevelAlpha(pair.quadrature),
+                                  {threeLevelAlpha(discretization.quadrature),
                                    start == "variational" ? WaveStart::variational
                                    : start == "exact"     ? WaveStart::exact
                                                           : WaveStart::gauss,
@@ -198,20 +201,23 @@ std::unique_ptr<WaveStep> makeWave(const System& system, const Discretization& p
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, double h) {
-    const int slabs = std::max(1, pair.space.integer("slabs"));
-    if (pair.space.text("time_basis") == "chebyshev")
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& discretization,
+                                               double h) {
+    const int slabs = std::max(1, discretization.space.integer("slabs"));
+    if (discretization.space.text("time_basis") == "chebyshev")
         requireSplit(system, "/space/time_basis", "chebyshev", "legendre");
-    const WavePlan plan = planWave(system, pair.space.integer("degree"), pair.solver, h / slabs);
+    const WavePlan plan =
+        planWave(system, discretization.space.integer("degree"), discretization.solver, h / slabs);
     const double step = h / slabs;
-    const bool isChebyshev = pair.space.text("time_basis") == "chebyshev";
-    auto made = isChebyshev ? makeCollocationWave(system.hamiltonian(), step, shiftOf(pair.space),
-                                                  chebyshevRoots(pair.space.integer("degree")), 1e-13, 600)
-                            : makeWave(system, pair, step, plan.solver);
+    const bool isChebyshev = discretization.space.text("time_basis") == "chebyshev";
+    auto made = isChebyshev
+                    ? makeCollocationWave(system.hamiltonian(), step, shiftOf(discretization.space),
+                                          chebyshevRoots(discretization.space.integer("degree")), 1e-13, 600)
+                    : makeWave(system, discretization, step, plan.solver);
     made->setAbout(isChebyshev ? "all stages together by GMRES"
                                : std::string(name(plan.solver)) +
                                      (plan.isForced ? " as wanted, about " : ", about ") +
-                                     duration(slabs * plan.microseconds) + " a step");
+                                     duration(slabs * plan.microseconds) + " per step");
     if (slabs == 1) return made;
     return makeSlabs(std::move(made), slabs, h);
 }

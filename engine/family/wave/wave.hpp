@@ -27,8 +27,8 @@ constexpr const char* name(WaveSolver s) {
     return s == WaveSolver::banded ? "banded" : s == WaveSolver::dense ? "dense" : "krylov";
 }
 
-/// A wave function whose domain has walls at its ends.
-bool isBetweenWalls(const System& system);
+/// A wave function that vanishes at both ends of its domain.
+bool hasDirichletBoundary(const System& system);
 /// A wave function whose H is not split (Hamiltonian::isSplit).
 bool hasFullMatrix(const System& system);
 /// Throws InvalidScene at the pointer unless the domain is periodic: `what` needs it, `hint` does not.
@@ -57,10 +57,12 @@ double waveFrequency(const System& system, double shift);
 /// Gauss(degree) with energies counted from `shift`, solved in the way that costs least.
 std::unique_ptr<Integrator> makeGaussWave(const System& system, int degree, double shift, double step);
 
-/// The pair with the energy shift "mean" as a number, that of the start of a run. Other pairs as they are.
-Discretization withShift(const Discretization& pair, const System& system, const State& start);
+/// The discretization with the energy shift "mean" as a number, that of the start of a run. Others as they
+/// are.
+Discretization withShift(const Discretization& discretization, const System& system, const State& start);
 
-std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& pair, double step);
+std::unique_ptr<Integrator> makeWaveIntegrator(const System& system, const Discretization& discretization,
+                                               double step);
 
 /// Findings of a step beyond the limit of a three-level scheme, step * frequency <= limit: it is known
 /// exactly, so that this is an error.

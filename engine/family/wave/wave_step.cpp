@@ -39,19 +39,19 @@ void WaveStep::setStep(double h) {
     isPrepared_ = hasState_ = false;
 }
 
-void WaveStep::settleShift(const State& state) {
+void WaveStep::estimateShift(const State& state) {
     if (std::isnan(shift_)) shift_ = meanEnergy(*hamiltonian_, state);
 }
 
 void WaveStep::begin(State& state) {
-    settleShift(state);
+    estimateShift(state);
     remember(state);
     resume(state);
 }
 
 /// v from c, in the gauge of the state.
 void WaveStep::resume(const State& state) {
-    settleShift(state);
+    estimateShift(state);
     const Gauge gauge = gaugeOf(state);
     if (gauge.shift != shift_) {
         shift_ = gauge.shift;

@@ -55,7 +55,7 @@ protected:
     double shift() const { return shift_; }
 
 private:
-    void settleShift(const State& state);
+    void estimateShift(const State& state);
     void resume(const State& state);
 
     std::shared_ptr<const Hamiltonian> hamiltonian_;

@@ -22,16 +22,25 @@ public:
     ThreeLevelWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step, double shift,
                    const ThreeLevel& form)
         : WaveStep(std::move(hamiltonian), step, shift), form_(form) {
-        for (auto* v : {&next_, &work_}) v->resize(static_cast<std::size_t>(n()));
+        for (auto* v : {&next_, &image_, &work_}) v->resize(static_cast<std::size_t>(n()));
         first_.x.resize(2 * next_.size());
     }
     ThreeLevelWave(const ThreeLevelWave& other)
-        : WaveStep(other), form_(other.form_), next_(other.next_), work_(other.work_), first_(other.first_) {
+        : WaveStep(other),
+          form_(other.form_),
+          next_(other.next_),
+          image_(other.image_),
+          work_(other.work_),
+          first_(other.first_) {
         if (other.inverse_ || other.starter_) prepare();
     }
     ThreeLevelWave& operator=(const ThreeLevelWave&) = delete;
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ThreeLevelWave>(*this); }
+    std::span<const Quantity> quantities() const override { return quantities_; }
+    void measure(const State& state, double* values) const override {
+        values[0] = bilinearForm(coefficients(state.memory.data()));
+    }
     /// The level before in the gauge that the last three numbers tell; 0 levels before the first step.
     std::vector<MemoryPart> memoryParts() const override {
         return {{"level before", 2 * next_.size()},
@@ -41,6 +50,14 @@ public:
     }
 
 private:
+    /// J of the last step, from v^l; v^{l+1} is in next_.
+    double bilinearForm(const Complex* v) const {
+        const Hamiltonian& h = hamiltonian();
+        h.apply(h.potential().data(), v, image_.data(), work_.data());
+        for (int i = 0; i < n(); ++i) image_[i] -= shift() * v[i];
+        return innerProduct(next_.data(), v, n()).real() +
+               2 * form_.alpha * dt() / h.hbar() * innerProduct(next_.data(), image_.data(), n()).imag();
+    }
     void prepare() override {
         if (form_.alpha > 0)
             inverse_ = makeShiftedInverse(form_.solver, shared(), dt(), shift(), 1 / (2 * form_.alpha),
@@ -125,8 +142,10 @@ private:
     ThreeLevel form_;
     std::unique_ptr<ShiftedInverse> inverse_;
     std::unique_ptr<WaveStep> starter_;
-    std::vector<Complex> next_, work_;
+    std::vector<Complex> next_;
+    mutable std::vector<Complex> image_, work_;
     State first_;
+    std::vector<Quantity> quantities_ = {{"bilinear_form", "bilinear form", "J", ""}};
 };
 
 }  // namespace
@@ -146,18 +165,6 @@ double threeLevelAlpha(const Settings& quadrature) {
 
 double threeLevelLimit(double alpha) {
     return alpha < 0.25 - 1e-14 ? 1 / std::sqrt(1 - 4 * alpha) : std::numeric_limits<double>::infinity();
-}
-
-double bilinearForm(const Hamiltonian& h, double alpha, double dt, double shift, const Complex* before,
-                    const Complex* after, Complex* image, Complex* work) {
-    const int n = h.size();
-    // c = e^{-i Ec t/hbar} v: the phase between the two levels goes.
-    const Complex back = std::polar(1.0, shift * dt / h.hbar());
-    const Complex product = std::conj(back) * innerProduct(after, before, n);
-    h.apply(h.potential().data(), before, image, work);
-    for (int i = 0; i < n; ++i) image[i] -= shift * before[i];
-    const Complex through = std::conj(back) * innerProduct(after, image, n);
-    return product.real() + 2 * alpha * dt / h.hbar() * through.imag();
 }
 
 }  // namespace extremal

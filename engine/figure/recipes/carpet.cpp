@@ -48,8 +48,8 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
         heat.bottom = system.hamiltonian()->domain().left;
         heat.top = heat.bottom + system.hamiltonian()->domain().length;
     }
-    const bool isPlane = isWave(system) && system.hamiltonian()->isPlane();
-    const bool isComplex = field.components.size() == 2 && field.components[0] == "re" && !isPlane;
+    const bool isRectangle = isWave(system) && system.hamiltonian()->dimension() == 2;
+    const bool isComplex = field.components.size() == 2 && field.components[0] == "re" && !isRectangle;
     const double last = frames.back().t, seconds = end - start;
     for (int column = 0; column < heat.columns; ++column) {
         const double t = start + seconds * (column + 0.5) / heat.columns;
@@ -57,9 +57,10 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
                                       [](const Frame& f, double at) { return f.t < at; });
         if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
         const bool isThere = t <= last + seconds / heat.columns;
-        const std::vector<double> made = isUneven  ? resampled(to, *after->values)
-                                         : isPlane ? marginal(system.hamiltonian()->grid(), *after->values)
-                                                   : std::vector<double>();
+        const std::vector<double> made = isUneven ? resampled(to, *after->values)
+                                         : isRectangle
+                                             ? marginal(system.hamiltonian()->grid(), *after->values)
+                                             : std::vector<double>();
         const std::vector<double>& values = made.empty() ? *after->values : made;
         for (int row = 0; row < heat.rows; ++row) {
             const auto j = static_cast<std::size_t>((row + 0.5) * static_cast<double>(n) / heat.rows);
@@ -69,7 +70,7 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
         }
     }
     heat.high = maxMagnitude(heat.values);
-    if (!isComplex) heat.low = isPlane ? 0 : -heat.high;
+    if (!isComplex) heat.low = isRectangle ? 0 : -heat.high;
     return heat;
 }
 

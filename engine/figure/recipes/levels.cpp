@@ -46,7 +46,7 @@ Figure makeLevels(const FigureContext& context) {
     const auto h = context.system && isWave(*context.system) ? context.system->hamiltonian() : nullptr;
     if (!h) {
         if (context.system) figure.message = "The model is no wave function";
-    } else if (h->isPlane()) {
+    } else if (h->dimension() == 2) {
         figure.message = "Levels are drawn over one dimension";
     } else if (h->isTimeDependent()) {
         figure.message = "A potential that depends on time has no levels";

@@ -98,7 +98,8 @@ Figure makePlaneProfile(const FigureContext& context) {
 }
 
 Figure makeProfile(const FigureContext& context) {
-    if (context.system && extremal::isWave(*context.system) && context.system->hamiltonian()->isPlane())
+    if (context.system && extremal::isWave(*context.system) &&
+        context.system->hamiltonian()->dimension() == 2)
         return makePlaneProfile(context);
     Figure figure = startFigure(context, "Profile");
     figure.x.title = "x";

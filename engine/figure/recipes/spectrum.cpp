@@ -64,7 +64,7 @@ Figure makeSpectrum(const FigureContext& context) {
     for (const auto& scheme : context.comparison.schemes)
         if (context.system && isWave(*context.system) && framesOf(*scheme)) {
             const Hamiltonian& h = *context.system->hamiltonian();
-            if (!h.isPlane()) {
+            if (h.dimension() == 1) {
                 figure.add(spectrumOf(*scheme, h));
                 continue;
             }
@@ -76,7 +76,7 @@ Figure makeSpectrum(const FigureContext& context) {
     if (context.system && isWave(*context.system)) {
         const wave::Grid& grid = context.system->hamiltonian()->grid();
         const double half =
-            (context.system->hamiltonian()->isPlane() ? std::max(grid.nx, grid.ny) : grid.nx) / 2.0;
+            (context.system->hamiltonian()->dimension() == 2 ? std::max(grid.nx, grid.ny) : grid.nx) / 2.0;
         figure.x.range = {-half, half};
         if (!context.system->hamiltonian()->isPeriodic()) {
             figure.x.title = "degree";

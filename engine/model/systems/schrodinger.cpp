@@ -1,5 +1,5 @@
 /// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain, or
-/// between walls where psi = 0 (V(x) then). hbar and m are free; nothing else has a unit.
+/// with psi = 0 at both ends (Dirichlet; V(x) then). hbar and m are free; nothing else has a unit.
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,16 +13,16 @@ namespace extremal::systems {
 namespace {
 
 std::shared_ptr<const Hamiltonian> hamiltonianOf(const Settings& settings) {
-    const bool hasWalls = settings.text("boundary") == "dirichlet",
+    const bool isDirichlet = settings.text("boundary") == "dirichlet",
                isConvolution = settings.text("product") == "convolution";
-    if (hasWalls && isConvolution)
+    if (isDirichlet && isConvolution)
         throw InvalidScene("/product", "convolution requires the boundary periodic",
                            "nodes, or the boundary periodic");
-    const int n = modesOf(settings, "modes", !hasWalls);
+    const int n = modesOf(settings, "modes", !isDirichlet);
     // What needs a full matrix.
-    const std::string whole = hasWalls ? "the boundary is dirichlet" : "the product is a convolution",
-                      instead = hasWalls ? "the boundary periodic" : "the product at the nodes";
-    if ((hasWalls || isConvolution) && n > Eigenstates::denseLimit)
+    const std::string whole = isDirichlet ? "the boundary is dirichlet" : "the product is a convolution",
+                      instead = isDirichlet ? "the boundary periodic" : "the product at the nodes";
+    if ((isDirichlet || isConvolution) && n > Eigenstates::denseLimit)
         throw InvalidScene("/modes",
                            "must be at most " + std::to_string(Eigenstates::denseLimit) + " where " + whole +
                                ", got " + std::to_string(n),
@@ -30,12 +30,12 @@ std::shared_ptr<const Hamiltonian> hamiltonianOf(const Settings& settings) {
     const wave::Grid grid{domainOf(settings, "domain"), n};
     wave::Potential V =
         wave::makePotential(*settings.find("potential"), "/potential", grid, constantsOf(settings));
-    if ((hasWalls || isConvolution) && V.isTimeDependent())
+    if ((isDirichlet || isConvolution) && V.isTimeDependent())
         throw InvalidScene("/potential", "depends on t, which is not possible where " + whole,
                            "a potential in x, or " + instead);
     return std::make_shared<const Hamiltonian>(grid, settings.number("hbar"), settings.number("m"),
                                                std::move(V),
-                                               hasWalls        ? WaveBasis::walls
+                                               isDirichlet     ? WaveBasis::dirichlet
                                                : isConvolution ? WaveBasis::convolution
                                                                : WaveBasis::fourier);
 }
@@ -46,16 +46,16 @@ std::vector<FieldInfo> parameters() {
                             "An expression in x, t, hbar and m, or a name: free, harmonic, lattice, "
                             "double-well, barrier, morse, random."));
     all.push_back(domainField("domain", "domain", "Ends of the interval."));
-    all.push_back(choiceField(
-        "boundary", "boundary", {"periodic", "dirichlet"},
-        "What holds at the ends of the interval: periodic, or dirichlet: walls, where psi is zero."));
+    all.push_back(
+        choiceField("boundary", "boundary", {"periodic", "dirichlet"},
+                    "What holds at the ends of the interval: periodic, or dirichlet, where psi is zero."));
     all.push_back(choiceField(
         "product", "product V ψ", {"nodes", "convolution"},
         "How the potential acts on a periodic domain: at the nodes, or by the exact convolution of the "
         "coefficients (Galerkin; at most 512 modes)."));
-    all.push_back(integerField(
-        "modes", "N", 8, 65536, 128,
-        "Number of modes and of nodes: Fourier modes, even; between walls polynomials, at most 512."));
+    all.push_back(integerField("modes", "N", 8, 65536, 128,
+                               "Number of modes and of nodes: Fourier modes, even; with a Dirichlet boundary "
+                               "polynomials, at most 512."));
     return all;
 }
 
@@ -65,7 +65,8 @@ ModelEntry schrodinger() {
     ModelEntry e;
     e.item = {"schrodinger",
               "Schrödinger equation",
-              "A wave function in one dimension, periodic or between walls; potential typed or by name.",
+              "A wave function in one dimension, periodic or with a Dirichlet boundary; potential typed or "
+              "by name.",
               parameters(),
               {},
               ""};

@@ -20,7 +20,7 @@ struct Grid {
     Domain y{0, 1};
     int ny = 1;
 
-    bool isPlane() const { return ny > 1; }
+    int dimension() const { return ny > 1 ? 2 : 1; }
     int size() const { return nx * ny; }
     /// Length of the interval, or area of the rectangle.
     double measure() const { return x.length * y.length; }

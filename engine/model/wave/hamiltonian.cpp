@@ -23,7 +23,7 @@ void requireFinite(double V, double x, const double* y) {
 
 std::variant<FourierBasis, DirichletBasis> basisOf(WaveBasis form, const wave::Grid& grid, double hbar,
                                                    double mass) {
-    if (form == WaveBasis::walls) return DirichletBasis(grid.x, grid.size(), hbar, mass);
+    if (form == WaveBasis::dirichlet) return DirichletBasis(grid.x, grid.size(), hbar, mass);
     return FourierBasis(grid, hbar, mass, form == WaveBasis::convolution);
 }
 
@@ -38,7 +38,7 @@ Hamiltonian::Hamiltonian(const wave::Grid& grid, double hbar, double mass, wave:
       form_(form),
       basis_(basisOf(form, grid, hbar, mass)) {
     V_.resize(static_cast<std::size_t>(size()));
-    if (form == WaveBasis::walls)
+    if (form == WaveBasis::dirichlet)
         onInterval();
     else
         onGrid();
@@ -47,8 +47,8 @@ Hamiltonian::Hamiltonian(const wave::Grid& grid, double hbar, double mass, wave:
 void Hamiltonian::onGrid() {
     potential_.values(0, x(), y(), V_.data());
     for (std::size_t i = 0; i < V_.size(); ++i)
-        requireFinite(V_[i], x()[i % x().size()], isPlane() ? &y()[i / x().size()] : nullptr);
-    if (!isPlane()) harmonics_ = PotentialHarmonics::of(V_, fourier());
+        requireFinite(V_[i], x()[i % x().size()], dimension() == 2 ? &y()[i / x().size()] : nullptr);
+    if (dimension() == 1) harmonics_ = PotentialHarmonics::of(V_, fourier());
     const double fastest = *std::max_element(kinetic().begin(), kinetic().end());
     if (form_ == WaveBasis::convolution) {
         matrix_ = extremal::realMatrix(convolutionGalerkin(fourierBasis(), harmonics_), fourier());

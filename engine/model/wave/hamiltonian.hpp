@@ -7,7 +7,7 @@
 ///                  (wave/convolution.hpp), made Hermitian by c = W^{1/2} v/sqrt(2 pi), which halves the
 ///                  square at k = -N/2. It differs from the former by aliasing alone, which vanishes
 ///                  spectrally with N, and its H is a full matrix.
-///     walls        Dirichlet boundaries, psi = 0 at both ends of an interval: polynomials
+///     dirichlet    Dirichlet boundaries, psi = 0 at both ends of an interval: polynomials
 ///     (wave/dirichlet_basis.hpp),
 ///                  with mass and stiffness from the action; H is a real symmetric matrix in c, and V enters
 ///                  through its values at the points of the rule.
@@ -32,7 +32,7 @@
 
 namespace extremal {
 
-enum class WaveBasis { fourier, convolution, walls };
+enum class WaveBasis { fourier, convolution, dirichlet };
 
 class Hamiltonian {
 public:
@@ -43,7 +43,7 @@ public:
 
     int size() const { return grid_.size(); }
     const wave::Grid& grid() const { return grid_; }
-    bool isPlane() const { return grid_.isPlane(); }
+    int dimension() const { return grid_.dimension(); }
     WaveBasis basis() const { return form_; }
     bool isPeriodic() const { return std::holds_alternative<FourierBasis>(basis_); }
     /// Whether H is a part diagonal in c and a part diagonal at the nodes, each of which moves psi by phases
@@ -58,7 +58,7 @@ public:
     auto inBasis(F&& f) const {
         return std::visit(std::forward<F>(f), basis_);
     }
-    /// The nodes along x; between walls those inside.
+    /// The nodes along x; with a Dirichlet boundary those inside.
     const std::vector<double>& x() const;
     /// The nodes along y; 0 on an interval.
     const std::vector<double>& y() const;
@@ -72,7 +72,7 @@ public:
     void toNodes(const Complex* c, Complex* psi) const;
     void toCoefficients(const Complex* psi, Complex* c) const;
     /// Orthonormal coordinates in which H is a real matrix: the inverse transform of c (psi_j sqrt(h) where H
-    /// is split), or c itself between walls; and back, which uses v up.
+    /// is split), or c itself with a Dirichlet boundary; and back, which uses v up.
     void toReal(const Complex* c, Complex* v) const;
     void fromReal(Complex* v, Complex* c) const;
     /// H in these coordinates: known where it is not split, made where it is.
@@ -94,7 +94,7 @@ public:
     const PotentialHarmonics& potentialSeries() const { return harmonics_; }
     int harmonics() const { return harmonics_.highest; }
     const std::vector<Complex>& potentialHarmonics() const { return harmonics_.coefficients; }
-    // Between walls alone.
+    // With a Dirichlet boundary alone.
     const DirichletBasis& dirichletBasis() const { return std::get<DirichletBasis>(basis_); }
     const Interval& interval() const { return dirichletBasis().interval(); }
     Eigen::MatrixXd resampling(int rows) const { return dirichletBasis().resampling(rows); }
@@ -122,8 +122,8 @@ private:
 inline const Complex* coefficients(const double* x) { return reinterpret_cast<const Complex*>(x); }
 inline Complex* coefficients(double* x) { return reinterpret_cast<Complex*>(x); }
 
-/// A wave function between walls for pictures, from its values at the nodes (all real parts, then all
-/// imaginary parts): at `rows` equally spaced points and the walls. Nodes crowd at the walls and are far
+/// A wave function with a Dirichlet boundary for pictures, from its values at the nodes (all real parts, then
+/// all imaginary parts): at `rows` equally spaced points and the ends. Nodes crowd at the ends and are far
 /// apart in the middle.
 struct EvenSamples {
     std::vector<double> x, re, im;

@@ -1,4 +1,4 @@
-/// Polynomials on [-1, 1] that vanish at both ends, for wave functions between walls (Dirichlet boundaries).
+/// Polynomials on [-1, 1] that vanish at both ends, for wave functions with a Dirichlet boundary.
 ///
 /// Through N + 1 Chebyshev extrema, N = n + 1, psi = sum_j u_j phi_j over the n inner ones. The action's
 /// integrals over x by Clenshaw-Curtis with 2N + 1 nodes (exact to degree 2N + 1) give

@@ -25,13 +25,13 @@ Measure normMeasure(const Shared& h) {
 }
 
 Measure momentumMeasure(const Shared& h) {
-    Measure m{"momentum", {{"momentum", "", h->isPlane() ? "⟨p x⟩" : "⟨p⟩", ""}}, -1, {}};
-    if (h->isPlane()) m.columns.push_back({"momentum_y", "", "⟨p y⟩", ""});
+    Measure m{"momentum", {{"momentum", "", h->dimension() == 2 ? "⟨p x⟩" : "⟨p⟩", ""}}, -1, {}};
+    if (h->dimension() == 2) m.columns.push_back({"momentum_y", "", "⟨p y⟩", ""});
     m.bind = [h](const State&) {
         return [h](double, const double* x, double* values) {
             const MeanMomentum mean = meanMomentum(*h, coefficients(x));
             values[0] = mean.x;
-            if (h->isPlane()) values[1] = mean.y;
+            if (h->dimension() == 2) values[1] = mean.y;
         };
     };
     return m;
@@ -39,7 +39,7 @@ Measure momentumMeasure(const Shared& h) {
 
 Measure positionMeasure(const Shared& h) {
     Measure m{"position", {{"position", "", "⟨x⟩", ""}}, -1, {}};
-    if (h->isPlane())
+    if (h->dimension() == 2)
         m.columns.push_back({"position_y", "", "⟨y⟩", ""});
     else if (h->isPeriodic())
         m.columns.push_back({"cos_x", "", "⟨cos x⟩", ""});
@@ -48,7 +48,7 @@ Measure positionMeasure(const Shared& h) {
                                                                                      double* values) mutable {
             const NodeMeans means = nodeMeans(*h, coefficients(x), work.data());
             values[0] = means.x;
-            if (h->isPeriodic()) values[1] = h->isPlane() ? means.y : means.cosine;
+            if (h->isPeriodic()) values[1] = h->dimension() == 2 ? means.y : means.cosine;
         };
     };
     return m;

@@ -29,9 +29,10 @@ std::vector<Complex> fromNodes(const Context& context, const std::vector<Complex
     const Hamiltonian& h = *context.hamiltonian;
     for (std::size_t j = 0; j < psi.size(); ++j)
         if (!std::isfinite(psi[j].real()) || !std::isfinite(psi[j].imag()))
-            throw InvalidScene(context.pointer,
-                               "is not finite at x = " + formatNumber(h.x()[j % h.x().size()], 6) +
-                                   (h.isPlane() ? ", y = " + formatNumber(h.y()[j / h.x().size()], 6) : ""));
+            throw InvalidScene(
+                context.pointer,
+                "is not finite at x = " + formatNumber(h.x()[j % h.x().size()], 6) +
+                    (h.dimension() == 2 ? ", y = " + formatNumber(h.y()[j / h.x().size()], 6) : ""));
     std::vector<Complex> c(psi.size());
     h.toCoefficients(psi.data(), c.data());
     return c;
@@ -59,11 +60,11 @@ std::vector<Complex> expressions(const Context& context, const Value& psi) {
         } else if (text->isNumber()) {
             parts.push_back({[v = text->asNumber()](double, double, double) { return v; }, false});
         } else if (text->isString()) {
-            parts.push_back(
-                functionOf(text->asString(), place, context.constants, {context.grid().isPlane(), false}));
+            parts.push_back(functionOf(text->asString(), place, context.constants,
+                                       {context.grid().dimension() == 2, false}));
         } else {
-            throw InvalidScene(place, context.grid().isPlane() ? "must be an expression in x and y"
-                                                               : "must be an expression in x");
+            throw InvalidScene(place, context.grid().dimension() == 2 ? "must be an expression in x and y"
+                                                                      : "must be an expression in x");
         }
     }
     parametersOf(psi, context.pointer, {}, {"re", "im"}, context.constants);
@@ -87,8 +88,9 @@ std::vector<Complex> given(const Context& context, const Value& values) {
                 "must have " + std::to_string(n) + " numbers, one per node" +
                     (numbers && numbers->isArray() ? ", got " + std::to_string(numbers->asArray().size())
                                                    : std::string()),
-                context.grid().isPlane() ? "the number of nodes is /model/modes times /model/modes_y, x first"
-                                         : "the number of nodes is /model/modes");
+                context.grid().dimension() == 2
+                    ? "the number of nodes is /model/modes times /model/modes_y, x first"
+                    : "the number of nodes is /model/modes");
         for (std::size_t j = 0; j < n; ++j) {
             const double v =
                 numberOf(numbers->asArray()[j], place + "/" + std::to_string(j), context.constants);
@@ -103,8 +105,8 @@ std::vector<Complex> given(const Context& context, const Value& values) {
 /// to the next.
 StationaryState refinedState(const Hamiltonian& h, int n) {
     const wave::Grid& fine = h.grid();
-    const int limit = Eigenstates::denseLimit, nx = fine.isPlane() ? std::min(fine.nx, 22) : limit,
-              ny = fine.isPlane() ? std::min(fine.ny, (limit / nx) & ~1) : 1;
+    const int limit = Eigenstates::denseLimit, nx = fine.dimension() == 2 ? std::min(fine.nx, 22) : limit,
+              ny = fine.dimension() == 2 ? std::min(fine.ny, (limit / nx) & ~1) : 1;
     const auto coarse = h.withModes(nx, ny);
     const auto states = Eigenstates::of(coarse);
     const std::vector<Complex> found = states->coefficients(n);
@@ -155,7 +157,7 @@ std::vector<Complex> eigenstate(const Context& context, const Value& psi) {
 std::vector<Complex> packet(const Context& context, const Value& psi, const std::string& name) {
     const Hamiltonian& h = *context.hamiltonian;
     const std::vector<Domain> axes =
-        h.isPlane() ? std::vector{h.grid().x, h.grid().y} : std::vector{h.grid().x};
+        h.dimension() == 2 ? std::vector{h.grid().x, h.grid().y} : std::vector{h.grid().x};
     // The keys of the axes one after the other, those of y with _y at their end; as many values for each.
     const auto read = [&](const std::function<std::vector<Parameter>(const Domain&, bool isY)>& keysOf) {
         std::vector<Parameter> all;
@@ -182,7 +184,7 @@ std::vector<Complex> packet(const Context& context, const Value& psi, const std:
     }
     if (!h.isPeriodic() && (name == "periodic-gaussian" || name == "plane-wave"))
         throw InvalidScene(context.pointer + "/packet",
-                           name + " needs a periodic domain: it does not vanish at the walls",
+                           name + " needs a periodic domain: it does not vanish at the ends",
                            "gaussian or eigenstate, re and im in x, or the boundary periodic");
     if (name == "periodic-gaussian") {
         const auto p = read([&](const Domain& axis, bool) -> std::vector<Parameter> {

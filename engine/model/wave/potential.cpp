@@ -147,8 +147,8 @@ Function onRectangle(const std::string& name, const Value& object, const std::st
 
 Function named(const std::string& name, const Value& object, const std::string& pointer, const Grid& grid,
                const Constants& constants) {
-    Function f = grid.isPlane() ? onRectangle(name, object, pointer, grid, constants)
-                                : onInterval(name, object, pointer, grid.x, constants);
+    Function f = grid.dimension() == 2 ? onRectangle(name, object, pointer, grid, constants)
+                                       : onInterval(name, object, pointer, grid.x, constants);
     if (!f.value)
         throw InvalidScene(pointer + (object.find("name") ? "/name" : ""),
                            "unknown potential \"" + name + "\"", suggestName(name, potentialNames(grid)));
@@ -162,7 +162,7 @@ const std::vector<std::string>& potentialNames(const Grid& grid) {
                                                       "barrier", "morse",    "random"},
                                           rectangle = {"free",    "harmonic",    "lattice",
                                                        "barrier", "double-slit", "random"};
-    return grid.isPlane() ? rectangle : interval;
+    return grid.dimension() == 2 ? rectangle : interval;
 }
 
 Potential makePotential(const Value& given, const std::string& pointer, const Grid& grid,
@@ -173,12 +173,12 @@ Potential makePotential(const Value& given, const std::string& pointer, const Gr
         const std::string& text = given.asString();
         if (std::find(names.begin(), names.end(), text) != names.end())
             return {named(text, Value(Value::Object{}), pointer, grid, constants)};
-        return {functionOf(text, pointer, constants, {grid.isPlane(), true})};
+        return {functionOf(text, pointer, constants, {grid.dimension() == 2, true})};
     }
     const Value* name = given.find("name");
     if (!name || !name->isString())
         throw InvalidScene(pointer,
-                           std::string("must be an expression in x") + (grid.isPlane() ? ", y" : "") +
+                           std::string("must be an expression in x") + (grid.dimension() == 2 ? ", y" : "") +
                                " and t, or {\"name\": NAME, ..}",
                            "known: " + joinNames(names));
     return {named(name->asString(), given, pointer, grid, constants)};

@@ -125,7 +125,7 @@ std::function<double(double, double, double)> fieldOnRectangle(const Grid& grid,
 }  // namespace
 
 std::function<double(double x, double y, double t)> randomField(const Grid& grid, const RandomField& field) {
-    return grid.isPlane() ? fieldOnRectangle(grid, field) : fieldOnInterval(grid.x, field);
+    return grid.dimension() == 2 ? fieldOnRectangle(grid, field) : fieldOnInterval(grid.x, field);
 }
 
 }  // namespace extremal::wave

@@ -20,7 +20,7 @@ std::string resolutionCaution(const Hamiltonian& h, const Complex* c) {
     if (!(tail > 1e-4)) return {};
     return "under-resolved: " + formatNumber(tail, 2) +
            " of the wave function is in the upper eighth of its " + std::to_string(h.grid().nx) +
-           (h.isPlane() ? " x " + std::to_string(h.grid().ny) : std::string()) + " modes";
+           (h.dimension() == 2 ? " x " + std::to_string(h.grid().ny) : std::string()) + " modes";
 }
 
 MeanMomentum meanMomentum(const Hamiltonian& h, const Complex* c) {

@@ -27,8 +27,8 @@ void drawOnInterval(const Hamiltonian& h, const double* values, Drawing& drawing
     }
     drawing.shapes.push_back(Segment{{left, 0, 0}, {left + L, 0, 0}, 1.2, ShapeRole::scenery});
     if (!h.isPeriodic())
-        for (const double wall : {left, left + L})
-            drawing.shapes.push_back(Segment{{wall, 0, 0}, {wall, 0.3 * L, 0}, 2, ShapeRole::scenery});
+        for (const double end : {left, left + L})
+            drawing.shapes.push_back(Segment{{end, 0, 0}, {end, 0.3 * L, 0}, 2, ShapeRole::scenery});
     Curtain curtain;
     const auto add = [&](double x, double re, double im) {
         curtain.top.push_back({x, unit * std::hypot(re, im), 0});
@@ -99,7 +99,7 @@ void drawOnRectangle(const Hamiltonian& h, const double* values, Drawing& drawin
 }  // namespace
 
 void drawWave(const Hamiltonian& h, const double* values, Drawing& drawing) {
-    if (h.isPlane())
+    if (h.dimension() == 2)
         drawOnRectangle(h, values, drawing);
     else
         drawOnInterval(h, values, drawing);

@@ -33,7 +33,7 @@ ErrorMeasure errorOf(int n) {
 FieldSampling samplingOf(const Shared& h) {
     FieldSampling f;
     f.x = h->x();
-    if (h->isPlane()) f.y = h->y();
+    if (h->dimension() == 2) f.y = h->y();
     f.components = {"re", "im"};
     f.sample = [h](const double* x, double* values) {
         const auto n = static_cast<std::size_t>(h->size());

@@ -1,9 +1,9 @@
 /// The multiplier of continuity between the element that begins at the node and the one before it: lambda_k
 /// of the augmented action, from the full saddle-point system without condensation (solve/multipliers.hpp).
 ///
-/// From (q_k, p_k) one step of the pair gives q_{k+1}; the system is then solved between q_k and q_{k+1},
-/// without p_k, and its first multiplier is -D_1 L_d(q_k, q_{k+1}). That it equals the momentum is what
-/// `multiplier_error` shows.
+/// From (q_k, p_k) one step of the discretization gives q_{k+1}; the system is then solved between q_k and
+/// q_{k+1}, without p_k, and its first multiplier is -D_1 L_d(q_k, q_{k+1}). That it equals the momentum is
+/// what `multiplier_error` shows.
 #include <Eigen/Core>
 
 #include <cmath>
@@ -20,11 +20,11 @@ namespace {
 
 class MultiplierOfNode {
 public:
-    MultiplierOfNode(const System& system, const Discretization& pair, double step)
+    MultiplierOfNode(const System& system, const Discretization& discretization, double step)
         : system_(system),
-          pair_(pair),
+          discretization_(discretization),
           step_(step),
-          glued_(system.mechanics(), tableOf(pair.space, pair.quadrature), step, 1) {}
+          assembled_(system.mechanics(), tableOf(discretization.space, discretization.quadrature), step, 1) {}
 
     /// |lambda|, |lambda - p| and lambda; NaN where the step fails.
     void operator()(const State& state, const StepReport&, double* values) const {
@@ -32,12 +32,12 @@ public:
         std::fill_n(values, d + 2, std::numeric_limits<double>::quiet_NaN());
         State next = state;
         next.node = 0;
-        const auto integrator = makeIntegrator(system_, pair_, Clock{state.t, step_});
+        const auto integrator = makeIntegrator(system_, discretization_, Clock{state.t, step_});
         if (advance(*integrator, next).outcome != Outcome::converged) return;
         Eigen::MatrixXd ends(d, 2);
         ends << Eigen::Map<const Eigen::VectorXd>(state.x.data(), d),
             Eigen::Map<const Eigen::VectorXd>(next.x.data(), d);
-        const GluedElements found = solveBetween(glued_, state.t, ends);
+        const AssembledElements found = solveBetween(assembled_, state.t, ends);
         if (found.outcome != Outcome::converged) return;
         const Eigen::VectorXd lambda = found.multipliers.col(0);
         values[0] = lambda.norm();
@@ -47,9 +47,9 @@ public:
 
 private:
     System system_;
-    Discretization pair_;
+    Discretization discretization_;
     double step_;
-    SaddlePoint glued_;
+    SaddlePoint assembled_;
 };
 
 }  // namespace
@@ -58,7 +58,8 @@ ObservableEntry multiplier() {
     ObservableEntry e;
     e.item = {"multiplier",
               "multiplier",
-              "Multiplier of continuity from the full saddle-point system of a pair, and its distance from "
+              "Multiplier of continuity from the full saddle-point system of a discretization, and its "
+              "distance from "
               "the momentum.",
               {},
               {},
@@ -71,17 +72,18 @@ ObservableEntry multiplier() {
         o.columns = {{"multiplier", "|λ|", unit, {}, {}}, {"multiplier_error", "|λ - p|", unit, {}, {}}};
         for (const Coordinate& c : coordinates)
             o.columns.push_back({"multiplier." + c.name, "λ_" + c.symbol, c.momentumUnit, {}, {}});
-        if (!context.pair || !isFor(*context.pair, context.system) || !hasTable(context.pair->space)) {
+        if (!context.discretization || !isFor(*context.discretization, context.system) ||
+            !hasTable(context.discretization->space)) {
             o.evaluate = [n = o.columns.size()](const State&, const StepReport&, double* values) {
                 std::fill_n(values, n, std::numeric_limits<double>::quiet_NaN());
             };
             return o;
         }
-        o.evaluate =
-            [look = std::make_shared<const MultiplierOfNode>(context.system, *context.pair, context.step)](
-                const State& state, const StepReport& report, double* values) {
-                (*look)(state, report, values);
-            };
+        o.evaluate = [look = std::make_shared<const MultiplierOfNode>(context.system, *context.discretization,
+                                                                      context.step)](
+                         const State& state, const StepReport& report, double* values) {
+            (*look)(state, report, values);
+        };
         return o;
     };
     return e;

@@ -9,7 +9,7 @@ RuleEntry automatic() {
               "automatic",
               "Chosen for the space: Gauss with as many nodes as the degree; for an oscillatory space the "
               "cheaper of "
-              "Filon-Lobatto and 24 Gauss points a period, Filon from some three periods a step on.",
+              "Filon-Lobatto and 24 Gauss points per period, Filon from some three periods per step on.",
               {},
               {},
               ""};

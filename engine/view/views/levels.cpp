@@ -7,7 +7,8 @@ namespace extremal::views {
 namespace {
 
 std::string missingForLevels(const View&, const System& system) {
-    if (!isWave(system) || system.hamiltonian()->isPlane()) return "a wave function over one dimension";
+    if (!isWave(system) || system.hamiltonian()->dimension() == 2)
+        return "a wave function over one dimension";
     if (system.hamiltonian()->isTimeDependent()) return "a potential that does not depend on time";
     if (system.hamiltonian()->size() > Eigenstates::denseLimit)
         return "at most " + std::to_string(Eigenstates::denseLimit) + " modes";

@@ -13,6 +13,7 @@
 #include "engine/model/bind.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
 #include "engine/space/polynomial.hpp"
+#include "tests/tools/pendulum_model.hpp"
 #include "tests/tools/quadruple_kepler.hpp"
 #include "tests/tools/test.hpp"
 
@@ -26,17 +27,6 @@ struct SpringModel {
     S lagrangian(const T&, const std::array<S, 2>& q, const std::array<S, 2>& v) const {
         const S r = q[0] + T(1), stretch = q[0];
         return (square(v[0]) + square(r * v[1])) * T(0.5) + r * cos(q[1]) * T(9) - square(stretch) * T(20);
-    }
-};
-struct PendulumModel {
-    static constexpr int dimension = 1;
-    template <class T>
-    std::array<T, 1> masses() const {
-        return {T(1)};
-    }
-    template <class T, class S>
-    S potential(const T&, const std::array<S, 1>& q) const {
-        return -cos(q[0]);
     }
 };
 struct DuffingModel {

@@ -16,8 +16,9 @@ class PartitionedTest : public QObject {
     const State start_{0, 0, {0.1, 0.8, 0, 0.3}};
 
     State fine() const {
-        const auto pair = makeIntegrator(polar_, laws::polynomialPair(8, {"gauss", {}, {}}), {0, 1. / 64});
-        return laws::after(*pair, start_, 128).value();
+        const auto discretization =
+            makeIntegrator(polar_, laws::polynomialPair(8, {"gauss", {}, {}}), {0, 1. / 64});
+        return laws::after(*discretization, start_, 128).value();
     }
     struct Slopes {
         double q, p;

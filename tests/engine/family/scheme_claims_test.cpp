@@ -16,15 +16,15 @@ private slots:
             QVERIFY2(!entry.item.claims,
                      entry.item.id.c_str());  // written by hand, they would be a second source
             for (const DegreeClaims& c : all) {
-                const Discretization pair = entry.make(c.degree);
-                QCOMPARE(c.claims, describe(pair.space, pair.quadrature).claims);
+                const Discretization discretization = entry.make(c.degree);
+                QCOMPARE(c.claims, describe(discretization.space, discretization.quadrature).claims);
             }
             // A formula found at low degrees holds at a high one.
             if (orderFormula(all).empty()) continue;
             const int high = std::min(12, entry.maxDegree);
-            const Discretization pair = entry.make(high);
+            const Discretization discretization = entry.make(high);
             QCOMPARE(
-                describe(pair.space, pair.quadrature).claims.order,
+                describe(discretization.space, discretization.quadrature).claims.order,
                 all[0].claims.order + (high - all[0].degree) * (all[1].claims.order - all[0].claims.order));
         }
     }

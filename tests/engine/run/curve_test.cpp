@@ -64,7 +64,7 @@ private slots:
         QVERIFY(ofChords < 2.5 && fine.chord > 100 * fine.curve);
     }
     void partsThatAViewShowsHaveMorePoints() {
-        // 20 steps: 40 points a step everywhere, some hundreds where one step is looked at.
+        // 20 steps: 40 points per step everywhere, some hundreds where one step is looked at.
         const auto rowsIn = [](const char* views) {
             const std::string text = std::string(R"({"extremal":1,"model":{"type":"spring-pendulum","k":1e6},
                 "initial":{"q":[0.005,1],"p":[0,0]},"time":{"end":2},"schemes":[{"step":0.1,"scheme":"galerkin-gauss-4"}],
@@ -98,7 +98,7 @@ private slots:
                 ->products.find<DenseOutput>()
                 ->points;
         };
-        // 15.9 periods a step, 16 points each: as many zeros as the spring has, two a period.
+        // 15.9 periods per step, 16 points each: as many zeros as the spring has, two per period.
         const Trajectory resolved = curveOf("1e6", "0.1");
         const auto zeros = [](const Trajectory& curve) {
             const auto a = curve["q.a"];

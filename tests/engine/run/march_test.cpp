@@ -19,6 +19,7 @@ public:
     double h = 0.5;
     double troubleFrom = 1e300;
     std::vector<Quantity> said = {};
+    mutable int measured = 0;  ///< how often it was asked
 
     TimeGrid grid() const override { return grid_; }
     double stepSize() const override { return grid_ == TimeGrid::fixed ? h : 0; }
@@ -39,7 +40,10 @@ public:
         return report;
     }
     std::span<const Quantity> quantities() const override { return said; }
-    void measure(double* values) const override { values[0] = 10 * last_; }
+    void measure(const State& state, double* values) const override {
+        values[0] = state.memory[0] == last_ ? 10 * last_ : 0;
+        ++measured;
+    }
     void denseOutput(double tau, std::span<double> x) const override { x[0] = last_ - 1 + tau; }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Counting>(*this); }
 
@@ -171,25 +175,35 @@ private slots:
         QCOMPARE(report.outcome, Outcome::converged);
         QCOMPARE(state.node, 7LL);
     }
-    void whatAnIntegratorSaysOfItsStepIsShown() {
+    void whatAnIntegratorSaysOfItsStepIsShownToWhoReadsIt() {
         for (const bool isWide : {false, true}) {
             Counting integrator;
             integrator.said = {{"ten", "", "10 n", ""}};
             State state{0, 0, std::vector<double>(isWide ? 50000 : 1, 0.0), {}};
             bool isRight = true;
             const MarchSink sink{[&](const Stretch& s) {
-                for (std::size_t i = 0; i < s.nodes.size() && !s.isStart; ++i)
-                    isRight = isRight && s.nodes.quantities(i).size() == 1 &&
-                              s.nodes.quantities(i)[0] == 10 * static_cast<double>(s.nodes.node(i));
-                return true;
-            }};
-            (void)march(integrator, state, gridTo(200, 0.5), {&sink, 1}, {});
+                                     for (std::size_t i = 0; i < s.nodes.size(); ++i) {
+                                         const std::span<const double> said = s.nodes.quantities(i);
+                                         const double n = static_cast<double>(s.nodes.node(i));
+                                         isRight = isRight && said.size() == 1 &&
+                                                   (s.isStart ? std::isnan(said[0]) : said[0] == 10 * n);
+                                     }
+                                     return true;
+                                 },
+                                 false, true};
+            const MarchReport report = march(integrator, state, gridTo(200, 0.5), {&sink, 1}, {});
             QVERIFY(isRight);
+            QCOMPARE(report.lastQuantities, std::vector<double>{4000});
+            QCOMPARE(integrator.measured, 400);
         }
-        Counting silent;
+    }
+    void whatNobodyReadsIsNotMeasured() {
+        Counting integrator;
+        integrator.said = {{"ten", "", "10 n", ""}};
         State state{0, 0, {0}, {}};
         const MarchSink sink{[](const Stretch& s) { return s.nodes.quantities(0).empty(); }};
-        QVERIFY(!march(silent, state, gridTo(3, 0.5), {&sink, 1}, {}).isEndedBySink);
+        QVERIFY(!march(integrator, state, gridTo(30, 0.5), {&sink, 1}, {}).isEndedBySink);
+        QCOMPARE(integrator.measured, 0);
     }
     void theOutcomeColumnSaysWhatHappened() {
         const System none;

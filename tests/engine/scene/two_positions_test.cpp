@@ -109,11 +109,11 @@ private slots:
             R"({"step":0.1,"scheme":"galerkin-gauss-2"},{"step":0.1,"baseline":"stormer-verlet"})";
         const Comparison c =
             run(readScene(sceneText(twoPositions, schemes, R"(,"observe":["multiplier"])")).scene);
-        const Trajectory& pair = c.schemes[0]->trajectory;
-        QCOMPARE(pair["multiplier"].size(), std::size_t(41));
+        const Trajectory& discretization = c.schemes[0]->trajectory;
+        QCOMPARE(discretization["multiplier"].size(), std::size_t(41));
         for (std::size_t r = 0; r < 41; ++r) {
-            QVERIFY(pair["multiplier_error"][r] < 1e-14);  // measured: below 3e-15
-            QVERIFY(std::abs(pair["multiplier.x"][r] - pair["p.x"][r]) < 1e-14);
+            QVERIFY(discretization["multiplier_error"][r] < 1e-14);  // measured: below 3e-15
+            QVERIFY(std::abs(discretization["multiplier.x"][r] - discretization["p.x"][r]) < 1e-14);
         }
         for (const double v : c.schemes[1]->trajectory["multiplier"]) QVERIFY(std::isnan(v));
     }

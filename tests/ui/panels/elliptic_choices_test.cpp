@@ -54,10 +54,10 @@ private slots:
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(waitForResults(window));
         for (const auto& scheme : window.runControl().results()->schemes) {
-            const auto pair = discretizationOf(scheme->spec);
-            QVERIFY(scheme->summary.status == RunStatus::done && pair &&
-                    familyOf(pair->space)->item.id == "elliptic");
-            if (pair->space.text("functions") == "multiscale")
+            const auto discretization = discretizationOf(scheme->spec);
+            QVERIFY(scheme->summary.status == RunStatus::done && discretization &&
+                    familyOf(discretization->space)->item.id == "elliptic");
+            if (discretization->space.text("functions") == "multiscale")
                 QVERIFY(scheme->summary.maxError < 1e-13);
             else
                 QVERIFY(scheme->summary.maxError > 1e-5);

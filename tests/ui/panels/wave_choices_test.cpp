@@ -1,5 +1,5 @@
-/// What the window offers for wave functions: on a circle everything, between walls nothing that would be
-/// refused.
+/// What the window offers for wave functions: on a circle everything, with a Dirichlet boundary nothing that
+/// would be refused.
 #include <QTest>
 
 #include "engine/baseline/catalog.hpp"

@@ -13,10 +13,10 @@ SchemeEntry elliptic_linear() {
               "the elliptic problem"};
     e.source = "Leok 2004, sec. 7.1";
     e.make = [](int) {
-        Discretization pair;
-        pair.space = {"elliptic-elements", {{"functions", "linear"}}, {}};
-        pair.quadrature = {"auto", {}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"elliptic-elements", {{"functions", "linear"}}, {}};
+        discretization.quadrature = {"auto", {}, {}};
+        return discretization;
     };
     return e;
 }

@@ -14,10 +14,10 @@ SchemeEntry elliptic_multiscale() {
         "the elliptic problem"};
     e.source = "Leok 2004, sec. 7.1";
     e.make = [](int) {
-        Discretization pair;
-        pair.space = {"elliptic-elements", {{"functions", "multiscale"}}, {}};
-        pair.quadrature = {"auto", {}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"elliptic-elements", {{"functions", "multiscale"}}, {}};
+        discretization.quadrature = {"auto", {}, {}};
+        return discretization;
     };
     return e;
 }

@@ -15,10 +15,11 @@ SchemeEntry galerkin_gauss() {
     e.minDegree = 1;
     e.maxDegree = 24;
     e.make = [](int degree) {
-        Discretization pair;
-        pair.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
-        pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {
+            "polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
+        discretization.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
+        return discretization;
     };
     return e;
 }

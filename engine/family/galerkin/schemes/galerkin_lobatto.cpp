@@ -15,10 +15,11 @@ SchemeEntry galerkin_lobatto() {
     e.minDegree = 1;
     e.maxDegree = 24;
     e.make = [](int degree) {
-        Discretization pair;
-        pair.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
-        pair.quadrature = {"lobatto", {{"nodes", static_cast<double>(degree + 1)}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {
+            "polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
+        discretization.quadrature = {"lobatto", {{"nodes", static_cast<double>(degree + 1)}}, {}};
+        return discretization;
     };
     return e;
 }

@@ -11,10 +11,10 @@ SchemeEntry midpoint() {
     e.minDegree = 0;
     e.maxDegree = 0;
     e.make = [](int) {
-        Discretization pair;
-        pair.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
-        pair.quadrature = {"midpoint", {{"panels", 1.0}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
+        discretization.quadrature = {"midpoint", {{"panels", 1.0}}, {}};
+        return discretization;
     };
     return e;
 }

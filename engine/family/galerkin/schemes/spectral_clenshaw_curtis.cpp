@@ -16,10 +16,11 @@ SchemeEntry spectral_clenshaw_curtis() {
     e.minDegree = 1;
     e.maxDegree = 24;
     e.make = [](int degree) {
-        Discretization pair;
-        pair.space = {"polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
-        pair.quadrature = {"clenshaw-curtis", {{"nodes", static_cast<double>(degree + 1)}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {
+            "polynomial", {{"degree", static_cast<double>(degree)}, {"basis", "lobatto"}}, {}};
+        discretization.quadrature = {"clenshaw-curtis", {{"nodes", static_cast<double>(degree + 1)}}, {}};
+        return discretization;
     };
     return e;
 }

@@ -6,7 +6,7 @@ namespace extremal::schemes {
 SchemeEntry stormer_verlet_pair() {
     SchemeEntry e;
     e.item = {"stormer-verlet-pair",
-              "Störmer-Verlet as a pair",
+              "Störmer-Verlet, variational",
               "Linear pieces with both ends as nodes: kick, drift, kick for separable systems, order 2.",
               {},
               {},
@@ -15,10 +15,10 @@ SchemeEntry stormer_verlet_pair() {
     e.minDegree = 0;
     e.maxDegree = 0;
     e.make = [](int) {
-        Discretization pair;
-        pair.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
-        pair.quadrature = {"lobatto", {{"nodes", 2.0}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
+        discretization.quadrature = {"lobatto", {{"nodes", 2.0}}, {}};
+        return discretization;
     };
     return e;
 }

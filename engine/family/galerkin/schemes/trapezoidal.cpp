@@ -7,7 +7,7 @@ SchemeEntry trapezoidal() {
     SchemeEntry e;
     e.item = {"trapezoidal",
               "trapezoidal",
-              "Linear pieces with the trapezoidal rule: Störmer-Verlet as a pair, order 2.",
+              "Linear pieces with the trapezoidal rule: Störmer-Verlet as a Galerkin integrator, order 2.",
               {},
               {},
               ""};
@@ -15,10 +15,10 @@ SchemeEntry trapezoidal() {
     e.minDegree = 0;
     e.maxDegree = 0;
     e.make = [](int) {
-        Discretization pair;
-        pair.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
-        pair.quadrature = {"trapezoid", {{"panels", 1.0}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"polynomial", {{"degree", 1.0}, {"basis", "lobatto"}}, {}};
+        discretization.quadrature = {"trapezoid", {{"panels", 1.0}}, {}};
+        return discretization;
     };
     return e;
 }

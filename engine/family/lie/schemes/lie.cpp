@@ -16,12 +16,13 @@ SchemeEntry lie() {
     e.minDegree = 1;
     e.maxDegree = 8;
     e.make = [](int degree) {
-        Discretization pair;
-        pair.space = {"lie-polynomial",
-                      {{"degree", static_cast<double>(degree)}, {"symmetric", false}, {"reduced", true}},
-                      {}};
-        pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {
+            "lie-polynomial",
+            {{"degree", static_cast<double>(degree)}, {"symmetric", false}, {"reduced", true}},
+            {}};
+        discretization.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}}, {}};
+        return discretization;
     };
     return e;
 }

@@ -13,15 +13,15 @@ SchemeEntry product_form() {
               "a fast frequency of its own"};
     e.source = "Leok 2004, sec. 7.2, as printed";
     e.make = [](int) {
-        Discretization pair;
-        pair.space = {"oscillatory-product",
-                      {{"omega", "model"},
-                       {"degree", 4.0},
-                       {"frequency", "fixed"},
-                       {"fast", Value(Value::Object{{"degree", 2.0}})}},
-                      {}};
-        pair.quadrature = {"auto", {}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"oscillatory-product",
+                                {{"omega", "model"},
+                                 {"degree", 4.0},
+                                 {"frequency", "fixed"},
+                                 {"fast", Value(Value::Object{{"degree", 2.0}})}},
+                                {}};
+        discretization.quadrature = {"auto", {}, {}};
+        return discretization;
     };
     return e;
 }

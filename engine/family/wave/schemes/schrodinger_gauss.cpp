@@ -16,15 +16,15 @@ SchemeEntry schrodinger_gauss() {
     e.minDegree = 1;
     e.maxDegree = 16;
     e.make = [](int degree) {
-        Discretization pair;
-        pair.space = {"fourier",
-                      {{"degree", static_cast<double>(degree)},
-                       {"energy_shift", "mean"},
-                       {"form", "one-step"},
-                       {"start", "gauss"}},
-                      {}};
-        pair.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
-        return pair;
+        Discretization discretization;
+        discretization.space = {"fourier",
+                                {{"degree", static_cast<double>(degree)},
+                                 {"energy_shift", "mean"},
+                                 {"form", "one-step"},
+                                 {"start", "gauss"}},
+                                {}};
+        discretization.quadrature = {"gauss", {{"nodes", static_cast<double>(degree)}, {"panels", 1.0}}, {}};
+        return discretization;
     };
     return e;
 }

@@ -16,13 +16,13 @@ SchemeEntry schrodinger_three_level() {
     e.minDegree = 0;
     e.maxDegree = 0;
     e.make = [](int) {
-        Discretization pair;
-        pair.space = {
+        Discretization discretization;
+        discretization.space = {
             "fourier",
             {{"degree", 1.0}, {"energy_shift", "mean"}, {"form", "three-level"}, {"start", "gauss"}},
             {}};
-        pair.quadrature = {"exact", {}, {}};
-        return pair;
+        discretization.quadrature = {"exact", {}, {}};
+        return discretization;
     };
     return e;
 }

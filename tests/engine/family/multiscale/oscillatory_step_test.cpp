@@ -97,7 +97,7 @@ private slots:
             const std::array<double, 4> x = {q[0], q[1], p[0], p[1]};
             double worst = 0;
             for (std::size_t i = 0; i < 4; ++i) worst = std::max(worst, std::abs(x[i] / known.x[i] - 1));
-            qInfo("%s k = %g, %d steps: relative difference %.1e, %.1f iterations a step", known.name,
+            qInfo("%s k = %g, %d steps: relative difference %.1e, %.1f iterations per step", known.name,
                   known.k, known.steps, worst, 1.0 * iterations / known.steps);
             QVERIFY(worst < 1e-10);
         }

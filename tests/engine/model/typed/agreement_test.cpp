@@ -14,16 +14,16 @@ namespace {
 struct Twins {
     QString name;
     System typed, builtIn;
-    Discretization pair;
+    Discretization discretization;
     double h;
     State start;  ///< of the regular motion
     double runTolerance;
 };
 
 Discretization newtonPair(int degree) {
-    Discretization pair = polynomialPair(degree, {"gauss", {}, {}});
-    pair.solver.type = "newton";
-    return pair;
+    Discretization discretization = polynomialPair(degree, {"gauss", {}, {}});
+    discretization.solver.type = "newton";
+    return discretization;
 }
 
 const std::vector<Twins>& twins() {
@@ -136,8 +136,8 @@ private slots:
     void stepsAgree_data() { addTwins(); }
     void stepsAgree() {
         const Twins& t = current();
-        const auto a = makeIntegrator(t.typed, t.pair, {0, t.h}),
-                   b = makeIntegrator(t.builtIn, t.pair, {0, t.h});
+        const auto a = makeIntegrator(t.typed, t.discretization, {0, t.h}),
+                   b = makeIntegrator(t.builtIn, t.discretization, {0, t.h});
         std::mt19937 random(7);
         double worst = 0;
         for (int i = 0; i < 10000; ++i) {
@@ -152,8 +152,8 @@ private slots:
     void longRunsAgree_data() { addTwins(); }
     void longRunsAgree() {
         const Twins& t = current();
-        const auto a = makeIntegrator(t.typed, t.pair, {0, t.h}),
-                   b = makeIntegrator(t.builtIn, t.pair, {0, t.h});
+        const auto a = makeIntegrator(t.typed, t.discretization, {0, t.h}),
+                   b = makeIntegrator(t.builtIn, t.discretization, {0, t.h});
         State x = t.start, y = t.start;
         double worst = 0;
         for (int i = 0; i < 10000; ++i) {

@@ -34,12 +34,12 @@ double mathieuError(const Hamiltonian& h, const std::array<double, 8>& a) {
     return worst;
 }
 
-/// Of the oscillator between walls at -10 and 10, with polynomials of degree N.
+/// Of the oscillator with psi = 0 at -10 and 10, with polynomials of degree N.
 double worstLevel(int N) {
     const wave::Grid interval{{-10, 20}, N - 1};
     const Eigenstates states(Hamiltonian(interval, 1, 1,
                                          wave::makePotential(Value("x^2/2"), "/potential", interval, units),
-                                         WaveBasis::walls));
+                                         WaveBasis::dirichlet));
     double worst = 0;
     for (std::size_t k = 0; k < 10; ++k)
         worst = std::max(worst, std::abs(states.energies()[k] - static_cast<double>(k) - 0.5));

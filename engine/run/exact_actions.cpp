@@ -1,4 +1,4 @@
-#include "engine/family/galerkin/exact_actions.hpp"
+#include "engine/run/exact_actions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -79,11 +79,12 @@ ExactActions::Entry ExactActions::at(int i) {
     return *entries_[index];
 }
 
-ActionDefect actionDefect(const System& system, const Discretization& pair, double startTime,
+ActionDefect actionDefect(const System& system, const Discretization& discretization, double startTime,
                           ExactActions& exact, const std::stop_token& stop) {
     constexpr int mostSteps = 20;
     ActionDefect result;
-    const DiscreteLagrangian<double> Ld(system.mechanics(), tableOf(pair.space, pair.quadrature));
+    const DiscreteLagrangian<double> Ld(system.mechanics(),
+                                        tableOf(discretization.space, discretization.quadrature));
     for (int i = 0; i < mostSteps && !stop.stop_requested(); ++i) {
         const ExactActions::Entry known = exact.at(i);
         if (!known.isKnown) continue;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/family/galerkin/exact_actions.hpp"
-#include "engine/family/galerkin/kkt_pattern.hpp"
+#include "engine/run/exact_actions.hpp"
+#include "engine/run/kkt_pattern.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
 
@@ -117,10 +117,10 @@ private slots:
     void defectsOfTheActionHaveTheOrderPlusOne() {
         // Measured 3.00, 5.00, 6.99, and 5.02 for six Clenshaw-Curtis nodes at degree 5.
         ExactActions exact(kepler_, keplerStart, 0.2);
-        for (const auto& [pair, order] : {std::pair{polynomialPair(1, {"midpoint", {}, {}}), 2},
-                                          std::pair{polynomialPair(2, {"gauss", {}, {}}), 4},
-                                          std::pair{polynomialPair(3, {"lobatto", {}, {}}), 6}}) {
-            const ActionDefect d = actionDefect(kepler_, pair, 0, exact, {});
+        for (const auto& [discretization, order] : {std::pair{polynomialPair(1, {"midpoint", {}, {}}), 2},
+                                                    std::pair{polynomialPair(2, {"gauss", {}, {}}), 4},
+                                                    std::pair{polynomialPair(3, {"lobatto", {}, {}}), 6}}) {
+            const ActionDefect d = actionDefect(kepler_, discretization, 0, exact, {});
             qInfo("order %d: slope %.3f over %d points", order, d.order, d.fitTo - d.fitFrom);
             QVERIFY(d.failure.empty());
             QVERIFY(std::abs(d.order - (order + 1)) <

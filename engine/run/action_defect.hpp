@@ -1,9 +1,10 @@
-/// How close the discrete Lagrangian of a pair comes to the exact one: |L_d - L_d^exact| against the step.
+/// How close the discrete Lagrangian of a discretization comes to the exact one: |L_d - L_d^exact| against
+/// the step.
 ///
 /// For each h of a geometric sequence, q_1 is where the exact motion from the start is after h; L_d^exact is
 /// the action of the resolved boundary-value solve between q_0 and q_1, L_d the stationary action of one
-/// element of the pair. A pair of order r has a defect O(h^(r+1)). Points below the round-off of the action
-/// itself end the sequence.
+/// element of the discretization. A discretization of order r has a defect O(h^(r+1)). Points below the
+/// round-off of the action itself end the sequence.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "engine/family/galerkin/kkt_pattern.hpp"
+#include "engine/run/kkt_pattern.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -59,14 +59,15 @@ void countSupports(const Table<double>& table, KktPattern& p) {
 
 }  // namespace
 
-KktPattern kktPattern(const System& system, const Discretization& pair, const State& start, double step) {
+KktPattern kktPattern(const System& system, const Discretization& discretization, const State& start,
+                      double step) {
     KktPattern p;
-    const Table<double> table = tableOf(pair.space, pair.quadrature);
+    const Table<double> table = tableOf(discretization.space, discretization.quadrature);
     const int d = system.dimension(), each = d * (table.space.size + 1);
     p.dimension = d;
     p.elements = std::clamp((largestSize - d) / each, 1, 4);
     // The motion of the scheme, element by element.
-    const auto integrator = makeIntegrator(system, pair, Clock{start.t, step});
+    const auto integrator = makeIntegrator(system, discretization, Clock{start.t, step});
     State state = start;
     Eigen::MatrixXd nodes(d, p.elements + 1);
     for (int k = 0;; ++k) {
@@ -79,7 +80,7 @@ KktPattern kktPattern(const System& system, const Discretization& pair, const St
     }
     const SaddlePoint problem(system.mechanics(), table, step, p.elements);
     const Eigen::VectorXd p0 = Eigen::Map<const Eigen::VectorXd>(start.x.data() + d, d);
-    const GluedElements motion = solveFrom(problem, start.t, nodes, p0);
+    const AssembledElements motion = solveFrom(problem, start.t, nodes, p0);
     Eigen::VectorXd gradient;
     Eigen::MatrixXd matrix;
     if (motion.outcome != Outcome::converged ||

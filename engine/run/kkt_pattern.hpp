@@ -1,5 +1,5 @@
-/// Which entries of the KKT matrix of a pair are not zero: the structure of its equations, for a few
-/// elements.
+/// Which entries of the KKT matrix of a discretization are not zero: the structure of its equations, for a
+/// few elements.
 ///
 /// The matrix is that of action/saddle_point.hpp, in the basis of the space and with all multipliers, at the
 /// motion that the scheme makes from a state: entries are zero or not for this system, in its coordinates. An
@@ -36,8 +36,9 @@ struct KktPattern {
     std::string failure;   ///< why there is nothing to show; empty if there is
 };
 
-/// Of a pair that has one table (table_of.hpp). Elements are as many as make a matrix of at most some hundred
-/// rows, 1 to 4.
-KktPattern kktPattern(const System& system, const Discretization& pair, const State& start, double step);
+/// Of a discretization that has one table (table_of.hpp). Elements are as many as make a matrix of at most
+/// some hundred rows, 1 to 4.
+KktPattern kktPattern(const System& system, const Discretization& discretization, const State& start,
+                      double step);
 
 }  // namespace extremal

@@ -1,9 +1,9 @@
-/// Exact actions from one state after a sequence of steps, and how far the discrete Lagrangian of a pair is
-/// from them.
+/// Exact actions from one state after a sequence of steps, and how far the discrete Lagrangian of a
+/// discretization is from them.
 ///
 /// Each action is that of a resolved boundary-value solve (solve/discrete_lagrangian.hpp) between the state's
 /// position and where the exact motion is after h. It is found when it is first asked for and shared by the
-/// pairs that are compared.
+/// discretizations that are compared.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "engine/family/galerkin/action_defect.hpp"
+#include "engine/run/action_defect.hpp"
 #include "engine/family/scheme.hpp"
 
 namespace extremal {
@@ -39,8 +39,8 @@ private:
     std::vector<std::unique_ptr<Entry>> entries_;
 };
 
-/// Over at most 20 steps; of a pair that has one table (table_of.hpp).
-ActionDefect actionDefect(const System& system, const Discretization& pair, double startTime,
+/// Over at most 20 steps; of a discretization that has one table (table_of.hpp).
+ActionDefect actionDefect(const System& system, const Discretization& discretization, double startTime,
                           ExactActions& exact, const std::stop_token& stop);
 
 }  // namespace extremal
