@@ -35,7 +35,7 @@ public:
         report.step = this->h();
         Vector q = typename Base::View(state.x.data(), this->d()),
                p = typename Base::View(state.x.data() + d, this->d());
-        bool isForceFresh = false;
+        bool isForceFresh = forceAt_ == q;  // else the cost would depend on where blocks begin
         for (std::size_t i = 0; i + 1 < count; ++i) {
             report.cost.evaluations = 0;
             for (const PartitionedStage& stage : stages_) {
@@ -58,6 +58,7 @@ public:
             std::copy_n(p.data(), d, state.x.data() + d);
             nodes.push(state, report);
         }
+        if (isForceFresh) forceAt_ = q;
         // The last one on the common path, which leaves the dense output behind.
         return Base::advanceBlock(state, nodes, 1, clock);
     }

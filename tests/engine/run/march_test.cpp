@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "engine/baseline/catalog.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/march.hpp"
 #include "engine/run/shared_solution.hpp"
+#include "engine/scene/codec.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::march_test {
@@ -204,6 +206,33 @@ private slots:
         const MarchSink sink{[](const Stretch& s) { return s.nodes.quantities(0).empty(); }};
         QVERIFY(!march(integrator, state, gridTo(30, 0.5), {&sink, 1}, {}).isEndedBySink);
         QCOMPARE(integrator.measured, 0);
+    }
+    void whatStepsCostDoesNotDependOnBlocks() {
+        const Clock clock{0, 0.01};
+        int tried = 0;
+        for (const BaselineEntry& entry : baselineCatalog()) {
+            const ReadScene read = readScene(std::string(R"({"extremal":1,"model":{"type":"kepler"},
+                "initial":{"q":[0.4,0],"p":[0,2]},"time":{"end":1},"schemes":[{"step":0.01,"baseline":")") +
+                                             entry.item.id + "\"}]}");
+            if (entry.isAdaptive || !read.resolved) continue;
+            const auto costIn = [&](std::size_t blockSize) {
+                State state = read.resolved->initial;
+                const auto integrator =
+                    read.resolved->schemes[0].make(*read.resolved->system, clock.step, state);
+                integrator->begin(state);
+                NodeBlock nodes(state.x.size(), blockSize);
+                Cost cost;
+                while (state.node < 64) {
+                    nodes.clear();
+                    (void)integrator->advanceBlock(state, nodes, blockSize, clock);
+                    for (std::size_t i = 0; i < nodes.size(); ++i) cost += nodes.report(i).cost;
+                }
+                return cost;
+            };
+            ++tried;
+            QVERIFY2(costIn(1) == costIn(16) && costIn(1) == costIn(64), entry.item.id.c_str());
+        }
+        QVERIFY(tried > 8);
     }
     void theOutcomeColumnSaysWhatHappened() {
         const System none;
