@@ -56,6 +56,53 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
     verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
 }
 
+/// `study KIND SCENE`, and `study merge DIR...`: one verb, whose first word decides.
+void addStudy(CLI::App& app, Arguments& arguments) {
+    StudyOptions& study = arguments.study;
+    CLI::App& verb =
+        addVerb(app, arguments, "study",
+                "measure convergence, cost or stability over many runs (extremal list studies)", false);
+    verb.add_option("KIND", study.kind, "a study, or merge to put shards together")
+        ->required()
+        ->type_name("");
+    verb.add_option("SCENE", study.folders, std::string(sceneHelp) + "; for merge the folders of the shards")
+        ->required()
+        ->type_name("");
+    verb.add_option("--out", study.out, "folder for the files, created if missing")
+        ->required()
+        ->type_name("DIR");
+    verb.add_option("--metric", study.metric,
+                    "error (default), energy, momentum, norm, phase, or an observable")
+        ->type_name("NAME");
+    verb.add_flag("--final", study.isFinal,
+                  "the metric at the last node; its maximum over the run by default");
+    verb.add_option("--steps", study.steps, "the steps to run with, separated by commas")
+        ->delimiter(',')
+        ->type_name("A,B,C");
+    verb.add_option("--from", study.from, "the largest step")->type_name("H");
+    verb.add_option("--to", study.to, "the smallest step")->type_name("H");
+    verb.add_option("--points", study.points, "steps from --from to --to in equal ratios; 12 by default")
+        ->type_name("N");
+    verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
+        ->type_name("R");
+    verb.add_option("--only", study.only, "the label of a scheme; repeatable")
+        ->type_name("LABEL")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("--shard", study.shard, "part I of N, to be merged later")->type_name("I/N");
+    verb.add_flag("--plot,!--no-plot", study.isPlotted, "draw KIND.svg and KIND.png as well (default)");
+    verb.add_flag("--resume", study.isResumed, "keep the points that the log in DIR has");
+    addCommon(verb, arguments.common);
+    verb.final_callback([&] {
+        if (study.kind == "merge")
+            arguments.verb = "study merge";
+        else if (study.folders.size() == 1)
+            arguments.scene = study.folders.front();
+        else
+            throw CLI::ExtrasError({study.folders.begin() + 1, study.folders.end()});
+    });
+}
+
 void addWisdom(CLI::App& app, Arguments& arguments) {
     CLI::App& verb =
         addVerb(app, arguments, "wisdom",
@@ -113,6 +160,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
                     "or presets")
         ->type_name("");
     addCommon(list, arguments.common);
+    addStudy(app, arguments);
     addWisdom(app, arguments);
     app.require_subcommand(0, 1);
     for (const auto& [label, word] :

@@ -13,6 +13,7 @@ struct Arguments {
     std::string scene, folder, kind;
     CommonOptions common;
     SnapshotOptions snapshot;
+    StudyOptions study;
     WisdomOptions wisdom;
 };
 

@@ -12,6 +12,7 @@
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/study/catalog.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/space/catalog.hpp"
 
@@ -89,7 +90,7 @@ std::vector<Kind> kinds() {
             {"baselines", itemsOf(baselineCatalog())},
             {"compositions", compositionCatalog()},
             {"observables", observableCatalog()},
-            {"studies", {}},
+            {"studies", studyCatalog()},
             {"views", viewCatalog()},
             {"profiles", {}},
             {"presets", presetItems()}};

@@ -28,11 +28,23 @@ struct WisdomOptions {
     std::vector<std::string> modes;  ///< "256" or "256x256"
 };
 
+struct StudyOptions {
+    std::string kind, out, metric = "error", shard;
+    bool isFinal = false, isResumed = false, isPlotted = true;
+    std::vector<double> steps;
+    double from = 0, to = 0;
+    int points = 0, repeat = 5;
+    std::vector<std::string> only;
+    std::vector<std::string> folders;  ///< of `study merge`
+};
+
 int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options);
 int checkVerb(const std::string& scene, const CommonOptions& options);
 int listVerb(const std::string& kind, const CommonOptions& options);
 int wisdomVerb(const WisdomOptions& wisdom, const CommonOptions& options);
 int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions& options);
+int studyVerb(const std::string& scene, const StudyOptions& study, const CommonOptions& options);
+int mergeVerb(const StudyOptions& study, const CommonOptions& options);
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options);
 
 }  // namespace extremal::app

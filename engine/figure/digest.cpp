@@ -52,7 +52,7 @@ std::string digest(const Figure& figure) {
     for (const Series& s : figure.series()) {
         text += "series " + std::to_string(s.style) + " " + seriesName(s) + ": " +
                 std::to_string(s.x.size()) + " points, " + std::to_string(s.hidden) + " hidden" +
-                (s.kind == SeriesKind::curve ? ", curve" : "") + (hasMarks(s.kind) ? ", markers" : "") +
+                (isParametric(s.kind) ? ", curve" : "") + (hasMarks(s.kind) ? ", markers" : "") +
                 (hasLine(s.kind) ? ", line" : "") + (s.kind == SeriesKind::cells ? ", cells" : "") +
                 (s.tone == Tone::pale ? ", pale" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) +
                 ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";

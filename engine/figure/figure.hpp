@@ -28,15 +28,19 @@ inline constexpr int formulaStyle = -1, exactStyle = -2;
 
 /// How the points of a series are drawn.
 enum class SeriesKind {
-    line,        ///< y over x, which is monotone
-    markedLine,  ///< with a dot at every value
-    curve,       ///< parametric: x is not monotone (phase portrait)
-    marks,       ///< dots alone
-    cells,       ///< a unit square around every point
+    line,         ///< y over x, which is monotone
+    markedLine,   ///< with a dot at every value
+    curve,        ///< parametric: x is not monotone (phase portrait)
+    markedCurve,  ///< parametric, with a dot at every value
+    marks,        ///< dots alone
+    cells,        ///< a unit square around every point
 };
 constexpr bool hasLine(SeriesKind kind) { return kind != SeriesKind::marks && kind != SeriesKind::cells; }
 constexpr bool hasMarks(SeriesKind kind) {
-    return kind == SeriesKind::markedLine || kind == SeriesKind::marks;
+    return kind == SeriesKind::markedLine || kind == SeriesKind::markedCurve || kind == SeriesKind::marks;
+}
+constexpr bool isParametric(SeriesKind kind) {
+    return kind == SeriesKind::curve || kind == SeriesKind::markedCurve;
 }
 
 /// Pale: of what has less weight than another layer of the same colour.

@@ -1,5 +1,5 @@
-/// The reference of a column of a map: computed once, at the nodes of every step of the grid, and then looked
-/// up by every scheme. An exact solution is asked directly.
+/// The reference of runs with several steps (a column of a map, a study): computed once, at the nodes of every
+/// step, and then looked up by every scheme. An exact solution is asked directly.
 ///
 /// A scheme as the reference runs once for every step h of the grid, with h/n, n the least that is not above
 /// its own step: its nodes are then those of the run. (Between its nodes a variational scheme is worse than
@@ -23,6 +23,8 @@ public:
 
     /// For a run with the step of this row; empty where there is no reference.
     ExactSolution at(std::size_t row) const;
+    /// Of the reference that is asked itself; that of a scheme's tables has none.
+    const ReferenceInfo& info() const { return reference_.info; }
     bool isKnown() const { return !tables_.empty() || reference_.make; }
 
 private:

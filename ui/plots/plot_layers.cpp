@@ -250,7 +250,7 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
         if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
         for (const QPolygonF& line :
-             visiblePolylines(series.x, series.y, map, series.kind == SeriesKind::curve, shared_.density))
+             visiblePolylines(series.x, series.y, map, isParametric(series.kind), shared_.density))
             drawPieces(painter, pen, line);
     }
     if (series.kind == SeriesKind::cells) drawCells(painter, map, series);

@@ -1,0 +1,20 @@
+/// The plots of studies: a line per scheme over a ladder of steps, as the figure that the window, snapshots
+/// and exports share.
+#pragma once
+
+#include "engine/figure/figure.hpp"
+#include "engine/study/sweep.hpp"
+
+namespace extremal {
+
+/// Errors against the step, with the order of each scheme in its label and guides of orders 2, 4, 6 and 8
+/// beside the curves. Adaptive schemes have no step and are left out.
+Figure convergenceFigure(const Sweep& sweep);
+
+/// Errors against the CPU time, with the Pareto front behind the curves.
+Figure workPrecisionFigure(const Sweep& sweep);
+
+/// The figure of a study by its id; empty where it has none.
+Figure studyFigure(std::string_view study, const Sweep& sweep);
+
+}  // namespace extremal

@@ -1,0 +1,68 @@
+#include "engine/study/catalog.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "engine/run/export.hpp"
+
+namespace extremal {
+
+const StudyEntry* findStudy(std::string_view id) {
+    const auto& all = studyEntries();
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const StudyEntry& e) { return e.item.id == id; });
+    return found == all.end() ? nullptr : &*found;
+}
+
+const std::vector<CatalogItem>& studyCatalog() {
+    static const std::vector<CatalogItem> items = [] {
+        std::vector<CatalogItem> all;
+        for (const StudyEntry& e : studyEntries()) all.push_back(e.item);
+        return all;
+    }();
+    return items;
+}
+
+std::string studyCsv(const StudyEntry& study, const Sweep& sweep) {
+    std::string text;
+    for (const std::string& column : study.columns) text += (text.empty() ? "" : ",") + column;
+    text += '\n';
+    for (const Value::Array& row : study.rows(sweep)) {
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            if (c > 0) text += ',';
+            if (row[c].isNumber()) text += formatNumber(row[c].asNumber());
+            if (row[c].isBool()) text += row[c].asBool() ? "true" : "false";
+            if (row[c].isString()) text += csvCell(row[c].asString());
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+Value studyRows(const StudyEntry& study, const Sweep& sweep) {
+    Value::Array all;
+    for (const Value::Array& row : study.rows(sweep)) {
+        Value object{Value::Object{}};
+        for (std::size_t c = 0; c < row.size(); ++c) object.set(study.columns[c], row[c]);
+        all.push_back(std::move(object));
+    }
+    return all;
+}
+
+std::vector<SchemeRows> bySchemes(const Sweep& sweep) {
+    std::vector<SchemeRows> all;
+    const std::vector<SweepRow>& rows = sweep.rows();
+    for (std::size_t first = 0; first < rows.size();) {
+        std::size_t last = first;
+        while (last < rows.size() && rows[last].point.scheme == rows[first].point.scheme) ++last;
+        all.push_back({rows[first].point.scheme, std::span(rows).subspan(first, last - first)});
+        first = last;
+    }
+    return all;
+}
+
+Value knownNumber(double value) { return std::isfinite(value) ? Value(value) : Value(nullptr); }
+Value knownText(std::string_view text) { return text.empty() ? Value(nullptr) : Value(std::string(text)); }
+
+}  // namespace extremal

@@ -1,0 +1,38 @@
+/// The order of a scheme as it is measured: the slope of log error over log step, over the steps where errors
+/// lie on a line.
+///
+/// The window of the fit is the longest run of neighbouring points that are done, above the floor (ten times
+/// the reference's own error, and the round-off of the run) and within a tenth of a decade of their common
+/// line; of equally long ones that with the smaller steps. Three points at least, and r2 at least 0.98, so
+/// that neither a plateau nor scatter has an order.
+#pragma once
+
+#include <limits>
+#include <span>
+
+#include "engine/study/sweep.hpp"
+
+namespace extremal {
+
+struct OrderFit {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    double order = unknown;
+    double r2 = unknown;                  ///< coefficient of determination of the line
+    double from = unknown, to = unknown;  ///< steps of the window, the larger one first
+    double errorAt(double step) const;    ///< of the line
+    double logConstant = unknown;         ///< log error = logConstant + order log step
+    bool isKnown() const { return order == order; }
+};
+
+/// Of one scheme: its rows of a sweep, from the largest step down. Errors at or below `floor`, or the
+/// round-off of a state of size `scale`, do not count.
+OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale);
+
+/// Ten times the reference's error; 0 where it is not known.
+double floorOf(const ReferenceInfo& reference);
+
+/// Largest error that round-off explains after so many steps, for a state of this size: worst case, for
+/// errors that grow, every step adds its own.
+double roundOffOf(double scale, long long steps);
+
+}  // namespace extremal

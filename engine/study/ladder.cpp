@@ -1,0 +1,77 @@
+#include "engine/study/ladder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr double fewestSteps = 4, mostSteps = 2e5;
+
+void requirePositive(double value, const char* option) {
+    if (!(std::isfinite(value) && value > 0))
+        throw InvalidScene(option, "must be positive and finite, got " + formatNumber(value));
+}
+
+std::vector<double> equalRatios(double from, double to, int count) {
+    std::vector<double> all;
+    for (int i = 0; i < count; ++i)
+        all.push_back(count == 1 ? from : from * std::pow(to / from, static_cast<double>(i) / (count - 1)));
+    return all;
+}
+
+std::vector<double> wanted(const LadderSpec& spec) {
+    for (const double step : spec.steps) requirePositive(step, "--steps");
+    if (!spec.steps.empty()) return spec.steps;
+    requirePositive(spec.from, "--from");
+    requirePositive(spec.to, "--to");
+    if (spec.points < 1 || spec.points > 1000)
+        throw InvalidScene("--points", "must be 1 to 1000, got " + std::to_string(spec.points));
+    return equalRatios(spec.from, spec.to, spec.points);
+}
+
+std::vector<double> tolerances() {
+    std::vector<double> all;
+    for (int digits = 3; digits <= 13; ++digits) all.push_back(std::pow(10.0, -digits));
+    return all;
+}
+
+bool hasStepOfItsSpace(const ResolvedScheme& scheme) {
+    if (!scheme.family || !scheme.family->impliedStep) return false;
+    const auto anyValue = [](std::string_view) { return std::optional(1.0); };
+    const auto implied = scheme.family->impliedStep(scheme.discretization.space, anyValue);
+    return implied && implied->isOfSpace;
+}
+
+}  // namespace
+
+std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,
+                             const ResolvedScheme& scheme) {
+    const bool isGiven = !spec.steps.empty() || spec.points > 0 || spec.from != 0 || spec.to != 0;
+    std::vector<double> all;
+    if (hasStepOfItsSpace(scheme)) {
+        all = {scheme.spec.step.value};
+    } else if (scheme.isAdaptive()) {
+        all = tolerances();
+    } else {
+        const double length = scene.scene.end.value - scene.scene.start.value;
+        const double own = scheme.spec.step.value;
+        const std::vector<double> steps = isGiven ? wanted(spec) : equalRatios(8 * own, own / 128, 11);
+        for (const double step : steps) {
+            const double n = std::max(1.0, std::round(length / step));
+            const bool isInside = n >= fewestSteps && n <= std::max(mostSteps, length / own * (1 + 1e-9));
+            if (isGiven || isInside) all.push_back(length / n);
+        }
+    }
+    std::sort(all.begin(), all.end(), std::greater<>());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+}  // namespace extremal

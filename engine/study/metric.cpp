@@ -1,0 +1,32 @@
+#include "engine/study/metric.hpp"
+
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+
+namespace extremal {
+namespace {
+
+std::string nameOf(const ObservableEntry& entry) {
+    return entry.item.id == "phase-error" ? "phase" : entry.item.id;
+}
+
+bool isMeasurable(const ObservableEntry& entry, const System& system, const State& start) {
+    return entry.bind && isObservableOf(entry, system) && entry.bind({system, start, {}}).extreme >= 0;
+}
+
+}  // namespace
+
+Metric metricOf(const std::string& name, bool isAtEnd, const System& system, const State& start) {
+    std::vector<std::string> names;
+    for (const ObservableEntry& entry : observableEntries()) {
+        if (!isMeasurable(entry, system, start)) continue;
+        if (nameOf(entry) == name) return {name, &entry, isAtEnd};
+        names.push_back(nameOf(entry));
+    }
+    throw InvalidScene("--metric", "\"" + name + "\" cannot be measured for " + system.id,
+                       "one of " + joinNames(names));
+}
+
+}  // namespace extremal

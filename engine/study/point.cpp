@@ -1,0 +1,150 @@
+#include "engine/study/point.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/run/march.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/two_positions.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr double shortest = 2e-3, longest = 2;  ///< seconds: of one measurement, of all of a point
+
+MarchGrid gridOf(const Scene& scene, double step) {
+    MarchGrid grid;
+    grid.clock = {scene.start.value, step};
+    if (step > 0) grid.steps = stepCount(scene.start.value, scene.end.value, step);
+    grid.end = scene.end.value;
+    grid.budget = std::max(grid.steps, static_cast<long long>(std::min(scene.maxSteps, 9e18)));
+    return grid;
+}
+
+/// Largest size over all nodes, or that of the last one, of the observer's extreme.
+class Measured {
+public:
+    Measured(Observer observer, bool isAtEnd) : observer_(std::move(observer)), isAtEnd_(isAtEnd) {}
+
+    void see(const NodeBlock& nodes) {
+        const std::size_t width = observer_.columns.size();
+        values_.resize(std::max(values_.size(), width * nodes.capacity()), PointResult::unknown);
+        observer_.evaluate(nodes, values_.data(), width);
+        const double* column = values_.data() + observer_.extreme;
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const double size = std::abs(column[i * width]);
+            if (isAtEnd_ || !(size <= value)) value = std::isnan(size) && !isAtEnd_ ? value : size;
+        }
+    }
+    bool readsQuantities() const { return observer_.readsQuantities; }
+
+    double value = PointResult::unknown;
+
+private:
+    Observer observer_;
+    bool isAtEnd_;
+    std::vector<double> values_;
+};
+
+class PointRun {
+public:
+    PointRun(const ResolvedScene& scene, const StudyPoint& point, const std::stop_token& stop)
+        : scene_(scene),
+          scheme_(schemeAt(scene, point)),
+          step_(point.step),
+          start_(schemeStart(scene, scheme_, step_)),
+          grid_(gridOf(scene.scene, step_)),
+          stop_(stop) {}
+
+    PointResult measure(const Metric& metric, ExactSolution reference) {
+        PointResult result;
+        const auto integrator = scheme_.make(*scene_.system, step_, start_);
+        const bool isKnown = !metric.observable->needsReference || reference;
+        Measured measured(metric.observable->bind({*scene_.system, start_, std::move(reference),
+                                                   scheme_.plain(), step_, integrator->quantities()}),
+                          metric.isAtEnd);
+        const auto see = [&](const Stretch& stretch) {
+            if (isKnown) measured.see(stretch.nodes);
+            return true;
+        };
+        const MarchSink sink{see, false, measured.readsQuantities()};
+        State state = start_;
+        const MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_);
+        result.error = measured.value;
+        result.steps = state.node;
+        result.cost = report.cost;
+        result.cpuSeconds = report.cpuSeconds;
+        result.cause = report.outcome;
+        if (report.outcome == Outcome::converged) {
+            result.status = RunStatus::done;
+        } else {
+            result.status = report.outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
+            result.failedAt = state.t;
+        }
+        return result;
+    }
+
+    /// `first`: what the measured run took, observers apart.
+    void time(int repeat, double first, PointResult& result) const {
+        const auto together =
+            static_cast<int>(std::clamp(std::ceil(shortest / std::max(first, 1e-7)), 1.0, 1e4));
+        std::vector<double> times;
+        double all = 0;
+        for (int i = 0; i < repeat && all < longest && !stop_.stop_requested(); ++i) {
+            double sum = 0;
+            for (int k = 0; k < together && !stop_.stop_requested(); ++k) {
+                const auto integrator = scheme_.make(*scene_.system, step_, start_);
+                State state = start_;
+                sum += march(*integrator, state, grid_, {}, stop_).cpuSeconds;
+            }
+            times.push_back(sum / together);
+            all += sum;
+        }
+        if (times.empty() || stop_.stop_requested()) return;
+        std::sort(times.begin(), times.end());
+        const std::size_t half = times.size() / 2;
+        result.cpuSeconds = times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2;
+        result.cpuSpread = (times.back() - times.front()) / 2;
+    }
+
+private:
+    static ResolvedScheme schemeAt(const ResolvedScene& scene, const StudyPoint& point) {
+        ResolvedScheme scheme = scene.schemes[point.scheme];
+        if (point.step > 0)
+            scheme.spec.step = {point.step, {}};
+        else
+            scheme.spec.tolerance = point.tolerance;
+        return scheme;
+    }
+
+    const ResolvedScene& scene_;
+    ResolvedScheme scheme_;
+    double step_;
+    State start_;
+    MarchGrid grid_;
+    std::stop_token stop_;
+};
+
+}  // namespace
+
+PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const Metric& metric,
+                     ExactSolution reference, int repeat, const std::stop_token& stop) {
+    PointResult result;
+    try {
+        PointRun run(scene, point, stop);
+        result = run.measure(metric, std::move(reference));
+        if (result.isDone() && repeat > 0) run.time(repeat, result.cpuSeconds, result);
+    } catch (const InvalidScene& e) {
+        result.status = RunStatus::failed;
+        result.cause = Outcome::refused;
+        result.failedAt = scene.initial.t;
+        result.reason = e.problems().front().message;
+    }
+    if (stop.stop_requested()) result.status = RunStatus::partial;
+    return result;
+}
+
+}  // namespace extremal

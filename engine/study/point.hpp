@@ -1,0 +1,49 @@
+/// One point of a study: a scheme of the scene with one step (or tolerance), run once for its errors and then
+/// again, without observers, for its cost.
+///
+/// cpuSeconds is the thread's CPU time of the steps alone, the median of the repeated runs; what is prepared
+/// once (tables, poles, plans) is not in it. Runs shorter than 2 ms are repeated within one measurement, and
+/// no point is timed for much longer than 2 s: slow points have fewer repetitions. Everything but the times
+/// is the same for any order and any number of threads.
+#pragma once
+
+#include <limits>
+#include <stop_token>
+#include <string>
+
+#include "engine/core/outcome.hpp"
+#include "engine/model/exact_solution.hpp"
+#include "engine/run/comparison.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/study/metric.hpp"
+
+namespace extremal {
+
+struct StudyPoint {
+    std::size_t scheme = 0;  ///< index in the scene
+    double step = 0;         ///< 0 for adaptive schemes
+    double tolerance = 0;    ///< 0 for those with steps
+    std::size_t row = 0;     ///< of the reference: which of the study's steps
+};
+
+struct PointResult {
+    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    RunStatus status = RunStatus::waiting;
+    Outcome cause = Outcome::converged;
+    double failedAt = unknown;
+    double error = unknown;  ///< the metric; of a failed run up to its last node
+    long long steps = 0;
+    Cost cost = {};
+    double cpuSeconds = unknown;  ///< median
+    double cpuSpread = unknown;   ///< half the distance between the fastest and the slowest repetition
+    std::string reason;           ///< of a refused point, in words; not exported
+
+    bool isDone() const { return status == RunStatus::done; }
+};
+
+/// Runs it. `reference`: empty where the metric needs none or there is none. `repeat`: timed runs, 0 for
+/// none. Status `partial` where it was stopped.
+PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const Metric& metric,
+                     ExactSolution reference, int repeat, const std::stop_token& stop);
+
+}  // namespace extremal

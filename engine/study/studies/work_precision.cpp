@@ -1,0 +1,66 @@
+/// What accuracy costs: work-precision.csv.
+#include <algorithm>
+
+#include "engine/study/catalog.hpp"
+#include "engine/study/pareto.hpp"
+
+namespace extremal::studies {
+namespace {
+
+std::vector<Value::Array> rowsOf(const Sweep& sweep) {
+    std::vector<Value::Array> all;
+    const std::vector<SweepRow>& rows = sweep.rows();
+    const std::vector<bool> front = paretoFront(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto& [point, result] = rows[i];
+        if (result.status == RunStatus::waiting) continue;
+        all.push_back({sweep.scene().scene.schemes[point.scheme].label,
+                       point.step > 0 ? Value(point.step) : Value(nullptr),
+                       point.tolerance > 0 ? Value(point.tolerance) : Value(nullptr),
+                       knownNumber(result.error), knownNumber(result.cpuSeconds),
+                       knownNumber(result.cpuSpread), static_cast<double>(result.cost.evaluations),
+                       static_cast<double>(result.cost.linearSolves), name(result.status),
+                       knownText(name(result.cause)), front[i]});
+    }
+    return all;
+}
+
+/// What is worth its cost, the cheapest first.
+std::vector<Value::Array> summaryOf(const Sweep& sweep) {
+    const std::vector<SweepRow>& rows = sweep.rows();
+    const std::vector<bool> front = paretoFront(rows);
+    std::vector<const SweepRow*> best;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (front[i]) best.push_back(&rows[i]);
+    std::sort(best.begin(), best.end(), [](const SweepRow* a, const SweepRow* b) {
+        return a->result.cpuSeconds < b->result.cpuSeconds;
+    });
+    std::vector<Value::Array> all;
+    for (const SweepRow* row : best)
+        all.push_back({sweep.scene().scene.schemes[row->point.scheme].label,
+                       row->point.step > 0 ? Value(row->point.step) : Value(nullptr),
+                       row->point.tolerance > 0 ? Value(row->point.tolerance) : Value(nullptr),
+                       knownNumber(row->result.error), knownNumber(row->result.cpuSeconds),
+                       static_cast<double>(row->result.cost.evaluations)});
+    return all;
+}
+
+}  // namespace
+
+StudyEntry work_precision() {
+    StudyEntry e;
+    e.item = {"work-precision",
+              "Work and precision",
+              "Errors against CPU time and evaluations over a ladder of steps, with the Pareto front.",
+              {},
+              {},
+              ""};
+    e.columns = {"label",       "step",          "tolerance", "error", "cpu_seconds", "cpu_spread",
+                 "evaluations", "linear_solves", "status",    "cause", "pareto"};
+    e.rows = rowsOf;
+    e.summaryColumns = {"worth its cost", "step", "tolerance", "error", "cpu seconds", "evaluations"};
+    e.summary = summaryOf;
+    return e;
+}
+
+}  // namespace extremal::studies

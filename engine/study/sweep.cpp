@@ -1,0 +1,122 @@
+#include "engine/study/sweep.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/run/map_reference.hpp"
+
+namespace extremal {
+
+struct Sweep::Counters {
+    std::atomic<std::size_t> done{0}, wanted{0};
+};
+
+namespace {
+
+std::vector<std::size_t> schemesOf(const Scene& scene, const std::vector<std::string>& only) {
+    std::vector<std::string> labels;
+    for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
+    for (const std::string& label : only)
+        if (std::find(labels.begin(), labels.end(), label) == labels.end())
+            throw InvalidScene("--only", "no scheme is called \"" + label + "\"", suggestName(label, labels));
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        if (only.empty() ? scene.schemes[i].isEnabled
+                         : std::find(only.begin(), only.end(), labels[i]) != only.end())
+            chosen.push_back(i);
+    if (chosen.empty()) throw InvalidScene("/schemes", "no scheme is enabled", "enable one, or use --only");
+    return chosen;
+}
+
+}  // namespace
+
+Sweep::Sweep(ResolvedScene scene, SweepOptions options)
+    : scene_(std::move(scene)),
+      options_(std::move(options)),
+      metric_(metricOf(options_.metric, options_.isAtEnd, *scene_.system, scene_.initial)),
+      counters_(std::make_shared<Counters>()) {
+    const auto [index, count] = options_.shard;
+    if (count < 1 || index < 1 || index > count)
+        throw InvalidScene("--shard", "must be I/N with I from 1 to N, got " + std::to_string(index) + "/" +
+                                          std::to_string(count));
+    if (options_.repeat < 0 || options_.repeat > 1000)
+        throw InvalidScene("--repeat", "must be 0 to 1000, got " + std::to_string(options_.repeat));
+    if (metric_.observable->needsReference && scene_.scene.reference.kind == ReferenceSpec::Kind::none)
+        throw InvalidScene("/reference", "errors need a reference, and the scene has none",
+                           "\"auto\", or --metric energy");
+    for (const std::size_t i : schemesOf(scene_.scene, options_.only))
+        for (const double value : ladderOf(options_.ladder, scene_, scene_.schemes[i])) {
+            StudyPoint point;
+            point.scheme = i;
+            if (scene_.schemes[i].isAdaptive()) {
+                point.tolerance = value;
+                point.row = std::numeric_limits<std::size_t>::max();  // no table has its nodes
+            } else {
+                point.step = value;
+                const auto known = std::find(steps_.begin(), steps_.end(), value);
+                point.row = static_cast<std::size_t>(known - steps_.begin());
+                if (known == steps_.end()) steps_.push_back(value);
+            }
+            rows_.push_back({point, {}});
+        }
+}
+
+bool Sweep::isComplete() const {
+    return std::all_of(rows_.begin(), rows_.end(), [](const SweepRow& row) {
+        return row.result.status == RunStatus::done || row.result.status == RunStatus::failed;
+    });
+}
+
+void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
+                const std::function<void(std::size_t, const PointResult&)>& onPoint,
+                const std::stop_token& stop) {
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+        if (belongsHere(i) && rows_[i].result.status == RunStatus::waiting) wanted.push_back(i);
+    counters_->wanted = wanted.size();
+    if (wanted.empty()) return;
+    MapReference reference;
+    Reference scheme;  // what adaptive runs, whose nodes no table has, are compared with
+    if (metric_.observable->needsReference) {
+        reference = MapReference(scene_, steps_, stop);
+        if (scene_.scene.reference.kind == ReferenceSpec::Kind::scheme) scheme = makeReference(scene_, stop);
+        reference_ = scheme.make ? scheme.info : reference.info();
+        if (stop.stop_requested()) return;
+        if (onReference) onReference(reference_);
+    }
+    const auto referenceOf = [&](const StudyPoint& point) {
+        return point.step == 0 && scheme.make ? scheme.make() : reference.at(point.row);
+    };
+    std::mutex mutex;
+    std::atomic<std::size_t> next{0};
+    const auto takeTasks = [&] {
+        for (std::size_t k = next++; k < wanted.size() && !stop.stop_requested(); k = next++) {
+            const std::size_t i = wanted[k];
+            const StudyPoint& point = rows_[i].point;
+            PointResult result = runPoint(scene_, point, metric_, referenceOf(point), options_.repeat, stop);
+            if (result.status == RunStatus::partial) continue;
+            const std::lock_guard lock(mutex);
+            rows_[i].result = std::move(result);
+            if (onPoint) onPoint(i, rows_[i].result);
+            ++counters_->done;
+        }
+    };
+    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+    const auto threads =
+        std::min<std::size_t>(options_.threads > 0 ? options_.threads : cores, wanted.size());
+    std::vector<std::jthread> pool;
+    for (std::size_t i = 1; i < threads; ++i) pool.emplace_back(takeTasks);
+    takeTasks();
+}
+
+double Sweep::fraction() const {
+    const std::size_t wanted = counters_->wanted;
+    return wanted > 0 ? static_cast<double>(counters_->done) / static_cast<double>(wanted) : 0;
+}
+
+}  // namespace extremal
