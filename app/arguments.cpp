@@ -83,6 +83,7 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.add_option("--to", study.to, "the smallest step")->type_name("H");
     verb.add_option("--points", study.points, "steps from --from to --to in equal ratios; 12 by default")
         ->type_name("N");
+    verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
     verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
         ->type_name("R");
     verb.add_option("--only", study.only, "the label of a scheme; repeatable")

@@ -51,8 +51,13 @@ Shard parseShard(const std::string& text) {
     return {static_cast<int>(*index), static_cast<int>(*count)};
 }
 
-SweepOptions optionsOf(const StudyOptions& study, const CommonOptions& common) {
+SweepOptions optionsOf(const StudyEntry& entry, const StudyOptions& study, const CommonOptions& common) {
     SweepOptions options;
+    if (entry.needsWantedError && study.error == 0)
+        throw InvalidScene("--error", "is required for " + entry.item.id, "for example --error 1e-6");
+    if (!entry.needsWantedError && study.error != 0)
+        throw InvalidScene("--error", "is not an option of " + entry.item.id, "study cheapest has it");
+    options.wantedError = study.error;
     options.metric = study.metric;
     options.isAtEnd = study.isFinal;
     options.ladder = {study.steps, study.from, study.to, study.points};
@@ -70,14 +75,14 @@ SweepOptions optionsOf(const StudyOptions& study, const CommonOptions& common) {
 void writeResults(const StudyEntry& study, const Sweep& sweep, const std::filesystem::path& folder,
                   bool isPlotted) {
     writeFile(folder / (study.item.id + ".csv"), studyCsv(study, sweep));
-    if (!isPlotted) return;
+    const Figure figure = studyFigure(study.item.id, sweep);
+    if (!isPlotted || figure.view.empty()) return;
     qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
     qputenv("QT_QPA_PLATFORM", "offscreen");
     int argc = 1;
     char program[] = "extremal";
     char* argv[] = {program, nullptr};
     const QApplication application(argc, argv);
-    const Figure figure = studyFigure(study.item.id, sweep);
     for (const char* ending : {".svg", ".png"}) {
         const std::filesystem::path file = folder / (study.item.id + ending);
         const QString problem =
@@ -109,9 +114,28 @@ std::string tableOf(const StudyEntry& study, const Sweep& sweep) {
     return table.text();
 }
 
+/// Which scheme came nearest to an error that none reaches.
+void printUnreached(const StudyEntry& study, const Sweep& sweep) {
+    const Value rows = studyRows(study, sweep);
+    if (rows.asArray().empty()) return;
+    const Value& nearest = rows.asArray().front();
+    const Value* error = nearest.find("error");
+    const std::string what =
+        error->isNumber() ? nearest.find("label")->asString() + ", " + formatNumber(error->asNumber(), 3)
+                          : "no scheme ran to the end";
+    printProblem("--error", "no scheme reaches " + formatNumber(sweep.options().wantedError, 3),
+                 "the nearest: " + what);
+}
+
 int report(const StudyEntry& study, const Sweep& sweep, const std::string& folder, bool isInterrupted,
            const CommonOptions& options) {
-    const int code = isInterrupted ? interrupted : done;
+    int code = isInterrupted ? interrupted : done;
+    const bool isReached = std::any_of(sweep.rows().begin(), sweep.rows().end(),
+                                       [](const SweepRow& row) { return row.result.isDone(); });
+    if (study.needsWantedError && !isReached && !isInterrupted) {
+        code = failed;
+        printUnreached(study, sweep);
+    }
     if (options.isJson) {
         Value document;
         document.set("study", study.item.id);
@@ -197,7 +221,7 @@ int studyVerb(const std::string& scene, const StudyOptions& options, const Commo
         const StudyEntry& study = knownStudy(options.kind);
         const ReadScene read = loadScene(scene, common.overrides);
         if (!reportScene(scene, read, common)) return static_cast<int>(unusable);
-        Sweep sweep(*read.resolved, optionsOf(options, common));
+        Sweep sweep(*read.resolved, optionsOf(study, options, common));
         InterruptWatch watch;
         prepareFolder(options.out);
         writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));

@@ -32,7 +32,7 @@ struct StudyOptions {
     std::string kind, out, metric = "error", shard;
     bool isFinal = false, isResumed = false, isPlotted = true;
     std::vector<double> steps;
-    double from = 0, to = 0;
+    double from = 0, to = 0, error = 0;
     int points = 0, repeat = 5;
     std::vector<std::string> only;
     std::vector<std::string> folders;  ///< of `study merge`

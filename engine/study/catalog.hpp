@@ -19,6 +19,8 @@ struct StudyEntry {
     /// What a terminal shows: its titles, and fewer rows.
     std::vector<std::string> summaryColumns;
     std::vector<Value::Array> (*summary)(const Sweep&) = nullptr;
+    /// Whether it searches for an error (SweepOptions::wantedError) in place of sweeping over steps.
+    bool needsWantedError = false;
 };
 
 const std::vector<StudyEntry>& studyEntries();

@@ -76,6 +76,8 @@ public:
         result.error = measured.value;
         result.steps = state.node;
         result.cost = report.cost;
+        result.step = step_;
+        result.tolerance = scheme_.isAdaptive() ? scheme_.spec.tolerance.value_or(0) : 0;
         result.cpuSeconds = report.cpuSeconds;
         result.cause = report.outcome;
         if (report.outcome == Outcome::converged) {

@@ -31,7 +31,8 @@ struct PointResult {
     RunStatus status = RunStatus::waiting;
     Outcome cause = Outcome::converged;
     double failedAt = unknown;
-    double error = unknown;  ///< the metric; of a failed run up to its last node
+    double error = unknown;          ///< the metric; of a failed run up to its last node
+    double step = 0, tolerance = 0;  ///< where it was measured: of the point, or what a search found
     long long steps = 0;
     Cost cost = {};
     double cpuSeconds = unknown;  ///< median

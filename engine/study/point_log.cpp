@@ -77,12 +77,12 @@ std::string pointLine(std::size_t index, const PointResult& r) {
     for (const long long value :
          {r.steps, r.cost.iterations, r.cost.evaluations, r.cost.linearSolves, r.cost.rejected})
         line += ',' + std::to_string(value);
-    for (const double value : {r.cpuSeconds, r.cpuSpread}) line += ',' + cell(value);
+    for (const double value : {r.cpuSeconds, r.cpuSpread, r.step, r.tolerance}) line += ',' + cell(value);
     return line;
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 13) return {};
+    if (cells.size() != 15) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     for (int k = 0; k <= static_cast<int>(Outcome::stopped); ++k)
@@ -93,6 +93,8 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.cost = {count(cells[7]), count(cells[8]), count(cells[9]), count(cells[10])};
     r.cpuSeconds = number(cells[11]);
     r.cpuSpread = number(cells[12]);
+    r.step = number(cells[13]);
+    r.tolerance = number(cells[14]);
     return r;
 }
 
@@ -118,6 +120,7 @@ Value optionsValue(const SweepOptions& options) {
     value.set("points", options.ladder.points);
     value.set("repeat", options.repeat);
     value.set("only", texts(options.only));
+    value.set("error", options.wantedError);
     return value;
 }
 
@@ -131,6 +134,7 @@ SweepOptions optionsOf(const Value& value) {
     options.ladder.points = static_cast<int>(value.find("points")->asNumber());
     options.repeat = static_cast<int>(value.find("repeat")->asNumber());
     for (const Value& label : value.find("only")->asArray()) options.only.push_back(label.asString());
+    options.wantedError = value.find("error")->asNumber();
     return options;
 }
 

@@ -3,7 +3,7 @@
 ///
 ///     {"extremal": 1, "study": "convergence", "options": {..}, "scene": "<fingerprint>"} checksum
 ///     point,<index>,<status>,<cause>,<failed_at>,<error>,<steps>,<iterations>,<evaluations>,<linear solves>,
-///           <rejected>,<cpu_seconds>,<cpu_spread> checksum
+///           <rejected>,<cpu_seconds>,<cpu_spread>,<step>,<tolerance> checksum
 ///     reference,<type>,<estimated_error> checksum
 ///
 /// Every line ends in the CRC-32 of what stands before it; a line whose checksum is wrong, such as the last

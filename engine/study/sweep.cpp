@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -9,6 +10,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/map_reference.hpp"
+#include "engine/study/search.hpp"
 
 namespace extremal {
 
@@ -49,18 +51,23 @@ Sweep::Sweep(ResolvedScene scene, SweepOptions options)
     if (metric_.observable->needsReference && scene_.scene.reference.kind == ReferenceSpec::Kind::none)
         throw InvalidScene("/reference", "errors need a reference, and the scene has none",
                            "\"auto\", or --metric energy");
+    const bool isSearch = options_.wantedError != 0;
+    if (isSearch && !(std::isfinite(options_.wantedError) && options_.wantedError > 0))
+        throw InvalidScene("--error",
+                           "must be positive and finite, got " + formatNumber(options_.wantedError));
     for (const std::size_t i : schemesOf(scene_.scene, options_.only))
-        for (const double value : ladderOf(options_.ladder, scene_, scene_.schemes[i])) {
+        for (const double value : isSearch ? std::vector{scene_.schemes[i].spec.step.value}
+                                           : ladderOf(options_.ladder, scene_, scene_.schemes[i])) {
             StudyPoint point;
             point.scheme = i;
             if (scene_.schemes[i].isAdaptive()) {
-                point.tolerance = value;
+                point.tolerance = isSearch ? scene_.schemes[i].spec.tolerance.value_or(1e-6) : value;
                 point.row = std::numeric_limits<std::size_t>::max();  // no table has its nodes
             } else {
                 point.step = value;
-                const auto known = std::find(steps_.begin(), steps_.end(), value);
+                const auto known = isSearch ? steps_.end() : std::find(steps_.begin(), steps_.end(), value);
                 point.row = static_cast<std::size_t>(known - steps_.begin());
-                if (known == steps_.end()) steps_.push_back(value);
+                if (!isSearch && known == steps_.end()) steps_.push_back(value);
             }
             rows_.push_back({point, {}});
         }
@@ -98,7 +105,12 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         for (std::size_t k = next++; k < wanted.size() && !stop.stop_requested(); k = next++) {
             const std::size_t i = wanted[k];
             const StudyPoint& point = rows_[i].point;
-            PointResult result = runPoint(scene_, point, metric_, referenceOf(point), options_.repeat, stop);
+            const auto run = [&](const StudyPoint& at, int repeat) {
+                return runPoint(scene_, at, metric_, referenceOf(at), repeat, stop);
+            };
+            PointResult result = options_.wantedError > 0
+                                     ? searchPoint(scene_, point, options_.wantedError, options_.repeat, run)
+                                     : run(point, options_.repeat);
             if (result.status == RunStatus::partial) continue;
             const std::lock_guard lock(mutex);
             rows_[i].result = std::move(result);

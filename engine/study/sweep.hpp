@@ -36,6 +36,9 @@ struct SweepOptions {
     int repeat = 5;                      ///< timed runs of a point; 0: costs in calls alone
     std::vector<std::string> only = {};  ///< labels of schemes; empty: all that are enabled
     Shard shard = {};
+    /// Above 0: each scheme is one point, the largest step (or tolerance) found with an error of at most
+    /// this.
+    double wantedError = 0;
     unsigned threads = 0;  ///< 0: as many as the machine has cores
 };
 

@@ -91,6 +91,24 @@ private slots:
         QVERIFY(error({"merge", dir.path()}).contains("has no log"));
         QVERIFY(!QDir(dir.filePath("out")).exists());  // nothing is half done
     }
+    void theCheapestReachesTheError() {
+        const QTemporaryDir dir;
+        const Answer a = study({"cheapest", "-", "--error", "1e-4", "--json", "--out", dir.filePath("out")});
+        QCOMPARE(a.code, 0);
+        const QJsonArray rows = QJsonDocument::fromJson(a.out.toUtf8()).object()["rows"].toArray();
+        QCOMPARE(rows.size(), 2);
+        for (int i = 0; i < 2; ++i) {
+            QCOMPARE(rows[i].toObject()["rank"].toInt(), i + 1);
+            QVERIFY(rows[i].toObject()["error"].toDouble() <= 1e-4);
+        }
+        QVERIFY(rows[0].toObject()["cpu_seconds"].toDouble() <= rows[1].toObject()["cpu_seconds"].toDouble());
+        const Answer never = study({"cheapest", "-", "--error", "1e-30", "--only", "Galerkin 4", "--repeat",
+                                    "0", "--quiet", "--out", dir.filePath("never")});
+        QCOMPARE(never.code, 1);
+        QVERIFY2(never.err.startsWith("extremal: --error: no scheme reaches 1e-30 (the nearest: Galerkin 4"),
+                 qPrintable(never.err));
+        QCOMPARE(study({"cheapest", "-", "--out", dir.filePath("none")}).code, 2);
+    }
     void shardsMergeIntoTheWhole() {
         const QTemporaryDir dir;
         const auto run = [&](const QString& out, const QStringList& more) {

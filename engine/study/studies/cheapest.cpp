@@ -1,0 +1,104 @@
+/// Which scheme is cheapest for a wanted error: cheapest.csv.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "engine/scene/cost.hpp"
+#include "engine/study/catalog.hpp"
+
+namespace extremal::studies {
+namespace {
+
+/// The rows by their CPU time, those that do not reach the error last.
+std::vector<const SweepRow*> ranked(const Sweep& sweep) {
+    std::vector<const SweepRow*> all;
+    for (const SweepRow& row : sweep.rows())
+        if (row.result.status != RunStatus::waiting) all.push_back(&row);
+    const auto cost = [](const SweepRow& row) {
+        return std::isfinite(row.result.cpuSeconds) ? row.result.cpuSeconds : HUGE_VAL;
+    };
+    std::stable_sort(all.begin(), all.end(), [&](const SweepRow* a, const SweepRow* b) {
+        if (a->result.isDone() != b->result.isDone()) return a->result.isDone();
+        return a->result.isDone() ? cost(*a) < cost(*b) : a->result.error < b->result.error;
+    });
+    return all;
+}
+
+ResolvedScheme schemeAt(const Sweep& sweep, const SweepRow& row) {
+    ResolvedScheme scheme = sweep.scene().schemes[row.point.scheme];
+    if (row.result.step > 0) scheme.spec.step = {row.result.step, {}};
+    if (row.result.tolerance > 0) scheme.spec.tolerance = row.result.tolerance;
+    return scheme;
+}
+
+/// What the wanted error needs of the scheme.
+std::string keptOf(const SweepRow& row) {
+    const PointResult& r = row.result;
+    if (!r.isDone()) return "";
+    return std::to_string(r.steps) + " steps" +
+           (r.tolerance > 0 ? ", tolerance " + formatNumber(r.tolerance, 3) : "");
+}
+
+/// What of the scene it does without: steps, and observables that the metric does not need.
+std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
+    if (!row.result.isDone()) return "";
+    std::vector<std::string> all;
+    const double own = sweep.scene().schemes[row.point.scheme].spec.step.value;
+    if (row.result.step > own * 1.01) {
+        const double length = sweep.scene().scene.end.value - sweep.scene().scene.start.value;
+        const long long before = std::llround(length / own);
+        all.push_back(std::to_string(before - row.result.steps) + " of " + std::to_string(before) + " steps");
+    }
+    for (const std::string& id : sweep.scene().scene.observe)
+        if (id != sweep.metric().observable->item.id) all.push_back("observable " + id);
+    std::string text;
+    for (const std::string& each : all) text += (text.empty() ? "" : "; ") + each;
+    return text;
+}
+
+std::vector<Value::Array> rowsOf(const Sweep& sweep) {
+    std::vector<Value::Array> all;
+    int rank = 0;
+    for (const SweepRow* row : ranked(sweep)) {
+        const PointResult& r = row->result;
+        const ResolvedScheme scheme = schemeAt(sweep, *row);
+        const double predicted = r.isDone() ? predictSeconds(sweep.scene(), scheme) : 0;
+        all.push_back({r.isDone() ? Value(++rank) : Value(nullptr), scheme.spec.label,
+                       r.step > 0 ? Value(r.step) : Value(nullptr),
+                       predicted > 0 ? Value(predicted) : Value(nullptr), knownNumber(r.cpuSeconds),
+                       static_cast<double>(r.cost.evaluations), knownNumber(r.error), keptOf(*row),
+                       leftOutOf(sweep, *row), r.tolerance > 0 ? Value(r.tolerance) : Value(nullptr),
+                       name(r.status)});
+    }
+    return all;
+}
+
+std::vector<Value::Array> summaryOf(const Sweep& sweep) {
+    std::vector<Value::Array> all = rowsOf(sweep);
+    for (Value::Array& row : all) row.erase(row.begin() + 7, row.begin() + 9);
+    return all;
+}
+
+}  // namespace
+
+StudyEntry cheapest() {
+    StudyEntry e;
+    e.item = {"cheapest",
+              "The cheapest scheme",
+              "For a wanted error (--error), the largest step of every scheme that reaches it, ranked by CPU "
+              "time.",
+              {},
+              {},
+              ""};
+    e.columns = {"rank",        "label",       "step",  "predicted_cpu_seconds",
+                 "cpu_seconds", "evaluations", "error", "kept",
+                 "left_out",    "tolerance",   "status"};
+    e.rows = rowsOf;
+    e.summaryColumns = {"rank",        "scheme", "step",      "predicted cpu", "cpu seconds",
+                        "evaluations", "error",  "tolerance", "status"};
+    e.summary = summaryOf;
+    e.needsWantedError = true;
+    return e;
+}
+
+}  // namespace extremal::studies
