@@ -81,6 +81,41 @@ Series startSeries(const SchemeResult& scheme) {
 
 }  // namespace
 
+namespace {
+
+/// A share of the samples, away from gaps and from what is small beside the range of all, at which the path
+/// turns sharply: by more than 60 degrees on a curve, back on a line.
+double sharpTurns(std::span<const double> x, std::span<const double> y, bool isCurve) {
+    const auto rangeOf = [](std::span<const double> values) {
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const double v : values)
+            if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+        return high > low ? high - low : 1;
+    };
+    constexpr double least = 0.02;
+    const double xScale = isCurve ? 1 / rangeOf(x) : 0, yScale = 1 / rangeOf(y);
+    int sharp = 0;
+    for (std::size_t i = 2; i < x.size(); ++i) {
+        const double ax = (x[i - 1] - x[i - 2]) * xScale, ay = (y[i - 1] - y[i - 2]) * yScale,
+                     bx = (x[i] - x[i - 1]) * xScale, by = (y[i] - y[i - 1]) * yScale;
+        const double a = std::hypot(ax, ay), b = std::hypot(bx, by);
+        if (a > least && b > least && ax * bx + ay * by < 0.5 * a * b) ++sharp;
+    }
+    return x.size() > 2 ? sharp / static_cast<double>(x.size() - 2) : 0;
+}
+
+/// Rows that are several steps apart, so far that lines between them would be chords across the motion.
+bool isSparse(const Trajectory& trajectory, const Series& series) {
+    constexpr std::size_t few = 20;
+    const std::vector<double>& nodes = trajectory.nodes;
+    if (nodes.size() != series.x.size() || nodes.size() < few) return false;
+    const double apart = (nodes.back() - nodes.front()) / static_cast<double>(nodes.size() - 1);
+    const bool isCurve = series.kind == SeriesKind::curve;
+    return apart > 1.5 && sharpTurns(series.x, series.y, isCurve) > (isCurve ? 0.05 : 0.25);
+}
+
+}  // namespace
+
 void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take) {
     for (const auto& scheme : context.comparison.schemes) {
         const std::span<const double> t = scheme->trajectory["t"], y = scheme->trajectory[column];
@@ -90,6 +125,7 @@ void addAgainstTime(Figure& figure, const FigureContext& context, std::string_vi
         s.y.assign(y.begin(), y.end());
         if (take == Take::magnitude)
             for (double& v : s.y) v = std::abs(v);
+        s.isSparse = isSparse(scheme->trajectory, s);
         figure.add(std::move(s));
     }
 }
@@ -110,6 +146,7 @@ void addCurves(Figure& figure, const FigureContext& context, std::string_view xC
             s.t.assign(t.begin(), t.end());
         s.x.assign(x.begin(), x.end());
         s.y.assign(y.begin(), y.end());
+        s.isSparse = isSparse(from, s);
         figure.add(std::move(s));
     }
 }

@@ -55,7 +55,10 @@ struct Series {
     SeriesKind kind = SeriesKind::line;
     std::vector<double> x, y;  ///< NaN is a gap
     std::vector<double>
-        t;           ///< of the points, where x is not the time: a cursor in time finds its place; else empty
+        t;  ///< of the points, where x is not the time: a cursor in time finds its place; else empty
+    /// The samples are too far apart to be joined: between them the curve turns in a way that they do not
+    /// tell.
+    bool isSparse = false;
     int hidden = 0;  ///< values a log axis cannot show (<= 0) or that are not finite
 };
 

@@ -19,7 +19,8 @@ std::optional<std::pair<double, double>> pointAt(const Series& series, double t)
         std::min<std::size_t>(static_cast<std::size_t>(next - time.begin()), time.size() - 1);
     const std::size_t a = b == 0 ? 0 : b - 1;
     const double span = time[b] - time[a];
-    const double w = span > 0 ? std::clamp((t - time[a]) / span, 0.0, 1.0) : 1;
+    const double part = span > 0 ? std::clamp((t - time[a]) / span, 0.0, 1.0) : 1;
+    const double w = series.isSparse ? std::round(part) : part;
     const auto between = [w](double from, double to) {
         return w == 0 ? from : w == 1 ? to : from + w * (to - from);
     };

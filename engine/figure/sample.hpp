@@ -10,7 +10,8 @@
 namespace extremal {
 
 /// The point of a series at a time (by its own t, where x is not the time), between the two neighbouring
-/// samples by straight line; empty outside the samples, at a gap, or if the series has no time.
+/// samples by straight line (the nearer one where they are sparse); empty outside the samples, at a gap, or
+/// if the series has no time.
 std::optional<std::pair<double, double>> pointAt(const Series& series, double t);
 
 /// A cell of a heat map with a scale: its place, what it stands for, and that with its value in words, two

@@ -6,6 +6,7 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/sample.hpp"
+#include "ui/plots/dense_curve.hpp"
 #include "ui/plots/map_layer.hpp"
 #include "ui/plots/phase_colour.hpp"
 
@@ -57,6 +58,36 @@ void drawPieces(QCPPainter& painter, QPen pen, const QPolygonF& line) {
     }
 }
 
+/// Lines, and bands as a tint between their edges; on a logarithmic axis the upper edge alone is drawn,
+/// because the lower one is where the sampled zeros happen to be.
+void drawVisible(QCPPainter& painter, QPen pen, const VisibleLine& visible, const PixelMap& map) {
+    QColor tint = pen.color();
+    tint.setAlphaF(0.22f);
+    for (const VisibleLine::Band& band : visible.bands) {
+        QPolygonF area = band.upper;
+        area.append(QPolygonF(band.lower.rbegin(), band.lower.rend()));
+        painter.setPen(Qt::NoPen);
+        painter.setBrush(tint);
+        painter.drawPolygon(area);
+        painter.setBrush(Qt::NoBrush);
+    }
+    if (!visible.dots.isEmpty()) {
+        painter.setPen(QPen(pen.color(), 1.6 * pen.widthF(), Qt::SolidLine, Qt::RoundCap));
+        painter.drawPoints(visible.dots);
+    }
+    if (visible.isDense && !painter.modes().testFlag(QCPPainter::pmVectorized)) {
+        painter.drawImage(map.rect.topLeft(), denseImage(visible.lines, map, pen.color(), pen.widthF(),
+                                                         painter.deviceTransform().m11()));
+        return;
+    }
+    if (visible.isDense) pen.setStyle(Qt::SolidLine);
+    for (const QPolygonF& line : visible.lines) drawPieces(painter, pen, line);
+    for (const VisibleLine::Band& band : visible.bands) {
+        drawPieces(painter, pen, band.upper);
+        if (!map.isYLog) drawPieces(painter, pen, band.lower);
+    }
+}
+
 QFont small(const Theme& theme, QFont::Weight weight = QFont::Normal) {
     QFont font = theme.caption();
     font.setPixelSize(std::max(6, font.pixelSize() - 1));
@@ -88,6 +119,7 @@ void drawCross(QCPPainter& painter, QPointF at) {
 
 void CurvesLayer::draw(QCPPainter* painter) {
     const PixelMap map = shared_.map();
+    if (map.rect.width() < 1 || map.rect.height() < 1) return;  // no room for a plot
     drawHeat(*painter, map);
     drawFloor(*painter, map);
     drawGuides(*painter, map);
@@ -227,8 +259,7 @@ void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
     for (const Guide& guide : shared_.figure.all<Guide>()) {
         const QPen pen(guide.isStrong ? shared_.theme.muted : shared_.theme.line, 1, Qt::SolidLine,
                        Qt::FlatCap, Qt::BevelJoin);
-        for (const QPolygonF& line : visiblePolylines(guide.x, guide.y, map, true, shared_.density))
-            drawPieces(painter, pen, line);
+        drawVisible(painter, pen, visibleCurve(guide.x, guide.y, map, shared_.density), map);
     }
     painter.setFont(shared_.theme.caption());
     painter.setPen(shared_.theme.muted);
@@ -249,9 +280,12 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
         const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
         if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
-        for (const QPolygonF& line :
-             visiblePolylines(series.x, series.y, map, isParametric(series.kind), shared_.density))
-            drawPieces(painter, pen, line);
+        const bool isCurve = isParametric(series.kind);
+        const auto visible = isCurve ? visibleCurve : visibleLine;
+        drawVisible(painter, pen,
+                    series.isSparse ? visibleSamples(series.x, series.y, map, isCurve, shared_.density)
+                                    : visible(series.x, series.y, map, shared_.density),
+                    map);
     }
     if (series.kind == SeriesKind::cells) drawCells(painter, map, series);
     if (hasMarks(series.kind)) {

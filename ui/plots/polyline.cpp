@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
+#include <utility>
 
 namespace extremal {
 namespace {
@@ -43,41 +45,181 @@ bool clip(const QRectF& rect, QPointF a, QPointF b, double& from, double& to) {
     return true;
 }
 
-/// First, lowest, highest and last point of each pixel column, in their order.
-class ColumnThinner {
+constexpr double clipMargin = 40;  // pixels around the plot
+
+/// Of the points in one pixel column: the first, the lowest, the highest and the last, and how often the line
+/// turned.
+class PixelColumn {
 public:
-    explicit ColumnThinner(double density) : density_(density) {}
-    void add(QPolygonF& out, QPointF p) {
-        const double column = std::floor(p.x() * density_);
-        if (count_ > 0 && column != column_) flush(out);
-        column_ = column;
+    explicit PixelColumn(QPointF p, bool startsPiece) : isStart(startsPiece) { add(p); }
+    void add(QPointF p) {
         const Point point{p, count_++};
         if (point.order == 0) first_ = low_ = high_ = point;
         if (p.y() < low_.at.y()) low_ = point;
         if (p.y() > high_.at.y()) high_ = point;
         last_ = point;
     }
-    void flush(QPolygonF& out) {
-        if (count_ == 0) return;
+    double x() const { return first_.at.x(); }
+    double top() const { return low_.at.y(); }
+    double bottom() const { return high_.at.y(); }
+    void appendTo(QPolygonF& line) const {
         const bool isLowFirst = low_.order < high_.order;
         int previous = -1;
         for (const Point& p : {first_, isLowFirst ? low_ : high_, isLowFirst ? high_ : low_, last_})
             if (p.order > previous) {
-                out.push_back(p.at);
+                line.push_back(p.at);
                 previous = p.order;
             }
-        count_ = 0;
     }
+
+    bool isStart;  ///< not joined to the column before
+    int turns = 0;
+    bool isDense = false;
 
 private:
     struct Point {
         QPointF at;
         int order = 0;
     };
-    double density_, column_ = 0;
     int count_ = 0;
     Point first_, low_, high_, last_;
 };
+
+/// Sorts the points of a line into columns.
+class PixelColumns {
+public:
+    explicit PixelColumns(double density) : density_(density) {}
+    void add(QPointF p) {
+        const double place = std::floor(p.x() * density_);
+        if (columns_.empty() || isCut_ || place != place_)
+            columns_.emplace_back(p, isCut_);
+        else
+            columns_.back().add(p);
+        isCut_ = false;
+        place_ = place;
+        countTurns(p.y());
+    }
+    /// The next point is not joined to the last one.
+    void cut() { isCut_ = true; }
+    std::vector<PixelColumn>& all() { return columns_; }
+
+private:
+    /// A turn is where the line comes back by more than a pixel.
+    void countTurns(double y) {
+        constexpr double least = 1;
+        if (columns_.size() == 1 && direction_ == 0 && !isStarted_) {
+            extreme_ = y;
+            isStarted_ = true;
+        }
+        const double away = y - extreme_;
+        if (direction_ * away >= 0 && (direction_ != 0 || std::abs(away) > least)) {
+            if (direction_ == 0) direction_ = away > 0 ? 1 : -1;
+            extreme_ = y;
+        } else if (direction_ != 0 && std::abs(away) > least) {
+            direction_ = -direction_;
+            extreme_ = y;
+            ++columns_.back().turns;
+        }
+    }
+    double density_, place_ = 0;
+    std::vector<PixelColumn> columns_;
+    bool isCut_ = true, isStarted_ = false;
+    int direction_ = 0;
+    double extreme_ = 0;
+};
+
+/// Marks the columns that belong to bands: where, over a window, the line turns at least once per two pixels
+/// and is some pixels high, if it turns once per pixel somewhere there. Bands that are narrow stay lines, and
+/// narrow gaps in bands are closed.
+void markDense(std::vector<PixelColumn>& columns) {
+    constexpr double window = 6, leastHeight = 4, leastWidth = 12;  // pixels
+    constexpr double manyTurns = 1, someTurns = 0.5;                // per pixel
+    std::vector<bool> isCore(columns.size());
+    std::size_t from = 0, to = 0;
+    double turns = 0, height = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        PixelColumn& column = columns[i];
+        for (; to < columns.size() && columns[to].x() <= column.x() + window; ++to) {
+            turns += columns[to].turns;
+            height += columns[to].bottom() - columns[to].top();
+        }
+        for (; columns[from].x() < column.x() - window; ++from) {
+            turns -= columns[from].turns;
+            height -= columns[from].bottom() - columns[from].top();
+        }
+        const double width = std::min(column.x() + window, columns.back().x()) -
+                             std::max(column.x() - window, columns.front().x());
+        const bool isHigh = width > 0 && height >= leastHeight * static_cast<double>(to - from);
+        column.isDense = isHigh && turns >= someTurns * width;
+        isCore[i] = isHigh && turns >= manyTurns * width;
+    }
+    for (std::size_t i = 0; i < columns.size();) {
+        std::size_t end = i;
+        bool hasCore = false;
+        for (; end < columns.size() && columns[end].isDense == columns[i].isDense; ++end)
+            hasCore = hasCore || isCore[end];
+        for (std::size_t k = i; k < end && !hasCore; ++k) columns[k].isDense = false;
+        i = end;
+    }
+    const auto flipRuns = [&](bool isDense) {
+        for (std::size_t i = 0; i < columns.size();) {
+            std::size_t end = i;
+            while (end < columns.size() && columns[end].isDense == columns[i].isDense) ++end;
+            const bool isAtEnd = i == 0 || end == columns.size();
+            if (columns[i].isDense == isDense && columns[end - 1].x() - columns[i].x() < leastWidth &&
+                (isDense || !isAtEnd))
+                for (std::size_t k = i; k < end; ++k) columns[k].isDense = !isDense;
+            i = end;
+        }
+    };
+    flipRuns(false);
+    flipRuns(true);
+}
+
+/// The extremes over the columns of a band and their neighbours up to two pixels away: a whole oscillation
+/// each.
+VisibleLine::Band bandOf(std::span<const PixelColumn> columns) {
+    constexpr double reach = 2;
+    VisibleLine::Band band;
+    std::size_t from = 0, to = 0;
+    for (const PixelColumn& column : columns) {
+        while (to < columns.size() && columns[to].x() <= column.x() + reach) ++to;
+        while (columns[from].x() < column.x() - reach) ++from;
+        double top = column.top(), bottom = column.bottom();
+        for (std::size_t k = from; k < to; ++k) {
+            top = std::min(top, columns[k].top());
+            bottom = std::max(bottom, columns[k].bottom());
+        }
+        band.upper.push_back({column.x(), top});
+        band.lower.push_back({column.x(), bottom});
+    }
+    return band;
+}
+
+VisibleLine assemble(std::vector<PixelColumn>& columns) {
+    markDense(columns);
+    VisibleLine visible;
+    QPolygonF line;
+    const auto end = [&] {
+        if (!line.isEmpty()) visible.lines.push_back(std::move(line));
+        line = {};
+    };
+    for (std::size_t i = 0; i < columns.size();) {
+        if (!columns[i].isDense) {
+            if (columns[i].isStart) end();
+            columns[i++].appendTo(line);
+            continue;
+        }
+        if (!columns[i].isStart && !line.isEmpty()) columns[i].appendTo(line);  // no gap before the band
+        end();
+        const std::size_t first = i;
+        while (i < columns.size() && columns[i].isDense) ++i;
+        visible.bands.push_back(bandOf(std::span(columns).subspan(first, i - first)));
+        if (i < columns.size() && !columns[i].isStart) columns[i - 1].appendTo(line);
+    }
+    end();
+    return visible;
+}
 
 /// Drops points too close to the last one kept, but keeps the end.
 QPolygonF spaced(const QPolygonF& in, double distance) {
@@ -92,31 +234,26 @@ QPolygonF spaced(const QPolygonF& in, double distance) {
     return out;
 }
 
-std::vector<QPolygonF> clipped(std::span<const double> x, std::span<const double> y, const PixelMap& map,
-                               ColumnThinner* thinner) {
-    const QRectF outer = map.rect.adjusted(-40, -40, 40, 40);
-    std::vector<QPolygonF> pieces;
-    QPolygonF piece;
-    const auto add = [&](QPointF p) { thinner ? thinner->add(piece, p) : piece.push_back(p); };
-    const auto end = [&] {
-        if (thinner) thinner->flush(piece);
-        if (!piece.isEmpty()) pieces.push_back(std::move(piece));
-        piece = {};
-    };
+/// Calls `add(point)` for what of a polyline is inside the plot and its margin, and `cut()` where a piece
+/// ends; with `isWhole` only gaps end pieces, and what leaves the margin goes along it.
+template <class Add, class Cut>
+void clipLine(std::span<const double> x, std::span<const double> y, const PixelMap& map, bool isWhole,
+              const Add& add, const Cut& cut) {
+    const QRectF outer = map.rect.adjusted(-clipMargin, -clipMargin, clipMargin, clipMargin);
     QPointF previous;
     bool hasPrevious = false, isOpen = false;  // open: the piece ends in `previous`
     for (std::size_t i = 0; i < x.size(); ++i) {
         const QPointF p = map(x[i], y[i]);
         if (std::isnan(p.x()) || std::isnan(p.y())) {
             if (hasPrevious && !isOpen && outer.contains(previous)) add(previous);  // a lonely point
-            end();
+            cut();
             hasPrevious = isOpen = false;
             continue;
         }
         double from = 0, to = 1;
         if (hasPrevious && clip(outer, previous, p, from, to)) {
             if (!isOpen || from > 0) {
-                end();
+                if (!isWhole) cut();
                 add(previous + from * (p - previous));
             }
             add(to < 1 ? previous + to * (p - previous) : p);
@@ -127,10 +264,30 @@ std::vector<QPolygonF> clipped(std::span<const double> x, std::span<const double
         previous = p;
         hasPrevious = true;
     }
-    if (hasPrevious && !isOpen && pieces.empty() && piece.isEmpty() && outer.contains(previous))
-        add(previous);
-    end();
+    if (hasPrevious && !isOpen && outer.contains(previous)) add(previous);
+}
+
+std::vector<QPolygonF> clippedPieces(std::span<const double> x, std::span<const double> y,
+                                     const PixelMap& map) {
+    std::vector<QPolygonF> pieces;
+    QPolygonF piece;
+    const auto cut = [&] {
+        if (!piece.isEmpty()) pieces.push_back(std::move(piece));
+        piece = {};
+    };
+    clipLine(
+        x, y, map, false, [&](QPointF p) { piece.push_back(p); }, cut);
+    cut();
     return pieces;
+}
+
+double lengthOf(const QPolygonF& line) {
+    double length = 0;
+    for (qsizetype i = 1; i < line.size(); ++i) {
+        const QPointF d = line[i] - line[i - 1];
+        length += std::hypot(d.x(), d.y());
+    }
+    return length;
 }
 
 }  // namespace
@@ -147,16 +304,60 @@ double PixelMap::yAt(double pixel) const {
     return valueAt((rect.bottom() - pixel) / rect.height(), y, isYLog);
 }
 
-std::vector<QPolygonF> visiblePolylines(std::span<const double> x, std::span<const double> y,
-                                        const PixelMap& map, bool isCurve, double density) {
-    ColumnThinner thinner(density);
-    std::vector<QPolygonF> pieces = clipped(x, y, map, isCurve ? nullptr : &thinner);
-    if (!isCurve) return pieces;
+VisibleLine visibleLine(std::span<const double> x, std::span<const double> y, const PixelMap& map,
+                        double density) {
+    PixelColumns columns(density);
+    clipLine(
+        x, y, map, true, [&](QPointF p) { columns.add(p); }, [&] { columns.cut(); });
+    return assemble(columns.all());
+}
+
+VisibleLine visibleCurve(std::span<const double> x, std::span<const double> y, const PixelMap& map,
+                         double density) {
+    VisibleLine visible;
+    visible.lines = clippedPieces(x, y, map);
+    double length = 0;
     for (double distance = 0.5 / density;; distance *= 1.5) {
         qsizetype count = 0;
-        for (QPolygonF& piece : pieces) count += (piece = spaced(piece, distance)).size();
-        if (count <= static_cast<qsizetype>(20000 * density) || distance > 4) return pieces;
+        length = 0;
+        for (QPolygonF& piece : visible.lines) {
+            piece = spaced(piece, distance);
+            count += piece.size();
+            length += lengthOf(piece);
+        }
+        if (count <= static_cast<qsizetype>(20000 * density) || distance > 4) break;
     }
+    // With so much line in the plot dashes are not seen.
+    visible.isDense = length > 0.25 * map.rect.width() * map.rect.height();
+    return visible;
+}
+
+VisibleLine visibleSamples(std::span<const double> x, std::span<const double> y, const PixelMap& map,
+                           bool isCurve, double density) {
+    VisibleLine visible;
+    if (!isCurve) visible.bands = visibleLine(x, y, map, density).bands;
+    const QRectF near = map.rect.adjusted(-3, -3, 3, 3);
+    std::set<std::pair<int, int>> taken;  // places of half a pixel
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const QPointF p = map(x[i], y[i]);
+        // A rectangle "contains" what is no number.
+        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !near.contains(p)) continue;
+        const bool isInBand =
+            std::any_of(visible.bands.begin(), visible.bands.end(), [&](const VisibleLine::Band& band) {
+                return p.x() >= band.upper.front().x() && p.x() <= band.upper.back().x();
+            });
+        const double fine = 2 * density;
+        if (!isInBand && taken.emplace(std::lround(p.x() * fine), std::lround(p.y() * fine)).second)
+            visible.dots.push_back(p);
+    }
+    return visible;
+}
+
+double strokedLength(const VisibleLine& visible) {
+    double length = 0;
+    for (const QPolygonF& line : visible.lines) length += lengthOf(line);
+    for (const VisibleLine::Band& band : visible.bands) length += lengthOf(band.upper) + lengthOf(band.lower);
+    return length;
 }
 
 }  // namespace extremal

@@ -1,11 +1,14 @@
 #include "engine/figure/figure.hpp"
 
 #include <QTest>
+#include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/digest.hpp"
 #include "engine/figure/range.hpp"
+#include "engine/figure/sample.hpp"
 #include "engine/view/catalog.hpp"
 #include "tests/engine/figure/hand_made.hpp"
 #include "tests/tools/test.hpp"
@@ -205,6 +208,36 @@ private slots:
         QCOMPARE(shortNumber(1e7), "1e7");
         QCOMPARE(shortNumber(0), "0");
         QCOMPARE(axisTitle("H - H(0)", "J"), "H − H(0)  [J]");
+    }
+    void rowsManyStepsApartAreNotJoined() {
+        // A circle, sampled at each 30th of its turns and at each 0.7th of them.
+        const auto figure = [](const char* view, double turns, double nodesApart) {
+            Comparison comparison = handmade::comparison();
+            SchemeResult result = *comparison.schemes[0];
+            result.trajectory = {};
+            result.trajectory.columns = {
+                {"t", {}, "t", "s"}, {"q.x", {}, "x", ""}, {"q.y", {}, "y", ""}, {"p.x", {}, "p", ""}};
+            for (int i = 0; i < 500; ++i) {
+                const double a = 2 * M_PI * turns * i;
+                const std::array<double, 4> row{0.1 * i, std::cos(a), std::sin(a), -std::sin(a)};
+                for (std::size_t c = 0; c < 4; ++c) result.trajectory.columns[c].values.push_back(row[c]);
+                result.trajectory.nodes.push_back(nodesApart * i);
+            }
+            result.products = {};
+            comparison.schemes = {std::make_shared<const SchemeResult>(result)};
+            const System kepler = handmade::kepler();
+            return makeFigure(comparison, {view, "", ""}, &kepler);
+        };
+        for (const char* view : {"trajectory", "phase"}) {
+            QVERIFY(!figure(view, 1.0 / 30, 500).series()[0].isSparse);
+            QVERIFY(figure(view, 0.7, 500).series()[0].isSparse);
+            QVERIFY(!figure(view, 0.7, 1).series()[0].isSparse);  // these are the steps themselves
+        }
+        // Between samples that are not joined the nearer one counts.
+        const Figure orbit = figure("trajectory", 0.7, 500);
+        const Series& samples = orbit.series()[0];
+        const auto point = pointAt(samples, 0.1 * 20 + 0.02);
+        QVERIFY(point && *point == std::pair(samples.x[20], samples.y[20]));
     }
 };
 
