@@ -44,7 +44,8 @@ int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions
     }
     if (!hasDisplay()) return tellMissingDisplay();
     qInstallMessageHandler(tellFatal);
-    return runWindow(argc, argv, scene);
+    return runWindow(argc, argv, scene,
+                     [&](const std::vector<Problem>& problems) { printProblems(scene, problems); });
 }
 
 }  // namespace extremal::app

@@ -72,8 +72,8 @@ struct Summary {
 struct SchemeResult {
     SchemeSpec spec;
     std::shared_ptr<const ResolvedScheme> scheme = {};  ///< what it resolved to; null in hand-made results
-    int style = 0;  ///< index of colour and dash: the scheme's place in the scene, disabled ones counted
-    double fraction = 0;  ///< of the time interval covered, 0..1
+    int style = 0;                                      ///< number of colour and dash (styleOf)
+    double fraction = 0;                                ///< of the time interval covered, 0..1
     Trajectory trajectory;
     Summary summary;
     StepEvents events = {};  ///< what happened in its steps besides going on

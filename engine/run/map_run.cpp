@@ -73,7 +73,7 @@ Value columnDocument(const Scene& scene, const MapGrid& grid, double value) {
 /// All that the cells of one scheme in a column depend on; a file may change all the same.
 std::string keyOf(Value document, const MapGrid& grid, std::size_t scheme) {
     Value own = document.find("schemes")->asArray()[scheme], steps{Value::Array{}};
-    for (const char* key : {"label", "step"}) own.set(key, nullptr);
+    for (const char* key : {"label", "step", "style"}) own.set(key, nullptr);
     for (const double step : grid.steps) steps.asArray().emplace_back(step);
     document.set("schemes", Value::Array{own, steps, grid.column});
     return writeCompactJson(document);
@@ -166,7 +166,7 @@ MapRun::MapRun(const Scene& scene) : scene_(scene) {
         const MapGrid grid = mapGridOf(scene, view);
         const std::size_t first = maps_.size();
         for (const std::size_t i : mappedSchemes(scene))
-            maps_.push_back({v, scene.schemes[i].label, static_cast<int>(i), grid,
+            maps_.push_back({v, scene.schemes[i].label, styleOf(scene.schemes[i], i), grid,
                              std::vector<std::string>(grid.values.size()),
                              Cells(grid.values.size() * grid.steps.size())});
         if (maps_.size() == first) continue;

@@ -27,6 +27,7 @@ struct Run::Impl {
     unsigned threads;
     std::vector<std::unique_ptr<SchemeRun>> tasks;
     MapRun maps;
+    bool needsSchemes = false;  ///< not all results are known
     mutable std::mutex mutex;
     ReferenceInfo reference;  ///< guarded by mutex
     std::atomic<bool> isFinished{false};
@@ -38,7 +39,13 @@ struct Run::Impl {
         const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
         threads = options.threads > 0 ? options.threads : cores;
         for (std::size_t i = 0; i < scene.schemes.size(); ++i)
-            if (scene.schemes[i].isEnabled) tasks.push_back(std::make_unique<SchemeRun>(resolved, i, plan));
+            if (scene.schemes[i].isEnabled) {
+                const bool isKnown = i < options.known.size() && options.known[i];
+                tasks.push_back(
+                    std::make_unique<SchemeRun>(resolved, i, plan, isKnown ? options.known[i] : nullptr));
+                needsSchemes = needsSchemes || !isKnown;
+            }
+        reference = options.reference;
         if (scene.reference.kind == ReferenceSpec::Kind::exact && (!system.exact || !system.exact(initial)))
             throw InvalidScene("/reference", "no exact solution is known for these initial data",
                                "use \"auto\"");
@@ -51,21 +58,31 @@ struct Run::Impl {
         });
     }
 
+    /// The scene without the schemes whose results are known.
+    ResolvedScene unknownPart() const {
+        ResolvedScene part = resolved;
+        for (const auto& task : tasks)
+            if (task->isKnown())
+                part.scene.schemes[task->index()].isEnabled = part.schemes[task->index()].spec.isEnabled =
+                    false;
+        return part;
+    }
+
     void work(const std::stop_token& stop) {
         Reference ref;
-        if (needsReference()) {
+        if (needsSchemes && needsReference()) {
             try {
                 ref = makeReference(resolved, stop);
-                shareReference(ref, resolved);
+                shareReference(ref, unknownPart());
             } catch (const InvalidScene& e) {
                 ref.info.problems = e.problems();  // the run goes on without errors
             }
         }
-        {
+        if (needsSchemes) {
             const std::lock_guard lock(mutex);
             reference = ref.info;
         }
-        const std::shared_ptr<ExactActions> exact = exactActionsOf(resolved, plan);
+        const std::shared_ptr<ExactActions> exact = needsSchemes ? exactActionsOf(resolved, plan) : nullptr;
         std::atomic<std::size_t> next{0};
         const std::size_t all = tasks.size() + maps.tasks();
         auto takeTasks = [&] {

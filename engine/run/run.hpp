@@ -19,6 +19,10 @@ namespace extremal {
 struct RunOptions {
     unsigned threads = 0;                ///< 0: as many as the machine has cores
     std::vector<Product> products = {};  ///< besides those that the views of the scene need
+    /// By the places of the schemes: results that hold (run/reuse.hpp) and are not computed again; null or
+    /// missing: to be computed. `reference` is then shown if nothing is left to be measured against it.
+    std::vector<std::shared_ptr<const SchemeResult>> known = {};
+    ReferenceInfo reference = {};
 };
 
 class Run {

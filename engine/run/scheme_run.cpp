@@ -13,6 +13,7 @@
 #include "engine/run/equations.hpp"
 #include "engine/run/inside_step.hpp"
 #include "engine/run/march.hpp"
+#include "engine/run/reuse.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -309,10 +310,19 @@ struct SchemeRun::Recording {
     }
 };
 
-SchemeRun::SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan)
-    : resolved_(scene), scheme_(scene.schemes[index]), plan_(plan) {
+SchemeRun::SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan,
+                     const std::shared_ptr<const SchemeResult>& known)
+    : resolved_(scene),
+      scheme_(scene.schemes[index]),
+      plan_(plan),
+      index_(index),
+      isKnown_(known != nullptr) {
+    if (known) {
+        latest_ = resultFor(known, spec_, styleOf(spec_, index));
+        return;
+    }
     SchemeResult empty;
-    empty.style = static_cast<int>(index);
+    empty.style = styleOf(spec_, index);
     empty.scheme = std::make_shared<const ResolvedScheme>(scheme_);
     empty.spec = spec_;
     empty.summary.label = spec_.label;
@@ -331,6 +341,7 @@ void SchemeRun::publish(const SchemeResult& result) {
 }
 
 void SchemeRun::run(const Reference& reference, ExactActions* exact, const std::stop_token& stop) {
+    if (isKnown_) return;
     const System& system = *resolved_.system;
     const State& initial = resolved_.initial;
     const int style = latest()->style;

@@ -20,8 +20,13 @@ class ExactActions;
 
 class SchemeRun {
 public:
-    /// Scheme `index` of the scene; scene and plan must outlive the run.
-    SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan);
+    /// Scheme `index` of the scene; scene and plan must outlive the run. With a `known` result there is
+    /// nothing to do.
+    SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan,
+              const std::shared_ptr<const SchemeResult>& known = nullptr);
+
+    std::size_t index() const { return index_; }
+    bool isKnown() const { return isKnown_; }
 
     /// Integrates; returns when done, failed or stopped. Never throws for numerical trouble. `exact`: null
     /// where no view compares actions.
@@ -40,6 +45,8 @@ private:
     const Scene& scene_ = resolved_.scene;
     const SchemeSpec& spec_ = scheme_.spec;
     const ProductPlan& plan_;
+    std::size_t index_;
+    bool isKnown_;
     mutable std::mutex mutex_;
     std::shared_ptr<const SchemeResult> latest_;
 };

@@ -16,9 +16,9 @@ inline const std::vector<std::string> limits = {"steps"};
 inline const std::vector<std::string> reference = {"type", "scheme", "path"};
 inline const std::vector<std::string> view = {"view", "x", "y", "at", "scheme", "node", "range", "curve"};
 inline const std::vector<std::string> range = {"x", "y"};
-inline const std::vector<std::string> scheme = {"label",  "enabled",        "step",       "tolerance",
-                                                "space",  "quadrature",     "baseline",   "scheme",
-                                                "solver", "allow_unstable", "composition"};
+inline const std::vector<std::string> scheme = {"label",  "enabled",        "step",        "tolerance",
+                                                "space",  "quadrature",     "baseline",    "scheme",
+                                                "solver", "allow_unstable", "composition", "style"};
 inline const std::vector<std::string> solver = {"method", "tolerance", "max_iterations"};
 
 }  // namespace extremal::format

@@ -260,6 +260,9 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     };
     readFlag("enabled", spec.isEnabled);
     readFlag("allow_unstable", spec.allowsUnstable);
+    if (const Value* style = value.find("style"))
+        if (const auto n = reader.number(*style, childPointer(pointer, "style"), {1, 64, false, true}))
+            spec.style = static_cast<int>(n->value) - 1;
     const bool isKindKnown = readKind(reader, value, pointer, spec);
     const BaselineEntry* baseline = findBaseline(spec.baseline.type);
     if (const Value* composition = value.find("composition"); composition && isKindKnown)

@@ -22,7 +22,8 @@ struct SchemeSpec {
     Kind kind = Kind::discretization;
     std::string label;
     bool isEnabled = true;
-    Number step;                      ///< 0 for adaptive baselines
+    std::optional<int> style;  ///< number of its colour and dash, from 0; empty: its place in the scene
+    Number step;               ///< 0 for adaptive baselines
     std::optional<double> tolerance;  ///< adaptive baselines
     Settings space, quadrature;       ///< discretization
     Settings baseline;                ///< baseline: type = its name, keys = its options
@@ -32,6 +33,11 @@ struct SchemeSpec {
     bool allowsUnstable = false;
     bool operator==(const SchemeSpec&) const = default;
 };
+
+/// Colour and dash of a scheme at this place, disabled ones counted.
+inline int styleOf(const SchemeSpec& scheme, std::size_t place) {
+    return scheme.style.value_or(static_cast<int>(place));
+}
 
 /// Initial data: q and p or v of models with coordinates; other models have keys of their own.
 struct Initial {

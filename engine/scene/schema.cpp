@@ -170,6 +170,7 @@ Value schemeDefinition() {
     Value p{Value::Object{}};
     p.set("label", typed("string", "Unique; made from the parts if left out."));
     p.set("enabled", typed("boolean"));
+    p.set("style", typed("integer", "Colour and dash, from 1; the place of the scheme if left out."));
     p.set("step", reference("number"));
     p.set("tolerance", reference("number"));
     p.set("space", typedChoice(spaceCatalog()));

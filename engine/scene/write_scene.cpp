@@ -69,6 +69,7 @@ Value schemeValue(const SchemeSpec& scheme) {
     Value value{Value::Object{}};
     value.set("label", scheme.label);
     value.set("enabled", scheme.isEnabled);
+    if (scheme.style) value.set("style", *scheme.style + 1);
     if (scheme.tolerance)
         value.set("tolerance", *scheme.tolerance);
     else

@@ -3,17 +3,18 @@
 
 #include <QTest>
 
+#include "ui/shell/compare_view.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/run_control.hpp"
 
 namespace extremal {
 
-/// Until the run of the present scene is over.
+/// Until the run of the present scene is over and the plots show it.
 inline bool waitForResults(MainWindow& window) {
     return QTest::qWaitFor(
         [&] {
             return window.runControl().state() == RunControl::State::finished &&
-                   !window.runControl().isStale();
+                   !window.runControl().isStale() && window.compareView().isCurrent();
         },
         20000);
 }

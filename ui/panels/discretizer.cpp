@@ -179,7 +179,7 @@ void Discretizer::choose(const DiscretizerCell& cell) {
         return workspace_.selectScheme(there);
     const Value scheme = newPair(scene, cell.space(), cell.quadrature());
     const QString label = QString::fromStdString(scheme.find("label")->asString());
-    if (workspace_.edit(editsForAdding(scheme), tr("Add %1").arg(label)))
+    if (workspace_.edit(editsForAdding(scene, scheme), tr("Add %1").arg(label)))
         workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);
 }
 

@@ -194,7 +194,15 @@ void LagrangianEditor::changeCoordinates() {
         for (const char* place : {coordinatesPlace, "/initial"}) workspace_.dropDraft(place);
         return;
     }
+    // A formula that is not valid yet follows the new names as well, and waits again.
+    const std::string typed = text_->toPlainText().toStdString();
+    const Value* formula = valueAt(workspace_.document(), formulaPlace);
+    const bool isUnfinished = !(formula && *formula == Value(typed));
+    const std::string renamed = isUnfinished ? formulaFor(workspace_.document(), names, typed) : typed;
+    isPending_ = false;
+    debounce_.stop();
     workspace_.edit(editsForCoordinates(workspace_.document(), names), tr("Change the coordinates"));
+    if (isUnfinished) workspace_.edit({{formulaPlace, renamed}}, tr("Change the coordinates"));
 }
 
 void LagrangianEditor::refresh() {

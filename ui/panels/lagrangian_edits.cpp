@@ -1,6 +1,7 @@
 #include "ui/panels/lagrangian_edits.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/core/expression.hpp"
 
@@ -123,19 +124,39 @@ std::vector<Edit> editsForParameterRemoval(const Value& document, const std::str
     return {{"/model/parameters", Value(std::move(parameters))}};
 }
 
+namespace {
+
+/// The place of the only coordinate whose name differs; none if there are others.
+std::optional<std::size_t> renamedCoordinate(const std::vector<std::string>& old,
+                                             const std::vector<std::string>& names) {
+    std::optional<std::size_t> changed;
+    if (names.size() != old.size()) return {};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == old[i]) continue;
+        if (changed) return {};
+        changed = i;
+    }
+    return changed;
+}
+
+}  // namespace
+
+std::string formulaFor(const Value& document, const std::vector<std::string>& names,
+                       const std::string& text) {
+    const std::vector<std::string> old = coordinatesOf(document);
+    const auto changed = renamedCoordinate(old, names);
+    if (!changed) return text;
+    const std::string &from = old[*changed], &to = names[*changed];
+    return withNameReplaced(withNameReplaced(text, from, to), from + "_t", to + "_t");
+}
+
 std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<std::string>& names) {
     const std::vector<std::string> old = coordinatesOf(document);
     std::vector<std::string> source = names;  // under which name the initial data of each are found
-    std::vector<std::size_t> changed;
-    for (std::size_t i = 0; i < names.size() && names.size() == old.size(); ++i)
-        if (names[i] != old[i]) changed.push_back(i);
     std::vector<Edit> edits{{"/model/coordinates", namesValue(names)}};
-    if (changed.size() == 1) {
-        const std::string &from = old[changed[0]], &to = names[changed[0]];
+    if (renamedCoordinate(old, names)) {
         source = old;
-        std::string text = withNameReplaced(lagrangianOf(document), from, to);
-        text = withNameReplaced(text, from + "_t", to + "_t");
-        edits.push_back({"/model/lagrangian", std::move(text)});
+        edits.push_back({"/model/lagrangian", formulaFor(document, names, lagrangianOf(document))});
     }
     edits.push_back({"/initial", initialFor(document, old, source)});
     // Plots and columns named after coordinates that are gone would be errors: the defaults follow the new

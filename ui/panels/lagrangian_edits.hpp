@@ -22,6 +22,8 @@ std::vector<Edit> editsForParameterRemoval(const Value& document, const std::str
 
 /// Other coordinates: initial data follow by name; where just one name differs it is renamed in the formula
 /// too.
+/// A formula by these names, where one coordinate of the document is renamed.
+std::string formulaFor(const Value& document, const std::vector<std::string>& names, const std::string& text);
 std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<std::string>& names);
 /// One more coordinate with a free name, at rest at 0, with a kinetic term so that the Lagrangian stays
 /// regular.

@@ -24,7 +24,7 @@ namespace extremal {
 SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWidget* parent)
     : QFrame(parent), workspace_(workspace), index_(index), theme_(&theme) {
     setProperty("card", true);
-    setObjectName(QString("scheme.%1").arg(index));
+    setFocusPolicy(Qt::ClickFocus);
     layout_ = new QVBoxLayout(this);
     layout_->setContentsMargins(11, 8, 11, 9);
     layout_->setSpacing(3);
@@ -52,6 +52,13 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     progress_->setTextVisible(false);
     progress_->hide();
     layout_->addWidget(progress_);
+    setIndex(index);
+}
+
+void SchemeCard::setIndex(int index) {
+    index_ = index;
+    setObjectName(QString("scheme.%1").arg(index));
+    if (editor_) editor_->setIndex(index);
     showSpec();
 }
 
@@ -75,6 +82,14 @@ void SchemeCard::makeHeader() {
     nameEdit_->hide();
     connect(nameEdit_, &QLineEdit::editingFinished, this, &SchemeCard::finishName);
     step_ = makeLabel({}, "strong");
+    step_->setToolTip(tr("Type a number to change the step of the selected scheme"));
+    stepEdit_ = new QLineEdit;
+    stepEdit_->setObjectName("step");
+    stepEdit_->setAccessibleName(tr("Step"));
+    stepEdit_->setAlignment(Qt::AlignRight);
+    stepEdit_->setFixedWidth(86);
+    stepEdit_->hide();
+    connect(stepEdit_, &QLineEdit::editingFinished, this, &SchemeCard::finishStep);
     auto* dots = new QToolButton;
     dots->setText(QStringLiteral("⋯"));
     dots->setFixedSize(22, 20);
@@ -88,6 +103,7 @@ void SchemeCard::makeHeader() {
     row->addWidget(name_, 1);
     row->addWidget(nameEdit_, 1);
     row->addWidget(step_);
+    row->addWidget(stepEdit_);
     row->addWidget(dots);
     layout_->addLayout(row);
 }
@@ -99,14 +115,14 @@ void SchemeCard::makeMenu(QToolButton& dots) {
     menu->addAction(tr("Rename"), this, [this] { editName(); });
     menu->addAction(tr("On or off"), line_, [this] { line_->click(); });
     menu->addAction(tr("Duplicate"), this, [this] {
-        workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index_),
-                        tr("Duplicate scheme"));
+        workspace_.edit(editsForDuplicate(workspace_.scene(), index_), tr("Duplicate scheme"));
     });
     menu->addAction(tr("Move up"), this, [this] { emit moveRequested(index_, -1); });
     menu->addAction(tr("Move down"), this, [this] { emit moveRequested(index_, 1); });
     menu->addSeparator();
-    menu->addAction(tr("Remove"), this,
-                    [this] { workspace_.edit(editsForRemoval(index_), tr("Remove scheme")); });
+    menu->addAction(tr("Remove"), this, [this] {
+        workspace_.edit(editsForRemoval(workspace_.scene(), index_), tr("Remove scheme"));
+    });
 }
 
 void SchemeCard::makeFigures() {
@@ -134,12 +150,13 @@ void SchemeCard::makeFigures() {
 
 void SchemeCard::setTheme(const Theme& theme) {
     theme_ = &theme;
-    line_->show(theme, index_, spec().isEnabled);
+    line_->show(theme, styleOf(spec(), static_cast<std::size_t>(index_)), spec().isEnabled);
 }
 
 void SchemeCard::showSpec() {
     const SchemeSpec& s = spec();
     const QString label = QString::fromStdString(s.label);
+    shownLabel_ = s.label;
     setAccessibleName(tr("Scheme %1").arg(label));
     name_->setToolTip({});
     name_->setText(label);
@@ -148,7 +165,7 @@ void SchemeCard::showSpec() {
     step_->setEnabled(s.isEnabled);
     parts_->setToolTip({});
     parts_->setText(s.isEnabled ? schemeText(s) : schemeText(s) + tr(" · off"));
-    line_->show(*theme_, index_, s.isEnabled);
+    line_->show(*theme_, styleOf(s, static_cast<std::size_t>(index_)), s.isEnabled);
     line_->setToolTip(tr("Switch this scheme on or off (key %1)").arg(index_ + 1));
     line_->setAccessibleName(line_->toolTip());
     if (!s.isEnabled) showResult(nullptr, false);
@@ -195,10 +212,15 @@ void SchemeCard::showFailure(const Summary& summary) {
         setProperty("card", !hasFailed);
         repolish(*this);
     }
-    failure_->setVisible(hasFailed);
+    const bool wasStopped = summary.status == RunStatus::partial;
+    failure_->setVisible(hasFailed || wasStopped);
     const std::string& words = hasFailed ? summary.advice : summary.caution;
     advice_->setVisible(!words.empty());
     advice_->setText(QString::fromStdString(words));
+    if (wasStopped)
+        failure_->setText(std::isfinite(summary.tEnd)
+                              ? tr("stopped at t = %1").arg(shortNumber(summary.tEnd, 3))
+                              : tr("stopped"));
     if (!hasFailed) return;
     const std::string_view cause = name(summary.cause);
     QString text = QString::fromUtf8(cause.data(), static_cast<qsizetype>(cause.size())).replace('-', ' ');
@@ -218,8 +240,11 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
         parts_->setText(schemeText(result->spec) + QStringLiteral(" · ") +
                         QString::fromStdString(summary.about));
     cost_.value->setText(summary.cpuSeconds > 0 ? shortTime(summary.cpuSeconds) : QStringLiteral("–"));
-    error_.value->setText(shortNumber(summary.maxError));
-    QString order = summary.orderClaimed > 0 ? QString::number(summary.orderClaimed) : QStringLiteral("–");
+    // What a run that was stopped has measured so far is no property of the scheme.
+    const bool isMeasured = summary.status == RunStatus::done || summary.status == RunStatus::failed;
+    error_.value->setText(isMeasured ? shortNumber(summary.maxError) : QStringLiteral("–"));
+    const bool hasOrder = isMeasured && summary.orderClaimed > 0;
+    QString order = hasOrder ? QString::number(summary.orderClaimed) : QStringLiteral("–");
     QString orderTip =
         summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claimed order");
     if (std::isfinite(summary.orderMeasured)) {
@@ -258,6 +283,53 @@ void SchemeCard::finishName() {
     workspace_.edit(
         {{"/schemes/" + std::to_string(index_) + "/label", uniqueLabel(workspace_.scene(), text)}},
         tr("Rename scheme"));
+}
+
+void SchemeCard::editStep(const QString& typed) {
+    const SchemeSpec& s = spec();
+    stepEdit_->setText(s.tolerance ? shortNumber(*s.tolerance, 6) : numberText(s.step));
+    step_->hide();
+    stepEdit_->show();
+    stepEdit_->setFocus();
+    stepEdit_->selectAll();
+    if (!typed.isEmpty()) stepEdit_->insert(typed);
+}
+
+void SchemeCard::finishStep() {
+    if (stepEdit_->isHidden()) return;
+    stepEdit_->hide();
+    step_->show();
+    const Value value = numberOrExpression(stepEdit_->text());
+    const std::string at = "/schemes/" + std::to_string(index_) + (spec().tolerance ? "/tolerance" : "/step");
+    const Value* now = valueAt(workspace_.document(), at);
+    if (value.isNull() || !stepEdit_->isModified() || (now && *now == value)) return;
+    if (workspace_.edit({{at, value}}, tr("Change the step"), QString::fromStdString(at))) return;
+    for (const Problem& p : workspace_.problemsAt(at)) {  // what was typed is not lost
+        editStep(stepEdit_->text());
+        stepEdit_->setToolTip(QString::fromStdString(p.message));
+        stepEdit_->setProperty("invalid", true);
+        repolish(*stepEdit_);
+        return;
+    }
+}
+
+/// The digits are keys of the window as well: at a card that has the focus they are typed.
+bool SchemeCard::event(QEvent* event) {
+    if (event->type() == QEvent::ShortcutOverride) {
+        auto* key = static_cast<QKeyEvent*>(event);
+        const QString text = key->text();
+        if (!(key->modifiers() & ~Qt::KeypadModifier) && text.size() == 1 &&
+            (text[0].isDigit() || text == "."))
+            key->accept();
+    }
+    return QFrame::event(event);
+}
+
+void SchemeCard::keyPressEvent(QKeyEvent* event) {
+    const QString text = event->text();
+    if (!(event->modifiers() & ~Qt::KeypadModifier) && text.size() == 1 && (text[0].isDigit() || text == "."))
+        return editStep(text);
+    QFrame::keyPressEvent(event);
 }
 
 void SchemeCard::setEditing(bool isOpen) {

@@ -26,6 +26,10 @@ class SchemeCard : public QFrame {
 public:
     SchemeCard(Workspace& workspace, int index, const Theme& theme, QWidget* parent = nullptr);
 
+    int index() const { return index_; }
+    const std::string& shownLabel() const { return shownLabel_; }
+    /// The scheme has this place now.
+    void setIndex(int index);
     void setTheme(const Theme& theme);
     /// Shows the scheme as it stands in the scene.
     void showSpec();
@@ -33,6 +37,8 @@ public:
     void showResult(const SchemeResult* result, bool isStale);
     void setSelected(bool isSelected);
     void editName();
+    /// Opens the step for editing; typing at a selected card begins with what was typed.
+    void editStep(const QString& typed = {});
     void setEditing(bool isOpen);
     bool isEditing() const { return editor_ != nullptr; }
 
@@ -42,6 +48,8 @@ signals:
 protected:
     void mousePressEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
+    bool event(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
 
 private:
     struct Figure {
@@ -54,16 +62,18 @@ private:
     void showCaution();
     void takeRemedy();
     void finishName();
+    void finishStep();
     const SchemeSpec& spec() const;
 
     Workspace& workspace_;
     int index_;
+    std::string shownLabel_;
     const Theme* theme_;
     QVBoxLayout* layout_;
     LineSample* line_;
     QLabel *name_, *step_, *parts_, *caution_, *failure_, *advice_;
     QPushButton* remedy_;
-    QLineEdit* nameEdit_;
+    QLineEdit *nameEdit_, *stepEdit_;
     QWidget* figures_;
     Figure cost_, error_, order_, steps_;
     QProgressBar* progress_;

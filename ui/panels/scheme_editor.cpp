@@ -145,6 +145,12 @@ std::string SchemeEditor::signature() const {
            s.baseline.type + "/" + s.named + "/" + s.composition.type;
 }
 
+void SchemeEditor::setIndex(int index) {
+    if (index == index_) return;
+    index_ = index;
+    rebuild();
+}
+
 void SchemeEditor::refresh() {
     if (index_ >= static_cast<int>(workspace_.scene().schemes.size())) return;
     if (signature() != shown_) rebuild();
@@ -242,6 +248,7 @@ void SchemeEditor::change(const Value& scheme) {
     const Value* step = valueAt(workspace_.document(), place() + "/step");
     if (step && next.find("step")) next.set("step", *step);
     next.set("enabled", spec().isEnabled);
+    if (spec().style) next.set("style", *spec().style + 1);
     workspace_.edit({{place(), next}}, tr("Change scheme"));
 }
 

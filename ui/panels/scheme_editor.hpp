@@ -23,6 +23,8 @@ class SchemeEditor : public QWidget {
     Q_OBJECT
 public:
     SchemeEditor(Workspace& workspace, int index, QWidget* parent = nullptr);
+    /// The scheme has this place now.
+    void setIndex(int index);
 
 signals:
     void closed();

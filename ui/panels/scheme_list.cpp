@@ -7,6 +7,8 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 #include "engine/baseline/catalog.hpp"
 #include "engine/family/scheme.hpp"
 #include "ui/panels/card.hpp"
@@ -102,7 +104,7 @@ void SchemeList::fillAddMenu() {
 
 void SchemeList::add(const Value& scheme) {
     const QString label = QString::fromStdString(scheme.find("label")->asString());
-    if (workspace_.edit(editsForAdding(scheme), tr("Add %1").arg(label)))
+    if (workspace_.edit(editsForAdding(workspace_.scene(), scheme), tr("Add %1").arg(label)))
         workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);
 }
 
@@ -121,22 +123,38 @@ void SchemeList::setTheme(const Theme& theme) {
     for (SchemeCard* card : cards_) card->setTheme(theme);
 }
 
+/// A card stays with its scheme, wherever that goes: cards are found by the name, and where one has a new
+/// name by the place.
 void SchemeList::rebuild() {
-    const std::size_t wanted = workspace_.scene().schemes.size();
-    while (cards_.size() > wanted) {
-        cards_.back()->hide();
-        cards_.back()->deleteLater();
-        cards_.pop_back();
+    const auto& schemes = workspace_.scene().schemes;
+    std::vector<SchemeCard*> before = std::move(cards_);
+    cards_.assign(schemes.size(), nullptr);
+    const auto take = [&](std::size_t place, auto isIt) {
+        const auto found = std::find_if(before.begin(), before.end(), isIt);
+        if (cards_[place] || found == before.end()) return;
+        cards_[place] = *found;
+        *found = nullptr;
+    };
+    for (std::size_t i = 0; i < schemes.size(); ++i)
+        take(i, [&](const SchemeCard* c) { return c && c->shownLabel() == schemes[i].label; });
+    for (std::size_t i = 0; i < schemes.size(); ++i)
+        take(i, [&](const SchemeCard* c) { return c && c->index() == static_cast<int>(i); });
+    for (SchemeCard* card : before) {
+        if (!card) continue;
+        card->hide();
+        card->deleteLater();
     }
-    for (SchemeCard* card : cards_) card->showSpec();
-    while (cards_.size() < wanted) {
-        auto* card = new SchemeCard(workspace_, static_cast<int>(cards_.size()), *theme_);
-        connect(card, &SchemeCard::moveRequested, this, [this](int index, int by) {
-            workspace_.selectScheme(index);
-            moveSelected(by);
-        });
-        cardsLayout_->insertWidget(static_cast<int>(cards_.size()), card);
-        cards_.push_back(card);
+    for (std::size_t i = 0; i < cards_.size(); ++i) {
+        const int place = static_cast<int>(i);
+        if (!cards_[i]) {
+            cards_[i] = new SchemeCard(workspace_, place, *theme_);
+            connect(cards_[i], &SchemeCard::moveRequested, this, [this](int index, int by) {
+                workspace_.selectScheme(index);
+                moveSelected(by);
+            });
+        }
+        cardsLayout_->insertWidget(place, cards_[i]);
+        cards_[i]->setIndex(place);
     }
     showResults();
     showSelection();
@@ -170,20 +188,19 @@ void SchemeList::renameSelected() {
 void SchemeList::duplicateSelected() {
     const int index = workspace_.selectedScheme();
     if (!card(index)) return;
-    if (workspace_.edit(editsForDuplicate(workspace_.document(), workspace_.scene(), index),
-                        tr("Duplicate scheme")))
+    if (workspace_.edit(editsForDuplicate(workspace_.scene(), index), tr("Duplicate scheme")))
         workspace_.selectScheme(index + 1);
 }
 
 void SchemeList::removeSelected() {
     const int index = workspace_.selectedScheme();
-    if (card(index)) workspace_.edit(editsForRemoval(index), tr("Remove scheme"));
+    if (card(index)) workspace_.edit(editsForRemoval(workspace_.scene(), index), tr("Remove scheme"));
 }
 
 void SchemeList::moveSelected(int by) {
     const int index = workspace_.selectedScheme();
     if (!card(index)) return;
-    const std::vector<Edit> edits = editsForMove(workspace_.document(), index, by);
+    const std::vector<Edit> edits = editsForMove(workspace_.scene(), index, by);
     if (!edits.empty() && workspace_.edit(edits, tr("Move scheme"))) workspace_.selectScheme(index + by);
 }
 

@@ -82,6 +82,7 @@ void ValueEdit::makeText() {
 void ValueEdit::submitText() {
     if (text_->text() == shown_) return;
     shown_ = text_->text();
+    text_->setText(shown_);  // nothing is left to be undone in the field itself: undo is that of the scene
     if (info_.type == FieldType::text) {
         emit edited(Value(shown_.toStdString()));
     } else if (info_.type == FieldType::numbers) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "ui/plots/map_layer.hpp"
 #include "ui/plots/plot_layers.hpp"
@@ -98,18 +99,22 @@ void FigurePlot::setTheme(const Theme& theme) {
     shared_->plot.setBackground(QBrush(theme.panel));
 }
 
-void FigurePlot::setFigure(const Figure& figure) {
+void FigurePlot::setFigure(Figure figure) {
     if (figure.x.isLog != shared_->figure.x.isLog || figure.y.isLog != shared_->figure.y.isLog ||
         figure.view != shared_->figure.view) {
         shared_->view.fit();
         shared_->view.forget();
     }
-    shared_->figure = figure;
     shared_->view.setLog(figure.x.isLog, figure.y.isLog);
+    shared_->figure = std::move(figure);
+    shared_->view.setFitted(PlotAxis::x, toPlotRange(shared_->figure.x.range));
+    shared_->view.setFitted(PlotAxis::y, toPlotRange(shared_->figure.y.range));
 }
 
-void FigurePlot::setStale(bool isStale) { shared_->isStale = isStale; }
-void FigurePlot::setHighlighted(const QString& label) { shared_->highlighted = label; }
+bool FigurePlot::setStale(bool isStale) { return std::exchange(shared_->isStale, isStale) != isStale; }
+bool FigurePlot::setHighlighted(const QString& label) {
+    return std::exchange(shared_->highlighted, label) != label;
+}
 void FigurePlot::setPrintDensity(double pointsPerPixel) { shared_->density = pointsPerPixel; }
 void FigurePlot::setHidden(const QString& label, bool isHidden) {
     if (isHidden)

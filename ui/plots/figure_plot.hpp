@@ -39,10 +39,12 @@ public:
     FigurePlot& operator=(const FigurePlot&) = delete;
 
     void setTheme(const Theme& theme);
-    void setFigure(const Figure& figure);
-    void setStale(bool isStale);  ///< curves dimmed: a newer run is on its way
+    void setFigure(Figure figure);
+    /// Curves dimmed: a newer run is on its way. False if nothing changes.
+    bool setStale(bool isStale);
     void setHidden(const QString& label, bool isHidden);
-    void setHighlighted(const QString& label);  ///< drawn thicker and on top; empty: none
+    /// Drawn thicker and on top; empty: none. False if nothing changes.
+    bool setHighlighted(const QString& label);
     void setPrintDensity(double pointsPerPixel);
 
     const Figure& figure() const;

@@ -8,6 +8,7 @@ void PlotGroup::add(PlotWidget* plot) {
     plots_.append(plot);
     plot->setCursor(cursor_);
     plot->setPinned(pinned_);
+    if (timeRange_) plot->setTimeRange(timeRange_);
     connect(plot, &QObject::destroyed, this, [this, plot] { plots_.removeAll(plot); });
     connect(plot, &PlotWidget::cursorMoved, this, &PlotGroup::cursorMoved);
     connect(plot, &PlotWidget::pointClicked, this, &PlotGroup::pointClicked);
@@ -17,6 +18,7 @@ void PlotGroup::add(PlotWidget* plot) {
         for (PlotWidget* p : plots_) p->setPinned(t);
     });
     connect(plot, &PlotWidget::timeRangeChanged, this, [this, plot](std::optional<PlotRange> range) {
+        timeRange_ = range;
         for (PlotWidget* p : plots_)
             if (p != plot) p->setTimeRange(range);
     });

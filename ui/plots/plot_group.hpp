@@ -6,6 +6,8 @@
 
 #include <optional>
 
+#include "ui/plots/view_state.hpp"
+
 namespace extremal {
 
 class PlotWidget;
@@ -18,6 +20,7 @@ public:
     void remove(PlotWidget* plot);
     void setCursor(std::optional<double> t);
     void fitAll();
+    void forget() { timeRange_.reset(); }  ///< what new plots would take over
     const QList<PlotWidget*>& plots() const { return plots_; }
 
 signals:
@@ -28,6 +31,7 @@ signals:
 private:
     QList<PlotWidget*> plots_;
     std::optional<double> cursor_, pinned_;
+    std::optional<PlotRange> timeRange_;  ///< chosen by the user; plots that join take it
 };
 
 }  // namespace extremal

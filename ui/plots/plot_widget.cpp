@@ -31,6 +31,19 @@ double valueAtPixel(const PixelMap& map, PlotAxis axis, QPointF pixel) {
     return isLog ? r.low * std::pow(r.high / r.low, f) : r.low + f * (r.high - r.low);
 }
 
+/// A plot that draws later when it is resized: the plots of a window would otherwise all be drawn within one
+/// event.
+class Canvas : public QCustomPlot {
+public:
+    using QCustomPlot::QCustomPlot;
+
+protected:
+    void resizeEvent(QResizeEvent*) override {
+        setViewport(rect());
+        replot(rpQueuedReplot);
+    }
+};
+
 }  // namespace
 
 struct PlotWidget::Impl {
@@ -41,6 +54,7 @@ struct PlotWidget::Impl {
     enum class Drag { none, maybe, pan, box, cursor } drag = Drag::none;
     QPointF press, last;
     int leftMargin = 0;
+    std::optional<PlotRange> awaited;  ///< the time range of the group, until there is a figure
 
     explicit Impl(const Theme& t) : theme(t) {}
     void replot() { plot->replot(QCustomPlot::rpQueuedReplot); }
@@ -75,7 +89,7 @@ struct PlotWidget::Impl {
 PlotWidget::PlotWidget(const Theme& theme, QWidget* parent) : QWidget(parent), impl_(new Impl(theme)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
-    impl_->plot = new QCustomPlot(this);
+    impl_->plot = new Canvas(this);
     impl_->plot->setMouseTracking(true);
     impl_->plot->setFocusPolicy(Qt::NoFocus);
     impl_->content = std::make_unique<FigurePlot>(*impl_->plot, impl_->theme);
@@ -94,17 +108,17 @@ PlotWidget::PlotWidget(const Theme& theme, QWidget* parent) : QWidget(parent), i
 
 PlotWidget::~PlotWidget() { impl_->plot->removeEventFilter(this); }
 
-void PlotWidget::setFigure(const Figure& figure) {
-    impl_->content->setFigure(figure);
+void PlotWidget::setFigure(Figure figure) {
     setAccessibleName(QString::fromStdString(figure.title));
     setAccessibleDescription(QString::fromStdString(figure.summary));
+    impl_->content->setFigure(std::move(figure));
+    if (impl_->awaited) setTimeRange(std::exchange(impl_->awaited, std::nullopt));
     impl_->chip->setVisible(isUserZoomed());
     impl_->replot();
 }
 
 void PlotWidget::setStale(bool isStale) {
-    impl_->content->setStale(isStale);
-    impl_->replot();
+    if (impl_->content->setStale(isStale)) impl_->replot();
 }
 
 void PlotWidget::setTheme(const Theme& theme) {
@@ -124,8 +138,7 @@ void PlotWidget::setPinned(std::optional<double> t) {
 }
 
 void PlotWidget::setHighlighted(const QString& label) {
-    impl_->content->setHighlighted(label);
-    impl_->replot();
+    if (impl_->content->setHighlighted(label)) impl_->replot();
 }
 
 void PlotWidget::fit() {
@@ -164,6 +177,7 @@ bool PlotWidget::isUserZoomed(PlotAxis axis) const { return impl_->content->view
 PlotRange PlotWidget::visibleRange(PlotAxis axis) const { return impl_->content->view().range(axis); }
 
 void PlotWidget::setTimeRange(std::optional<PlotRange> range) {
+    if (figure().view.empty()) impl_->awaited = range;
     if (!impl_->isTime()) return;
     if (range)
         impl_->content->view().choose(PlotAxis::x, *range);

@@ -24,7 +24,7 @@ public:
     explicit PlotWidget(const Theme& theme, QWidget* parent = nullptr);
     ~PlotWidget() override;
 
-    void setFigure(const Figure& figure);
+    void setFigure(Figure figure);
     void setStale(bool isStale);
     void setTheme(const Theme& theme);
     /// A time to mark; none removes the line.

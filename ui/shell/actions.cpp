@@ -3,12 +3,16 @@
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractSlider>
+#include <QAbstractSpinBox>
 #include <QApplication>
 #include <QComboBox>
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QMainWindow>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPlainTextEdit>
+#include <QTimer>
 
 namespace extremal {
 
@@ -74,19 +78,83 @@ bool needsKey(const QWidget* widget, int key) {
     return false;
 }
 
+/// The line of text of a field of a window (dialogs have keys of their own), or null.
+QLineEdit* fieldOf(QWidget& widget) {
+    if (!qobject_cast<QMainWindow*>(widget.window())) return nullptr;
+    if (auto* spin = qobject_cast<QAbstractSpinBox*>(&widget)) return spin->findChild<QLineEdit*>();
+    return qobject_cast<QLineEdit*>(&widget);
+}
+
 }  // namespace
 
+/// True: the key is not offered to the window. An event that is ignored and not passed on goes to the window.
+bool KeyGuard::overridesShortcut(QWidget& widget, QKeyEvent& key) {
+    const QLineEdit* const field = fieldOf(widget);
+    const auto* const text = qobject_cast<const QPlainTextEdit*>(&widget);
+    const bool isUndo = key.matches(QKeySequence::Undo), isRedo = key.matches(QKeySequence::Redo);
+    if ((isUndo || isRedo) && (field || text)) {
+        const bool isOwn =
+            field    ? field->isModified() && (isUndo ? field->isUndoAvailable() : field->isRedoAvailable())
+            : isUndo ? text->document()->isUndoAvailable()
+                     : text->document()->isRedoAvailable();
+        key.setAccepted(isOwn);
+        return true;
+    }
+    const bool isPlain = !(key.modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
+    const bool isLeft = key.key() == Qt::Key_Escape && (field || text);
+    if (isPlain && (isLeft || needsKey(&widget, key.key()))) {
+        key.accept();
+        return true;
+    }
+    return false;
+}
+
+/// Enter and Esc in a field; true if that is all there is to do.
+bool KeyGuard::takesKey(QWidget& widget, const QKeyEvent& key) {
+    QLineEdit* const field = fieldOf(widget);
+    const bool isEnter = key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter;
+    if (isEnter && field) {  // after the field itself has taken it
+        QTimer::singleShot(0, &widget, [&widget] { widget.clearFocus(); });
+        return false;
+    }
+    if (key.key() != Qt::Key_Escape) return false;
+    if (field) {
+        while (field->isModified() && field->isUndoAvailable()) field->undo();
+        widget.clearFocus();
+        return true;
+    }
+    if (qobject_cast<QPlainTextEdit*>(&widget) && qobject_cast<QMainWindow*>(widget.window())) {
+        widget.clearFocus();
+        return true;
+    }
+    return false;
+}
+
 bool KeyGuard::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() == QEvent::ShortcutOverride) {
-        const auto* key = static_cast<const QKeyEvent*>(event);
-        const auto* widget = qobject_cast<const QWidget*>(watched);
-        const bool isPlain = !(key->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier));
-        const bool keeps =
-            widget && widget == QApplication::focusWidget() && !widget->property("sharesKeys").toBool();
-        if (isPlain && keeps && needsKey(widget, key->key())) {
-            event->accept();
-            return true;
-        }
+    auto* const widget = qobject_cast<QWidget*>(watched);
+    if (!widget) return QObject::eventFilter(watched, event);
+    switch (event->type()) {
+        case QEvent::ShortcutOverride:
+            if (widget == QApplication::focusWidget() && !widget->property("sharesKeys").toBool() &&
+                overridesShortcut(*widget, *static_cast<QKeyEvent*>(event)))
+                return true;
+            break;
+        case QEvent::KeyPress:
+            if (widget == QApplication::focusWidget() && takesKey(*widget, *static_cast<QKeyEvent*>(event)))
+                return true;
+            break;
+        case QEvent::FocusIn:
+            if (static_cast<QFocusEvent*>(event)->reason() == Qt::MouseFocusReason)
+                clicked_ = fieldOf(*widget);
+            break;
+        case QEvent::MouseButtonRelease:
+            if (QLineEdit* const field = clicked_; field && fieldOf(*widget) == field) {
+                if (!field->hasSelectedText()) QTimer::singleShot(0, field, &QLineEdit::selectAll);
+                clicked_.clear();
+            }
+            break;
+        default:
+            break;
     }
     return QObject::eventFilter(watched, event);
 }

@@ -6,8 +6,11 @@
 #include <QKeySequence>
 #include <QList>
 #include <QObject>
+#include <QPointer>
 #include <functional>
 
+class QKeyEvent;
+class QLineEdit;
 class QMenuBar;
 class QWidget;
 
@@ -45,13 +48,22 @@ private:
     QStringList menus_;
 };
 
-/// Keeps single keys for the widget that has the focus where it needs them: text fields get letters, buttons
-/// get Space, lists get arrows. Install on the application.
+/// Makes all fields of the window answer to keys alike. Install it on the application.
+///
+/// Single keys are kept for the widget that has the focus where it needs them: text fields get letters,
+/// buttons get Space, lists get arrows. A click into a field selects its text; Enter takes it and leaves the
+/// field; Esc brings back the text from before and leaves it. Undo in a field is that of the field while
+/// there is something typed and not taken, else that of the window.
 class KeyGuard : public QObject {
     Q_OBJECT
 public:
     using QObject::QObject;
     bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    bool overridesShortcut(QWidget& widget, QKeyEvent& key);
+    bool takesKey(QWidget& widget, const QKeyEvent& key);
+    QPointer<QLineEdit> clicked_;  ///< a field that has just got the focus by a click
 };
 
 }  // namespace extremal

@@ -8,7 +8,6 @@
 #include <QUuid>
 
 #include "engine/core/problem.hpp"
-#include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/workspace.hpp"
@@ -52,7 +51,11 @@ void Autosave::writeNow() {
         lock_->tryLock(0);
     }
     QSaveFile file(ownPath());
-    const std::string text = writeScene(workspace_.scene());
+    const Value copy(Value::Object{{"name", workspace_.fileName().toStdString()},
+                                   {"path", workspace_.path().toStdString()},
+                                   {"origin", workspace_.origin().toStdString()},
+                                   {"scene", workspace_.document()}});
+    const std::string text = writeJson(copy);
     const bool isWritten = file.open(QIODevice::WriteOnly) &&
                            file.write(text.data(), static_cast<qint64>(text.size())) >= 0 && file.commit();
     if (!isWritten)
@@ -63,39 +66,45 @@ void Autosave::writeNow() {
                        {}});
 }
 
-void Autosave::recover(const QString& path) {
-    QFile file(path);
-    if (file.open(QIODevice::ReadOnly)) {
-        try {
-            if (workspace_.adopt(parseJson(file.readAll().toStdString()))) file.remove();
-        } catch (const InvalidScene&) {
-            notices_.post({Notice::Kind::error,
-                           "recovery",
-                           tr("The backup of the scene is damaged: %1").arg(path),
-                           tr("open it in an editor"),
-                           {}});
-        }
-    }
-}
-
-void Autosave::offerRecovery() {
-    const QFileInfoList kept = QDir(directory_).entryInfoList({"*.json"}, QDir::Files, QDir::Time);
-    for (const QFileInfo& info : kept) {
+std::vector<UnsavedScene> Autosave::unsaved() const {
+    std::vector<UnsavedScene> all;
+    const QFileInfoList copies = QDir(directory_).entryInfoList({"*.json"}, QDir::Files, QDir::Time);
+    for (const QFileInfo& info : copies) {
         if (info.completeBaseName() == name_) continue;
         QLockFile lock(directory_ + "/" + info.completeBaseName() + ".lock");
         lock.setStaleLockTime(0);
         if (!lock.tryLock(0)) continue;  // another window is using it
         lock.unlock();
-        const QString path = info.absoluteFilePath();
-        notices_.post({Notice::Kind::information,
-                       "recovery",
-                       tr("The program ended unexpectedly; there is a backup of an unsaved scene of %1.")
-                           .arg(info.lastModified().toString("d MMMM, HH:mm")),
-                       {},
-                       {{tr("Restore"), [this, path] { recover(path); }},
-                        {tr("Discard"), [path] { QFile::remove(path); }}}});
-        return;
+        QFile file(info.absoluteFilePath());
+        try {
+            if (!file.open(QIODevice::ReadOnly)) continue;
+            const Value copy = parseJson(file.readAll().toStdString());
+            const Value* scene = copy.find("scene");
+            const auto text = [&](const char* key) {
+                const Value* value = copy.find(key);
+                return value && value->isString() ? QString::fromStdString(value->asString()) : QString();
+            };
+            all.push_back({info.absoluteFilePath(), text("name"), text("path"), text("origin"),
+                           info.lastModified(), scene ? *scene : copy});
+            if (all.back().name.isEmpty()) all.back().name = tr("unsaved");
+        } catch (const InvalidScene&) {
+            notices_.post({Notice::Kind::error,
+                           "recovery",
+                           tr("The backup of a scene is damaged: %1").arg(info.absoluteFilePath()),
+                           tr("open it in an editor"),
+                           {}});
+        }
     }
+    return all;
 }
+
+bool Autosave::restore(const UnsavedScene& scene) {
+    if (!workspace_.adopt(scene.document, scene.path, scene.origin)) return false;
+    writeNow();
+    if (QFile::exists(ownPath())) QFile::remove(scene.copy);
+    return true;
+}
+
+void Autosave::discard(const UnsavedScene& scene) { QFile::remove(scene.copy); }
 
 }  // namespace extremal

@@ -1,17 +1,31 @@
-/// Unsaved scenes survive a crash: a copy every 20 seconds, offered on the next start.
+/// Unsaved scenes survive a crash: a copy every 20 seconds, with the name and the file of the scene, offered
+/// on the start page of the next session.
 ///
 /// Each running window owns one copy, guarded by a lock file; a copy whose lock is free was left by a crash.
 #pragma once
 
+#include <QDateTime>
 #include <QLockFile>
 #include <QObject>
 #include <QTimer>
 #include <memory>
+#include <vector>
+
+#include "engine/core/value.hpp"
 
 namespace extremal {
 
 class Notices;
 class Workspace;
+
+/// A scene that a session has left unsaved.
+struct UnsavedScene {
+    QString copy;          ///< the file that holds it
+    QString name;          ///< "kepler.json"
+    QString path, origin;  ///< as of Workspace
+    QDateTime time;
+    Value document;
+};
 
 class Autosave : public QObject {
     Q_OBJECT
@@ -19,15 +33,17 @@ public:
     Autosave(Workspace& workspace, Notices& notices, const QString& directory, QObject* parent = nullptr);
     ~Autosave() override;  ///< a clean end: the copy goes
 
-    /// Posts a banner for the newest copy that a crash left, if there is one.
-    void offerRecovery();
+    /// What crashes have left, the newest first. Copies that cannot be read are named in a notice.
+    std::vector<UnsavedScene> unsaved() const;
+    /// Opens it under its name. It stays unsaved, and its copy stays until this session has one of its own.
+    bool restore(const UnsavedScene& scene);
+    void discard(const UnsavedScene& scene);
     void writeNow();
 
     static QString defaultDirectory();
 
 private:
     QString ownPath() const;
-    void recover(const QString& path);
 
     Workspace& workspace_;
     Notices& notices_;

@@ -2,7 +2,10 @@
 
 #include <QGridLayout>
 #include <QMenu>
+#include <QApplication>
+#include <QPointer>
 #include <QScrollArea>
+#include <QThreadPool>
 #include <QTimer>
 
 #include <algorithm>
@@ -63,6 +66,11 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     stageCard_->body()->addWidget(stage_, 1);
     stageCard_->menu()->addAction(tr("Fit"), stage_, &StageWidget::fit);
 
+    connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
+        for (const auto& s : slots_) delete s->card;
+        slots_.clear();
+        group_->forget();
+    });
     connect(&workspace_, &Workspace::sceneChanged, this, &CompareView::rebuild);
     connect(&workspace_, &Workspace::selectionChanged, this, [this] {
         const int i = workspace_.selectedScheme();
@@ -70,25 +78,31 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
         const QString label = i >= 0 && i < static_cast<int>(schemes.size())
                                   ? QString::fromStdString(schemes[static_cast<std::size_t>(i)].label)
                                   : QString();
-        for (const Slot& s : slots_) s.plot->setHighlighted(label);
+        for (const auto& s : slots_) s->plot->setHighlighted(label);
     });
     connect(&run_, &RunControl::resultsChanged, this, &CompareView::refresh);
     connect(&run_, &RunControl::stateChanged, this, [this] {
-        for (const Slot& s : slots_) s.plot->setStale(run_.isStale());
+        for (const auto& s : slots_) s->plot->setStale(run_.isStale());
     });
     connect(&playback_, &Playback::timeChanged, this, [this](double t) {
         stage_->setTime(t);
         group_->setCursor(t);
     });
     connect(group_, &PlotGroup::cursorMoved, &playback_, &Playback::setTime);
-    connect(group_, &PlotGroup::pointClicked, &workspace_, &Workspace::selectScheme);
+    connect(group_, &PlotGroup::pointClicked, this, [this](int style) {
+        const auto& schemes = workspace_.scene().schemes;
+        for (std::size_t i = 0; i < schemes.size(); ++i)
+            if (styleOf(schemes[i], i) == style) return workspace_.selectScheme(static_cast<int>(i));
+    });
     connect(group_, &PlotGroup::saveFailed, this, &CompareView::saveFailed);
 }
+
+CompareView::~CompareView() = default;
 
 void CompareView::setTheme(const Theme& theme) {
     theme_ = &theme;
     stage_->setTheme(theme);
-    for (const Slot& s : slots_) s.plot->setTheme(theme);
+    for (const auto& s : slots_) s->plot->setTheme(theme);
 }
 
 void CompareView::rebuild() {
@@ -99,64 +113,75 @@ void CompareView::rebuild() {
             views.push_back(std::move(v));
         else
             views.front() = std::move(v);
-    const bool isSameCards =
-        std::equal(views.begin(), views.end(), shownViews_.begin(), shownViews_.end(), isSameCard);
-    shownViews_ = views;
-    if (isSameCards) {
-        for (std::size_t i = 0; i < views.size(); ++i) slots_[i].view = views[i];
-        return refresh();
-    }
-    for (const Slot& s : slots_) delete s.card;
+    // Cards whose view is still there stay, with their zoom; the others go.
+    std::vector<std::unique_ptr<Slot>> before = std::move(slots_);
     slots_.clear();
-    for (const View& view : views) {
-        auto* card = new Card({}, inside_);
-        auto* plot = new PlotWidget(*theme_);
-        card->body()->addWidget(plot, 1);
-        QMenu* menu = card->menu();
-        menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
-        menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
-        menu->addSeparator();
-        const std::size_t slot = slots_.size();
-        slots_.push_back({view, card, plot});
-        addSceneActions(*menu, slot);
-        menu->addSeparator();
-        addChoices(*menu, workspace_, view.id, [this, slot] { return slots_[slot].view; });
-        addNames(*menu, workspace_, view.id, [this, slot] { return slots_[slot].view; });
-        menu->addSeparator();
-        menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
-        menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
-        group_->add(plot);
-        connect(plot, &PlotWidget::cellChosen, this,
-                [this, view](double value, double step) { loadCase(view, value, step); });
+    bool isSameSet = before.size() == views.size();
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto kept = std::find_if(before.begin(), before.end(), [&](const auto& slot) {
+            return slot && isSameCard(slot->view, views[i]);
+        });
+        isSameSet = isSameSet && kept - before.begin() == static_cast<std::ptrdiff_t>(i);
+        if (kept == before.end()) {
+            makeSlot(views[i]);
+        } else {
+            slots_.push_back(std::move(*kept));
+            slots_.back()->view = views[i];
+        }
     }
-    columns_ = 0;
-    arrange();
+    for (const auto& slot : before)
+        if (slot) delete slot->card;
+    if (!isSameSet) {
+        columns_ = 0;
+        arrange();
+    }
     refresh();
+}
+
+CompareView::Slot& CompareView::makeSlot(const View& view) {
+    auto* card = new Card({}, inside_);
+    auto* plot = new PlotWidget(*theme_);
+    card->body()->addWidget(plot, 1);
+    Slot& slot = *slots_.emplace_back(new Slot{nextNumber_++, view, card, plot});
+    QMenu* menu = card->menu();
+    menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
+    menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
+    menu->addSeparator();
+    addSceneActions(*menu, slot);
+    menu->addSeparator();
+    addChoices(*menu, workspace_, view.id, [&slot] { return slot.view; });
+    addNames(*menu, workspace_, view.id, [&slot] { return slot.view; });
+    menu->addSeparator();
+    menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
+    menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
+    group_->add(plot);
+    connect(plot, &PlotWidget::cellChosen, this,
+            [this, &slot](double value, double step) { loadCase(slot.view, value, step); });
+    return slot;
 }
 
 /// What the scene keeps of a plot; offered where it can be. The edits come after the menu has closed, as they
 /// may replace it.
-void CompareView::addSceneActions(QMenu& menu, std::size_t slot) {
-    QAction* all = menu.addAction(tr("Show all data"), this, [this, slot] { slots_[slot].plot->showAll(); });
-    QAction* keep = menu.addAction(tr("Store this range in the scene"), this, [this, slot] {
-        keepPart(workspace_, slots_[slot].view, *slots_[slot].plot);
-    });
-    QAction* forget = menu.addAction(tr("Remove the range from the scene"), this, [this, slot] {
-        View after = slots_[slot].view;
+void CompareView::addSceneActions(QMenu& menu, Slot& slot) {
+    QAction* all = menu.addAction(tr("Show all data"), this, [&slot] { slot.plot->showAll(); });
+    QAction* keep = menu.addAction(tr("Store this range in the scene"), this,
+                                   [this, &slot] { keepPart(workspace_, slot.view, *slot.plot); });
+    QAction* forget = menu.addAction(tr("Remove the range from the scene"), this, [this, &slot] {
+        View after = slot.view;
         after.xRange = after.yRange = {};
-        slots_[slot].plot->fit();
-        workspace_.edit(editsForPlot(workspace_.scene(), slots_[slot].view, after), tr("Show all data"));
+        slot.plot->fit();
+        workspace_.edit(editsForPlot(workspace_.scene(), slot.view, after), tr("Show all data"));
     });
     QAction* curve = menu.addAction(tr("Compare with a curve..."), this,
-                                    [this, slot] { askForCurve(workspace_, slots_[slot].view, this); });
-    connect(&menu, &QMenu::aboutToShow, this, [this, slot, all, keep, forget, curve] {
-        const View& view = slots_[slot].view;
-        const ViewAxes axes = axesOf(view, system_);
+                                    [this, &slot] { askForCurve(workspace_, slot.view, this); });
+    connect(&menu, &QMenu::aboutToShow, this, [this, &slot, all, keep, forget, curve] {
+        const View& view = slot.view;
+        const ViewAxes axes = system_ ? axesOf(view, *system_) : ViewAxes{};
         const bool hasPart = view.xRange || view.yRange;
         all->setVisible(hasPart);
         forget->setVisible(hasPart);
         keep->setVisible(axes.hasScales);
-        keep->setEnabled(slots_[slot].plot->isUserZoomed());
+        keep->setEnabled(slot.plot->isUserZoomed());
         curve->setVisible(!axes.variable.empty());
     });
 }
@@ -166,31 +191,33 @@ void CompareView::arrange() {
     if (columns == columns_) return;
     columns_ = columns;
     while (QLayoutItem* item = grid_->takeAt(0)) delete item;
+    for (int r = 0; r < grid_->rowCount(); ++r)
+        grid_->setRowStretch(r, 0);  // rows that are gone keep no room
     // Six half-columns: the stage is a little wider than what stands beside it.
     const int plotHeight = 168;
     stageCard_->setMinimumHeight(columns == 2 ? 225 : 240);
     stageCard_->setVisible(hasStage_);
     int row = 0;
     if (!hasStage_) {
-        if (!slots_.empty()) grid_->addWidget(slots_[0].card, 0, 0, 1, 12);
+        if (!slots_.empty()) grid_->addWidget(slots_[0]->card, 0, 0, 1, 12);
     } else if (columns == 2) {
         grid_->addWidget(stageCard_, 0, 0, 1, 7);
-        if (!slots_.empty()) grid_->addWidget(slots_[0].card, 0, 7, 1, 5);
+        if (!slots_.empty()) grid_->addWidget(slots_[0]->card, 0, 7, 1, 5);
     } else {
         grid_->addWidget(stageCard_, 0, 0, 1, 12);
-        if (!slots_.empty()) grid_->addWidget(slots_[0].card, ++row, 0, 1, 12);
+        if (!slots_.empty()) grid_->addWidget(slots_[0]->card, ++row, 0, 1, 12);
     }
     grid_->setRowStretch(0, 6);
     for (std::size_t i = 1; i < slots_.size(); ++i) {
         const bool isLastAlone = columns == 2 && i + 1 == slots_.size() && i % 2 == 1;
         if (columns == 1 || i % 2 == 1) ++row;
         if (columns == 1 || isLastAlone)
-            grid_->addWidget(slots_[i].card, row, 0, 1, 12);
+            grid_->addWidget(slots_[i]->card, row, 0, 1, 12);
         else
-            grid_->addWidget(slots_[i].card, row, i % 2 == 1 ? 0 : 6, 1, 6);
+            grid_->addWidget(slots_[i]->card, row, i % 2 == 1 ? 0 : 6, 1, 6);
         grid_->setRowStretch(row, 5);
     }
-    for (const Slot& s : slots_) s.card->setMinimumHeight(plotHeight);
+    for (const auto& s : slots_) s->card->setMinimumHeight(plotHeight);
     for (int c = 0; c < 12; ++c) {
         grid_->setColumnStretch(c, 1);
         grid_->setColumnMinimumWidth(c, 1);
@@ -204,27 +231,92 @@ void CompareView::resizeEvent(QResizeEvent* event) {
 
 void CompareView::refresh() {
     const auto results = run_.results();
-    stage_->setComparison(results);
-    stage_->setTime(playback_.time());
-    if (!results) return;
-    if (!(systemModel_ == results->scene.model) || system_.id.empty()) {
-        system_ = results->system ? *results->system : makeSystem(results->scene);
-        systemModel_ = results->scene.model;
-        if (const bool draws = system_.independent == "t";
+    if (!results) {
+        staged_.reset();
+        stage_->setPlayer({});
+        return;
+    }
+    for (const auto& s : slots_) s->plot->setStale(run_.isStale());
+    if (!system_ || results->system != system_) {
+        system_ =
+            results->system ? results->system : std::make_shared<const System>(makeSystem(results->scene));
+        if (const bool draws = system_->independent == "t";
             draws != hasStage_) {  // nothing moves along a place
             hasStage_ = draws;
             columns_ = 0;
             arrange();
         }
     }
-    for (const Slot& s : slots_) {
-        const Figure figure = makeFigure(*results, s.view, &system_);
-        s.card->setTitle(QString::fromStdString(figure.title));
-        s.card->setSubtitle(QString::fromStdString(figure.subtitle));
-        s.plot->setFigure(figure);
-        s.plot->setStale(run_.isStale());
+    startJob();
+}
+
+/// What has to be made for the latest results.
+FigureJob CompareView::missing() const {
+    FigureJob job{run_.results(), {}, false};
+    if (!job.results) return job;
+    for (const auto& s : slots_)
+        if (!s->shown || !(s->shownView == s->view) || !isSameData(*s->shown, *job.results))
+            job.views.emplace_back(s->number, s->view);
+    job.makesStage = !staged_ || !isSameData(*staged_, *job.results);
+    return job;
+}
+
+bool CompareView::isCurrent() const {
+    const FigureJob job = missing();
+    return job.views.empty() && !job.makesStage;
+}
+
+/// One job at a time: what comes while it goes on is made after it, and what comes after that takes its
+/// place.
+void CompareView::startJob() {
+    if (isJobRunning_) return;
+    FigureJob job = missing();
+    if (job.views.empty() && !job.makesStage) return;
+    isJobRunning_ = true;
+    QThreadPool::globalInstance()->start([self = QPointer(this), job = std::move(job)] {
+        auto made = std::make_shared<FigureSet>(makeFigures(job));
+        QMetaObject::invokeMethod(
+            qApp,
+            [self, made] {
+                if (!self) return;
+                self->isJobRunning_ = false;
+                self->take(std::move(*made));
+                self->startJob();
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void CompareView::complete() {
+    if (run_.results()) take(makeFigures(missing()));
+}
+
+void CompareView::take(FigureSet made) {
+    const auto latest = run_.results();
+    // Of another scene: that one's are on their way.
+    if (!made.job.results || !latest || !(latest->scene.model.type == made.job.results->scene.model.type))
+        return;
+    for (std::size_t i = 0; i < made.figures.size(); ++i) {
+        const auto& [number, view] = made.job.views[i];
+        const auto slot = std::find_if(slots_.begin(), slots_.end(),
+                                       [n = number](const auto& s) { return s->number == n; });
+        if (slot == slots_.end()) continue;
+        Slot& s = **slot;
+        s.shown = made.job.results;
+        s.shownView = view;
+        s.card->setTitle(QString::fromStdString(made.figures[i].title));
+        s.card->setSubtitle(QString::fromStdString(made.figures[i].subtitle));
+        s.plot->setFigure(std::move(made.figures[i]));
+        ++figuresMade_;
     }
+    if (made.player) {
+        staged_ = made.job.results;
+        stage_->setPlayer(std::move(*made.player));
+        stage_->setTime(playback_.time());
+    }
+    if (made.figures.empty()) return;
     QTimer::singleShot(0, this, &CompareView::alignMargins);
+    emit figuresChanged();
 }
 
 void CompareView::loadCase(const View& view, double value, double step) {
@@ -248,10 +340,10 @@ void CompareView::alignMargins() {
         int widest = 0;
         for (std::size_t i = 1; i < slots_.size(); ++i)
             if (columns_ == 1 || static_cast<int>(i % 2) == parity)
-                widest = std::max(widest, slots_[i].plot->leftMargin());
+                widest = std::max(widest, slots_[i]->plot->leftMargin());
         for (std::size_t i = 1; i < slots_.size(); ++i)
             if (columns_ == 1 || static_cast<int>(i % 2) == parity)
-                slots_[i].plot->setLeftMargin(std::min(widest, 90));
+                slots_[i]->plot->setLeftMargin(std::min(widest, 90));
     }
 }
 
@@ -261,14 +353,14 @@ void CompareView::fitAll() {
 }
 
 PlotWidget* CompareView::currentPlot() const {
-    for (const Slot& s : slots_)
-        if (s.plot->hasFocus()) return s.plot;
-    return slots_.size() > 1 ? slots_[1].plot : slots_.empty() ? nullptr : slots_[0].plot;
+    for (const auto& s : slots_)
+        if (s->plot->hasFocus()) return s->plot;
+    return slots_.size() > 1 ? slots_[1]->plot : slots_.empty() ? nullptr : slots_[0]->plot;
 }
 
 std::vector<PlotWidget*> CompareView::plots() const {
     std::vector<PlotWidget*> all;
-    for (const Slot& s : slots_) all.push_back(s.plot);
+    for (const auto& s : slots_) all.push_back(s->plot);
     return all;
 }
 

@@ -1,13 +1,15 @@
 /// The Compare page: the stage, speed against accuracy, and the linked plots of the scene's views, each in a
-/// card.
+/// card. A plot keeps its zoom and its history for as long as the scene has its view.
 #pragma once
 
 #include <QWidget>
 
+#include <memory>
 #include <vector>
 
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
+#include "ui/shell/figure_job.hpp"
 
 class QGridLayout;
 class QMenu;
@@ -28,30 +30,45 @@ class CompareView : public QWidget {
 public:
     CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme,
                 QWidget* parent = nullptr);
+    ~CompareView() override;
     void setTheme(const Theme& theme);
     void fitAll();
     /// The plot that was last clicked, else the first one; null if there is none.
     PlotWidget* currentPlot() const;
     StageWidget* stage() const { return stage_; }
     std::vector<PlotWidget*> plots() const;
+    /// Whether the plots show the latest results. Figures are made in another thread.
+    bool isCurrent() const;
+    /// Makes at once what is still missing, for exports.
+    void complete();
+    /// Figures made so far, each of one plot: what is not needed is not made, which tests count.
+    long long figuresMade() const { return figuresMade_; }
 
 signals:
     void saveFailed(const QString& reason);
     void caseLoaded(const QString& text);  ///< of a map, into the scene
+    void figuresChanged();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
     struct Slot {
+        int number;
         View view;
         Card* card;
         PlotWidget* plot;
+        std::shared_ptr<const Comparison> shown = {};  ///< what the plot shows the view of
+        View shownView = {};
     };
     void rebuild();  ///< another set of views
-    void addSceneActions(QMenu& menu, std::size_t slot);
+    Slot& makeSlot(const View& view);
+    void addSceneActions(QMenu& menu, Slot& slot);
     void arrange();  ///< the same cards, another width
     void refresh();  ///< new results
+    FigureJob missing() const;
+    void startJob();
+    void take(FigureSet made);
     void alignMargins();
     void loadCase(const View& view, double value, double step);
 
@@ -64,12 +81,13 @@ private:
     QGridLayout* grid_;
     Card* stageCard_;
     StageWidget* stage_;
-    std::vector<Slot> slots_;
-    std::vector<View> shownViews_;
-    Settings systemModel_;
-    System system_;
-    int columns_ = 0;
+    std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
+    std::vector<std::unique_ptr<Slot>> slots_;
+    std::shared_ptr<const System> system_;  ///< of the results
+    int columns_ = 0, nextNumber_ = 0;
     bool hasStage_ = true;  ///< the model of the results has something to draw there
+    bool isJobRunning_ = false;
+    long long figuresMade_ = 0;
 };
 
 }  // namespace extremal

@@ -3,12 +3,12 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QSlider>
 
 #include <cmath>
 
 #include "ui/panels/card.hpp"
 #include "ui/panels/format.hpp"
+#include "ui/panels/seek_slider.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -38,7 +38,7 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     row->addWidget(file_);
     row->addStretch(1);
     auto* wantedLabel = makeLabel(tr("wanted error"), "caption", this);
-    wanted_ = new QSlider(Qt::Horizontal, this);
+    wanted_ = new SeekSlider(Qt::Horizontal, this);
     wanted_->setRange(-14, 0);
     wanted_->setValue(-6);
     wanted_->setMinimumWidth(70);

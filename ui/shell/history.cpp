@@ -12,7 +12,7 @@ void History::clear() {
     future_.clear();
 }
 
-void History::push(Value before, const QString& what, const QString& mergeKey) {
+void History::push(EditState before, const QString& what, const QString& mergeKey) {
     const bool merges = !mergeKey.isEmpty() && !past_.empty() && future_.empty() &&
                         past_.back().mergeKey == mergeKey && sincePush_.isValid() &&
                         sincePush_.elapsed() < mergeWithinMs;
@@ -23,18 +23,18 @@ void History::push(Value before, const QString& what, const QString& mergeKey) {
     if (past_.size() > maxEntries) past_.erase(past_.begin());
 }
 
-Value History::undo(Value now) {
+EditState History::undo(EditState now) {
     Entry entry = std::move(past_.back());
     past_.pop_back();
     future_.push_back({std::move(now), entry.what, {}});
-    return std::move(entry.document);
+    return std::move(entry.state);
 }
 
-Value History::redo(Value now) {
+EditState History::redo(EditState now) {
     Entry entry = std::move(future_.back());
     future_.pop_back();
     past_.push_back({std::move(now), entry.what, {}});
-    return std::move(entry.document);
+    return std::move(entry.state);
 }
 
 }  // namespace extremal

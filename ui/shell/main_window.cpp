@@ -33,6 +33,7 @@
 #include "ui/shell/banners.hpp"
 #include "ui/shell/compare_view.hpp"
 #include "ui/shell/header_bar.hpp"
+#include "ui/shell/log_window.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
@@ -60,7 +61,7 @@ MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), i
         const QSettings settings;
         restoreGeometry(settings.value("window/geometry").toByteArray());
         autosave_ = new Autosave(*workspace_, *notices_, Autosave::defaultDirectory(), this);
-        autosave_->offerRecovery();
+        offerUnsaved();
     }
     showScene();
     showStatus();
@@ -149,7 +150,16 @@ void MainWindow::makePages() {
     workRow->setContentsMargins(12, 12, 12, 4);
     workRow->addWidget(splitter_);
 
-    startPage_ = new StartPage(theme_);
+    startPage_ = new StartPage(theme_, *notices_);
+    connect(startPage_, &StartPage::restoreRequested, this, [this](const UnsavedScene& scene) {
+        if (!mayLeaveScene() || !autosave_->restore(scene)) return;
+        stack_->setCurrentIndex(1);
+        offerUnsaved();
+    });
+    connect(startPage_, &StartPage::discardRequested, this, [this](const UnsavedScene& scene) {
+        autosave_->discard(scene);
+        offerUnsaved();
+    });
     connect(startPage_, &StartPage::presetChosen, this,
             [this](const QString& name) { open("preset:" + name); });
     connect(startPage_, &StartPage::openRequested, this, &MainWindow::openDialog);
@@ -167,8 +177,10 @@ void MainWindow::makePages() {
 void MainWindow::connectState() {
     connect(workspace_, &Workspace::sceneChanged, this, &MainWindow::showScene);
     connect(workspace_, &Workspace::fileChanged, this, &MainWindow::showScene);
+    connect(notices_, &Notices::logRequested, this, &MainWindow::showLog);
     connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);
     connect(playback_, &Playback::timeChanged, this, &MainWindow::showValues);
+    connect(compare_, &CompareView::figuresChanged, this, &MainWindow::showValues);
     connect(run_, &RunControl::resultsChanged, this, [this] {
         double computed = workspace_->scene().start.value;
         if (const auto results = run_->results())
@@ -176,11 +188,13 @@ void MainWindow::connectState() {
                 if (std::isfinite(s->summary.tEnd)) computed = std::max(computed, s->summary.tEnd);
         playback_->setComputedEnd(computed);
         showStatus();
-        showValues();
     });
 }
 
+void MainWindow::offerUnsaved() { startPage_->offer(autosave_->unsaved()); }
+
 bool MainWindow::open(const QString& scene) {
+    if (!mayLeaveScene()) return false;
     const bool isOpen = workspace_->open(scene);
     stack_->setCurrentIndex(workspace_->hasScene() ? 1 : 0);
     return isOpen;
@@ -241,6 +255,9 @@ void MainWindow::showStatus() {
         case RunControl::State::offered:
             parts << tr("waiting for Run: this takes a while");
             break;
+        case RunControl::State::stopped:
+            parts << tr("stopped");
+            break;
         default:
             break;
     }
@@ -261,16 +278,25 @@ double MainWindow::rowStep() const {
     return (playback_->end() - playback_->start()) / 1000;
 }
 
+/// False if the user wants to stay with changes that are not saved.
+bool MainWindow::mayLeaveScene() {
+    if (!isRemembered_ || !workspace_->isDirty()) return true;
+    const auto answer = QMessageBox::question(
+        this, tr("Extremal"), tr("%1 has changes that are not saved.").arg(workspace_->fileName()),
+        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+    if (answer == QMessageBox::Save) save(false);
+    return answer == QMessageBox::Discard || (answer == QMessageBox::Save && !workspace_->isDirty());
+}
+
+void MainWindow::showLog() {
+    if (!log_) log_ = new LogWindow(*notices_, this);
+    log_->open();
+}
+
 void MainWindow::closeEvent(QCloseEvent* event) {
-    if (isRemembered_ && workspace_->isDirty()) {
-        const auto answer = QMessageBox::question(
-            this, tr("Extremal"), tr("%1 has changes that are not saved.").arg(workspace_->fileName()),
-            QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
-        if (answer == QMessageBox::Save) save(false);
-        if (answer == QMessageBox::Cancel || (answer == QMessageBox::Save && workspace_->isDirty())) {
-            event->ignore();
-            return;
-        }
+    if (!mayLeaveScene()) {
+        event->ignore();
+        return;
     }
     run_->stop();
     if (isRemembered_) QSettings().setValue("window/geometry", saveGeometry());

@@ -20,6 +20,7 @@ class Autosave;
 class CompareView;
 class Discretizer;
 class HelpWindow;
+class LogWindow;
 class Notices;
 class Playback;
 class RunControl;
@@ -37,7 +38,8 @@ public:
     explicit MainWindow(const Theme& theme, bool isRemembered = true);
     ~MainWindow() override;
 
-    bool open(const QString& scene);  ///< a path or "preset:NAME"
+    /// A path or "preset:NAME". Asks first what becomes of changes that are not saved.
+    bool open(const QString& scene);
     void setTheme(const Theme& theme);
     /// Everything into a folder: files as `extremal run`, the figures, and the command that makes them again.
     bool exportEverything(const QString& folder);
@@ -64,9 +66,13 @@ private:
     void addEditActions();
     void addViewActions();
     void fillPlots(QMenu& menu);
+    void toggleScheme(int index);
     void addRunActions();
     void showScene();
     void showStatus();
+    void offerUnsaved();
+    bool mayLeaveScene();
+    void showLog();
     void showValues();
     void openDialog();
     void save(bool asksName);
@@ -89,6 +95,7 @@ private:
     Timeline* timeline_;
     ValuesTable* values_;
     HelpWindow* help_ = nullptr;
+    LogWindow* log_ = nullptr;
     QStackedWidget* stack_;  ///< start page or work page
     QStackedWidget* pages_;  ///< Compare, Notes
     QTabBar* tabs_;

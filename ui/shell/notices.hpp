@@ -35,6 +35,7 @@ public:
 signals:
     void changed();
     void logChanged();
+    void logRequested();  ///< the user wants to see it
 
 private:
     std::vector<Notice> all_;

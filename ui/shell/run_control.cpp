@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/run/reuse.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/workspace.hpp"
@@ -13,9 +15,21 @@ namespace {
 
 constexpr int debounceMs = 150, pollMs = 33;
 
-/// The scene as far as its run depends on it.
-Scene computed(Scene scene) {
+/// The scene as far as its results and their names depend on it.
+Scene shown(Scene scene) {
     scene.title = scene.source = scene.lesson = scene.notes = {};
+    return scene;
+}
+
+bool hasMaps(const Scene& scene) {
+    return std::any_of(scene.views.begin(), scene.views.end(), [](const View& v) { return v.id == mapView; });
+}
+
+/// The schemes that are not known, as a scene.
+Scene unknownPart(Scene scene, const ResultStore& store) {
+    const Scene whole = scene;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+        if (store.find(whole, i)) scene.schemes[i].isEnabled = false;
     return scene;
 }
 
@@ -53,9 +67,19 @@ double guessPerStep(const SchemeSpec& spec) {
     return 4e-6 * std::max(1.0, spec.space.number("degree"));
 }
 
-bool hasSamples(const Comparison& comparison) {
-    return std::any_of(comparison.schemes.begin(), comparison.schemes.end(),
-                       [](const auto& s) { return s && s->trajectory.rows() > 1; });
+/// A scheme that is not known from before has rows.
+bool hasNewSamples(const Comparison& comparison, const Scene& scene, const ResultStore& store) {
+    return std::any_of(comparison.schemes.begin(), comparison.schemes.end(), [&](const auto& s) {
+        if (!s || s->trajectory.rows() <= 1) return false;
+        for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+            if (scene.schemes[i].label == s->spec.label) return !store.find(scene, i);
+        return true;
+    });
+}
+
+bool isSame(const Comparison& a, const Comparison& b) {
+    return a.schemes == b.schemes && a.isFinished == b.isFinished && a.scene == b.scene &&
+           !a.products.find<ParameterMaps>() && !b.products.find<ParameterMaps>();
 }
 
 }  // namespace
@@ -95,13 +119,14 @@ RunControl::RunControl(Workspace& workspace, Notices& notices, QObject* parent)
     debounce_.setInterval(debounceMs);
     pollTimer_.setInterval(pollMs);
     connect(&debounce_, &QTimer::timeout, this, [this] {
-        const double seconds = cost_.predict(workspace_.scene());
-        seconds > askAboveSeconds ? offer(seconds) : start();
+        const double seconds = cost_.predict(unknownPart(workspace_.scene(), store_));
+        seconds > askAboveSeconds ? offer(seconds) : compute(true);
     });
     connect(&pollTimer_, &QTimer::timeout, this, &RunControl::poll);
     connect(&workspace_, &Workspace::sceneChanged, this, &RunControl::sceneChanged);
     connect(&workspace_, &Workspace::opened, this, [this] {
         retire();
+        store_.clear();
         results_.reset();
         lastScene_.reset();
         isStale_ = false;
@@ -126,11 +151,59 @@ void RunControl::setState(State state) {
     emit stateChanged();
 }
 
+/// All results of a scene, if none is missing.
+std::optional<Comparison> RunControl::known(const Scene& scene) const {
+    if (!results_ || hasMaps(scene)) return {};
+    Comparison comparison;
+    comparison.scene = scene;
+    comparison.reference = results_->reference;
+    comparison.isFinished = true;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        if (!scene.schemes[i].isEnabled) continue;
+        const ResultStore::Entry* entry = store_.find(scene, i);
+        if (!entry) return {};
+        comparison.reference = entry->reference;
+        comparison.schemes.push_back(
+            resultFor(entry->result, scene.schemes[i], styleOf(scene.schemes[i], i)));
+    }
+    comparison.system = results_->system && results_->scene.model == scene.model
+                            ? results_->system
+                            : std::make_shared<const System>(makeSystem(scene));
+    return comparison;
+}
+
+/// Whether the run that goes on computes what is missing.
+bool RunControl::isCoveredByRun(const Scene& scene) const {
+    if (!run_ || hasMaps(scene) || hasMaps(runScene_)) return false;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        const SchemeSpec& spec = scene.schemes[i];
+        if (!spec.isEnabled || store_.find(scene, i)) continue;
+        const bool isComputed =
+            std::any_of(runScene_.schemes.begin(), runScene_.schemes.end(), [&](const SchemeSpec& other) {
+                return other.isEnabled && coversRun(runScene_, other, scene, spec);
+            });
+        if (!isComputed) return false;
+    }
+    return true;
+}
+
 void RunControl::sceneChanged() {
-    Scene scene = computed(workspace_.scene());
-    if (lastScene_ && *lastScene_ == scene) return;
-    lastScene_ = std::move(scene);
+    const Scene& scene = workspace_.scene();
+    if (lastScene_ && *lastScene_ == shown(scene)) return;
+    lastScene_ = shown(scene);
     notices_.dismiss("offer");
+    if (run_) store_.keep(run_->latest());
+    if (auto all = known(scene)) {
+        debounce_.stop();
+        retire();
+        results_ = std::make_shared<const Comparison>(std::move(*all));
+        isStale_ = false;
+        setState(State::finished);
+        emit resultsChanged();
+        emit finished();
+        return;
+    }
+    if (isCoveredByRun(scene)) return poll();
     if (results_ && !isStale_) {
         isStale_ = true;
         emit resultsChanged();
@@ -160,13 +233,26 @@ void RunControl::retire() {
 }
 
 void RunControl::start() {
+    store_.clear();
+    compute(false);
+}
+
+void RunControl::compute(bool usesKnown) {
     if (!workspace_.hasScene()) return;
     debounce_.stop();
     retire();
     notices_.dismiss("offer");
+    RunOptions options{.products = {Product::denseOutput}};  // of the stage
+    const Scene& scene = workspace_.scene();
+    for (std::size_t i = 0; usesKnown && i < scene.schemes.size(); ++i) {
+        const ResultStore::Entry* entry = store_.find(scene, i);
+        options.known.push_back(entry ? entry->result : nullptr);
+        if (entry) options.reference = entry->reference;
+    }
     try {
-        run_ = std::make_unique<Run>(workspace_.scene(),
-                                     RunOptions{.products = {Product::denseOutput}});  // of the stage
+        run_ = std::make_unique<Run>(scene, options);
+        runScene_ = scene;
+        wasStopped_ = false;
         run_->start();
         notices_.dismiss("run");
     } catch (const InvalidScene& error) {
@@ -188,8 +274,11 @@ void RunControl::start() {
 
 void RunControl::stop() {
     debounce_.stop();
-    if (run_) run_->stop();
-    if (state_ == State::scheduled) setState(State::idle);
+    if (run_) {
+        run_->stop();
+        wasStopped_ = true;
+    }
+    if (state_ == State::scheduled) setState(State::stopped);
 }
 
 void RunControl::poll() {
@@ -198,27 +287,58 @@ void RunControl::poll() {
         if (stopping_.empty()) pollTimer_.stop();
         return;
     }
-    const bool isDone = run_->isFinished();
-    auto latest = std::make_shared<const Comparison>(run_->latest());
-    if (hasSamples(*latest) || isDone) {
-        results_ = latest;
-        isStale_ = false;
-    }
-    if (isDone) {
-        cost_.learn(*latest);
+    auto next = std::make_shared<Comparison>(run_->latest());
+    const bool isNew = next->isFinished || hasNewSamples(*next, runScene_, store_);
+    if (next->isFinished) {
+        cost_.learn(*next);
         notices_.dismiss("reference");
-        for (const Problem& p : latest->reference.problems)
+        for (const Problem& p : next->reference.problems)
             notices_.post({Notice::Kind::warning,
                            "reference",
                            tr("There is no reference, so errors are unknown: %1")
                                .arg(QString::fromStdString(p.message)),
                            QString::fromStdString(p.hint),
                            {}});
-        run_.reset();
-        setState(State::finished);
     }
-    emit resultsChanged();
+    if (next->isFinished) store_.keep(*next);
+    const bool isDone = takeNames(*next);
+    const bool isChanged = (isNew || isDone) && (!results_ || isStale_ || !isSame(*results_, *next));
+    if (isChanged) {
+        results_ = std::move(next);
+        isStale_ = false;
+    }
+    if (isDone) {
+        retire();
+        setState(wasStopped_ ? State::stopped : State::finished);
+    }
+    if (isChanged || isDone) emit resultsChanged();
     if (isDone) emit finished();
+}
+
+/// The results of a run by the names that its schemes have now, without those that are off. True if all of
+/// them have come to their end.
+bool RunControl::takeNames(Comparison& latest) const {
+    const Scene& scene = workspace_.scene();
+    if (runScene_ == scene) return latest.isFinished;
+    std::vector<std::shared_ptr<const SchemeResult>> named;
+    bool isComplete = true;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        const SchemeSpec& spec = scene.schemes[i];
+        if (!spec.isEnabled) continue;
+        const auto computed = std::find_if(latest.schemes.begin(), latest.schemes.end(), [&](const auto& r) {
+            return coversRun(runScene_, r->spec, scene, spec);
+        });
+        const ResultStore::Entry* entry = store_.find(scene, i);
+        if (computed == latest.schemes.end() && !entry) continue;
+        const auto& result = computed != latest.schemes.end() ? *computed : entry->result;
+        named.push_back(resultFor(result, spec, styleOf(spec, i)));
+        isComplete = isComplete && result->summary.status != RunStatus::running &&
+                     result->summary.status != RunStatus::waiting;
+    }
+    latest.scene = scene;
+    latest.schemes = std::move(named);
+    latest.isFinished = latest.isFinished || isComplete;
+    return latest.isFinished;
 }
 
 }  // namespace extremal

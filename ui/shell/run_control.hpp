@@ -1,6 +1,7 @@
 /// The run of the current scene: starts automatically after an edit, cancels a run that has become stale, and
-/// keeps the latest results. Nothing of the engine's work happens on this thread; results are fetched by a
-/// timer.
+/// keeps the latest results. Only what an edit touches is computed: results that still hold are shown at
+/// once, also those of schemes that were switched off. Nothing of the engine's work happens on this thread;
+/// results are fetched by a timer.
 #pragma once
 
 #include <QObject>
@@ -11,6 +12,7 @@
 
 #include "engine/run/comparison.hpp"
 #include "engine/run/run.hpp"
+#include "ui/shell/result_store.hpp"
 
 namespace extremal {
 
@@ -22,7 +24,7 @@ class Workspace;
 class CostModel {
 public:
     void learn(const Comparison& comparison);
-    double predict(const Scene& scene) const;
+    double predict(const Scene& scene) const;  ///< of its enabled schemes
 
 private:
     struct Known {
@@ -36,7 +38,7 @@ private:
 class RunControl : public QObject {
     Q_OBJECT
 public:
-    enum class State { idle, scheduled, offered, running, finished };
+    enum class State { idle, scheduled, offered, running, stopped, finished };
 
     RunControl(Workspace& workspace, Notices& notices, QObject* parent = nullptr);
     ~RunControl() override;
@@ -49,7 +51,7 @@ public:
     bool isStale() const { return isStale_; }
     double fraction() const;
 
-    void start();
+    void start();  ///< computes everything, also what is known
     void stop();
 
     /// Above this prediction a run waits for the user.
@@ -62,6 +64,10 @@ signals:
 
 private:
     void sceneChanged();
+    void compute(bool usesKnown);
+    bool isCoveredByRun(const Scene& scene) const;
+    std::optional<Comparison> known(const Scene& scene) const;
+    bool takeNames(Comparison& latest) const;
     void poll();
     void retire();
     void offer(double seconds);
@@ -71,6 +77,9 @@ private:
     Notices& notices_;
     State state_ = State::idle;
     std::unique_ptr<Run> run_;
+    Scene runScene_;  ///< of run_
+    bool wasStopped_ = false;
+    ResultStore store_;
     std::vector<std::unique_ptr<Run>> stopping_;  ///< stopped, not yet ended: their destructor would wait
     std::shared_ptr<const Comparison> results_;
     std::optional<Scene> lastScene_;

@@ -140,27 +140,71 @@ Value newNamed(const Scene& scene, const std::string& id) {
     return scheme;
 }
 
-std::vector<Edit> editsForAdding(const Value& scheme) { return {{"/schemes/-", scheme}}; }
+namespace {
 
-std::vector<Edit> editsForDuplicate(const Value& document, const Scene& scene, int index) {
-    const Value* original = valueAt(document, place(index));
-    if (!original) return {};
-    Value copy = *original;
-    copy.set("label", uniqueLabel(scene, scene.schemes[static_cast<std::size_t>(index)].label));
-    Value schemes = *valueAt(document, "/schemes");
-    schemes.asArray().insert(schemes.asArray().begin() + index + 1, std::move(copy));
-    return {{"/schemes", std::move(schemes)}};
+/// A scheme as a tree, with its colour and dash.
+struct StyledScheme {
+    Value tree;
+    int style;
+};
+
+std::vector<StyledScheme> styledSchemes(const Scene& scene) {
+    std::vector<StyledScheme> schemes;
+    const Value document = toValue(scene);
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+        schemes.push_back({document.find("schemes")->asArray()[i], styleOf(scene.schemes[i], i)});
+    return schemes;
 }
 
-std::vector<Edit> editsForRemoval(int index) { return {{place(index), std::nullopt}}; }
+/// The least number that no scheme has.
+int freeStyle(const Scene& scene) {
+    const std::vector<StyledScheme> schemes = styledSchemes(scene);
+    int style = 0;
+    while (std::any_of(schemes.begin(), schemes.end(), [&](const auto& s) { return s.style == style; }))
+        ++style;
+    return style;
+}
 
-std::vector<Edit> editsForMove(const Value& document, int index, int by) {
-    Value schemes = *valueAt(document, "/schemes");
-    auto& array = schemes.asArray();
+/// Styles that differ from the place in the list are written down.
+std::vector<Edit> editsForSchemes(std::vector<StyledScheme> schemes) {
+    Value::Array trees;
+    for (StyledScheme& scheme : schemes) {
+        std::erase_if(scheme.tree.asObject(), [](const Value::Member& m) { return m.first == "style"; });
+        if (scheme.style != static_cast<int>(trees.size())) scheme.tree.set("style", scheme.style + 1);
+        trees.push_back(std::move(scheme.tree));
+    }
+    return {{"/schemes", Value(std::move(trees))}};
+}
+
+}  // namespace
+
+std::vector<Edit> editsForAdding(const Scene& scene, const Value& scheme) {
+    Value styled = scheme;
+    if (const int style = freeStyle(scene); style != static_cast<int>(scene.schemes.size()))
+        styled.set("style", style + 1);
+    return {{"/schemes/-", std::move(styled)}};
+}
+
+std::vector<Edit> editsForDuplicate(const Scene& scene, int index) {
+    std::vector<StyledScheme> schemes = styledSchemes(scene);
+    StyledScheme copy{schemes.at(static_cast<std::size_t>(index)).tree, freeStyle(scene)};
+    copy.tree.set("label", uniqueLabel(scene, scene.schemes[static_cast<std::size_t>(index)].label));
+    schemes.insert(schemes.begin() + index + 1, std::move(copy));
+    return editsForSchemes(std::move(schemes));
+}
+
+std::vector<Edit> editsForRemoval(const Scene& scene, int index) {
+    std::vector<StyledScheme> schemes = styledSchemes(scene);
+    schemes.erase(schemes.begin() + index);
+    return editsForSchemes(std::move(schemes));
+}
+
+std::vector<Edit> editsForMove(const Scene& scene, int index, int by) {
+    std::vector<StyledScheme> schemes = styledSchemes(scene);
     const int other = index + by;
-    if (other < 0 || other >= static_cast<int>(array.size())) return {};
-    std::swap(array[static_cast<std::size_t>(index)], array[static_cast<std::size_t>(other)]);
-    return {{"/schemes", std::move(schemes)}};
+    if (other < 0 || other >= static_cast<int>(schemes.size())) return {};
+    std::swap(schemes[static_cast<std::size_t>(index)], schemes[static_cast<std::size_t>(other)]);
+    return editsForSchemes(std::move(schemes));
 }
 
 std::vector<Edit> editsForToggle(const Scene& scene, int index) {

@@ -23,10 +23,11 @@ Value newPair(const Scene& scene, const Settings& space, const Settings& quadrat
 Value newBaseline(const Scene& scene, const std::string& id);
 Value newNamed(const Scene& scene, const std::string& id);
 
-std::vector<Edit> editsForAdding(const Value& scheme);
-std::vector<Edit> editsForDuplicate(const Value& document, const Scene& scene, int index);
-std::vector<Edit> editsForRemoval(int index);
-std::vector<Edit> editsForMove(const Value& document, int index, int by);
+/// The other schemes keep their colours and dashes; a new one gets those that no other has.
+std::vector<Edit> editsForAdding(const Scene& scene, const Value& scheme);
+std::vector<Edit> editsForDuplicate(const Scene& scene, int index);
+std::vector<Edit> editsForRemoval(const Scene& scene, int index);
+std::vector<Edit> editsForMove(const Scene& scene, int index, int by);
 std::vector<Edit> editsForToggle(const Scene& scene, int index);
 /// The model with the values it starts from, where they are not its defaults.
 Value exampleModel(const ModelEntry& entry);

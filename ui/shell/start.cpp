@@ -11,6 +11,7 @@
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/workspace.hpp"
 
 namespace extremal {
 namespace {
@@ -54,7 +55,8 @@ int takePicture(QApplication& application, const QString& file, const std::strin
 
 }  // namespace
 
-int runWindow(int& argc, char** argv, const std::string& scene) {
+int runWindow(int& argc, char** argv, const std::string& scene,
+              const std::function<void(const std::vector<Problem>&)>& tell) {
     QApplication application(argc, argv);
     QApplication::setApplicationName("Extremal");
     QApplication::setOrganizationName("Extremal");
@@ -66,7 +68,8 @@ int runWindow(int& argc, char** argv, const std::string& scene) {
     const Theme theme = rememberedTheme();
     applyTheme(application, theme);
     MainWindow window(theme);
-    if (!scene.empty()) window.open(QString::fromStdString(scene));
+    if (!scene.empty() && !window.open(QString::fromStdString(scene)) && tell)
+        tell(window.workspace().openProblems());
     window.show();
     return application.exec();
 }

@@ -2,6 +2,7 @@
 
 #include <QGridLayout>
 #include <QLabel>
+#include <QLocale>
 #include <QMouseEvent>
 #include <QPushButton>
 #include <QScrollArea>
@@ -10,12 +11,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "engine/figure/figure.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_renderer.hpp"
+#include "ui/shell/banners.hpp"
 
 namespace extremal {
 namespace {
@@ -58,9 +61,10 @@ struct StartPage::Entry {
     PresetCard* card;
     QLabel* picture;
     Comparison result;
+    std::optional<UnsavedScene> unsaved;  ///< else a preset
 };
 
-StartPage::StartPage(const Theme& theme, QWidget* parent)
+StartPage::StartPage(const Theme& theme, Notices& notices, QWidget* parent)
     : QWidget(parent), theme_(&theme), timer_(new QTimer(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -85,6 +89,18 @@ StartPage::StartPage(const Theme& theme, QWidget* parent)
     connect(open, &QPushButton::clicked, this, &StartPage::openRequested);
     head->addWidget(open);
     column->addLayout(head);
+    column->addWidget(new Banners(notices));
+    unsaved_ = new QWidget;
+    unsaved_->setObjectName("unsaved");
+    auto* unsavedColumn = new QVBoxLayout(unsaved_);
+    unsavedColumn->setContentsMargins(0, 0, 0, 0);
+    unsavedColumn->addWidget(
+        makeLabel(tr("Continue: not saved when the program ended unexpectedly"), "title"));
+    unsavedGrid_ = new QGridLayout;
+    unsavedGrid_->setSpacing(12);
+    unsavedColumn->addLayout(unsavedGrid_);
+    unsaved_->hide();
+    column->addWidget(unsaved_);
     grid_ = new QGridLayout;
     grid_->setSpacing(12);
     column->addLayout(grid_);
@@ -101,27 +117,63 @@ StartPage::StartPage(const Theme& theme, QWidget* parent)
         ReadScene read = readScene(p->json);
         if (!read.errors.empty()) continue;
         const QString id = QString::fromUtf8(p->id.data(), static_cast<qsizetype>(p->id.size()));
-        auto entry = std::make_unique<Entry>();
-        entry->scene = std::move(read.scene);
-        entry->card = new PresetCard(
-            QString::fromStdString(entry->scene.title), [this, id] { emit presetChosen(id); }, inside_);
-        entry->picture = new QLabel(entry->card);
-        entry->picture->setFixedHeight(pictureSize.height());
-        entry->picture->setAlignment(Qt::AlignCenter);
-        entry->card->body()->addWidget(entry->picture);
-        auto* lesson = makeLabel(QString::fromStdString(entry->scene.lesson), "caption", entry->card);
-        lesson->setWordWrap(true);
-        lesson->setMinimumHeight(34);
-        lesson->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-        entry->card->body()->addWidget(lesson);
-        waiting_.push_back(entries_.size());
-        entries_.push_back(std::move(entry));
+        const QString title = QString::fromStdString(read.scene.title),
+                      lesson = QString::fromStdString(read.scene.lesson);
+        addCard(std::move(read.scene), title, lesson, [this, id] { emit presetChosen(id); });
     }
     timer_->setInterval(25);
     connect(timer_, &QTimer::timeout, this, &StartPage::work);
 }
 
 StartPage::~StartPage() = default;
+
+StartPage::Entry& StartPage::addCard(Scene scene, const QString& title, const QString& text,
+                                     std::function<void()> act) {
+    auto entry = std::make_unique<Entry>();
+    entry->scene = std::move(scene);
+    entry->card = new PresetCard(title, std::move(act), inside_);
+    entry->picture = new QLabel(entry->card);
+    entry->picture->setFixedHeight(pictureSize.height());
+    entry->picture->setAlignment(Qt::AlignCenter);
+    entry->card->body()->addWidget(entry->picture);
+    auto* label = makeLabel(text, "caption", entry->card);
+    label->setWordWrap(true);
+    label->setMinimumHeight(34);
+    label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    entry->card->body()->addWidget(label);
+    waiting_.push_back(entries_.size());
+    return *entries_.emplace_back(std::move(entry));
+}
+
+void StartPage::offer(std::vector<UnsavedScene> scenes) {
+    std::erase_if(entries_, [](const auto& entry) {
+        if (entry->unsaved) entry->card->deleteLater();
+        return entry->unsaved.has_value();
+    });
+    waiting_.clear();
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        if (entries_[i]->picture->pixmap().isNull()) waiting_.push_back(i);
+    for (UnsavedScene& scene : scenes) {
+        ReadScene read = readScene(scene.document);
+        const QString when = QLocale().toString(scene.time, "d MMMM, HH:mm"),
+                      title = QString::fromStdString(read.scene.title);
+        Entry& entry = addCard(std::move(read.scene), scene.name,
+                               title.isEmpty() ? when : title + QStringLiteral("  ·  ") + when,
+                               [this, scene] { emit restoreRequested(scene); });
+        entry.unsaved = scene;
+        auto* discard = new QPushButton(tr("Discard"), entry.card);
+        discard->setProperty("kind", "flat");
+        discard->setAccessibleName(tr("Discard %1").arg(scene.name));
+        connect(discard, &QPushButton::clicked, this, [this, scene] { emit discardRequested(scene); });
+        entry.card->header()->addWidget(discard);
+        waiting_.pop_back();  // its picture is the first one to be made
+        if (read.errors.empty()) waiting_.push_front(entries_.size() - 1);
+    }
+    unsaved_->setVisible(!scenes.empty());
+    columns_ = 0;
+    arrange();
+    if (isVisible()) timer_->start();
+}
 
 void StartPage::setTheme(const Theme& theme) {
     theme_ = &theme;
@@ -144,9 +196,17 @@ void StartPage::arrange() {
     const int columns = std::max(1, (width() - 40) / (pictureSize.width() + 44));
     if (columns == columns_) return;
     columns_ = columns;
-    while (QLayoutItem* item = grid_->takeAt(0)) delete item;
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-        grid_->addWidget(entries_[i]->card, static_cast<int>(i) / columns, static_cast<int>(i) % columns);
+    for (QGridLayout* grid : {grid_, unsavedGrid_})
+        while (QLayoutItem* item = grid->takeAt(0)) delete item;
+    for (const auto& entry : entries_) {
+        QGridLayout* grid = entry->unsaved ? unsavedGrid_ : grid_;
+        const int at = grid->count();
+        grid->addWidget(entry->card, at / columns, at % columns);
+    }
+    for (int c = 0; c < columns; ++c) {
+        unsavedGrid_->setColumnStretch(c, 1);  // one card alone is as wide as the others
+        unsavedGrid_->setColumnMinimumWidth(c, 1);
+    }
 }
 
 void StartPage::work() {

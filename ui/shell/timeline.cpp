@@ -4,12 +4,12 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QSlider>
 
 #include <algorithm>
 #include <cmath>
 
 #include "ui/panels/card.hpp"
+#include "ui/panels/seek_slider.hpp"
 #include "ui/shell/playback.hpp"
 
 namespace extremal {
@@ -25,7 +25,7 @@ Timeline::Timeline(Playback& playback, QWidget* parent) : QWidget(parent), playb
     play_->setProperty("kind", "flat");
     play_->setToolTip(tr("Play or pause (Space)"));
     play_->setFixedWidth(58);
-    slider_ = new QSlider(Qt::Horizontal, this);
+    slider_ = new SeekSlider(Qt::Horizontal, this);
     slider_->setRange(0, resolution);
     slider_->setAccessibleName(tr("Time"));
     label_ = makeLabel({}, "caption", this);

@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QMenu>
 #include <QMessageBox>
+#include <QStatusBar>
 
 #include "engine/run/export.hpp"
 #include "engine/scene/bind.hpp"
@@ -45,6 +46,7 @@ void MainWindow::makeActions() {
         if (!help_) help_ = new HelpWindow(this);
         help_->open("keys");
     });
+    actions_->add("log", tr("Help"), tr("Log"), {QKeySequence(Qt::CTRL | Qt::Key_L)}, [this] { showLog(); });
     actions_->add("about", tr("Help"), tr("About Extremal"), {QKeySequence(Qt::CTRL | Qt::Key_F1)}, [this] {
         QMessageBox::about(
             this, tr("About Extremal"),
@@ -95,7 +97,20 @@ void MainWindow::addEditActions() {
     for (int i = 0; i < 9; ++i)
         actions_->add(QStringLiteral("toggle%1").arg(i + 1), menu,
                       tr("Switch scheme %1 on or off").arg(i + 1), {QKeySequence(Qt::Key_1 + i)},
-                      [this, i] { schemes_->toggle(i); });
+                      [this, i] { toggleScheme(i); });
+}
+
+/// Says what a digit has done, as it may have been meant for something else.
+void MainWindow::toggleScheme(int index) {
+    const auto& schemes = workspace_->scene().schemes;
+    if (!workspace_->hasScene() || index >= static_cast<int>(schemes.size())) return;
+    schemes_->toggle(index);
+    const SchemeSpec& scheme = schemes[static_cast<std::size_t>(index)];
+    const QString name = QString::fromStdString(scheme.label);
+    statusBar()->showMessage(scheme.isEnabled
+                                 ? tr("%1 is on again").arg(name)
+                                 : tr("%1 is off: the key %2 switches it on again").arg(name).arg(index + 1),
+                             6000);
 }
 
 /// The plots of the catalogue, checked where the scene has them.
@@ -221,6 +236,7 @@ bool MainWindow::exportEverything(const QString& folder) {
     } catch (const ExportError& e) {
         problem = QString::fromStdString(e.path.string()) + ": " + e.what();
     }
+    compare_->complete();
     for (std::size_t i = 0; problem.isEmpty() && i < compare_->plots().size(); ++i) {
         const PlotWidget* plot = compare_->plots()[i];
         const QString name = QStringLiteral("%1/%2-%3")

@@ -38,9 +38,9 @@ bool Workspace::accept(const Value& candidate, const std::vector<Edit>& edits) {
 
 bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const QString& mergeKey) {
     if (!hasScene_) return false;
-    const Value before = document_;
+    const EditState before = state();
     const auto keep = [&] {
-        if (!(before == document_)) history_.push(before, what, mergeKey);
+        if (!(before == state())) history_.push(before, what, mergeKey);
         emit draftsChanged();
         emit sceneChanged();
         emit fileChanged();
@@ -70,6 +70,7 @@ bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const 
     problems_ = together;
     for (const Edit& e : edits)
         if (e.value) drafts_[e.pointer] = *e.value;
+    if (!(before == state())) history_.push(before, what, mergeKey);
     emit draftsChanged();
     return false;
 }
@@ -102,24 +103,31 @@ void Workspace::setDocument(Value document, Scene scene, std::vector<Problem> wa
         selectScheme(static_cast<int>(scene_.schemes.size()) - 1);
 }
 
-void Workspace::restore(const Value& document) {
+void Workspace::restore(const EditState& state) {
     drafts_.clear();
     problems_.clear();
-    accept(document, {});
+    accept(state.document, {});
+    if (!state.drafts.empty()) {
+        drafts_ = state.drafts;
+        std::vector<Edit> refused;
+        for (const auto& [pointer, value] : drafts_) refused.push_back({pointer, value});
+        problems_ = readScene(withEdits(document_, refused), {}, directoryOf(path_)).errors;
+    }
     emit draftsChanged();
     emit sceneChanged();
     emit fileChanged();
 }
 
 void Workspace::undo() {
-    if (history_.canUndo()) restore(history_.undo(document_));
+    if (history_.canUndo()) restore(history_.undo(state()));
 }
 
 void Workspace::redo() {
-    if (history_.canRedo()) restore(history_.redo(document_));
+    if (history_.canRedo()) restore(history_.redo(state()));
 }
 
 void Workspace::report(const QString& name, const std::vector<Problem>& problems) {
+    openProblems_ = problems;
     QStringList lines, hints;
     for (const Problem& p : problems) {
         const QString where = p.pointer.empty() ? QString() : QString::fromStdString(p.pointer) + ": ";
@@ -127,12 +135,13 @@ void Workspace::report(const QString& name, const std::vector<Problem>& problems
         if (!p.hint.empty() && hints.isEmpty()) hints << QString::fromStdString(p.hint);
         notices_.addToLog(name + ": " + where + QString::fromStdString(p.message));
     }
-    if (problems.size() > 3) lines << tr("and %1 more (see the log)").arg(problems.size() - 3);
-    notices_.post({Notice::Kind::error,
-                   "open",
-                   tr("%1 cannot be used: %2").arg(name, lines.join("; ")),
-                   hints.join("; "),
-                   {}});
+    std::vector<Notice::Choice> choices;
+    if (problems.size() > 3) {
+        lines << tr("and %1 more, which are in the log").arg(problems.size() - 3);
+        choices.push_back({tr("Show the log"), [this] { emit notices_.logRequested(); }});
+    }
+    notices_.post({Notice::Kind::error, "open", tr("%1 cannot be used: %2").arg(name, lines.join("; ")),
+                   hints.join("; "), std::move(choices)});
 }
 
 bool Workspace::open(const QString& name) {
@@ -168,14 +177,14 @@ bool Workspace::open(const QString& name) {
     return true;
 }
 
-bool Workspace::adopt(const Value& document, const QString& path) {
+bool Workspace::adopt(const Value& document, const QString& path, const QString& origin) {
     ReadScene read = readScene(document, {}, directoryOf(path));
     if (!read.errors.empty()) {
         report(tr("The scene"), read.errors);
         return false;
     }
     path_ = path;
-    origin_ = path;
+    origin_ = origin.isEmpty() ? path : origin;
     drafts_.clear();
     problems_.clear();
     history_.clear();

@@ -48,7 +48,9 @@ public:
     /// Opens a path or "preset:NAME". False, with a notice, if that cannot be done.
     bool open(const QString& name);
     /// Takes a whole document, as for a new scene or a recovered one; it counts as unsaved.
-    bool adopt(const Value& document, const QString& path = {});
+    bool adopt(const Value& document, const QString& path = {}, const QString& origin = {});
+    /// Why the last scene could not be opened.
+    const std::vector<Problem>& openProblems() const { return openProblems_; }
     bool save();  ///< false, with a notice, if it cannot be written or has no file yet
     bool saveAs(const QString& path);
     QString path() const { return path_; }      ///< empty: not saved yet
@@ -69,14 +71,15 @@ signals:
 private:
     bool accept(const Value& candidate, const std::vector<Edit>& edits);
     void setDocument(Value document, Scene scene, std::vector<Problem> warnings);
-    void restore(const Value& document);
+    EditState state() const { return {document_, drafts_}; }
+    void restore(const EditState& state);
     void report(const QString& name, const std::vector<Problem>& problems);
 
     Notices& notices_;
     bool hasScene_ = false;
     Scene scene_;
     Value document_, saved_;
-    std::vector<Problem> warnings_, problems_;
+    std::vector<Problem> warnings_, problems_, openProblems_;
     std::map<std::string, Value> drafts_;
     History history_;
     QString path_, origin_;

@@ -138,10 +138,13 @@ void StageWidget::setTheme(const Theme& theme) {
 }
 
 void StageWidget::setComparison(std::shared_ptr<const Comparison> comparison) {
-    const Comparison* before = impl_->player.comparison();
-    const bool isOtherModel =
-        !before || !comparison || before->scene.model.type != comparison->scene.model.type;
-    impl_->player = StagePlayer(std::move(comparison));
+    setPlayer(StagePlayer(std::move(comparison)));
+}
+
+void StageWidget::setPlayer(StagePlayer player) {
+    const Comparison *before = impl_->player.comparison(), *after = player.comparison();
+    const bool isOtherModel = !before || !after || before->scene.model.type != after->scene.model.type;
+    impl_->player = std::move(player);
     if (isOtherModel && impl_->chosen) fit();
     setAccessibleDescription(stageSummary(impl_->player));
     impl_->changed();

@@ -19,6 +19,7 @@
 namespace extremal {
 
 struct Theme;
+class StagePlayer;
 
 class StageWidget : public QWidget {
     Q_OBJECT
@@ -29,6 +30,8 @@ public:
     void setTheme(const Theme& theme);
     /// Null empties the stage. Another model brings back the full view.
     void setComparison(std::shared_ptr<const Comparison> comparison);
+    /// The same with what may take a while made before, in another thread.
+    void setPlayer(StagePlayer player);
     void setTime(double t);
     double time() const;
     /// For use without a list of schemes beside the stage.

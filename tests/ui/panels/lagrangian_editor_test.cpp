@@ -69,6 +69,24 @@ private slots:
         window.open("preset:kepler");
         QTRY_VERIFY(!window.formula()->isVisible());
     }
+    void whatIsTypedSurvivesANewNameAndUndo() {
+        Window window("preset:duffing");
+        const QString before = window.inScene();
+        const QString typed = "m/2*x_t^2 - k*x^";  // not valid yet
+        window.type(typed);
+        QTRY_VERIFY(!window.problem().isEmpty());
+        QCOMPARE(window.inScene(), before);
+        enter(window.part<QLineEdit>("field.coordinates"), "u");
+        QCOMPARE(window.inScene("/model/coordinates/0"), QString("u"));
+        QCOMPARE(window.formula()->toPlainText(), QString("m/2*u_t^2 - k*u^"));
+        while (window.inScene("/model/coordinates/0") != "x") window.actions().find("undo")->trigger();
+        QCOMPARE(window.formula()->toPlainText(), typed);
+        QCOMPARE(window.inScene(), before);
+        window.actions().find("redo")->trigger();
+        while (window.inScene("/model/coordinates/0") != "u") window.actions().find("redo")->trigger();
+        window.type("m/2*u_t^2 - k*u^2");
+        QTRY_COMPARE(window.inScene(), QString("m/2*u_t^2 - k*u^2"));
+    }
     void aSoundFormulaBecomesTheScene() {
         Window window("preset:duffing");
         const QString before = window.inScene();

@@ -1,0 +1,27 @@
+#include "ui/shell/figure_job.hpp"
+
+#include "engine/scene/bind.hpp"
+
+namespace extremal {
+
+FigureSet makeFigures(const FigureJob& job) {
+    const Comparison& results = *job.results;
+    const std::shared_ptr<const System> system =
+        results.system ? results.system : std::make_shared<const System>(makeSystem(results.scene));
+    FigureSet made{job, {}, {}};
+    for (const auto& [plot, view] : job.views)
+        made.figures.push_back(makeFigure(results, view, system.get()));
+    if (job.makesStage) made.player.emplace(job.results, *system);
+    return made;
+}
+
+bool isSameData(const Comparison& a, const Comparison& b) {
+    // What a map marks is in the scene.
+    if (a.products.find<ParameterMaps>() || b.products.find<ParameterMaps>()) return &a == &b;
+    return a.schemes == b.schemes && a.isFinished == b.isFinished && a.scene.model == b.scene.model &&
+           a.scene.start == b.scene.start && a.scene.end == b.scene.end &&
+           a.scene.observe == b.scene.observe && a.reference.type == b.reference.type &&
+           a.reference.description == b.reference.description;
+}
+
+}  // namespace extremal

@@ -1,0 +1,31 @@
+/// The figures and the stage of a comparison, made away from the window's thread.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "engine/figure/figure.hpp"
+#include "ui/stage/stage_player.hpp"
+
+namespace extremal {
+
+struct FigureJob {
+    std::shared_ptr<const Comparison> results;
+    std::vector<std::pair<int, View>> views;  ///< with the number of their plot
+    bool makesStage = true;
+};
+
+struct FigureSet {
+    FigureJob job;
+    std::vector<Figure> figures;  ///< of job.views
+    std::optional<StagePlayer> player;
+};
+
+FigureSet makeFigures(const FigureJob& job);
+
+/// Whether two comparisons give the same figures.
+bool isSameData(const Comparison& a, const Comparison& b);
+
+}  // namespace extremal

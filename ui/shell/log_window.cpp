@@ -1,0 +1,37 @@
+#include "ui/shell/log_window.hpp"
+
+#include <QPlainTextEdit>
+#include <QScrollBar>
+#include <QVBoxLayout>
+
+#include "ui/shell/notices.hpp"
+
+namespace extremal {
+
+LogWindow::LogWindow(Notices& notices, QWidget* parent)
+    : QWidget(parent, Qt::Window), notices_(notices), text_(new QPlainTextEdit(this)) {
+    setObjectName("log");
+    setWindowTitle(tr("Log"));
+    resize(760, 420);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    text_->setReadOnly(true);
+    text_->setAccessibleName(tr("Log"));
+    layout->addWidget(text_);
+    connect(&notices_, &Notices::logChanged, this, &LogWindow::refresh);
+    refresh();
+}
+
+void LogWindow::open() {
+    show();
+    raise();
+    activateWindow();
+}
+
+void LogWindow::refresh() {
+    text_->setPlainText(notices_.log().isEmpty() ? tr("Nothing has been reported in this session.")
+                                                 : notices_.log().join('\n'));
+    text_->verticalScrollBar()->setValue(text_->verticalScrollBar()->maximum());
+}
+
+}  // namespace extremal
