@@ -215,8 +215,11 @@ private slots:
             Comparison comparison = handmade::comparison();
             SchemeResult result = *comparison.schemes[0];
             result.trajectory = {};
-            result.trajectory.columns = {
-                {"t", {}, "t", "s"}, {"q.x", {}, "x", ""}, {"q.y", {}, "y", ""}, {"p.x", {}, "p", ""}};
+            for (const char* name : {"t", "q.x", "q.y", "p.x"}) {
+                Column column;
+                column.name = column.symbol = name;
+                result.trajectory.columns.push_back(std::move(column));
+            }
             for (int i = 0; i < 500; ++i) {
                 const double a = 2 * M_PI * turns * i;
                 const std::array<double, 4> row{0.1 * i, std::cos(a), std::sin(a), -std::sin(a)};

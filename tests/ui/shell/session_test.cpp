@@ -111,9 +111,12 @@ private slots:
         QCOMPARE(cards.size(), 1);
         QVERIFY(wordsOf(*section).contains("mine.json"));
         QVERIFY(wordsOf(*section).contains(QLocale().toString(QDate::currentDate(), "d MMMM")));
-        QTRY_VERIFY(std::any_of(cards[0]->findChildren<QLabel*>().begin(),
-                                cards[0]->findChildren<QLabel*>().end(),
-                                [](const QLabel* label) { return !label->pixmap().isNull(); }));
+        const auto hasPicture = [&] {
+            const auto labels = cards[0]->findChildren<QLabel*>();
+            return std::any_of(labels.begin(), labels.end(),
+                               [](const QLabel* label) { return !label->pixmap().isNull(); });
+        };
+        QTRY_VERIFY(hasPicture());
         QTest::mouseClick(cards[0], Qt::LeftButton);
         QVERIFY(window.workspace().document() == edited);
         QCOMPARE(window.workspace().path(), path);
