@@ -296,6 +296,23 @@ private slots:
             QVERIFY(a.err.isEmpty() && a.out.contains("--set"));
         }
     }
+    void theWindowSaysInTheTerminalWhatItCannotOpen() {
+        for (const char* scene : {"/no/such/file.json", "preset:typo"}) {
+            QProcess process;
+            QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+            environment.insert("QT_QPA_PLATFORM", "offscreen");
+            process.setProcessEnvironment(environment);
+            process.start(QStringLiteral(EXTREMAL_BINARY), {scene});
+            process.setReadChannel(QProcess::StandardError);
+            QByteArray said;
+            while (!said.contains(scene) && process.waitForReadyRead(30000))
+                said += process.readAllStandardError();
+            QVERIFY2(said.contains("extremal: ") && said.contains(scene), said.constData());
+            QCOMPARE(process.state(), QProcess::Running);  // the start page is there
+            process.terminate();
+            QVERIFY(process.waitForFinished(30000));
+        }
+    }
 };
 
 EXTREMAL_TEST(CommandLineTest)

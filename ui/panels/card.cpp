@@ -55,12 +55,12 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
     header_->setSpacing(6);
     title_ = makeLabel(title, "title");
     subtitle_ = makeElidedLabel({}, "caption");
-    subtitle_->hide();
     header_->addWidget(title_);
     header_->addWidget(subtitle_, 1);
     header_->addStretch();
-    title_->setVisible(!title.isEmpty());
     body_->addLayout(header_);
+    subtitle_->hide();
+    title_->setVisible(!title.isEmpty());  // not before it has a parent: it would be a window for a moment
 }
 
 void Card::setTitle(const QString& title) {
@@ -91,7 +91,7 @@ QMenu* Card::menu() {
         dots_->setToolTip(tr("More"));
         dots_->setFocusPolicy(Qt::TabFocus);
         dots_->setFixedSize(26, 20);
-        dots_->setStyleSheet(QStringLiteral("QToolButton { padding: 0; }"));
+        dots_->setProperty("kind", "dots");
         header_->addWidget(dots_);
     }
     return dots_->menu();

@@ -69,9 +69,10 @@ void DiscretizerCell::setTheme(const Theme& theme) {
     update();
 }
 
-void DiscretizerCell::setPresent(bool isPresent) {
-    if (isPresent_ == isPresent) return;
-    isPresent_ = isPresent;
+void DiscretizerCell::setUse(Use use) {
+    if (use_ == use) return;
+    use_ = use;
+    setProperty("use", use == Use::on ? "on" : use == Use::off ? "off" : "none");
     update();
 }
 
@@ -80,10 +81,11 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF box = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
-    QColor ground = isPresent_ ? theme_->accent : theme_->field;
+    const bool isOn = use_ == Use::on;
+    QColor ground = isOn ? theme_->accent : theme_->field;
     if (!isEnabled()) ground = Qt::transparent;
-    if (isEnabled() && underMouse() && !isPresent_) ground = theme_->selection;
-    painter.setPen(hasFocus() ? QPen(theme_->accent, 1) : QPen(Qt::NoPen));
+    if (isEnabled() && underMouse() && !isOn) ground = theme_->selection;
+    painter.setPen(hasFocus() || use_ == Use::off ? QPen(theme_->accent, 1) : QPen(Qt::NoPen));
     painter.setBrush(ground);
     painter.drawRoundedRect(box, 4, 4);
     if (!isEnabled()) {
@@ -102,7 +104,7 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     const double orderWidth = order.isEmpty() ? 0 : smallMetrics.horizontalAdvance(order) + 1;
     const double left = (width() - metrics.horizontalAdvance(name) - orderWidth) / 2;
     const double baseline = (height() + metrics.capHeight()) / 2;
-    painter.setPen(isPresent_ ? theme_->onAccent : theme_->text);
+    painter.setPen(isOn ? theme_->onAccent : theme_->text);
     painter.setFont(font);
     painter.drawText(QPointF(left, baseline), name);
     painter.setFont(small);
@@ -169,8 +171,15 @@ void Discretizer::refresh() {
     const bool isSame = ids == shown_ && !cells_.empty() &&
                         cells_.front()->space().type == choices.cells.front().discretization.space.type;
     if (!isSame) fill(choices);
-    for (DiscretizerCell* cell : cells_)
-        cell->setPresent(findPair(workspace_.scene(), cell->space(), cell->quadrature()) >= 0);
+    for (DiscretizerCell* cell : cells_) cell->setUse(useOf(*cell));
+}
+
+DiscretizerCell::Use Discretizer::useOf(const DiscretizerCell& cell) const {
+    const Scene& scene = workspace_.scene();
+    const int there = findPair(scene, cell.space(), cell.quadrature());
+    if (there < 0) return DiscretizerCell::Use::none;
+    return scene.schemes[static_cast<std::size_t>(there)].isEnabled ? DiscretizerCell::Use::on
+                                                                    : DiscretizerCell::Use::off;
 }
 
 void Discretizer::choose(const DiscretizerCell& cell) {

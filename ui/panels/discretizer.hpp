@@ -26,7 +26,11 @@ public:
     const Settings& space() const { return choice_.discretization.space; }
     const Settings& quadrature() const { return choice_.discretization.quadrature; }
     void setTheme(const Theme& theme);
-    void setPresent(bool isPresent);
+    /// Whether a scheme of the scene is this discretization, and whether it is switched on: filled, or
+    /// outlined.
+    enum class Use { none, off, on };
+    void setUse(Use use);
+    Use use() const { return use_; }
     QSize sizeHint() const override { return {34, 23}; }
     QSize minimumSizeHint() const override { return {26, 23}; }
 
@@ -37,7 +41,7 @@ private:
     QString tooltip(const Properties& known) const;
 
     ChoiceGrid::Cell choice_;
-    bool isPresent_ = false;
+    Use use_ = Use::none;
     const Theme* theme_ = nullptr;
 };
 
@@ -52,6 +56,7 @@ private:
     void fill(const ChoiceGrid& grid);
     void refresh();
     void choose(const DiscretizerCell& cell);
+    DiscretizerCell::Use useOf(const DiscretizerCell& cell) const;
 
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;

@@ -93,7 +93,7 @@ void SchemeCard::makeHeader() {
     auto* dots = new QToolButton;
     dots->setText(QStringLiteral("⋯"));
     dots->setFixedSize(22, 20);
-    dots->setStyleSheet(QStringLiteral("QToolButton { padding: 0; }"));
+    dots->setProperty("kind", "dots");
     dots->setPopupMode(QToolButton::InstantPopup);
     dots->setToolTip(tr("Edit, duplicate, remove, ..."));
     dots->setAccessibleName(dots->toolTip());

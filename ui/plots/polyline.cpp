@@ -129,11 +129,11 @@ private:
 };
 
 /// Marks the columns that belong to bands: where, over a window, the line turns at least once per two pixels
-/// and is some pixels high, if it turns once per pixel somewhere there. Bands that are narrow stay lines, and
-/// narrow gaps in bands are closed.
+/// and is some pixels high, if it turns twice per three pixels somewhere there. Bands that are narrow stay
+/// lines, and narrow gaps in bands are closed.
 void markDense(std::vector<PixelColumn>& columns) {
     constexpr double window = 6, leastHeight = 4, leastWidth = 12;  // pixels
-    constexpr double manyTurns = 1, someTurns = 0.5;                // per pixel
+    constexpr double manyTurns = 0.66, someTurns = 0.4;             // per pixel
     std::vector<bool> isCore(columns.size());
     std::size_t from = 0, to = 0;
     double turns = 0, height = 0;

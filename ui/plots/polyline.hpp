@@ -5,9 +5,9 @@
 /// with the right slope and no painter meets huge coordinates.
 ///
 /// Along a monotone x at most four points per pixel column remain (first, lowest, highest, last: the picture
-/// is the same). Where a line turns at least once per pixel, over some width and height, it becomes a band
-/// between the extremes of each column: to draw it costs as much as a line of its width, not the sum of its
-/// oscillations.
+/// is the same). Where a line turns at least twice per three pixels, over some width and height, it becomes a
+/// band between the extremes of each column: to draw it costs as much as a line of its width, not the sum of
+/// its oscillations.
 ///
 /// On other curves points closer than half a pixel are dropped, and more than that if they would still be
 /// more than 20,000. A curve whose length fills a good part of the plot is dense: it is drawn without dashes,

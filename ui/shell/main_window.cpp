@@ -32,6 +32,7 @@
 #include "ui/shell/autosave.hpp"
 #include "ui/shell/banners.hpp"
 #include "ui/shell/compare_view.hpp"
+#include "ui/shell/formula_text.hpp"
 #include "ui/shell/header_bar.hpp"
 #include "ui/shell/log_window.hpp"
 #include "ui/shell/notices.hpp"
@@ -230,7 +231,7 @@ void MainWindow::showScene() {
     if (!scene.lesson.empty()) notes += "*" + QString::fromStdString(scene.lesson) + "*\n\n";
     notes += QString::fromStdString(scene.notes);
     if (!scene.source.empty()) notes += tr("\n\nSource: %1").arg(QString::fromStdString(scene.source));
-    showMarkdown(*notes_, notes);
+    showMarkdown(*notes_, withFormulas(notes));
 }
 
 void MainWindow::showStatus() {

@@ -27,6 +27,20 @@
 
 namespace extremal {
 
+std::vector<const ViewEntry*> offeredPlots(const Scene& scene) {
+    const System system = makeSystem(scene);
+    std::vector<const ViewEntry*> offered;
+    for (const ViewEntry& entry : viewEntries()) {
+        const std::string& id = entry.item.id;
+        if (!entry.isPlot() || id == "work-precision" || !missingFor({id, "", ""}, system).empty()) continue;
+        const bool isShowable =
+            std::any_of(scene.schemes.begin(), scene.schemes.end(),
+                        [&](const SchemeSpec& s) { return unsuitableFor(entry, resolve(s)).empty(); });
+        if (isShowable && (id != mapView || canBeMapped(scene, system))) offered.push_back(&entry);
+    }
+    return offered;
+}
+
 std::vector<Edit> editsForPlot(const Scene& scene, const View& before, const View& after) {
     Scene changed = scene;
     changed.views.clear();

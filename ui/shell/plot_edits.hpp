@@ -13,8 +13,13 @@ class QWidget;
 
 namespace extremal {
 
+struct ViewEntry;
 class PlotWidget;
 class Workspace;
+
+/// The plots that this scene can have: its system and at least one of its schemes have what they show.
+/// Without speed against accuracy, which is always there.
+std::vector<const ViewEntry*> offeredPlots(const Scene& scene);
 
 /// The scene's views with one of the plots shown changed. A view that stands for several plots is split into
 /// them.

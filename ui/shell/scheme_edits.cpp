@@ -66,14 +66,19 @@ bool hasImpliedStep(const Settings& space) {
 
 std::string place(int index) { return "/schemes/" + std::to_string(index); }
 
-/// The same space, degree, rule, nodes and panels.
+/// The same space and rule, with all keys that both have; the basis of a space does not matter to its scheme.
 bool areSame(const Discretization& a, const Discretization& b) {
-    const auto same = [&](const Settings& one, const Settings& other, const char* key) {
-        return std::max(1, one.integer(key)) == std::max(1, other.integer(key));
+    const auto same = [](const Settings& one, const Settings& other) {
+        return one.type == other.type && std::all_of(one.keys.begin(), one.keys.end(), [&](const auto& key) {
+                   const Value* there = other.find(key.first);
+                   if (!there || there->isNull() || key.second.isNull() || key.first == "basis") return true;
+                   const bool areNumbers = there->isNumber() && key.second.isNumber();
+                   return areNumbers
+                              ? std::max(1.0, there->asNumber()) == std::max(1.0, key.second.asNumber())
+                              : *there == key.second;
+               });
     };
-    return a.space.type == b.space.type && same(a.space, b.space, "degree") &&
-           a.quadrature.type == b.quadrature.type && same(a.quadrature, b.quadrature, "nodes") &&
-           same(a.quadrature, b.quadrature, "panels");
+    return same(a.space, b.space) && same(a.quadrature, b.quadrature);
 }
 
 }  // namespace
@@ -282,6 +287,7 @@ std::vector<Edit> editsForCase(const Scene& scene, const View& view, double valu
 }
 
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
+    int found = -1;
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const ResolvedScheme scheme = resolve(scene.schemes[i]);
         const Discretization* const plain = scheme.plain();
@@ -290,9 +296,10 @@ int findPair(const Scene& scene, const Settings& space, const Settings& quadratu
         const Discretization wanted{space, quadrature, {}};
         const bool isSame =
             family->isSame ? family->isSame(*plain, scheme.spec.step.value, wanted) : areSame(*plain, wanted);
-        if (isSame) return static_cast<int>(i);
+        if (isSame && scene.schemes[i].isEnabled) return static_cast<int>(i);
+        if (isSame && found < 0) found = static_cast<int>(i);
     }
-    return -1;
+    return found;
 }
 
 std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown) {

@@ -38,7 +38,7 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 /// A case of a view "parameter-map" of one scheme: the parameter, and the step of this scheme.
 std::vector<Edit> editsForCase(const Scene& scene, const View& view, double value, double step);
 
-/// The scheme that is this discretization (same space and rule), or -1.
+/// The scheme that is this discretization (same space and rule), first of all one that is switched on, or -1.
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 
 /// Shows a view, with what it observes, or hides it.

@@ -1,11 +1,14 @@
 #include "ui/shell/start_page.hpp"
 
+#include <QApplication>
 #include <QGridLayout>
 #include <QLabel>
 #include <QLocale>
 #include <QMouseEvent>
+#include <QPointer>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QThreadPool>
 #include <QTimer>
 #include <QVBoxLayout>
 
@@ -108,24 +111,41 @@ StartPage::StartPage(const Theme& theme, Notices& notices, QWidget* parent)
     scroll->setWidget(inside_);
     layout->addWidget(scroll);
 
-    // The headline first, then the others by name.
-    std::vector<const Preset*> order;
-    for (const Preset& p : presets()) order.push_back(&p);
-    std::stable_partition(order.begin(), order.end(),
-                          [](const Preset* p) { return p->id == "spring-pendulum"; });
-    for (const Preset* p : order) {
-        ReadScene read = readScene(p->json);
-        if (!read.errors.empty()) continue;
-        const QString id = QString::fromUtf8(p->id.data(), static_cast<qsizetype>(p->id.size()));
-        const QString title = QString::fromStdString(read.scene.title),
-                      lesson = QString::fromStdString(read.scene.lesson);
-        addCard(std::move(read.scene), title, lesson, [this, id] { emit presetChosen(id); });
-    }
     timer_->setInterval(25);
     connect(timer_, &QTimer::timeout, this, &StartPage::work);
 }
 
 StartPage::~StartPage() = default;
+
+/// Reads the presets in another thread, some of which take a while, and adds their cards as they come: the
+/// headline first, then the others by name.
+void StartPage::readPresets() {
+    hasReadPresets_ = true;
+    QThreadPool::globalInstance()->start([self = QPointer(this)] {
+        std::vector<const Preset*> order;
+        for (const Preset& p : presets()) order.push_back(&p);
+        std::stable_partition(order.begin(), order.end(),
+                              [](const Preset* p) { return p->id == "spring-pendulum"; });
+        for (const Preset* p : order) {
+            auto read = std::make_shared<ReadScene>(readScene(p->json));
+            if (!read->errors.empty()) continue;
+            QMetaObject::invokeMethod(
+                qApp,
+                [self, read, id = QString::fromUtf8(p->id.data(), static_cast<qsizetype>(p->id.size()))] {
+                    if (self) self->addPreset(id, std::move(read->scene));
+                },
+                Qt::QueuedConnection);
+        }
+    });
+}
+
+void StartPage::addPreset(const QString& id, Scene scene) {
+    const QString title = QString::fromStdString(scene.title), lesson = QString::fromStdString(scene.lesson);
+    const Entry& entry = addCard(std::move(scene), title, lesson, [this, id] { emit presetChosen(id); });
+    const int at = grid_->count();
+    if (columns_ > 0) grid_->addWidget(entry.card, at / columns_, at % columns_);
+    if (isVisible()) timer_->start();
+}
 
 StartPage::Entry& StartPage::addCard(Scene scene, const QString& title, const QString& text,
                                      std::function<void()> act) {
@@ -184,6 +204,7 @@ void StartPage::setTheme(const Theme& theme) {
 
 void StartPage::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
+    if (!hasReadPresets_) readPresets();
     timer_->start();
 }
 

@@ -44,6 +44,8 @@ protected:
 
 private:
     struct Entry;
+    void readPresets();
+    void addPreset(const QString& id, Scene scene);
     Entry& addCard(Scene scene, const QString& title, const QString& text, std::function<void()> act);
     void arrange();
     void work();  ///< renders the next picture, a little at a time
@@ -56,6 +58,7 @@ private:
     std::unique_ptr<Run> run_;
     QTimer* timer_;
     int columns_ = 0;
+    bool hasReadPresets_ = false;
 };
 
 }  // namespace extremal

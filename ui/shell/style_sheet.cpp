@@ -48,6 +48,7 @@ QToolButton:pressed, QToolButton:checked { background: @selection; }
 QToolButton:focus { border-color: @accent; }
 QToolButton:disabled { color: @muted; }
 QToolButton::menu-indicator { image: none; }
+QToolButton[kind="dots"] { padding: 0; }
 QCheckBox, QRadioButton { background: transparent; spacing: 7px; }
 QCheckBox::indicator, QRadioButton::indicator { width: 14px; height: 14px; border: 1px solid @control; background: @panel; }
 QCheckBox::indicator { border-radius: 4px; }

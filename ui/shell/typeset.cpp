@@ -7,6 +7,8 @@
 #include <QTextDocument>
 #include <QTextTable>
 
+#include "ui/shell/formula_text.hpp"
+
 namespace extremal {
 namespace {
 
@@ -76,6 +78,7 @@ void showMarkdown(QTextBrowser& browser, const QString& markdown) {
     document.setDefaultFont(browser.font());
     document.setMarkdown(markdown);
     document.setDocumentMargin(18);
+    formatFormulas(document);
     const QPalette palette = browser.palette();
     for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
         QTextCursor(block).setBlockFormat(formatOf(block));

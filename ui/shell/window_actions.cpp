@@ -21,6 +21,7 @@
 #include "ui/shell/notices.hpp"
 #include "ui/shell/palette_dialog.hpp"
 #include "ui/shell/playback.hpp"
+#include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
@@ -118,14 +119,9 @@ void MainWindow::fillPlots(QMenu& menu) {
     menu.clear();
     if (!workspace_->hasScene()) return;
     const Scene& scene = workspace_->scene();
-    const System system = makeSystem(scene);
-    for (const ViewEntry& entry : viewEntries()) {
-        if (!entry.isPlot() || entry.item.id == "work-precision") continue;  // that one is always there
+    for (const ViewEntry* const offered : offeredPlots(scene)) {
+        const ViewEntry& entry = *offered;
         const std::string id = entry.item.id;
-        if (!missingFor({id, "", ""}, system).empty()) continue;
-        const auto isShowable = [&](const SchemeSpec& s) { return unsuitableFor(entry, resolve(s)).empty(); };
-        if (std::none_of(scene.schemes.begin(), scene.schemes.end(), isShowable)) continue;
-        if (id == mapView && !canBeMapped(scene, system)) continue;
         const bool isShown =
             std::any_of(scene.views.begin(), scene.views.end(), [&](const View& v) { return v.id == id; });
         QAction* action = menu.addAction(QString::fromStdString(entry.item.title));

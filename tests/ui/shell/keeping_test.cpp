@@ -8,15 +8,20 @@
 #include <QTest>
 
 #include <map>
+#include <set>
 
 #include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
+#include "engine/view/catalog.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/playback.hpp"
+#include "ui/shell/plot_edits.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -257,6 +262,37 @@ private slots:
         window.open("preset:harmonic-oscillator");
         QVERIFY(waitForResults(window));
         for (const PlotWidget* other : window.compareView().plots()) QVERIFY(!other->isUserZoomed());
+    }
+    void theDiscretizerMarksWhatIsOn() {
+        Window window;  // Gauss and Lobatto of degree 2 are in the scene
+        using Use = DiscretizerCell::Use;
+        const auto use = [&](int degree, const char* rule) {
+            return window.discretizer().cell(degree, rule)->use();
+        };
+        QCOMPARE(use(2, "gauss"), Use::on);
+        QCOMPARE(use(2, "lobatto"), Use::on);
+        QCOMPARE(use(3, "gauss"), Use::none);
+        window.actions().find("toggle1")->trigger();
+        QCOMPARE(use(2, "gauss"), Use::off);
+        window.edit("/schemes/1/composition", Value(Value::Object{{"type", "yoshida"}}));
+        QCOMPARE(use(2, "lobatto"), Use::none);  // a composition of it is another scheme
+    }
+    void onlyPlotsThatTheSystemCanHaveAreOffered() {
+        std::set<std::string> models;
+        for (const Preset& preset : presets()) {
+            const Scene scene = readScene(preset.json).scene;
+            if (!models.insert(scene.model.type).second) continue;
+            for (const ViewEntry* entry : offeredPlots(scene)) {
+                const ReadScene read =
+                    readScene(withEdits(toValue(scene), editsForView(scene, entry->item.id, true)), {});
+                const QString where =
+                    QString::fromUtf8(preset.id.data()) + ": " + QString::fromStdString(entry->item.id);
+                QVERIFY2(
+                    read.errors.empty(),
+                    qPrintable(where + ": " +
+                               QString::fromStdString(read.errors.empty() ? "" : read.errors[0].message)));
+            }
+        }
     }
     void plotsGrowBack() {
         Window window("preset:spring-pendulum");

@@ -1,0 +1,78 @@
+/// Formulas in notes are typeset, those of all presets completely.
+#include <QTest>
+#include <QTextBlock>
+#include <QTextBrowser>
+#include <QTextDocument>
+
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
+#include "tests/tools/test.hpp"
+#include "ui/shell/formula_text.hpp"
+#include "ui/shell/typeset.hpp"
+
+namespace extremal::formula_text_test {
+namespace {
+
+struct Piece {
+    QString text;
+    QTextCharFormat format;
+};
+
+std::vector<Piece> piecesOf(const QTextDocument& document) {
+    std::vector<Piece> pieces;
+    for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
+        for (auto it = block.begin(); !it.atEnd(); ++it)
+            pieces.push_back({it.fragment().text(), it.fragment().charFormat()});
+    return pieces;
+}
+
+QString shown(const QString& text, QTextDocument& document) {
+    document.setMarkdown(withFormulas(text));
+    formatFormulas(document);
+    return document.toPlainText();
+}
+
+}  // namespace
+
+class FormulaTextTest : public QObject {
+    Q_OBJECT
+private slots:
+    void symbolsRootsAndPowersAreTypeset() {
+        QTextDocument document;
+        QCOMPARE(shown("with $\\omega = \\sqrt{k/m} = 100$ and $10^{12}$ **bold**", document),
+                 QString::fromUtf8("with ω = √k/m = 100 and 1012 bold"));
+        bool hasRoot = false, hasPower = false, hasItalic = false, isBold = false;
+        for (const auto& [text, format] : piecesOf(document)) {
+            hasRoot = hasRoot || (format.fontOverline() && QString("k/m").contains(text));
+            hasItalic = hasItalic || (format.fontItalic() && text == "m");
+            hasPower =
+                hasPower || (format.verticalAlignment() == QTextCharFormat::AlignSuperScript && text == "12");
+            isBold = isBold || (text == "bold" && format.fontWeight() > QFont::Normal);
+        }
+        QVERIFY(hasRoot && hasPower && hasItalic && isBold);
+    }
+    void moneyIsNoFormula() {
+        QTextDocument document;
+        QCOMPARE(shown("5 $ and 6 $ more", document), QString("5 $ and 6 $ more"));
+        QCOMPARE(shown("one $ alone", document), QString("one $ alone"));
+    }
+    void notesOfAllPresetsHaveNoRawTeX() {
+        for (const Preset& preset : presets()) {
+            const Scene scene = readScene(preset.json).scene;
+            QVERIFY2(
+                scene.lesson.find('$') == std::string::npos && scene.title.find('$') == std::string::npos,
+                preset.id.data());
+            QTextBrowser page;
+            showMarkdown(page, withFormulas(QString::fromStdString(scene.notes)));
+            const QString text = page.document()->toPlainText();
+            QVERIFY2(!text.contains('$') && !text.contains('\\') && !text.contains('{'),
+                     qPrintable(QString::fromUtf8(preset.id.data()) + ": " + text));
+            for (const QChar c : text) QVERIFY(c.unicode() < 0xE000 || c.unicode() > 0xE0FF);
+        }
+    }
+};
+
+EXTREMAL_TEST(FormulaTextTest)
+}  // namespace extremal::formula_text_test
+
+#include "formula_text_test.moc"

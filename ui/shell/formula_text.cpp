@@ -1,0 +1,169 @@
+#include "ui/shell/formula_text.hpp"
+
+#include <QHash>
+#include <QTextBlock>
+#include <QTextCursor>
+#include <QTextDocument>
+#include <QVector>
+
+namespace extremal {
+namespace {
+
+// Characters for private use, which no text contains: they open and close what has a format.
+enum Mark : char16_t { italic = 0xE000, raised, lowered, root, closed };
+
+const QHash<QString, QString>& symbols() {
+    static const QHash<QString, QString> all{{"alpha", "α"},
+                                             {"beta", "β"},
+                                             {"gamma", "γ"},
+                                             {"delta", "δ"},
+                                             {"epsilon", "ϵ"},
+                                             {"varepsilon", "ε"},
+                                             {"theta", "θ"},
+                                             {"lambda", "λ"},
+                                             {"mu", "μ"},
+                                             {"nu", "ν"},
+                                             {"xi", "ξ"},
+                                             {"pi", "π"},
+                                             {"rho", "ρ"},
+                                             {"sigma", "σ"},
+                                             {"tau", "τ"},
+                                             {"phi", "φ"},
+                                             {"varphi", "φ"},
+                                             {"psi", "ψ"},
+                                             {"omega", "ω"},
+                                             {"Delta", "Δ"},
+                                             {"Omega", "Ω"},
+                                             {"Psi", "Ψ"},
+                                             {"hbar", "ħ"},
+                                             {"cdot", "·"},
+                                             {"times", "×"},
+                                             {"le", "≤"},
+                                             {"ge", "≥"},
+                                             {"approx", "≈"},
+                                             {"pm", "±"},
+                                             {"infty", "∞"},
+                                             {"partial", "∂"},
+                                             {"nabla", "∇"},
+                                             {"int", "∫"},
+                                             {"sum", "Σ"},
+                                             {"to", "→"},
+                                             {"ll", "≪"},
+                                             {"gg", "≫"},
+                                             {"sin", "sin"},
+                                             {"cos", "cos"},
+                                             {"tan", "tan"},
+                                             {"exp", "exp"},
+                                             {"log", "log"},
+                                             {",", QString(QChar(0x2009))},
+                                             {";", " "},
+                                             {" ", " "},
+                                             {"quad", "  "}};
+    return all;
+}
+
+/// Reads a formula from left to right.
+class Tex {
+public:
+    explicit Tex(const QString& text) : text_(text) {}
+    QString all() {
+        QString out;
+        while (at_ < text_.size()) out += atom();
+        return out;
+    }
+
+private:
+    QString atom() {
+        const QChar c = text_[at_++];
+        if (c == '\\') return command();
+        if (c == '{') return group();
+        if (c == '^') return QChar(raised) + argument() + QChar(closed);
+        if (c == '_') return QChar(lowered) + argument() + QChar(closed);
+        if (c == '-') return QString(QChar(0x2212));
+        if (c == '\'') return QString(QChar(0x2032));
+        if (c == '*') return QString(QChar(0x00B7));
+        if (c.isLetter()) return QChar(italic) + QString(c) + QChar(closed);
+        return c;
+    }
+    QString command() {
+        qsizetype end = at_;
+        while (end < text_.size() && text_[end].isLetter()) ++end;
+        if (end == at_ && end < text_.size()) ++end;
+        const QString name = text_.mid(at_, end - at_);
+        at_ = end;
+        // A space that only ends the name.
+        if (at_ + 1 < text_.size() && text_[at_] == ' ' && text_[at_ + 1].isLetter()) ++at_;
+        if (name == "sqrt") return QStringLiteral("√") + QChar(root) + argument() + QChar(closed);
+        if (name == "frac") {
+            const QString above = argument(), below = argument();
+            return above + "/" + below;
+        }
+        const auto known = symbols().constFind(name);
+        if (known == symbols().constEnd()) return "\\" + name;
+        // Functions are set apart from what follows.
+        const bool isFunction = known->size() == 3 && known->at(0).isLower() && known->at(0).unicode() < 128;
+        return isFunction ? *known + QChar(0x2009) : *known;
+    }
+    QString argument() { return at_ < text_.size() ? atom() : QString(); }
+    QString group() {
+        QString out;
+        while (at_ < text_.size() && text_[at_] != '}') out += atom();
+        ++at_;
+        return out;
+    }
+
+    const QString& text_;
+    qsizetype at_ = 0;
+};
+
+}  // namespace
+
+QString withFormulas(const QString& text) {
+    QString out;
+    qsizetype from = 0;
+    while (from < text.size()) {
+        const qsizetype open = text.indexOf('$', from), close = open < 0 ? -1 : text.indexOf('$', open + 1);
+        if (close < 0) break;
+        // A dollar sign before a space, or one after a space, is none of a formula.
+        if (close == open + 1 || text[open + 1].isSpace() || text[close - 1].isSpace()) {
+            out += text.mid(from, close - from);
+            from = close;
+            continue;
+        }
+        out += text.mid(from, open - from) + Tex(text.mid(open + 1, close - open - 1)).all();
+        from = close + 1;
+    }
+    return out + text.mid(from);
+}
+
+void formatFormulas(QTextDocument& document) {
+    for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
+        QVector<std::pair<int, char16_t>> open;  // positions in the block, and what begins there
+        for (int at = 0; at < block.length() - 1;) {
+            const char16_t c = block.text().at(at).unicode();
+            if (c < italic || c > closed) {
+                ++at;
+                continue;
+            }
+            QTextCursor cursor(block);
+            cursor.setPosition(block.position() + at);
+            cursor.deleteChar();
+            if (c != closed) {
+                open.push_back({at, c});
+                continue;
+            }
+            if (open.isEmpty()) continue;
+            const auto [begin, kind] = open.takeLast();
+            QTextCharFormat format;
+            if (kind == italic) format.setFontItalic(true);
+            if (kind == raised) format.setVerticalAlignment(QTextCharFormat::AlignSuperScript);
+            if (kind == lowered) format.setVerticalAlignment(QTextCharFormat::AlignSubScript);
+            if (kind == root) format.setFontOverline(true);
+            cursor.setPosition(block.position() + begin);
+            cursor.setPosition(block.position() + at, QTextCursor::KeepAnchor);
+            cursor.mergeCharFormat(format);
+        }
+    }
+}
+
+}  // namespace extremal

@@ -1,0 +1,20 @@
+/// Formulas in texts, as TeX between dollar signs: the part of it that notes use, as characters with italic
+/// letters, raised and lowered parts, and roots under a line.
+///
+///     const QString marked = withFormulas("with $\\omega = \\sqrt{k/m}$");   // marks around the parts
+///     ... document.setMarkdown(marked) ...
+///     formatFormulas(document);                                            // the marks become formats
+///
+/// Commands that are not known stay as they are, so that nothing is lost.
+#pragma once
+
+#include <QString>
+
+class QTextDocument;
+
+namespace extremal {
+
+QString withFormulas(const QString& text);
+void formatFormulas(QTextDocument& document);
+
+}  // namespace extremal
