@@ -2,6 +2,7 @@
 
 #include <QLabel>
 #include <QMenu>
+#include <QMouseEvent>
 #include <QPainter>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -73,6 +74,13 @@ void Card::setSubtitle(const QString& subtitle) {
     subtitle_->setToolTip({});
     subtitle_->setText(subtitle);
     subtitle_->setVisible(!subtitle.isEmpty());
+}
+
+void Card::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (event->position().y() <= header_->geometry().bottom() + body_->spacing())
+        emit headerDoubleClicked();
+    else
+        QFrame::mouseDoubleClickEvent(event);
 }
 
 void Card::setSelected(bool isSelected) {

@@ -25,6 +25,12 @@ public:
     /// The row of the title, for what belongs at its right end.
     QBoxLayout* header() const { return header_; }
 
+signals:
+    void headerDoubleClicked();
+
+protected:
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+
 private:
     QVBoxLayout* body_;
     QBoxLayout* header_;

@@ -132,7 +132,7 @@ private:
 /// and is some pixels high, if it turns twice per three pixels somewhere there. Bands that are narrow stay
 /// lines, and narrow gaps in bands are closed.
 void markDense(std::vector<PixelColumn>& columns) {
-    constexpr double window = 6, leastHeight = 4, leastWidth = 12;  // pixels
+    constexpr double window = 6, leastHeight = 4, leastWidth = 24;  // pixels
     constexpr double manyTurns = 0.66, someTurns = 0.4;             // per pixel
     std::vector<bool> isCore(columns.size());
     std::size_t from = 0, to = 0;

@@ -65,10 +65,12 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     stage_->setAccessibleName(tr("Stage"));
     stageCard_->body()->addWidget(stage_, 1);
     stageCard_->menu()->addAction(tr("Fit"), stage_, &StageWidget::fit);
+    makeMaximizable(*stageCard_);
 
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         for (const auto& s : slots_) delete s->card;
         slots_.clear();
+        maximized_ = nullptr;
         group_->forget();
     });
     connect(&workspace_, &Workspace::sceneChanged, this, &CompareView::rebuild);
@@ -129,13 +131,36 @@ void CompareView::rebuild() {
             slots_.back()->view = views[i];
         }
     }
-    for (const auto& slot : before)
-        if (slot) delete slot->card;
+    for (const auto& slot : before) {
+        if (!slot) continue;
+        if (slot->card == maximized_) maximized_ = nullptr;
+        delete slot->card;
+    }
     if (!isSameSet) {
         columns_ = 0;
         arrange();
     }
     refresh();
+}
+
+void CompareView::makeMaximizable(Card& card) {
+    QAction* action = card.menu()->addAction(tr("Maximise"), this, [this, &card] { maximize(&card); });
+    connect(card.menu(), &QMenu::aboutToShow, &card, [this, &card, action] {
+        action->setText(maximized_ == &card ? tr("Restore (Esc)") : tr("Maximise"));
+    });
+    connect(&card, &Card::headerDoubleClicked, this, [this, &card] { maximize(&card); });
+}
+
+void CompareView::maximize(Card* card) {
+    maximized_ = maximized_ == card ? nullptr : card;
+    columns_ = 0;
+    arrange();
+}
+
+bool CompareView::restore() {
+    if (!maximized_) return false;
+    maximize(maximized_);
+    return true;
 }
 
 CompareView::Slot& CompareView::makeSlot(const View& view) {
@@ -146,6 +171,7 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     QMenu* menu = card->menu();
     menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
     menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
+    makeMaximizable(*card);
     menu->addSeparator();
     addSceneActions(*menu, slot);
     menu->addSeparator();
@@ -196,7 +222,13 @@ void CompareView::arrange() {
     // Six half-columns: the stage is a little wider than what stands beside it.
     const int plotHeight = 168;
     stageCard_->setMinimumHeight(columns == 2 ? 225 : 240);
-    stageCard_->setVisible(hasStage_);
+    stageCard_->setVisible(maximized_ ? maximized_ == stageCard_ : hasStage_);
+    for (const auto& s : slots_) s->card->setVisible(!maximized_ || maximized_ == s->card);
+    if (maximized_) {
+        grid_->addWidget(maximized_, 0, 0, 1, 12);
+        grid_->setRowStretch(0, 1);
+        return;
+    }
     int row = 0;
     if (!hasStage_) {
         if (!slots_.empty()) grid_->addWidget(slots_[0]->card, 0, 0, 1, 12);

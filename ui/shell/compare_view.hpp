@@ -37,6 +37,10 @@ public:
     PlotWidget* currentPlot() const;
     StageWidget* stage() const { return stage_; }
     std::vector<PlotWidget*> plots() const;
+    /// One card takes the whole page; the same one again, or restore(), brings the others back.
+    void maximize(Card* card);
+    /// False if nothing was maximised.
+    bool restore();
     /// Whether the plots show the latest results. Figures are made in another thread.
     bool isCurrent() const;
     /// Makes at once what is still missing, for exports.
@@ -63,6 +67,7 @@ private:
     };
     void rebuild();  ///< another set of views
     Slot& makeSlot(const View& view);
+    void makeMaximizable(Card& card);
     void addSceneActions(QMenu& menu, Slot& slot);
     void arrange();  ///< the same cards, another width
     void refresh();  ///< new results
@@ -79,7 +84,7 @@ private:
     PlotGroup* group_;
     QWidget* inside_;
     QGridLayout* grid_;
-    Card* stageCard_;
+    Card *stageCard_, *maximized_ = nullptr;
     StageWidget* stage_;
     std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
     std::vector<std::unique_ptr<Slot>> slots_;

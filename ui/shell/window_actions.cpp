@@ -193,8 +193,9 @@ void MainWindow::addRunActions() {
                   [this] { playback_->setTime(playback_->end()); });
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
-    actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)},
-                  [this] { run_->stop(); });
+    actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
+        if (!compare_->restore()) run_->stop();
+    });
 }
 
 void MainWindow::openDialog() {

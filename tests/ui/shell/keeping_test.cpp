@@ -15,6 +15,7 @@
 #include "engine/view/catalog.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/panels/card.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_card.hpp"
 #include "ui/panels/scheme_editor.hpp"
@@ -293,6 +294,27 @@ private slots:
                                QString::fromStdString(read.errors.empty() ? "" : read.errors[0].message)));
             }
         }
+    }
+    void aMaximisedCardComesBackWithEscape() {
+        Window window("preset:spring-pendulum");
+        const auto plots = window.compareView().plots();
+        const auto shown = [&] {
+            return std::count_if(plots.begin(), plots.end(),
+                                 [](const PlotWidget* p) { return p->isVisible(); });
+        };
+        const auto all = shown();
+        const QSize before = plots[2]->size();
+        auto* card = qobject_cast<Card*>(plots[2]->parentWidget());
+        QVERIFY(card);
+        QTest::mouseDClick(card, Qt::LeftButton, {}, {30, 18});
+        settle();
+        QCOMPARE(shown(), 1);
+        QVERIFY(plots[2]->isVisible() && plots[2]->height() > 2 * before.height());
+        window.actions().find("stop")->trigger();  // Esc
+        settle();
+        QCOMPARE(shown(), all);
+        QCOMPARE(plots[2]->size(), before);
+        QVERIFY(window.runControl().state() == RunControl::State::finished);
     }
     void plotsGrowBack() {
         Window window("preset:spring-pendulum");
