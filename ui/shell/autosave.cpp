@@ -44,17 +44,20 @@ QString Autosave::defaultDirectory() {
 QString Autosave::ownPath() const { return directory_ + "/" + name_ + ".json"; }
 
 void Autosave::writeNow() {
-    if (!workspace_.isDirty() || !QDir().mkpath(directory_)) return;
+    const bool hasChanges = workspace_.isDirty() || workspace_.hasDrafts();
+    if (!workspace_.hasScene() || !hasChanges || !QDir().mkpath(directory_)) return;
     if (!lock_) {
         lock_ = std::make_unique<QLockFile>(directory_ + "/" + name_ + ".lock");
         lock_->setStaleLockTime(0);
         lock_->tryLock(0);
     }
     QSaveFile file(ownPath());
-    const Value copy(Value::Object{{"name", workspace_.fileName().toStdString()},
-                                   {"path", workspace_.path().toStdString()},
-                                   {"origin", workspace_.origin().toStdString()},
-                                   {"scene", workspace_.document()}});
+    const Value copy(Value::Object{
+        {"name", workspace_.fileName().toStdString()},
+        {"path", workspace_.path().toStdString()},
+        {"origin", workspace_.origin().toStdString()},
+        {"drafts", Value(Value::Object(workspace_.drafts().begin(), workspace_.drafts().end()))},
+        {"scene", workspace_.document()}});
     const std::string text = writeJson(copy);
     const bool isWritten = file.open(QIODevice::WriteOnly) &&
                            file.write(text.data(), static_cast<qint64>(text.size())) >= 0 && file.commit();
@@ -84,8 +87,11 @@ std::vector<UnsavedScene> Autosave::unsaved() const {
                 const Value* value = copy.find(key);
                 return value && value->isString() ? QString::fromStdString(value->asString()) : QString();
             };
+            std::map<std::string, Value> drafts;
+            if (const Value* kept = copy.find("drafts"); kept && kept->isObject())
+                drafts = {kept->asObject().begin(), kept->asObject().end()};
             all.push_back({info.absoluteFilePath(), text("name"), text("path"), text("origin"),
-                           info.lastModified(), scene ? *scene : copy});
+                           info.lastModified(), scene ? *scene : copy, std::move(drafts)});
             if (all.back().name.isEmpty()) all.back().name = tr("unsaved");
         } catch (const InvalidScene&) {
             notices_.post({Notice::Kind::error,
@@ -100,6 +106,7 @@ std::vector<UnsavedScene> Autosave::unsaved() const {
 
 bool Autosave::restore(const UnsavedScene& scene) {
     if (!workspace_.adopt(scene.document, scene.path, scene.origin)) return false;
+    for (const auto& [place, value] : scene.drafts) workspace_.edit({{place, value}}, tr("Typed before"));
     writeNow();
     if (QFile::exists(ownPath())) QFile::remove(scene.copy);
     return true;

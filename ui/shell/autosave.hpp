@@ -8,7 +8,9 @@
 #include <QLockFile>
 #include <QObject>
 #include <QTimer>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "engine/core/value.hpp"
@@ -25,6 +27,7 @@ struct UnsavedScene {
     QString path, origin;  ///< as of Workspace
     QDateTime time;
     Value document;
+    std::map<std::string, Value> drafts;  ///< what was typed and refused, by its places
 };
 
 class Autosave : public QObject {

@@ -281,7 +281,7 @@ double MainWindow::rowStep() const {
 
 /// False if the user wants to stay with changes that are not saved.
 bool MainWindow::mayLeaveScene() {
-    if (!isRemembered_ || !workspace_->isDirty()) return true;
+    if (!isRemembered_ || !(workspace_->isDirty() || workspace_->hasDrafts())) return true;
     const auto answer = QMessageBox::question(
         this, tr("Extremal"), tr("%1 has changes that are not saved.").arg(workspace_->fileName()),
         QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);

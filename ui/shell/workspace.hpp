@@ -40,6 +40,7 @@ public:
     /// Drops what was typed and refused at this place.
     void dropDraft(const std::string& pointer);
     bool hasDrafts() const { return !drafts_.empty(); }
+    const std::map<std::string, Value>& drafts() const { return drafts_; }
 
     const History& history() const { return history_; }
     void undo();

@@ -127,6 +127,31 @@ private slots:
         QCOMPARE(copies.size(), 1);
         QVERIFY(copies[0] != "left.json");
     }
+    void whatIsNotValidYetIsKeptAsWell() {
+        const QDir copies(Autosave::defaultDirectory());
+        const QString typed = "m/2*x_t^2 - k*x^";
+        {
+            MainWindow window(Theme::light());
+            QVERIFY(window.open("preset:duffing"));
+            QVERIFY(!window.workspace().edit({{"/model/lagrangian", Value(typed.toStdString())}}, "formula"));
+            bool wasAsked = false;
+            answer(QMessageBox::Cancel, wasAsked);
+            QVERIFY(!window.open("preset:kepler"));
+            QVERIFY(wasAsked);
+            window.findChild<Autosave*>()->writeNow();
+            const QStringList names = copies.entryList({"*.json"});
+            QCOMPARE(names.size(), 1);
+            QVERIFY(QFile::copy(copies.filePath(names[0]), copies.filePath("left.json")));
+        }
+        MainWindow window(Theme::light());
+        window.show();
+        const auto cards = window.findChild<QWidget*>("unsaved")->findChildren<Card*>();
+        QCOMPARE(cards.size(), 1);
+        QTest::mouseClick(cards[0], Qt::LeftButton);
+        QCOMPARE(window.workspace().fileName(), QString("duffing.json"));
+        const Value* draft = window.workspace().draftAt("/model/lagrangian");
+        QVERIFY(draft && *draft == Value(typed.toStdString()));
+    }
     void aDiscardedSceneIsGone() {
         const QDir copies(Autosave::defaultDirectory());
         QVERIFY(QDir().mkpath(copies.path()));
