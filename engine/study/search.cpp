@@ -7,7 +7,7 @@
 namespace extremal {
 namespace {
 
-constexpr double mostSteps = 1e7, strictest = 1e15;  ///< steps, 1/tolerance
+constexpr double mostSearched = 1e7, strictest = 1e15;  ///< steps, 1/tolerance
 constexpr int mostRuns = 24;
 
 class Search {
@@ -65,7 +65,7 @@ private:
 
     /// None where the search ends.
     std::optional<double> nextOf() const {
-        const double apart = isAdaptive_ ? 1.2 : 1.03, limit = isAdaptive_ ? strictest : mostSteps;
+        const double apart = isAdaptive_ ? 1.2 : 1.03, limit = isAdaptive_ ? strictest : mostSearched;
         if (good_ && bad_) {
             const double low = bad_->n, high = good_->n;
             if (high <= low * apart || (!isAdaptive_ && high - low <= 1)) return {};

@@ -56,7 +56,7 @@ std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
     return text;
 }
 
-std::vector<Value::Array> rowsOf(const Sweep& sweep) {
+std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
     std::vector<Value::Array> all;
     int rank = 0;
     for (const SweepRow* row : ranked(sweep)) {
@@ -73,8 +73,8 @@ std::vector<Value::Array> rowsOf(const Sweep& sweep) {
     return all;
 }
 
-std::vector<Value::Array> summaryOf(const Sweep& sweep) {
-    std::vector<Value::Array> all = rowsOf(sweep);
+std::vector<Value::Array> summaryOfPrices(const Sweep& sweep) {
+    std::vector<Value::Array> all = rowsOfPrices(sweep);
     for (Value::Array& row : all) row.erase(row.begin() + 7, row.begin() + 9);
     return all;
 }
@@ -93,10 +93,10 @@ StudyEntry cheapest() {
     e.columns = {"rank",        "label",       "step",  "predicted_cpu_seconds",
                  "cpu_seconds", "evaluations", "error", "kept",
                  "left_out",    "tolerance",   "status"};
-    e.rows = rowsOf;
+    e.rows = rowsOfPrices;
     e.summaryColumns = {"rank",        "scheme", "step",      "predicted cpu", "cpu seconds",
                         "evaluations", "error",  "tolerance", "status"};
-    e.summary = summaryOf;
+    e.summary = summaryOfPrices;
     e.needsWantedError = true;
     return e;
 }

@@ -7,7 +7,7 @@
 namespace extremal::studies {
 namespace {
 
-std::vector<Value::Array> rowsOf(const Sweep& sweep) {
+std::vector<Value::Array> rowsOfWork(const Sweep& sweep) {
     std::vector<Value::Array> all;
     const std::vector<SweepRow>& rows = sweep.rows();
     const std::vector<bool> front = paretoFront(rows);
@@ -26,7 +26,7 @@ std::vector<Value::Array> rowsOf(const Sweep& sweep) {
 }
 
 /// What is worth its cost, the cheapest first.
-std::vector<Value::Array> summaryOf(const Sweep& sweep) {
+std::vector<Value::Array> summaryOfWork(const Sweep& sweep) {
     const std::vector<SweepRow>& rows = sweep.rows();
     const std::vector<bool> front = paretoFront(rows);
     std::vector<const SweepRow*> best;
@@ -57,9 +57,9 @@ StudyEntry work_precision() {
               ""};
     e.columns = {"label",       "step",          "tolerance", "error", "cpu_seconds", "cpu_spread",
                  "evaluations", "linear_solves", "status",    "cause", "pareto"};
-    e.rows = rowsOf;
+    e.rows = rowsOfWork;
     e.summaryColumns = {"worth its cost", "step", "tolerance", "error", "cpu seconds", "evaluations"};
-    e.summary = summaryOf;
+    e.summary = summaryOfWork;
     return e;
 }
 
