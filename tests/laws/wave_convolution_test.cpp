@@ -107,6 +107,16 @@ private slots:
             QVERIFY((direct - Eigen::Map<const Eigen::VectorXcd>(Hc.data(), 32)).norm() < 1e-11);
         }
     }
+    /// To the last bit: round-off in the transforms must not make the norm grow.
+    void theMatrixIsSymmetric() {
+        const Value random = Value::Object{{"name", "random"}, {"amplitude", 30.0}, {"correlation", 0.4}};
+        for (const Value& potential : {Value("20*exp(cos(x))"), random}) {
+            const System system = systemOf(32, "nodes", potential);
+            const Eigen::MatrixXd H =
+                realMatrix(galerkinOf(*system.hamiltonian()), system.hamiltonian()->fourier());
+            QVERIFY(H.norm() > 1 && H == H.transpose());
+        }
+    }
     void differsByAliasingAlone() {
         double before = 10;
         for (const auto& [modes, most] :
