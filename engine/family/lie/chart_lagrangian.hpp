@@ -35,6 +35,21 @@ struct ChartLagrangian {
         forXi = at.gradient(v, m);
         forV = at.dexpTransposed(m);
     }
+    /// The same with the attitude in the equations: the energy as it is in space, of the twist zeta = Ad_g
+    /// eta and the inertia of a body at g,
+    ///     l = 1/2 (Ad_g^-1 zeta) . M Ad_g^-1 zeta,
+    /// and `f`, its derivative by g: what g does to the inertia and what it does to zeta. They cancel,
+    /// because the energy is invariant; that is what the reduced equations know and these find out, to
+    /// round-off.
+    template <int K>
+    void gradientInSpace(const typename G::Element& g, const typename G::template Chart<K>& at,
+                         const Vector& v, Vector& forXi, Vector& forV, Vector& f) const {
+        const Vector eta = at.dexp(v), back = G::twistInBody(g, G::twistInSpace(g, eta)), m = momentum(back),
+                     pulled = G::momentumInBody(g, G::momentumInSpace(g, m));
+        f = G::precession(m, back) - G::precession(pulled, eta);
+        forXi = at.gradient(v, pulled);
+        forV = at.dexpTransposed(pulled);
+    }
     /// Second derivatives of the kinetic energy; A = dexp(xi).
     struct Second {
         Matrix xiXi, vXi, vv, A;

@@ -54,6 +54,13 @@ struct RotationGroup {
     }
     static Vector bodyMomentum(const Element& g, const Pose<T>& p) { return g.transpose() * p.momentum; }
     static Matrix precessionMatrix(const Vector& m) { return so3::precessionMatrix(m); }
+    static Vector precession(const Vector& m, const Vector& u) { return so3::precession(m, u); }
+
+    /// Ad_g on twists and Ad*_{g^-1} on momenta, from the axes of the body at g to those of space, and back.
+    static Vector twistInSpace(const Element& g, const Vector& eta) { return g * eta; }
+    static Vector twistInBody(const Element& g, const Vector& eta) { return g.transpose() * eta; }
+    static Vector momentumInSpace(const Element& g, const Vector& m) { return g * m; }
+    static Vector momentumInBody(const Element& g, const Vector& m) { return g.transpose() * m; }
 
     /// The chart's coordinates of a place seen from the base point, whose rotation vector is omega.
     static Vector coordinates(const Pose<T>&, const Pose<T>&, const Vector& omega) { return omega; }
@@ -110,6 +117,26 @@ struct MotionGroup {
         return m;
     }
     static Matrix precessionMatrix(const Vector& m) { return se3::precessionMatrix(m); }
+    static Vector precession(const Vector& m, const Vector& u) { return se3::precession(m, u); }
+
+    static Vector twistInSpace(const Element& g, const Vector& eta) {
+        const Three omega = g.rotation * eta.template head<3>();
+        return joined(omega, g.rotation * eta.template tail<3>() + so3::cross(g.position, omega));
+    }
+    static Vector twistInBody(const Element& g, const Vector& eta) {
+        const Three omega = eta.template head<3>(),
+                    rho = eta.template tail<3>() - so3::cross(g.position, omega);
+        return joined(g.rotation.transpose() * omega, g.rotation.transpose() * rho);
+    }
+    static Vector momentumInSpace(const Element& g, const Vector& m) {
+        const Three linear = g.rotation * m.template tail<3>();
+        return joined(g.rotation * m.template head<3>() + so3::cross(g.position, linear), linear);
+    }
+    static Vector momentumInBody(const Element& g, const Vector& m) {
+        const Three linear = m.template tail<3>(),
+                    angular = m.template head<3>() - so3::cross(g.position, linear);
+        return joined(g.rotation.transpose() * angular, g.rotation.transpose() * linear);
+    }
 
     /// The chart's coordinates of a place seen from the base point, whose rotation vector is omega.
     static Vector coordinates(const Pose<T>& base, const Pose<T>& place, const Three& omega) {
@@ -149,6 +176,11 @@ struct MotionGroup {
     }
 
 private:
+    static Vector joined(const Three& first, const Three& second) {
+        Vector v;
+        v << first, second;
+        return v;
+    }
     /// rho with dexp(omega)^T rho = way.
     static Three fromDisplacement(const Three& omega, const Three& way) {
         return so3::Exponential<T, 1>(omega).dexpInverseMatrix().transpose() * way;

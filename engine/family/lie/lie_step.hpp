@@ -12,11 +12,12 @@
 /// The last two are the discrete Euler-Poincare equations, and the multiplied form has no singularity at
 /// |xi_s| = 2 pi. No logarithm is ever taken. Momenta are updated by the last line and not by p_s, so that
 /// they are kept to round-off even where the iteration is not. For a free body g and W drop out: the reduced
-/// step. The adjoint step has its chart at the end point of the step: the same equations with -h from g_1 =
-/// g_0 exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 3.2 and 4.2.
-/// Corrected: the body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is dexp_{-ad} l'/h + l
-/// D_xi[dexp_{-ad xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed inverted);
-/// the curve ends at g_1 (printed g_0^{-1} g_1).
+/// step. Unreduced, its kinetic energy is evaluated in space axes, at every g, and what g does to it is found
+/// to cancel. The adjoint step has its chart at the end point of the step: the same equations with -h from
+/// g_1 = g_0 exp(-xi_s), where p_s = dexp(xi_s)^T mu_0 replaces the last one. Source: Leok 2004, sec. 3.2
+/// and 4.2. Corrected: the body rate is dexp_{-ad xi} xi' (printed xi'); the variation of eta is dexp_{-ad}
+/// l'/h + l D_xi[dexp_{-ad xi} xi'] (the printed ddexp_{ad} term is wrong); f = g_k^{-1} g_{k+1} (printed
+/// inverted); the curve ends at g_1 (printed g_0^{-1} g_1).
 ///
 /// Newton with the Jacobian of the predicted curve, kept while it contracts well, to round-off.
 /// T: scalar; G: RotationGroup<T> or MotionGroup<T> (lie_groups.hpp). All buffers are allocated in the
@@ -46,7 +47,7 @@ public:
     using Vector = typename G::Vector;
     using Matrix = typename G::Matrix;
 
-    /// `isReduced`: leave out the dependence on g where the body is free; `isAdjoint`: chart at the end of
+    /// `isReduced`: leave g out of the equations where the body is free; `isAdjoint`: chart at the end of
     /// the step.
     LieStep(const BodyMechanics<T>& body, Table<T> table, const T& step, bool isReduced, bool isAdjoint,
             SolverPolicy policy);
@@ -92,8 +93,8 @@ private:
 
     BodyMechanics<T> body_;
     Table<T> table_;
-    T h_;  ///< negative in the adjoint step
-    bool hasPotential_, isAdjoint_;
+    T h_;                           ///< negative in the adjoint step
+    bool isUnreduced_, isAdjoint_;  ///< isUnreduced_: g is in the equations
     SolverPolicy policy_;
     T tolerance_;
     ChartLagrangian<T, G> lagrangian_;

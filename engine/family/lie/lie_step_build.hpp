@@ -20,7 +20,7 @@ LieStep<T, G>::LieStep(const BodyMechanics<T>& body, Table<T> table, const T& st
     : body_(body),
       table_(std::move(table)),
       h_(isAdjoint ? T(-step) : step),
-      hasPotential_(!body.isFree() || !isReduced),
+      isUnreduced_(!body.isFree() || !isReduced),
       isAdjoint_(isAdjoint),
       policy_(policy),
       tolerance_(toleranceOf<T>(policy)),
@@ -93,15 +93,19 @@ template <class T, class G>
 void LieStep<T, G>::residual() {
     R_.setZero();
     W_.setZero();
-    if (hasPotential_) placeFoot();
+    if (isUnreduced_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
         const typename G::template Chart<1> at(xi_.col(i));
         Vector forXi, forV;
-        lagrangian_.gradient(at, v_.col(i), forXi, forV);
-        if (hasPotential_) {
-            Vector f = Vector::Zero();
-            if (!body_.isFree()) {
-                const typename G::Element g = G::times(baseElement_, at);
+        if (!isUnreduced_) {
+            lagrangian_.gradient(at, v_.col(i), forXi, forV);
+        } else {
+            const typename G::Element g = G::times(baseElement_, at);
+            Vector f;
+            if (body_.isFree()) {
+                lagrangian_.gradientInSpace(g, at, v_.col(i), forXi, forV, f);
+            } else {
+                lagrangian_.gradient(at, v_.col(i), forXi, forV);
                 body_.potential(body_.model.get(), G::rotation(g), G::position(g), nullptr, f.data(),
                                 nullptr);
             }
@@ -116,7 +120,8 @@ void LieStep<T, G>::residual() {
         R_.col(m() - 1) -= end.dexpTransposed(mu_);
     else
         R_.col(m() - 1) -= end.dexpRightTransposed(mu_ - W_);
-    report_->cost.evaluations += nodes();
+    // Of the attitude, a free body has a force to evaluate besides.
+    report_->cost.evaluations += (isUnreduced_ && body_.isFree() ? 2 : 1) * nodes();
 }
 
 /// Adds what the potential does to the second derivatives at node i; A = dexp(xi_i).
@@ -157,7 +162,7 @@ template <class T, class G>
 typename LieStep<T, G>::Attempt LieStep<T, G>::assembleJacobian() {
     auto jacobian = this->jacobian();
     jacobian.setZero();
-    if (hasPotential_) placeFoot();
+    if (isUnreduced_) placeFoot();
     for (int i = 0; i < nodes(); ++i) {
         const typename G::template Chart<2> at(xi_.col(i));
         auto L = lagrangian_.second(at, v_.col(i));
@@ -330,7 +335,7 @@ Pose<T> LieStep<T, G>::denseOutput(const T& tau) const {
     const Flat phi = table_.change.transpose() * Eigen::Map<const Flat>(value.data(), table_.space.size);
     const Vector xi = Y_ * phi;
     Vector W = Vector::Zero();
-    if (hasPotential_) {
+    if (isUnreduced_) {
         const std::vector<T> share = weightsUpTo(table_, s);
         for (int i = 0; i < nodes(); ++i) W -= (h_ * share[static_cast<std::size_t>(i)]) * force_.col(i);
     }
