@@ -31,7 +31,7 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
               std::move(title),
               std::move(description),
               {},
-              Claims{splitting.order, true, true, {"momentum"}},
+              Claims{splitting.order, true, true, {"momentum", "norm"}},
               splitting.isNystrom ? "a separable Lagrangian" : ""};
     e.applies = [isNystrom = splitting.isNystrom](const System& system) {
         if (isWave(system)) return true;

@@ -146,6 +146,70 @@ inline const KnownBody& top() {
     return body;
 }
 
+/// A tangent vector of T*SO(3) or T*SE(3) at x: the attitude rotated by zeta in the body, the change of Pi,
+/// and of a body that moves those of its position and linear momentum in space.
+inline State moved(const State& s, const Eigen::VectorXd& v) {
+    const so3::Quaternion<double> q = so3::product(so3::Quaternion<double>(s.x[0], s.x[1], s.x[2], s.x[3]),
+                                                   so3::quaternionExp(so3::Vector<double>(v.head<3>())));
+    State m = bodyState({s.x[4] + v(3), s.x[5] + v(4), s.x[6] + v(5)}, {q(0), q(1), q(2), q(3)});
+    m.t = s.t;
+    for (std::size_t i = 10; i < s.x.size(); ++i) m.x.push_back(s.x[i] + v(static_cast<Eigen::Index>(i - 4)));
+    return m;
+}
+/// The opposite: how far x is from s.
+inline Eigen::VectorXd between(const State& s, const State& x) {
+    const so3::Quaternion<double> d =
+        so3::product(so3::conjugate(so3::Quaternion<double>(s.x[0], s.x[1], s.x[2], s.x[3])),
+                     so3::Quaternion<double>(x.x[0], x.x[1], x.x[2], x.x[3]));
+    Eigen::VectorXd v(static_cast<Eigen::Index>(s.x.size() - 4));
+    v.head<3>() = so3::log(so3::normalised(d));
+    for (std::size_t i = 4; i < 7; ++i) v(static_cast<Eigen::Index>(i - 1)) = x.x[i] - s.x[i];
+    for (std::size_t i = 10; i < s.x.size(); ++i) v(static_cast<Eigen::Index>(i - 4)) = x.x[i] - s.x[i];
+    return v;
+}
+/// The canonical form in the left trivialisation, w(u, v) = u_z . v_Pi - u_Pi . v_z + sign Pi . [u_z, v_z]
+/// and the usual one of positions, as a matrix; the sign is 1.
+inline Eigen::MatrixXd canonicalForm(const State& s, double sign = 1) {
+    const auto n = static_cast<Eigen::Index>(s.x.size() - 4);
+    Eigen::MatrixXd w = Eigen::MatrixXd::Zero(n, n);
+    w.topLeftCorner<3, 3>() = -sign * so3::hat(so3::Vector<double>(s.x[4], s.x[5], s.x[6]));
+    for (Eigen::Index at = 0; at < n; at += 6) {
+        w.block<3, 3>(at, at + 3).setIdentity();
+        w.block<3, 3>(at + 3, at) = -Eigen::Matrix3d::Identity();
+    }
+    return w;
+}
+/// Size of M^T w M - w for a step, whose derivative M is by central differences of order 6 in units `own` of
+/// each tangent direction; every entry (i, j) in the root of the actions of i and j, which are 1 where `own`
+/// is left out. Not a number where a step fails. `sign`: of the bracket, to see the law fail.
+template <class Step>  // State -> std::optional<State>
+double bodySymplecticDefect(Step&& step, const State& start, double sign = 1, Eigen::VectorXd own = {}) {
+    constexpr double delta = 2e-3;
+    constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
+    const auto n = static_cast<Eigen::Index>(start.x.size() - 4);
+    if (own.size() == 0) own = Eigen::VectorXd::Ones(n);
+    const std::optional<State> end = step(start);
+    if (!end) return std::nan("");
+    Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index j = 0; j < n; ++j)
+        for (int k = 1; k <= 3; ++k)
+            for (const int side : {1, -1}) {
+                Eigen::VectorXd v = Eigen::VectorXd::Zero(n);
+                v(j) = side * k * delta * own(j);
+                const std::optional<State> other = step(moved(start, v));
+                if (!other) return std::nan("");
+                M.col(j) += side * c[static_cast<std::size_t>(k - 1)] / delta *
+                            between(*end, *other).cwiseQuotient(own);
+            }
+    const auto form = [&](const State& s) -> Eigen::MatrixXd {
+        return own.asDiagonal() * canonicalForm(s, sign) * own.asDiagonal();
+    };
+    Eigen::VectorXd action(n);
+    for (Eigen::Index i = 0; i < n; ++i) action(i) = own(i) * own(i % 6 < 3 ? i + 3 : i - 3);
+    const Eigen::VectorXd root = action.cwiseSqrt().cwiseInverse();
+    return (root.asDiagonal() * (M.transpose() * form(*end) * M - form(start)) * root.asDiagonal()).norm();
+}
+
 inline Discretization liePair(int degree, Settings quadrature = {"gauss", {}, {}}, bool isSymmetric = false,
                               bool isReduced = true) {
     Discretization discretization;

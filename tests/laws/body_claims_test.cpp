@@ -50,52 +50,13 @@ bool claims(const Case& c, const char* what) {
     return std::find(c.claims.conserves.begin(), c.claims.conserves.end(), what) != c.claims.conserves.end();
 }
 
-/// A tangent vector of T*SO(3) at x, six numbers: the attitude turned by zeta in the body, and the change of
-/// Pi.
-State moved(const State& s, const Eigen::Matrix<double, 6, 1>& v) {
-    const so3::Quaternion<double> q(s.x[0], s.x[1], s.x[2], s.x[3]);
-    const so3::Quaternion<double> turned =
-        so3::product(q, so3::quaternionExp(so3::Vector<double>(v.head<3>())));
-    return bodyState({s.x[4] + v(3), s.x[5] + v(4), s.x[6] + v(5)},
-                     {turned(0), turned(1), turned(2), turned(3)});
-}
-/// The opposite: how far x is from s.
-Eigen::Matrix<double, 6, 1> between(const State& s, const State& x) {
-    const so3::Quaternion<double> d =
-        so3::product(so3::conjugate(so3::Quaternion<double>(s.x[0], s.x[1], s.x[2], s.x[3])),
-                     so3::Quaternion<double>(x.x[0], x.x[1], x.x[2], x.x[3]));
-    Eigen::Matrix<double, 6, 1> v;
-    v << so3::log(so3::normalised(d)), x.x[4] - s.x[4], x.x[5] - s.x[5], x.x[6] - s.x[6];
-    return v;
-}
-/// The canonical form in the left trivialisation, w(u, v) = u_z . v_Pi - u_Pi . v_z + Pi . [u_z, v_z], as a
-/// matrix.
-Eigen::Matrix<double, 6, 6> canonicalForm(const State& s) {
-    Eigen::Matrix<double, 6, 6> w = Eigen::Matrix<double, 6, 6>::Zero();
-    w.topLeftCorner<3, 3>() = -so3::hat(so3::Vector<double>(s.x[4], s.x[5], s.x[6]));
-    w.topRightCorner<3, 3>().setIdentity();
-    w.bottomLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
-    return w;
-}
 double symplecticDefect(const Case& scheme, const System& system, const State& start, double h,
                         double sign = 1) {
-    constexpr double delta = 2e-3;
-    constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
-    const auto step = [&](const State& s) { return after(*scheme.make(system, {0, h}), s, 1).value(); };
-    const State end = step(start);
-    Eigen::Matrix<double, 6, 6> M = Eigen::Matrix<double, 6, 6>::Zero();
-    for (int j = 0; j < 6; ++j)
-        for (int k = 1; k <= 3; ++k)
-            for (const int side : {1, -1}) {
-                Eigen::Matrix<double, 6, 1> v = Eigen::Matrix<double, 6, 1>::Zero();
-                v(j) = side * k * delta;
-                M.col(j) +=
-                    side * c[static_cast<std::size_t>(k - 1)] / delta * between(end, step(moved(start, v)));
-            }
-    Eigen::Matrix<double, 6, 6> w1 = canonicalForm(end), w0 = canonicalForm(start);
-    w1.topLeftCorner<3, 3>() *= sign;
-    w0.topLeftCorner<3, 3>() *= sign;
-    return (M.transpose() * w1 * M - w0).norm();
+    return bodySymplecticDefect(
+        [&](const State& s) {
+            return after(*scheme.make(system, {0, h}), s, 1);
+        },
+        start, sign);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ BaselineEntry chebyshev_propagation() {
               "Chebyshev propagation",
               "The exponential of H as a Chebyshev series over its whole spectrum, to round-off at any step.",
               {},
-              Claims{0, true, false, {"norm", "energy"}},
+              Claims{0, true, true, {"norm", "energy"}},
               "a wave function"};
     e.applies = [](const System& system) { return isWave(system); };
     e.stabilityLimit = std::numeric_limits<double>::infinity();

@@ -42,10 +42,8 @@ BaselineEntry spectral_collocation() {
     e.applies = [](const System& system) { return isWave(system); };
     e.claims = [](const Settings& settings) {
         const int s = settings.integer("degree");
-        const bool isExtrema = settings.text("nodes") != "roots";
-        // Collocation has the order of its interpolatory rule; symmetric rules gain one for odd s.
-        return Claims{isExtrema ? s : s + s % 2, !isExtrema, false,
-                      isExtrema ? std::vector<std::string>{} : std::vector<std::string>{"norm"}};
+        // Collocation has the order of its interpolatory rule.
+        return settings.text("nodes") == "roots" ? collocationClaims(s) : Claims{s, false, false, {}};
     };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

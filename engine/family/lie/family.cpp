@@ -50,9 +50,15 @@ Properties describeLie(const Discretization& discretization) {
     p.prefix = "Lie ";
     // A limit of the oscillator says nothing of a rotating body.
     if (p.stabilityLimit > 0) p.stabilityLimit = std::numeric_limits<double>::infinity();
-    // The chart at the start of the step is seen from one side; but a curve of degree 1 has the same charts
-    // at both ends.
-    p.claims.isSymmetric = p.claims.isSymmetric && (space.flag("symmetric") || space.integer("degree") == 1);
+    if (space.flag("symmetric")) {
+        // A step after its adjoint is its own adjoint, whatever the rule; and then the order is even.
+        p.claims.isSymmetric = true;
+        p.claims.order += p.claims.order % 2;
+    } else {
+        // The chart at the start of the step is seen from one side; but a curve of degree 1 has the same
+        // charts at both ends.
+        p.claims.isSymmetric = p.claims.isSymmetric && space.integer("degree") == 1;
+    }
     p.shortName = p.refusal.empty() ? "Lie" + std::to_string(p.claims.order) : "-";
     return p;
 }

@@ -10,6 +10,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/family/wave/chebyshev_series.hpp"
 #include "engine/family/wave/wave.hpp"
+#include "engine/family/wave/wave_collocation.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/quadrature/rule.hpp"
@@ -108,10 +109,8 @@ Properties describeWave(const Discretization& discretization) {
     if (space.text("time_basis") == "chebyshev") {
         // The interpolatory rule of s symmetric nodes; as a space it is tested at its own nodes, whatever the
         // rule.
-        p.claims.order = s + s % 2;
+        p.claims = collocationClaims(s);
         p.curveOrder = s;
-        p.claims.conserves = {"norm"};
-        p.claims.isSymplectic = false;
         p.shortName = "C" + std::to_string(p.claims.order);
     }
     const bool isGauss =

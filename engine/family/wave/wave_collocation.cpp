@@ -126,6 +126,13 @@ private:
 
 }  // namespace
 
+Claims collocationClaims(int degree) {
+    // The interpolatory rule of symmetric nodes; as a space it is tested at its own nodes, whatever the rule.
+    const int order = degree + degree % 2;
+    if (degree == 1) return {order, true, true, {"norm", "energy"}};
+    return {order, true, false, {"norm if H is constant", "energy"}};
+}
+
 std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
                                               double shift, const Rule<double>& rule, double tolerance,
                                               int maxIterations) {

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "engine/core/catalog.hpp"
 #include "engine/family/wave/wave_step.hpp"
 #include "engine/quadrature/rule.hpp"
 
@@ -15,5 +16,12 @@ namespace extremal {
 std::unique_ptr<WaveStep> makeCollocationWave(std::shared_ptr<const Hamiltonian> hamiltonian, double step,
                                               double shift, const Rule<double>& rule, double tolerance,
                                               int maxIterations);
+
+/// What collocation at the Chebyshev roots does. The step is P(-z)^-1 P(z), z = -i dt H/hbar, where H is
+/// constant: unitary, and a function of H, so that norm and energy stay. Where H depends on time the stages
+/// have H at different times, which do not commute; then the quadratic invariants alone would keep the norm,
+/// b_i a_ij + b_j a_ji = b_i b_j, and of collocation only that at Gauss nodes has it (Hairer, Lubich and
+/// Wanner 2006, IV.2.1). With one node it is Gauss.
+Claims collocationClaims(int degree);
 
 }  // namespace extremal

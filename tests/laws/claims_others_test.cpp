@@ -1,0 +1,91 @@
+/// Systems of further kinds (neither coordinates nor bodies nor wave functions): everything for them,
+/// measured by what the systems say of themselves. And no model of the catalogue is left out by the suites of
+/// claims.
+#include <QTest>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/core/problem.hpp"
+#include "engine/scene/bind.hpp"
+#include "engine/scene/codec.hpp"
+#include "tests/laws/claims.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::laws::claims_others_test {
+
+namespace {
+
+bool isMeasured(const Trial& trial, const std::string& what) {
+    for (const double each : {24., 6., 1., 0.4}) try {
+            if (std::isfinite(conservedDefect(trial, what, each).value_or(NAN))) return true;
+        } catch (const InvalidScene&) {
+        }
+    return false;
+}
+
+/// What a space and a rule conserve, alone or composed, they conserve with other keys as well.
+std::string sourceOf(const CatalogueScheme& c) {
+    if (!c.scheme.family) return c.scheme.spec.baseline.type;
+    return c.scheme.discretization.space.type + " x " + c.scheme.discretization.quadrature.type;
+}
+
+}  // namespace
+
+class ClaimsOthersTest : public QObject {
+    Q_OBJECT
+
+private slots:
+    void everyClaimHolds() {
+        const ClaimSuite suite(SubjectKind::other,
+                               [](const CatalogueScheme& c) { return !c.scheme.isAdaptive(); });
+        std::string broken;
+        for (const std::string& name : suite.names())
+            if (!suite.holds(name)) broken += name + "; ";
+        QVERIFY2(broken.empty(), broken.c_str());
+    }
+    /// Momenta are those of coordinates and bodies, norms those of wave functions: what a scheme conserves is
+    /// measured on one kind of system that it fits, at least.
+    void everythingConservedIsMeasured() {
+        std::map<std::string, std::set<std::string>> missing;
+        std::set<std::string> measured;
+        for (const SubjectKind kind :
+             {SubjectKind::coordinates, SubjectKind::body, SubjectKind::wave, SubjectKind::other})
+            for (const Subject& on : everySubject(kind))
+                for (const CatalogueScheme& c : everythingOn(on.system, on.start, on.time / 24))
+                    for (const std::string& what : c.claims().conserves) {
+                        const std::string name = sourceOf(c);
+                        if (c.scheme.isAdaptive() || measured.contains(name + what)) continue;
+                        missing[what].insert(name);
+                        if (!isMeasured(trialOf(on, c), what)) continue;
+                        measured.insert(name + what);
+                        missing[what].erase(name);
+                    }
+        for (const auto& [what, names] : missing)
+            for (const std::string& name : names) qWarning("%s: %s", what.c_str(), name.c_str());
+        for (const auto& [what, names] : missing) QVERIFY2(names.empty(), what.c_str());
+    }
+    void everyModelIsASubject() {
+        std::set<std::string> known;
+        for (const SubjectKind kind :
+             {SubjectKind::coordinates, SubjectKind::body, SubjectKind::wave, SubjectKind::other})
+            for (const Subject& s : everySubject(kind)) known.insert(s.system.id);
+        for (const ModelEntry& model : modelCatalog()) {
+            if (known.contains(model.item.id)) continue;
+            // A problem without motion: laws.claims_elliptic.
+            bool isStill = false;
+            for (const Preset* preset : onePerModel()) {
+                const Scene scene = readScene(preset->json).scene;
+                isStill = isStill ||
+                          (scene.model.type == model.item.id && kindOf<BoundaryProblem>(makeSystem(scene)));
+            }
+            QVERIFY2(isStill, (model.item.id + " has no preset, so that no claim is measured on it").c_str());
+        }
+    }
+};
+
+EXTREMAL_TEST(ClaimsOthersTest)
+}  // namespace extremal::laws::claims_others_test
+
+#include "claims_others_test.moc"
