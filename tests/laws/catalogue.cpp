@@ -82,7 +82,8 @@ private:
         }
         try {
             (void)c.make(system_, step_, start_);
-            if (c.scheme.family) c.scheme.discretization = settled(c.scheme.discretization, system_, start_);
+            if (c.scheme.family)
+                c.scheme.discretization = withEstimates(c.scheme.discretization, system_, start_);
             all_.push_back(std::move(c));
         } catch (const InvalidScene&) {
         }

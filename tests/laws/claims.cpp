@@ -151,7 +151,10 @@ public:
         if (!observer_) return worst_;
         NodeBlock node(state.x.size(), 1, integrator.quantities().size());
         node.push(state, report);
-        if (double* values = node.lastQuantities(); values && !isFirst) integrator.measure(values);
+        if (double* values = node.lastQuantities()) {
+            std::fill_n(values, integrator.quantities().size(), unknown);
+            if (!isFirst) integrator.measure(state, values);
+        }
         std::vector<double> values(observer_->columns.size());
         observer_->evaluate(node, values.data(), values.size());
         if (std::isfinite(values[0]) && size_ == 0) size_ = std::max(std::abs(values[0]), 1e-3);

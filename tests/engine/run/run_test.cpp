@@ -179,6 +179,23 @@ private slots:
         QVERIFY(c.schemes[1]->summary.status == RunStatus::done);
         QVERIFY(c.schemes[2]->summary.status == RunStatus::failed);  // Newton finds no such step
     }
+    /// What a scheme turns out to be unable to do is not an outcome of its equations: here a potential that
+    /// begins to depend on time after the scene was read.
+    void whatASchemeCannotDoIsRefused() {
+        Scene scene = sceneFrom(
+            R"({"type":"schrodinger","modes":32,"potential":"1 - cos(x) "})",
+            R"({"psi":{"packet":"periodic-gaussian","kappa":4,"centre":1,"wave_number":1}})", "0.01",
+            R"({"baseline":"leapfrog","step":0.001},{"scheme":"schrodinger-gauss-1","step":0.001})",
+            R"(,"reference":"none")");
+        for (auto& [key, value] : scene.model.keys)
+            if (key == "potential") value = "1 - cos(x - t)";
+        const Comparison c = run(scene);
+        const Summary& refused = c.schemes[0]->summary;
+        QVERIFY(refused.status == RunStatus::failed);
+        QCOMPARE(refused.cause, Outcome::refused);
+        QVERIFY2(refused.advice.find("does not depend on t") != std::string::npos, refused.advice.c_str());
+        QVERIFY(c.schemes[1]->summary.status == RunStatus::done);
+    }
     void theOrderIsMeasuredBesideTheClaim() {
         const Scene scene = sceneFrom(kepler, keplerData, "3", R"({"scheme":"galerkin-gauss-2","step":0.02},
                                       {"baseline":"stormer-verlet","step":0.01},{"baseline":"rk4","step":0.01})",
