@@ -83,6 +83,10 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.add_option("--to", study.to, "the smallest step")->type_name("H");
     verb.add_option("--points", study.points, "steps from --from to --to in equal ratios; 12 by default")
         ->type_name("N");
+    verb.add_option("--x", study.x, "for stability: a number of the scene and its values")
+        ->type_name("POINTER=FROM:TO:N[:log]");
+    verb.add_option("--y", study.y, "a second one")->type_name("POINTER=FROM:TO:N[:log]");
+    verb.add_flag("--limit", study.findsLimits, "bisect the limit along --x to four digits");
     verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
     verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
         ->type_name("R");

@@ -21,7 +21,9 @@
 #include "engine/run/export.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/study/catalog.hpp"
-#include "engine/study/point_log.hpp"
+#include "engine/study/stability_study.hpp"
+#include "engine/study/study_log.hpp"
+#include "engine/study/sweep_log.hpp"
 #include "ui/plots/plot_renderer.hpp"
 
 namespace extremal::app {
@@ -51,12 +53,30 @@ Shard parseShard(const std::string& text) {
     return {static_cast<int>(*index), static_cast<int>(*count)};
 }
 
-SweepOptions optionsOf(const StudyEntry& entry, const StudyOptions& study, const CommonOptions& common) {
-    SweepOptions options;
-    if (entry.needsWantedError && study.error == 0)
+/// Options that belong to another study are errors, so that none is silently ignored.
+void refuseStrangers(const StudyEntry& entry, const StudyOptions& study) {
+    using Over = StudyEntry::Over;
+    const auto refuse = [&](bool isGiven, Over over, const char* option, const char* whose) {
+        if (isGiven && entry.over != over)
+            throw InvalidScene(option, "is not an option of " + entry.item.id,
+                               std::string(whose) + " has it");
+    };
+    refuse(study.error != 0, Over::wantedError, "--error", "cheapest");
+    refuse(!study.x.empty(), Over::numbers, "--x", "stability");
+    refuse(!study.y.empty(), Over::numbers, "--y", "stability");
+    refuse(study.findsLimits, Over::numbers, "--limit", "stability");
+    for (const auto& [isGiven, option] :
+         {std::pair{!study.steps.empty(), "--steps"}, {study.from != 0, "--from"}, {study.to != 0, "--to"}})
+        refuse(isGiven, Over::steps, option, "convergence");
+    if (entry.over == Over::wantedError && study.error == 0)
         throw InvalidScene("--error", "is required for " + entry.item.id, "for example --error 1e-6");
-    if (!entry.needsWantedError && study.error != 0)
-        throw InvalidScene("--error", "is not an option of " + entry.item.id, "study cheapest has it");
+    if (entry.over == Over::numbers && study.x.empty())
+        throw InvalidScene("--x", "is required for " + entry.item.id,
+                           "for example '/schemes/*/step=0.01:1:50:log'");
+}
+
+Sweep sweepOf(const ResolvedScene& scene, const StudyOptions& study, const CommonOptions& common) {
+    SweepOptions options;
     options.wantedError = study.error;
     options.metric = study.metric;
     options.isAtEnd = study.isFinal;
@@ -69,13 +89,27 @@ SweepOptions optionsOf(const StudyEntry& entry, const StudyOptions& study, const
     options.only = study.only;
     if (!study.shard.empty()) options.shard = parseShard(study.shard);
     options.threads = common.threads;
-    return options;
+    return {scene, options};
 }
 
-void writeResults(const StudyEntry& study, const Sweep& sweep, const std::filesystem::path& folder,
+StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyOptions& study,
+                           const CommonOptions& common) {
+    StabilityOptions options;
+    options.x = parseAxis(study.x, "--x");
+    if (!study.y.empty()) options.y = parseAxis(study.y, "--y");
+    options.findsLimits = study.findsLimits;
+    options.only = study.only;
+    if (!study.shard.empty()) options.shard = parseShard(study.shard);
+    options.threads = common.threads;
+    return {scene, options};
+}
+
+template <class Work>
+void writeResults(const StudyEntry& study, const Work& work, const std::filesystem::path& folder,
                   bool isPlotted) {
-    writeFile(folder / (study.item.id + ".csv"), studyCsv(study, sweep));
-    const Figure figure = studyFigure(study.item.id, sweep);
+    for (const StudyTable& table : tablesOf(study, work))
+        writeFile(folder / (table.name + ".csv"), csvText(table));
+    const Figure figure = studyFigure(study.item.id, work);
     if (!isPlotted || figure.view.empty()) return;
     qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
     qputenv("QT_QPA_PLATFORM", "offscreen");
@@ -97,66 +131,68 @@ std::string cellText(const Value& value) {
     return value.isString() ? value.asString() : "";
 }
 
-/// The study's summary; columns that no row fills are left out.
-std::string tableOf(const StudyEntry& study, const Sweep& sweep) {
-    const std::vector<Value::Array> rows = study.summary(sweep);
+/// Columns that no row fills are left out.
+std::string tableText(const StudyTable& summary) {
     Table table;
-    table.rows.resize(rows.size() + 1);
-    for (std::size_t c = 0; c < study.summaryColumns.size(); ++c) {
-        const bool isEmpty = std::all_of(rows.begin(), rows.end(),
-                                         [&](const Value::Array& row) { return cellText(row[c]).empty(); });
-        if (isEmpty) continue;
-        table.rows[0].push_back(study.summaryColumns[c]);
-        table.isRightAligned.push_back(std::any_of(
-            rows.begin(), rows.end(), [&](const Value::Array& row) { return row[c].isNumber(); }));
-        for (std::size_t r = 0; r < rows.size(); ++r) table.rows[r + 1].push_back(cellText(rows[r][c]));
+    table.rows.resize(summary.rows.size() + 1);
+    for (std::size_t c = 0; c < summary.columns.size(); ++c) {
+        const auto isEmpty = [&](const Value::Array& row) { return cellText(row[c]).empty(); };
+        if (std::all_of(summary.rows.begin(), summary.rows.end(), isEmpty)) continue;
+        table.rows[0].push_back(summary.columns[c]);
+        table.isRightAligned.push_back(
+            std::any_of(summary.rows.begin(), summary.rows.end(),
+                        [&](const Value::Array& row) { return row[c].isNumber(); }));
+        for (std::size_t r = 0; r < summary.rows.size(); ++r)
+            table.rows[r + 1].push_back(cellText(summary.rows[r][c]));
     }
     return table.text();
 }
 
-/// Which scheme came nearest to an error that none reaches.
-void printUnreached(const StudyEntry& study, const Sweep& sweep) {
-    const Value rows = studyRows(study, sweep);
-    if (rows.asArray().empty()) return;
-    const Value& nearest = rows.asArray().front();
-    const Value* error = nearest.find("error");
-    const std::string what =
-        error->isNumber() ? nearest.find("label")->asString() + ", " + formatNumber(error->asNumber(), 3)
-                          : "no scheme ran to the end";
+/// Whether a wanted error was reached; if none did, says which scheme came nearest.
+bool isReached(const StudyEntry& study, const Sweep& sweep) {
+    if (study.over != StudyEntry::Over::wantedError) return true;
+    const auto isDone = [](const SweepRow& row) { return row.result.isDone(); };
+    if (std::any_of(sweep.rows().begin(), sweep.rows().end(), isDone)) return true;
+    const Value rows = rowsValue(tablesOf(study, sweep).front());
+    std::string nearest = "no scheme ran to the end";
+    if (!rows.asArray().empty() && rows.asArray().front().find("error")->isNumber())
+        nearest = rows.asArray().front().find("label")->asString() + ", " +
+                  formatNumber(rows.asArray().front().find("error")->asNumber(), 3);
     printProblem("--error", "no scheme reaches " + formatNumber(sweep.options().wantedError, 3),
-                 "the nearest: " + what);
+                 "the nearest: " + nearest);
+    return false;
 }
+bool isReached(const StudyEntry&, const StabilityStudy&) { return true; }
 
-int report(const StudyEntry& study, const Sweep& sweep, const std::string& folder, bool isInterrupted,
+template <class Work>
+int report(const StudyEntry& study, const Work& work, const std::string& folder, bool isInterrupted,
            const CommonOptions& options) {
-    int code = isInterrupted ? interrupted : done;
-    const bool isReached = std::any_of(sweep.rows().begin(), sweep.rows().end(),
-                                       [](const SweepRow& row) { return row.result.isDone(); });
-    if (study.needsWantedError && !isReached && !isInterrupted) {
-        code = failed;
-        printUnreached(study, sweep);
-    }
+    const int code = isInterrupted ? interrupted : isReached(study, work) ? done : failed;
     if (options.isJson) {
+        const std::vector<StudyTable> tables = tablesOf(study, work);
         Value document;
         document.set("study", study.item.id);
-        document.set("rows", studyRows(study, sweep));
-        document.set("complete", sweep.isComplete());
+        document.set("rows", rowsValue(tables.front()));
+        for (std::size_t i = 1; i < tables.size(); ++i) document.set(tables[i].name, rowsValue(tables[i]));
+        document.set("complete", work.isComplete());
         return print(writeJson(document), code);
     }
     if (isInterrupted) printProblem("", "interrupted: the results are partial", "--resume goes on");
     if (options.isQuiet) return code;
-    return print(tableOf(study, sweep) + "\n" + study.item.id + ".csv in " + folder + "\n", code);
+    return print(tableText(summaryOf(study, work)) + "\n" + study.item.id + ".csv in " + folder + "\n", code);
 }
 
-/// Waits for the sweep on another thread; Ctrl-C stops it, and a second one ends the program.
-bool waitFor(Sweep& sweep, PointLog& log, InterruptWatch& watch, const CommonOptions& options) {
+/// Runs what is not known on another thread and waits; Ctrl-C stops it, and a second one ends the program.
+/// True: it was interrupted.
+template <class Work>
+bool waitFor(Work& work, StudyLog& log, InterruptWatch& watch, const CommonOptions& options) {
     ProgressLine progress(!options.isQuiet);
     std::atomic<bool> isFinished{false};
     std::exception_ptr failure;
     std::jthread worker([&](const std::stop_token& stop) {
         try {
-            sweep.run([&](const ReferenceInfo& info) { log.add(info); },
-                      [&](std::size_t i, const PointResult& result) { log.add(i, result); }, stop);
+            runLines(
+                work, [&](const std::string& line) { log.append(line); }, stop);
         } catch (...) {
             failure = std::current_exception();
         }
@@ -169,7 +205,7 @@ bool waitFor(Sweep& sweep, PointLog& log, InterruptWatch& watch, const CommonOpt
             isInterrupted = true;
             worker.request_stop();
         }
-        progress.show(sweep.fraction(), isInterrupted ? "stopping" : "studying");
+        progress.show(work.fraction(), isInterrupted ? "stopping" : "studying");
     }
     worker.join();
     if (failure) std::rethrow_exception(failure);
@@ -214,71 +250,97 @@ std::filesystem::path onlyLogIn(const std::string& folder) {
     return logs.front();
 }
 
+template <class Work>
+int runStudy(const StudyEntry& study, Work work, const ReadScene& read, const StudyOptions& options,
+             const CommonOptions& common) {
+    InterruptWatch watch;
+    prepareFolder(options.out);
+    writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));
+    const auto file = logOf(options.out, study.item.id);
+    const std::string head = headOf(study.item.id, work);
+    std::vector<std::string> known;
+    StudyLog log = options.isResumed ? StudyLog::resume(file, head, known) : StudyLog::begin(file, head);
+    for (const std::string& line : known) (void)takeLine(line, work);
+    const bool isInterrupted = waitFor(work, log, watch, common);
+    writeResults(study, work, options.out, options.isPlotted);
+    return report(study, work, options.out, isInterrupted, common);
+}
+
+/// `heads`: the first lines of the logs, all alike.
+template <class Work>
+int mergeLogs(const StudyEntry& study, Work work, const ReadScene& read, const StudyOptions& options,
+              const CommonOptions& common) {
+    std::vector<int> owners(work.size(), -1);
+    for (std::size_t f = 0; f < options.folders.size(); ++f)
+        for (const std::string& line : linesOf(logOf(options.folders[f], study.item.id))) {
+            const std::optional<std::size_t> point = takeLine(line, work);
+            if (!point) continue;
+            int& owner = owners[*point];
+            if (owner >= 0 && owner != static_cast<int>(f))
+                throw InvalidScene("arguments",
+                                   options.folders[f] + " and " +
+                                       options.folders[static_cast<std::size_t>(owner)] +
+                                       " both have point " + std::to_string(*point),
+                                   "every shard once");
+            owner = static_cast<int>(f);
+        }
+    const auto missing = std::count(owners.begin(), owners.end(), -1);
+    if (missing > 0)
+        throw InvalidScene(
+            "arguments",
+            std::to_string(missing) + " of " + std::to_string(work.size()) + " points are missing",
+            "every shard, each run to its end");
+    prepareFolder(options.out);
+    writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));
+    writeResults(study, work, options.out, options.isPlotted);
+    return report(study, work, options.out, false, common);
+}
+
 }  // namespace
 
 int studyVerb(const std::string& scene, const StudyOptions& options, const CommonOptions& common) {
     return guarded(sceneName(scene), [&] {
         const StudyEntry& study = knownStudy(options.kind);
+        refuseStrangers(study, options);
         const ReadScene read = loadScene(scene, common.overrides);
         if (!reportScene(scene, read, common)) return static_cast<int>(unusable);
-        Sweep sweep(*read.resolved, optionsOf(study, options, common));
-        InterruptWatch watch;
-        prepareFolder(options.out);
-        writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));
-        const auto file = logOf(options.out, study.item.id);
-        PointLog log = options.isResumed ? PointLog::resume(file, study.item.id, sweep)
-                                         : PointLog::begin(file, study.item.id, sweep);
-        const bool isInterrupted = waitFor(sweep, log, watch, common);
-        writeResults(study, sweep, options.out, options.isPlotted);
-        return report(study, sweep, options.out, isInterrupted, common);
+        if (study.over == StudyEntry::Over::numbers)
+            return runStudy(study, stabilityOf(*read.resolved, options, common), read, options, common);
+        return runStudy(study, sweepOf(*read.resolved, options, common), read, options, common);
     });
 }
 
 int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
     return guarded("", [&] {
+        std::string head;
+        for (const std::string& folder : options.folders) {
+            const std::vector<std::string> lines = linesOf(onlyLogIn(folder));
+            if (lines.empty())
+                throw InvalidScene("arguments", folder + ": its log has no line that can be read",
+                                   "a folder that extremal study has written");
+            if (head.empty()) head = lines.front();
+            if (lines.front() != head)
+                throw InvalidScene(
+                    "arguments",
+                    folder + " is of another study, scene or option than " + options.folders.front(),
+                    "shards of one study");
+        }
         const std::filesystem::path first = options.folders.front();
-        const auto firstLog = onlyLogIn(first);
-        const LogHead head = readLogHead(firstLog);
+        const Value what = parseJson(head);
         const ReadScene read = readScene(textOf(first / "scene.json"), {}, first.string());
         if (!read.resolved) {
             printProblems((first / "scene.json").string(), read.errors);
             return static_cast<int>(unusable);
         }
-        if (fingerprint(writeScene(read.scene)) != head.scene)
+        if (!what.find("scene") || fingerprint(writeScene(read.scene)) != what.find("scene")->asString())
             throw InvalidScene("arguments", first.string() + ": scene.json is not the scene of the log",
                                "the folder as extremal study wrote it");
-        const StudyEntry& study = knownStudy(head.study);
-        Sweep sweep(*read.resolved, head.options);
-        std::vector<int> owners(sweep.size(), -1);
-        for (std::size_t f = 0; f < options.folders.size(); ++f) {
-            const auto log = onlyLogIn(options.folders[f]);
-            const LogHead other = readLogHead(log);
-            if (other.study != head.study || other.scene != head.scene ||
-                optionsValue(other.options) != optionsValue(head.options))
-                throw InvalidScene("arguments",
-                                   options.folders[f] + " is of another study, scene or option than " +
-                                       options.folders.front(),
-                                   "shards of one study");
-            for (const std::size_t point : takePoints(log, sweep)) {
-                if (owners[point] >= 0)
-                    throw InvalidScene("arguments",
-                                       options.folders[f] + " and " +
-                                           options.folders[static_cast<std::size_t>(owners[point])] +
-                                           " both have point " + std::to_string(point),
-                                       "every shard once");
-                owners[point] = static_cast<int>(f);
-            }
-        }
-        const auto missing = std::count(owners.begin(), owners.end(), -1);
-        if (missing > 0)
-            throw InvalidScene(
-                "arguments",
-                std::to_string(missing) + " of " + std::to_string(sweep.size()) + " points are missing",
-                "every shard, each run to its end");
-        prepareFolder(options.out);
-        writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));
-        writeResults(study, sweep, options.out, options.isPlotted);
-        return report(study, sweep, options.out, false, common);
+        const StudyEntry& study = knownStudy(what.find("study")->asString());
+        const Value& given = *what.find("options");
+        if (study.over == StudyEntry::Over::numbers)
+            return mergeLogs(study, StabilityStudy(*read.resolved, stabilityOptionsOf(given)), read, options,
+                             common);
+        return mergeLogs(study, Sweep(*read.resolved, optionsOf(given)), read, options, common);
     });
 }
 

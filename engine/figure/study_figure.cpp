@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
@@ -143,6 +144,110 @@ Figure studyFigure(std::string_view study, const Sweep& sweep) {
     if (study == "convergence") return convergenceFigure(sweep);
     if (study == "work-precision") return workPrecisionFigure(sweep);
     return {};
+}
+
+namespace {
+
+Axis axisOf(const VariedNumber& number) {
+    Axis axis = number.isLog ? logAxis(number.pointer) : Axis{};
+    axis.title = number.pointer;
+    return axis;
+}
+
+/// Energy errors against the number that varies; a gap where a run was not bounded, with a mark at its edge.
+Figure alongX(const StabilityStudy& study) {
+    Figure figure;
+    figure.x = axisOf(study.options().x);
+    figure.y = logAxis(axisTitle("max |H - H(0)|", study.scene().system->energyUnit));
+    for (std::size_t scheme = 0; scheme < study.scene().scene.schemes.size(); ++scheme) {
+        Series s;
+        s.label = study.scene().scene.schemes[scheme].label;
+        s.style = static_cast<int>(scheme);
+        s.kind = SeriesKind::markedLine;
+        for (const StabilityStudy::Row& row : study.rows()) {
+            if (row.scheme != scheme || row.result.kind == StabilityClass::waiting) continue;
+            s.x.push_back(row.x);
+            s.y.push_back(row.result.isBounded() ? row.result.maxEnergyError : PointResult::unknown);
+        }
+        if (s.x.empty()) continue;
+        for (const StabilityStudy::Limit& each : study.limits())
+            if (each.scheme == scheme && std::isfinite(each.limit.limit))
+                s.label += ": up to " + shortNumber(each.limit.low, 5);
+        figure.add(std::move(s));
+    }
+    double low = HUGE_VAL, high = 0;
+    for (const Series& s : figure.series())
+        for (const double y : s.y)
+            if (y > 0 && std::isfinite(y)) low = std::min(low, y), high = std::max(high, y);
+    if (high > 0) figure.y.range = {low / 2, high * 4};
+    for (const StabilityStudy::Limit& each : study.limits()) {
+        const double limit = each.limit.limit;
+        if (!std::isfinite(limit) || !(high > 0)) continue;
+        figure.add(Guide{{limit, limit}, {low / 2, 4 * high}});
+    }
+    figure.subtitle = "gaps where a run was not bounded";
+    finish(figure, "Energy errors against " + study.options().x.pointer);
+    return figure;
+}
+
+/// Of the first scheme: energy errors as colours over both numbers, with the class where a run was not
+/// bounded.
+Figure overBoth(const StabilityStudy& study) {
+    const VariedNumber &x = study.options().x, &y = *study.options().y;
+    Figure figure;
+    figure.x = axisOf(x);
+    figure.y = axisOf(y);
+    HeatMap heat;
+    heat.columns = x.count;
+    heat.rows = y.count;
+    heat.xs = x.values();
+    heat.ys = y.values();
+    const auto edges = [](const VariedNumber& number) {
+        const std::vector<double> all = number.values();
+        const double half = 0.5 / (number.count - 1);
+        return number.isLog ? std::pair{all.front() * std::pow(number.from / number.to, half),
+                                        all.back() * std::pow(number.to / number.from, half)}
+                            : std::pair{all.front() - half * (number.to - number.from),
+                                        all.back() + half * (number.to - number.from)};
+    };
+    std::tie(heat.left, heat.right) = edges(x);
+    std::tie(heat.bottom, heat.top) = edges(y);
+    const auto cells = static_cast<std::size_t>(heat.columns) * static_cast<std::size_t>(heat.rows);
+    heat.values.assign(cells, PointResult::unknown);
+    heat.faults.assign(cells, "");
+    heat.scale = axisTitle("max |H - H(0)|", study.scene().system->energyUnit);
+    heat.low = HUGE_VAL;
+    heat.high = 0;
+    const std::size_t scheme = study.rows().front().scheme;
+    for (std::size_t i = 0; i < cells; ++i) {
+        const StabilityStudy::Row& row = study.rows()[i];  // y by y, along x
+        const std::size_t at = i % heat.xs.size() * heat.ys.size() + i / heat.xs.size();
+        if (!row.result.isBounded()) {
+            heat.faults[at] = name(row.result.kind);
+            continue;
+        }
+        const double value = row.result.maxEnergyError;
+        if (!(value > 0)) continue;
+        heat.values[at] = value;
+        heat.low = std::min(heat.low, value);
+        heat.high = std::max(heat.high, value);
+    }
+    if (!(heat.high > heat.low)) heat.low = 1e-16, heat.high = 1;
+    figure.x.range = {heat.left, heat.right};
+    figure.y.range = {heat.bottom, heat.top};
+    figure.subtitle = study.scene().scene.schemes[scheme].label;
+    figure.summary = "Energy errors of " + figure.subtitle + " over " + x.pointer + " and " + y.pointer + ".";
+    figure.add(std::move(heat));
+    return figure;
+}
+
+}  // namespace
+
+Figure studyFigure(std::string_view study, const StabilityStudy& stability) {
+    Figure figure = stability.options().y ? overBoth(stability) : alongX(stability);
+    figure.view = study;
+    figure.title = "Stability";
+    return figure;
 }
 
 }  // namespace extremal

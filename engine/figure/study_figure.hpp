@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/figure/figure.hpp"
+#include "engine/study/stability_study.hpp"
 #include "engine/study/sweep.hpp"
 
 namespace extremal {
@@ -16,5 +17,6 @@ Figure workPrecisionFigure(const Sweep& sweep);
 
 /// The figure of a study by its id; empty where it has none.
 Figure studyFigure(std::string_view study, const Sweep& sweep);
+Figure studyFigure(std::string_view study, const StabilityStudy& stability);
 
 }  // namespace extremal

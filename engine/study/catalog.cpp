@@ -24,11 +24,19 @@ const std::vector<CatalogItem>& studyCatalog() {
     return items;
 }
 
-std::string studyCsv(const StudyEntry& study, const Sweep& sweep) {
+std::vector<StudyTable> tablesOf(const StudyEntry& study, const Sweep& sweep) {
+    return {{study.item.id, study.columns, study.rows(sweep)}};
+}
+
+StudyTable summaryOf(const StudyEntry& study, const Sweep& sweep) {
+    return {"", study.summaryColumns, study.summary(sweep)};
+}
+
+std::string csvText(const StudyTable& table) {
     std::string text;
-    for (const std::string& column : study.columns) text += (text.empty() ? "" : ",") + column;
+    for (const std::string& column : table.columns) text += (text.empty() ? "" : ",") + column;
     text += '\n';
-    for (const Value::Array& row : study.rows(sweep)) {
+    for (const Value::Array& row : table.rows) {
         for (std::size_t c = 0; c < row.size(); ++c) {
             if (c > 0) text += ',';
             if (row[c].isNumber()) text += formatNumber(row[c].asNumber());
@@ -40,11 +48,11 @@ std::string studyCsv(const StudyEntry& study, const Sweep& sweep) {
     return text;
 }
 
-Value studyRows(const StudyEntry& study, const Sweep& sweep) {
+Value rowsValue(const StudyTable& table) {
     Value::Array all;
-    for (const Value::Array& row : study.rows(sweep)) {
+    for (const Value::Array& row : table.rows) {
         Value object{Value::Object{}};
-        for (std::size_t c = 0; c < row.size(); ++c) object.set(study.columns[c], row[c]);
+        for (std::size_t c = 0; c < row.size(); ++c) object.set(table.columns[c], row[c]);
         all.push_back(std::move(object));
     }
     return all;

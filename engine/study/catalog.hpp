@@ -7,29 +7,45 @@
 
 #include "engine/core/catalog.hpp"
 #include "engine/core/value.hpp"
+#include "engine/study/stability_study.hpp"
 #include "engine/study/sweep.hpp"
 
 namespace extremal {
 
+/// A CSV file of a study.
+struct StudyTable {
+    std::string name;  ///< without the ending
+    std::vector<std::string> columns;
+    std::vector<Value::Array> rows;  ///< a value for each column, null where it is not known
+};
+
 struct StudyEntry {
+    /// What it runs over: steps, the steps that a wanted error needs (SweepOptions::wantedError), or numbers
+    /// of the scene (StabilityOptions).
+    enum class Over { steps, wantedError, numbers };
     CatalogItem item;
-    std::vector<std::string> columns;  ///< of its CSV
-    /// Its rows: a value for each column, null where it is not known.
+    Over over = Over::steps;
+    std::vector<std::string> columns;  ///< of <id>.csv
+    /// Its rows; null of a study over numbers, as the rest.
     std::vector<Value::Array> (*rows)(const Sweep&) = nullptr;
     /// What a terminal shows: its titles, and fewer rows.
-    std::vector<std::string> summaryColumns;
+    std::vector<std::string> summaryColumns = {};
     std::vector<Value::Array> (*summary)(const Sweep&) = nullptr;
-    /// Whether it searches for an error (SweepOptions::wantedError) in place of sweeping over steps.
-    bool needsWantedError = false;
 };
 
 const std::vector<StudyEntry>& studyEntries();
 const StudyEntry* findStudy(std::string_view id);
 const std::vector<CatalogItem>& studyCatalog();
 
-/// <id>.csv, and the same rows as an array of objects.
-std::string studyCsv(const StudyEntry& study, const Sweep& sweep);
-Value studyRows(const StudyEntry& study, const Sweep& sweep);
+/// The files of a study; the first is <id>.csv.
+std::vector<StudyTable> tablesOf(const StudyEntry& study, const Sweep& sweep);
+std::vector<StudyTable> tablesOf(const StudyEntry& study, const StabilityStudy& stability);
+/// What a terminal shows.
+StudyTable summaryOf(const StudyEntry& study, const Sweep& sweep);
+StudyTable summaryOf(const StudyEntry& study, const StabilityStudy& stability);
+/// A table as CSV, and its rows as an array of objects.
+std::string csvText(const StudyTable& table);
+Value rowsValue(const StudyTable& table);
 
 /// The rows of a sweep that belong to one scheme, for each scheme that has any.
 struct SchemeRows {

@@ -10,6 +10,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/map_reference.hpp"
+#include "engine/study/pool.hpp"
 #include "engine/study/search.hpp"
 
 namespace extremal {
@@ -18,9 +19,7 @@ struct Sweep::Counters {
     std::atomic<std::size_t> done{0}, wanted{0};
 };
 
-namespace {
-
-std::vector<std::size_t> schemesOf(const Scene& scene, const std::vector<std::string>& only) {
+std::vector<std::size_t> chosenSchemes(const Scene& scene, const std::vector<std::string>& only) {
     std::vector<std::string> labels;
     for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
     for (const std::string& label : only)
@@ -35,17 +34,18 @@ std::vector<std::size_t> schemesOf(const Scene& scene, const std::vector<std::st
     return chosen;
 }
 
-}  // namespace
+void requireShard(const Shard& shard) {
+    if (shard.count < 1 || shard.index < 1 || shard.index > shard.count)
+        throw InvalidScene("--shard", "must be I/N with I from 1 to N, got " + std::to_string(shard.index) +
+                                          "/" + std::to_string(shard.count));
+}
 
 Sweep::Sweep(ResolvedScene scene, SweepOptions options)
     : scene_(std::move(scene)),
       options_(std::move(options)),
       metric_(metricOf(options_.metric, options_.isAtEnd, *scene_.system, scene_.initial)),
       counters_(std::make_shared<Counters>()) {
-    const auto [index, count] = options_.shard;
-    if (count < 1 || index < 1 || index > count)
-        throw InvalidScene("--shard", "must be I/N with I from 1 to N, got " + std::to_string(index) + "/" +
-                                          std::to_string(count));
+    requireShard(options_.shard);
     if (options_.repeat < 0 || options_.repeat > 1000)
         throw InvalidScene("--repeat", "must be 0 to 1000, got " + std::to_string(options_.repeat));
     if (metric_.observable->needsReference && scene_.scene.reference.kind == ReferenceSpec::Kind::none)
@@ -55,7 +55,7 @@ Sweep::Sweep(ResolvedScene scene, SweepOptions options)
     if (isSearch && !(std::isfinite(options_.wantedError) && options_.wantedError > 0))
         throw InvalidScene("--error",
                            "must be positive and finite, got " + formatNumber(options_.wantedError));
-    for (const std::size_t i : schemesOf(scene_.scene, options_.only))
+    for (const std::size_t i : chosenSchemes(scene_.scene, options_.only))
         for (const double value : isSearch ? std::vector{scene_.schemes[i].spec.step.value}
                                            : ladderOf(options_.ladder, scene_, scene_.schemes[i])) {
             StudyPoint point;
@@ -100,30 +100,20 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         return point.step == 0 && scheme.make ? scheme.make() : reference.at(point.row);
     };
     std::mutex mutex;
-    std::atomic<std::size_t> next{0};
-    const auto takeTasks = [&] {
-        for (std::size_t k = next++; k < wanted.size() && !stop.stop_requested(); k = next++) {
-            const std::size_t i = wanted[k];
-            const StudyPoint& point = rows_[i].point;
-            const auto run = [&](const StudyPoint& at, int repeat) {
-                return runPoint(scene_, at, metric_, referenceOf(at), repeat, stop);
-            };
-            PointResult result = options_.wantedError > 0
-                                     ? searchPoint(scene_, point, options_.wantedError, options_.repeat, run)
-                                     : run(point, options_.repeat);
-            if (result.status == RunStatus::partial) continue;
-            const std::lock_guard lock(mutex);
-            rows_[i].result = std::move(result);
-            if (onPoint) onPoint(i, rows_[i].result);
-            ++counters_->done;
-        }
-    };
-    const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-    const auto threads =
-        std::min<std::size_t>(options_.threads > 0 ? options_.threads : cores, wanted.size());
-    std::vector<std::jthread> pool;
-    for (std::size_t i = 1; i < threads; ++i) pool.emplace_back(takeTasks);
-    takeTasks();
+    forEachInPool(wanted, options_.threads, stop, [&](std::size_t i) {
+        const StudyPoint& point = rows_[i].point;
+        const auto run = [&](const StudyPoint& at, int repeat) {
+            return runPoint(scene_, at, metric_, referenceOf(at), repeat, stop);
+        };
+        PointResult result = options_.wantedError > 0
+                                 ? searchPoint(scene_, point, options_.wantedError, options_.repeat, run)
+                                 : run(point, options_.repeat);
+        if (result.status == RunStatus::partial) return;
+        const std::lock_guard lock(mutex);
+        rows_[i].result = std::move(result);
+        if (onPoint) onPoint(i, rows_[i].result);
+        ++counters_->done;
+    });
 }
 
 double Sweep::fraction() const {

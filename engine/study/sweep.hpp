@@ -29,6 +29,13 @@ struct Shard {
     bool operator==(const Shard&) const = default;
 };
 
+/// Throws InvalidScene (pointer "--shard") where it is none.
+void requireShard(const Shard& shard);
+
+/// The schemes of a scene by their labels, those that are enabled where there are none. Throws InvalidScene
+/// (pointer "--only").
+std::vector<std::size_t> chosenSchemes(const Scene& scene, const std::vector<std::string>& only);
+
 struct SweepOptions {
     std::string metric = "error";
     bool isAtEnd = false;

@@ -8,6 +8,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include <cmath>
 #include <csignal>
 #include <unistd.h>
 
@@ -108,6 +109,29 @@ private slots:
         QVERIFY2(never.err.startsWith("extremal: --error: no scheme reaches 1e-30 (the nearest: Galerkin 4"),
                  qPrintable(never.err));
         QCOMPARE(study({"cheapest", "-", "--out", dir.filePath("none")}).code, 2);
+    }
+    void stabilityFindsTheLimit() {
+        const QTemporaryDir dir;
+        const QByteArray oscillator = R"({"extremal":1,"model":{"type":"harmonic-oscillator","m":1,"k":1},
+            "initial":{"q":[1],"p":[0]},"time":{"end":2000},
+            "schemes":[{"label":"SV","step":0.1,"baseline":"stormer-verlet"}]})";
+        const Answer a = study({"stability", "-", "--x", "/schemes/*/step=1:3:5", "--limit", "--json",
+                                "--out", dir.filePath("out")},
+                               oscillator);
+        QCOMPARE(a.code, 0);
+        const QJsonObject document = QJsonDocument::fromJson(a.out.toUtf8()).object();
+        QCOMPARE(document["rows"].toArray().size(), 5);
+        const QJsonObject limit = document["stability-limits"].toArray()[0].toObject();
+        QVERIFY(std::abs(limit["limit"].toDouble() - 2) < 1e-3);
+        QVERIFY(tests::contentOf(dir.filePath("out/stability.csv"))
+                    .startsWith("label,x,y,class,growth,max_energy_error,failed_at,cause\nSV,1,,stable,"));
+        QVERIFY(QFile::exists(dir.filePath("out/stability.png")));
+        const auto error = [&](const QStringList& more) {
+            return study(QStringList{"stability", "-", "--out", dir.filePath("no")} + more, oscillator).err;
+        };
+        QVERIFY(error({}).startsWith("extremal: --x: is required"));
+        QVERIFY(error({"--x", "/model/kk=1:2:3"}).startsWith("extremal: --x: "));
+        QVERIFY(error({"--x", "/model/k=1:2:3", "--error", "1"}).startsWith("extremal: --error: "));
     }
     void shardsMergeIntoTheWhole() {
         const QTemporaryDir dir;

@@ -97,7 +97,7 @@ StudyEntry cheapest() {
     e.summaryColumns = {"rank",        "scheme", "step",      "predicted cpu", "cpu seconds",
                         "evaluations", "error",  "tolerance", "status"};
     e.summary = summaryOfPrices;
-    e.needsWantedError = true;
+    e.over = StudyEntry::Over::wantedError;
     return e;
 }
 

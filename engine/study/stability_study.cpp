@@ -1,0 +1,171 @@
+#include "engine/study/stability_study.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/study/cells.hpp"
+#include "engine/study/pool.hpp"
+#include "engine/study/study_log.hpp"
+
+namespace extremal {
+
+struct StabilityStudy::Counters {
+    std::atomic<std::size_t> done{0}, wanted{0};
+};
+
+StabilityStudy::StabilityStudy(ResolvedScene scene, StabilityOptions options)
+    : scene_(std::move(scene)), options_(std::move(options)), counters_(std::make_shared<Counters>()) {
+    requireShard(options_.shard);
+    // A pointer that is no number of the scene is an error of the option, and not of every point.
+    const auto requireNumber = [&](const VariedNumber& number, const char* option) {
+        const ReadScene read = readScene(toValue(scene_.scene), {{number.pointer, number.from}});
+        for (const Problem& p : read.errors)
+            if (!p.origin.empty()) throw InvalidScene(option, number.pointer + " " + p.message, p.hint);
+    };
+    requireNumber(options_.x, "--x");
+    if (options_.y) requireNumber(*options_.y, "--y");
+    std::vector<double> ys{StabilityResult::unknown};
+    if (options_.y) ys = options_.y->values();
+    for (const std::size_t scheme : chosenSchemes(scene_.scene, options_.only))
+        for (const double y : ys) {
+            for (const double x : options_.x.values()) rows_.push_back({scheme, x, y, {}});
+            if (options_.findsLimits) limits_.push_back({scheme, y, false, {}});
+        }
+}
+
+bool StabilityStudy::isComplete() const {
+    return std::all_of(rows_.begin(), rows_.end(),
+                       [](const Row& row) { return row.result.kind != StabilityClass::waiting; }) &&
+           std::all_of(limits_.begin(), limits_.end(), [](const Limit& limit) { return limit.isKnown; });
+}
+
+double StabilityStudy::fraction() const {
+    const std::size_t wanted = counters_->wanted;
+    return wanted > 0 ? static_cast<double>(counters_->done) / static_cast<double>(wanted) : 0;
+}
+
+void StabilityStudy::take(std::size_t index, const StabilityLimit& limit) {
+    limits_[index - rows_.size()].limit = limit;
+    limits_[index - rows_.size()].isKnown = true;
+}
+
+std::vector<std::pair<std::string, double>> StabilityStudy::changesAt(double y) const {
+    std::vector<std::pair<std::string, double>> changes;
+    if (options_.y) changes.emplace_back(options_.y->pointer, y);
+    return changes;
+}
+
+bool StabilityStudy::runOne(std::size_t index, const std::stop_token& stop) {
+    if (index < rows_.size()) {
+        Row& row = rows_[index];
+        auto changes = changesAt(row.y);
+        changes.emplace_back(options_.x.pointer, row.x);
+        row.result = runStability(scene_.scene, row.scheme, changes, stop);
+    } else {
+        Limit& limit = limits_[index - rows_.size()];
+        limit.limit = findLimit(scene_.scene, limit.scheme, options_.x, changesAt(limit.y), stop);
+        limit.isKnown = !stop.stop_requested();
+    }
+    return !stop.stop_requested();
+}
+
+void StabilityStudy::run(const std::function<void(std::size_t)>& onPoint, const std::stop_token& stop) {
+    std::vector<std::size_t> wanted;
+    for (std::size_t i = 0; i < size(); ++i) {
+        const bool isKnown = i < rows_.size() ? rows_[i].result.kind != StabilityClass::waiting
+                                              : limits_[i - rows_.size()].isKnown;
+        if (options_.shard.has(i) && !isKnown) wanted.push_back(i);
+    }
+    counters_->wanted = wanted.size();
+    std::mutex mutex;
+    forEachInPool(wanted, options_.threads, stop, [&](std::size_t i) {
+        if (!runOne(i, stop)) return;
+        const std::lock_guard lock(mutex);
+        onPoint(i);
+        ++counters_->done;
+    });
+}
+
+Value optionsValue(const StabilityOptions& options) {
+    Value value;
+    value.set("x", textOf(options.x));
+    value.set("y", options.y ? textOf(*options.y) : "");
+    value.set("limit", options.findsLimits);
+    Value::Array only;
+    for (const std::string& label : options.only) only.emplace_back(label);
+    value.set("only", only);
+    return value;
+}
+
+StabilityOptions stabilityOptionsOf(const Value& value) {
+    StabilityOptions options;
+    options.x = parseAxis(value.find("x")->asString(), "--x");
+    if (const std::string& y = value.find("y")->asString(); !y.empty()) options.y = parseAxis(y, "--y");
+    options.findsLimits = value.find("limit")->asBool();
+    for (const Value& label : value.find("only")->asArray()) options.only.push_back(label.asString());
+    return options;
+}
+
+std::string headOf(const std::string& study, const StabilityStudy& stability) {
+    Value head;
+    head.set("extremal", 1);
+    head.set("study", study);
+    head.set("options", optionsValue(stability.options()));
+    head.set("scene", fingerprint(writeScene(stability.scene().scene)));
+    return writeCompactJson(head);
+}
+
+std::optional<std::size_t> takeLine(const std::string& line, StabilityStudy& stability) {
+    const std::vector<std::string> cells = cellsOf(line);
+    if (cells.size() < 5) return {};
+    const auto index = static_cast<std::size_t>(parseNumber(cells[1]).value_or(1e18));
+    if (cells.front() == "limit" && index >= stability.rows().size() && index < stability.size()) {
+        StabilityLimit limit;
+        limit.limit = cellNumber(cells[2]);
+        limit.low = cellNumber(cells[3]);
+        limit.high = cellNumber(cells[4]);
+        stability.take(index, limit);
+        return index;
+    }
+    if (cells.front() != "point" || cells.size() != 7 || index >= stability.rows().size()) return {};
+    StabilityResult r;
+    for (const StabilityClass c : {StabilityClass::stable, StabilityClass::drifting, StabilityClass::blowUp,
+                                   StabilityClass::solverFailed, StabilityClass::refused})
+        if (name(c) == cells[2]) r.kind = c;
+    r.cause = outcomeOf(cells[3]);
+    r.growth = cellNumber(cells[4]);
+    r.maxEnergyError = cellNumber(cells[5]);
+    r.failedAt = cellNumber(cells[6]);
+    stability.take(index, r);
+    return index;
+}
+
+void runLines(StabilityStudy& stability, const std::function<void(const std::string&)>& onLine,
+              const std::stop_token& stop) {
+    stability.run(
+        [&](std::size_t i) {
+            const std::size_t points = stability.rows().size();
+            if (i < points) {
+                const StabilityResult& r = stability.rows()[i].result;
+                std::string line = "point," + std::to_string(i) + ',' + std::string(name(r.kind)) + ',' +
+                                   std::string(name(r.cause));
+                for (const double value : {r.growth, r.maxEnergyError, r.failedAt})
+                    line += ',' + cellOf(value);
+                onLine(line);
+            } else {
+                const StabilityLimit& l = stability.limits()[i - points].limit;
+                onLine("limit," + std::to_string(i) + ',' + cellOf(l.limit) + ',' + cellOf(l.low) + ',' +
+                       cellOf(l.high));
+            }
+        },
+        stop);
+}
+
+}  // namespace extremal

@@ -1,0 +1,84 @@
+/// The study "stability": every scheme over a grid of one or two numbers of the scene, and the limits along
+/// the first of them. Its lines in the log:
+///
+///     {"extremal": 1, "study": "stability", "options": {..}, "scene": "<fingerprint>"}
+///     point,<index>,<class>,<cause>,<growth>,<max_energy_error>,<failed_at>
+///     limit,<index>,<limit>,<low>,<high>
+///
+/// Points are numbered scheme by scheme, y by y, along x; behind them the limits, scheme by scheme and y by
+/// y.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "engine/core/value.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/study/stability.hpp"
+#include "engine/study/sweep.hpp"
+
+namespace extremal {
+
+struct StabilityOptions {
+    VariedNumber x;
+    std::optional<VariedNumber> y = {};
+    bool findsLimits = false;
+    std::vector<std::string> only = {};
+    Shard shard = {};
+    unsigned threads = 0;
+};
+
+class StabilityStudy {
+public:
+    struct Row {
+        std::size_t scheme = 0;
+        double x = 0, y = StabilityResult::unknown;
+        StabilityResult result = {};
+    };
+    struct Limit {
+        std::size_t scheme = 0;
+        double y = StabilityResult::unknown;
+        bool isKnown = false;
+        StabilityLimit limit = {};
+    };
+
+    /// Throws InvalidScene, with options as pointers.
+    StabilityStudy(ResolvedScene scene, StabilityOptions options);
+
+    const ResolvedScene& scene() const { return scene_; }
+    const StabilityOptions& options() const { return options_; }
+    const std::vector<Row>& rows() const { return rows_; }
+    const std::vector<Limit>& limits() const { return limits_; }
+    /// Of points and limits.
+    std::size_t size() const { return rows_.size() + limits_.size(); }
+    bool isComplete() const;
+    double fraction() const;
+
+    void take(std::size_t index, StabilityResult result) { rows_[index].result = std::move(result); }
+    void take(std::size_t index, const StabilityLimit& limit);
+    void run(const std::function<void(std::size_t)>& onPoint, const std::stop_token& stop);
+
+private:
+    struct Counters;
+    std::vector<std::pair<std::string, double>> changesAt(double y) const;
+    bool runOne(std::size_t index, const std::stop_token& stop);
+
+    ResolvedScene scene_;
+    StabilityOptions options_;
+    std::vector<Row> rows_;
+    std::vector<Limit> limits_;
+    std::shared_ptr<Counters> counters_;
+};
+
+Value optionsValue(const StabilityOptions& options);
+StabilityOptions stabilityOptionsOf(const Value& value);
+std::string headOf(const std::string& study, const StabilityStudy& stability);
+std::optional<std::size_t> takeLine(const std::string& line, StabilityStudy& stability);
+void runLines(StabilityStudy& stability, const std::function<void(const std::string&)>& onLine,
+              const std::stop_token& stop);
+
+}  // namespace extremal

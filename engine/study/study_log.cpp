@@ -1,0 +1,99 @@
+#include "engine/study/study_log.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <utility>
+
+#include <boost/crc.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "engine/core/problem.hpp"
+#include "engine/run/export.hpp"
+
+namespace extremal {
+namespace {
+
+std::string hex(unsigned long long value, int digits) {
+    std::string text;
+    for (int i = digits - 1; i >= 0; --i) text += "0123456789abcdef"[(value >> (4 * i)) & 15];
+    return text;
+}
+
+std::string checksum(const std::string& text) {
+    boost::crc_32_type crc;
+    crc.process_bytes(text.data(), text.size());
+    return hex(crc.checksum(), 8);
+}
+
+}  // namespace
+
+std::string fingerprint(const std::string& text) {
+    boost::crc_optimal<64, 0x42f0e1eba9ea3693ULL, ~0ULL, ~0ULL, true, true> crc;
+    crc.process_bytes(text.data(), text.size());
+    return hex(crc.checksum(), 16);
+}
+
+std::vector<std::string> linesOf(const std::filesystem::path& log) {
+    std::ifstream in(log);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) {
+        const std::size_t space = line.rfind(' ');
+        if (space == std::string::npos) continue;
+        const std::string text = line.substr(0, space);
+        if (line.substr(space + 1) == checksum(text)) lines.push_back(text);
+    }
+    return lines;
+}
+
+StudyLog::StudyLog(std::filesystem::path file, bool isNew) : file_(std::move(file)) {
+    const int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (isNew ? O_TRUNC : 0);
+    descriptor_ = ::open(file_.c_str(), flags, 0666);
+    if (descriptor_ < 0) throw ExportError(file_, std::strerror(errno));
+}
+
+StudyLog::StudyLog(StudyLog&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+StudyLog::~StudyLog() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+StudyLog StudyLog::begin(const std::filesystem::path& file, const std::string& head) {
+    StudyLog log(file, true);
+    log.append(head);
+    return log;
+}
+
+StudyLog StudyLog::resume(const std::filesystem::path& file, const std::string& head,
+                          std::vector<std::string>& known) {
+    known = linesOf(file);
+    if (known.empty()) return begin(file, head);
+    if (known.front() != head)
+        throw InvalidScene("--resume", file.string() + " belongs to another study, scene or option",
+                           "another --out DIR, or leave --resume out to begin anew");
+    known.erase(known.begin());
+    StudyLog log(file, false);
+    // A line that was cut off must not swallow the next one.
+    std::ifstream in(file, std::ios::binary | std::ios::ate);
+    if (in.tellg() > 0) {
+        in.seekg(-1, std::ios::end);
+        if (in.get() != '\n' && ::write(log.descriptor_, "\n", 1) != 1)
+            throw ExportError(file, std::strerror(errno));
+    }
+    return log;
+}
+
+void StudyLog::append(const std::string& text) {
+    const std::string line = text + ' ' + checksum(text) + '\n';
+    for (std::size_t done = 0; done < line.size();) {
+        const ssize_t n = ::write(descriptor_, line.data() + done, line.size() - done);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) throw ExportError(file_, std::strerror(errno));
+        done += static_cast<std::size_t>(n);
+    }
+}
+
+}  // namespace extremal

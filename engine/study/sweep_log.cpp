@@ -1,0 +1,120 @@
+#include "engine/study/sweep_log.hpp"
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/study/cells.hpp"
+#include "engine/study/study_log.hpp"
+
+namespace extremal {
+namespace {
+
+long long count(const std::string& text) { return static_cast<long long>(parseNumber(text).value_or(0)); }
+
+std::string pointLine(std::size_t index, const PointResult& r) {
+    std::string line =
+        "point," + std::to_string(index) + ',' + name(r.status) + ',' + std::string(name(r.cause));
+    for (const double value : {r.failedAt, r.error}) line += ',' + cellOf(value);
+    for (const long long value :
+         {r.steps, r.cost.iterations, r.cost.evaluations, r.cost.linearSolves, r.cost.rejected})
+        line += ',' + std::to_string(value);
+    for (const double value : {r.cpuSeconds, r.cpuSpread, r.step, r.tolerance}) line += ',' + cellOf(value);
+    return line;
+}
+
+std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
+    if (cells.size() != 15) return {};
+    PointResult r;
+    r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
+    r.cause = outcomeOf(cells[3]);
+    r.failedAt = cellNumber(cells[4]);
+    r.error = cellNumber(cells[5]);
+    r.steps = count(cells[6]);
+    r.cost = {count(cells[7]), count(cells[8]), count(cells[9]), count(cells[10])};
+    r.cpuSeconds = cellNumber(cells[11]);
+    r.cpuSpread = cellNumber(cells[12]);
+    r.step = cellNumber(cells[13]);
+    r.tolerance = cellNumber(cells[14]);
+    return r;
+}
+
+bool isSameButForTimes(PointResult a, PointResult b) {
+    for (PointResult* r : {&a, &b}) r->cpuSeconds = r->cpuSpread = PointResult::unknown;
+    return pointLine(0, a) == pointLine(0, b);
+}
+
+}  // namespace
+
+Value optionsValue(const SweepOptions& options) {
+    const auto texts = [](const auto& items) {
+        Value::Array all;
+        for (const auto& item : items) all.emplace_back(item);
+        return Value(all);
+    };
+    Value value;
+    value.set("metric", options.metric);
+    value.set("final", options.isAtEnd);
+    value.set("steps", texts(options.ladder.steps));
+    value.set("from", options.ladder.from);
+    value.set("to", options.ladder.to);
+    value.set("points", options.ladder.points);
+    value.set("repeat", options.repeat);
+    value.set("only", texts(options.only));
+    value.set("error", options.wantedError);
+    return value;
+}
+
+SweepOptions optionsOf(const Value& value) {
+    SweepOptions options;
+    options.metric = value.find("metric")->asString();
+    options.isAtEnd = value.find("final")->asBool();
+    for (const Value& step : value.find("steps")->asArray()) options.ladder.steps.push_back(step.asNumber());
+    options.ladder.from = value.find("from")->asNumber();
+    options.ladder.to = value.find("to")->asNumber();
+    options.ladder.points = static_cast<int>(value.find("points")->asNumber());
+    options.repeat = static_cast<int>(value.find("repeat")->asNumber());
+    for (const Value& label : value.find("only")->asArray()) options.only.push_back(label.asString());
+    options.wantedError = value.find("error")->asNumber();
+    return options;
+}
+
+std::string headOf(const std::string& study, const Sweep& sweep) {
+    Value head;
+    head.set("extremal", 1);
+    head.set("study", study);
+    head.set("options", optionsValue(sweep.options()));
+    head.set("scene", fingerprint(writeScene(sweep.scene().scene)));
+    return writeCompactJson(head);
+}
+
+std::optional<std::size_t> takeLine(const std::string& line, Sweep& sweep) {
+    const std::vector<std::string> cells = cellsOf(line);
+    if (cells.front() == "reference" && cells.size() == 3) {
+        ReferenceInfo info;
+        info.type = cells[1];
+        info.estimatedError = cellNumber(cells[2]);
+        sweep.take(info);
+    }
+    if (cells.front() != "point") return {};
+    const std::optional<PointResult> result = pointOf(cells);
+    const auto index = static_cast<std::size_t>(count(cells.size() > 1 ? cells[1] : ""));
+    if (!result || index >= sweep.size()) return {};
+    const PointResult& known = sweep.rows()[index].result;
+    if (known.status != RunStatus::waiting && !isSameButForTimes(known, *result))
+        throw InvalidScene("arguments", "the logs have different results for point " + std::to_string(index),
+                           "logs of the same version on the same kind of machine");
+    sweep.take(index, *result);
+    return index;
+}
+
+void runLines(Sweep& sweep, const std::function<void(const std::string&)>& onLine,
+              const std::stop_token& stop) {
+    sweep.run(
+        [&](const ReferenceInfo& info) {
+            onLine("reference," + info.type + ',' + cellOf(info.estimatedError));
+        },
+        [&](std::size_t i, const PointResult& result) { onLine(pointLine(i, result)); }, stop);
+}
+
+}  // namespace extremal
