@@ -11,14 +11,12 @@
 
 namespace extremal {
 
-/// What the Lagrangian says at a node.
 template <class T>
-struct ElementKernel<T>::Node {
-    explicit Node(int d) : q(d), v(d), gradient(2 * d), hessian(2 * d, 2 * d) {}
-    T L{};
-    Vector q, v, gradient;
-    Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> hessian;
-};
+void ElementDerivatives<T>::Node::resize(int d) {
+    for (Vector* each : {&q, &v, &qv, &vv}) each->resize(d);
+    gradient.resize(2 * d);
+    hessian.resize(2 * d, 2 * d);
+}
 
 template <class T>
 typename ElementKernel<T>::Functions ElementKernel<T>::sample(const Table<T>& table, ElementBasis basis) {
@@ -29,6 +27,13 @@ typename ElementKernel<T>::Functions ElementKernel<T>::sample(const Table<T>& ta
         f.slope.resize(n, m + 1);
         f.value << table.testValue.col(m - 1), table.value;
         f.slope << table.testDerivative.col(m - 1), table.derivative;
+        return f;
+    }
+    if (basis == ElementBasis::increments) {
+        f.value.resize(n, m + 1);
+        f.slope.resize(n, m + 1);
+        f.value << Vector::Ones(n), table.value;
+        f.slope << Vector::Zero(n), table.derivative;
         return f;
     }
     f.value.resize(n, table.space.size);
@@ -73,7 +78,8 @@ bool ElementKernel<T>::evaluate(const T& t0, const T& h, const Vector& z, Deriva
         result.gradientByStep = Vector::Constant(size_, none);
         result.byStepTwice = none;
     }
-    Node at(dimension());
+    auto& at = result.node;
+    at.resize(dimension());
     for (int i = 0; i < node_.size(); ++i) {
         for (int k = 0; k < dimension(); ++k) {
             at.q(k) = at.v(k) = T(0);
@@ -86,8 +92,8 @@ bool ElementKernel<T>::evaluate(const T& t0, const T& h, const Vector& z, Deriva
         mechanics_.jet(mechanics_.model.get(), t0 + node_(i) * h, at.q.data(), at.v.data(), &at.L,
                        at.gradient.data(), at.hessian.data());
         result.action += weight_(i) * h * at.L;
-        if (order != DerivativeOrder::none) addFirst(i, h, at, result);
-        if (order == DerivativeOrder::second) addSecond(i, h, at, result);
+        if (order != DerivativeOrder::none) addFirst(i, h, result);
+        if (order == DerivativeOrder::second) addSecond(i, h, result);
     }
     using std::isfinite;
     T size = result.action;
@@ -97,7 +103,8 @@ bool ElementKernel<T>::evaluate(const T& t0, const T& h, const Vector& z, Deriva
 }
 
 template <class T>
-void ElementKernel<T>::addFirst(int i, const T& h, const Node& at, ElementDerivatives<T>& to) const {
+void ElementKernel<T>::addFirst(int i, const T& h, ElementDerivatives<T>& to) const {
+    const auto& at = to.node;
     const int d = dimension();
     const T b = weight_(i);
     for (int k = 0; k < d; ++k)
@@ -108,11 +115,13 @@ void ElementKernel<T>::addFirst(int i, const T& h, const Node& at, ElementDeriva
 }
 
 template <class T>
-void ElementKernel<T>::addSecond(int i, const T& h, const Node& at, ElementDerivatives<T>& to) const {
+void ElementKernel<T>::addSecond(int i, const T& h, ElementDerivatives<T>& to) const {
+    auto& at = to.node;
     const int d = dimension();
     const T b = weight_(i);
     const auto& H = at.hessian;
-    const Vector qv = H.topRightCorner(d, d) * at.v, vv = H.bottomRightCorner(d, d) * at.v;
+    at.qv.noalias() = H.topRightCorner(d, d).lazyProduct(at.v);
+    at.vv.noalias() = H.bottomRightCorner(d, d).lazyProduct(at.v);
     for (int k = 0; k < d; ++k) {
         const auto test = [&](int a) { return testFunction(b, h, of(k).value(i, a), of(k).slope(i, a)); };
         for (int l = 0; l < d; ++l)
@@ -125,9 +134,9 @@ void ElementKernel<T>::addSecond(int i, const T& h, const Node& at, ElementDeriv
                 [&](int a, int c) -> T& { return to.hessian(index(k, a), index(l, c)); });
         for (int a = 0; a < functions(k); ++a)
             to.gradientByStep(index(k, a)) +=
-                b * (of(k).value(i, a) * (at.gradient(k) - qv(k)) - of(k).slope(i, a) * vv(k) / h);
+                b * (of(k).value(i, a) * (at.gradient(k) - at.qv(k)) - of(k).slope(i, a) * at.vv(k) / h);
     }
-    to.byStepTwice += b * at.v.dot(vv) / h;
+    to.byStepTwice += b * at.v.dot(at.vv) / h;
 }
 
 template class ElementKernel<double>;

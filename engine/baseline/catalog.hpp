@@ -22,7 +22,9 @@ struct BaselineOptions {
 
 struct BaselineEntry {
     CatalogItem item;
-    bool isAdaptive = false;                        ///< takes "tolerance" instead of "step"
+    bool isAdaptive = false;  ///< takes "tolerance" instead of "step"
+    /// Of those that are not adaptive. free: "step" is the first step.
+    TimeGrid grid = TimeGrid::fixed;
     std::function<bool(const System&)> applies;     ///< empty: every system with coordinates
     std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
     double stabilityLimit =

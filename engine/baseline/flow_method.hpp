@@ -42,6 +42,7 @@ public:
 
     StepReport advance(State& state, double until) final {
         startTime_ = state.t;
+        recall(state);
         q0_ = q1_ = View(state.x.data(), d());
         p0_ = p1_ = View(state.x.data() + d(), d());
         report_ = StepReport{};
@@ -61,6 +62,9 @@ public:
 protected:
     int d() const { return mechanics_.dimension; }
     double h() const { return h_; }
+
+    /// Takes what the scheme remembers from the state, before a step; most remember nothing.
+    virtual void recall(State&) {}
 
     /// Moves q1_, p1_ (which start at the present state) by one step, and fills report_.
     virtual void step(double t) = 0;

@@ -31,16 +31,15 @@ constexpr std::string_view name(Outcome outcome) {
 /// their times.
 enum class StepEvent {
     none,
-    energyReset,   ///< the discrete energy equation had no root; the step kept its size, and energy starts
-                   ///< anew
-    meshFallback,  ///< the mesh could not follow its equation and stayed as it was
-    halved,        ///< the step was refused and taken in two halves
+    energyUnsolvable,  ///< the discrete energy equation had no root: a policy chose the step
+    meshFallback,      ///< the mesh could not follow its equation and stayed as it was
+    halved,            ///< the step was refused and taken in two halves
 };
 constexpr int stepEventCount = 4;
 
-/// The spelling used in files ("energy-reset", ...); empty for none.
+/// The spelling used in files ("energy-unsolvable", ...); empty for none.
 constexpr std::string_view name(StepEvent event) {
-    constexpr std::array<std::string_view, stepEventCount> names = {"", "energy-reset", "mesh-fallback",
+    constexpr std::array<std::string_view, stepEventCount> names = {"", "energy-unsolvable", "mesh-fallback",
                                                                     "halved"};
     return names[static_cast<std::size_t>(event)];
 }

@@ -83,8 +83,26 @@ const Family* familyOf(const Settings& space) {
 
 const Family* familyFor(const System& system) {
     for (const Family& family : families())
-        if (family.choices && family.applies(system)) return &family;
+        if (family.choices && !family.isVariant && family.applies(system)) return &family;
     return nullptr;
+}
+
+ChoiceGrid choicesFor(const System& system) {
+    const Family* const main = familyFor(system);
+    if (!main) return {};
+    ChoiceGrid grid = main->choices(system);
+    for (const Family& family : families()) {
+        if (!family.choices || !family.isVariant || !family.applies(system)) continue;
+        const ChoiceGrid further = family.choices(system);
+        const bool fit =
+            further.width() == grid.width() &&
+            std::all_of(further.cells.begin(), further.cells.end(),
+                        [&](const ChoiceGrid::Cell& cell) { return isFor(cell.discretization, system); });
+        if (!fit) continue;
+        grid.rows.insert(grid.rows.end(), further.rows.begin(), further.rows.end());
+        grid.cells.insert(grid.cells.end(), further.cells.begin(), further.cells.end());
+    }
+    return grid;
 }
 
 const Family* findFamily(std::string_view id) {

@@ -44,6 +44,7 @@ struct SchemeCase {
     double step = 0;
     bool isComposed = false;
     bool allowsUnstable = false;
+    double end = 0;  ///< of the run
 };
 
 /// The scheme that references of a system are computed with.
@@ -69,6 +70,10 @@ struct Family {
     /// Whether a solution is read off between nodes; else it is made anew there, and solutions are compared
     /// at nodes.
     bool hasDenseOutput = true;
+    /// Of its schemes. free: the step of a scheme is its first.
+    TimeGrid grid = TimeGrid::fixed;
+    /// Its choices are further rows of the grid of another family, from which references come as well.
+    bool isVariant = false;
 
     bool (*applies)(const System&) = nullptr;
     /// Why a discretization cannot be used on a system of the family; empty if it can. Null: all can.
@@ -111,8 +116,11 @@ struct Family {
 const std::vector<Family>& families();
 /// The family of a space; null where there is no such space.
 const Family* familyOf(const Settings& space);
-/// The family whose choices the window offers for a system; null where none applies.
+/// The family that the window starts from for a system, and that references come from; null where none
+/// applies.
 const Family* familyFor(const System& system);
+/// What the window offers for a system: the choices of that family, and further rows of its variants.
+ChoiceGrid choicesFor(const System& system);
 const Family* findFamily(std::string_view id);
 
 /// All spaces of all families.

@@ -5,8 +5,10 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/figure/fit_axes.hpp"
+#include "engine/figure/sample.hpp"
 #include "engine/view/axes.hpp"
 
 namespace extremal {
@@ -183,6 +185,58 @@ void markFailures(Figure& figure, const FigureContext& context) {
     }
 }
 
+/// "energy unsolvable".
+std::string textOf(StepEvent event) {
+    std::string text(name(event));
+    std::replace(text.begin(), text.end(), '-', ' ');
+    return text;
+}
+
+/// The steps of a scheme that had an event, on its curve; on axes of time at the lower edge where the curve
+/// has no value. Some hundreds of them at most.
+EventMarks marksOn(const Series& curve, const SchemeResult& scheme, bool isTime) {
+    constexpr std::size_t most = 1000;
+    const auto& all = scheme.events.marks;
+    EventMarks marks;
+    marks.label = scheme.spec.label;
+    marks.style = scheme.style;
+    for (std::size_t i = 0; i < all.size(); i += all.size() / most + 1) {
+        const auto point = pointAt(curve, all[i].t);
+        if (!point && !isTime) continue;
+        marks.x.push_back(point ? point->first : all[i].t);
+        marks.y.push_back(point ? point->second : Summary::unknown);
+    }
+    for (int e = 1; e < stepEventCount; ++e)
+        if (const long long count = scheme.events.counts[static_cast<std::size_t>(e)]; count > 0)
+            marks.text += (marks.text.empty() ? "" : ", ") + textOf(static_cast<StepEvent>(e)) + ": " +
+                          std::to_string(count) + " of " + std::to_string(scheme.summary.steps) + " steps";
+    return marks;
+}
+
+/// On the first curve of each scheme that knows its times. The subtitle counts: "▽ energy unsolvable: 11
+/// (Reset), 110 (Keep)".
+void markEvents(Figure& figure, const FigureContext& context) {
+    std::array<std::string, stepEventCount> counted;
+    for (const auto& scheme : context.comparison.schemes) {
+        if (scheme->events.marks.empty()) continue;
+        const Series* own = nullptr;
+        for (const Series& s : std::as_const(figure).series())
+            if (!own && s.label == scheme->spec.label && s.style == scheme->style) own = &s;
+        if (!own || (!figure.x.isTime && own->t.empty())) continue;
+        EventMarks marks = marksOn(*own, *scheme, figure.x.isTime);
+        if (marks.x.empty()) continue;
+        figure.add(std::move(marks));
+        for (std::size_t e = 1; e < counted.size(); ++e)
+            if (const long long count = scheme->events.counts[e]; count > 0)
+                counted[e] += (counted[e].empty() ? "" : ", ") + std::to_string(count) + " (" +
+                              scheme->spec.label + ")";
+    }
+    for (std::size_t e = 1; e < counted.size(); ++e)
+        if (!counted[e].empty())
+            figure.subtitle += (figure.subtitle.empty() ? "▽ " : " · ▽ ") +
+                               textOf(static_cast<StepEvent>(e)) + ": " + counted[e];
+}
+
 /// "largest 0.03 (RK4), smallest 1e-7 (midpoint)", by the largest value of each series.
 std::string extremesText(const Figure& figure) {
     const Series *most = nullptr, *least = nullptr;
@@ -204,6 +258,7 @@ std::string extremesText(const Figure& figure) {
 void finishFigure(Figure& figure, const FigureContext& context, std::string_view what) {
     markFailures(figure, context);
     hideWhatAxesCannotShow(figure);
+    markEvents(figure, context);
     fitAxes(figure, context.view, context.system ? axesOf(context.view, *context.system).variable : "t");
 
     const bool hasPoints =
@@ -220,6 +275,7 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
     }
     figure.summary = std::string(what);
     figure.summary += hasPoints ? extremesText(figure) : ": " + figure.message;
+    for (const EventMarks& m : figure.all<EventMarks>()) figure.summary += "; " + m.label + ", " + m.text;
     for (const FailureMark& f : figure.all<FailureMark>()) figure.summary += "; " + f.label + " " + f.text;
     figure.summary += ".";
 }
@@ -235,7 +291,10 @@ Figure columnAgainstTime(const FigureContext& context, std::string title, std::s
     std::vector<std::pair<double, const Series*>> changes;
     for (const Series& s : figure.series()) {
         if (s.y.empty()) continue;
-        const double start = s.y.front();
+        // What steps have is not known at the first node.
+        const auto first = std::find_if(s.y.begin(), s.y.end(), [](double v) { return std::isfinite(v); });
+        if (first == s.y.end()) continue;
+        const double start = *first;
         double change = 0;
         for (const double v : s.y)
             if (std::isfinite(v)) change = std::max(change, std::abs(v - start));

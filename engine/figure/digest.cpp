@@ -54,8 +54,8 @@ std::string digest(const Figure& figure) {
                 std::to_string(s.x.size()) + " points, " + std::to_string(s.hidden) + " hidden" +
                 (isParametric(s.kind) ? ", curve" : "") + (hasMarks(s.kind) ? ", markers" : "") +
                 (hasLine(s.kind) ? ", line" : "") + (s.kind == SeriesKind::cells ? ", cells" : "") +
-                (s.tone == Tone::pale ? ", pale" : "") + ", x " + hash(s.x) + ", y " + hash(s.y) +
-                ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";
+                (s.kind == SeriesKind::ticks ? ", ticks" : "") + (s.tone == Tone::pale ? ", pale" : "") +
+                ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";
     }
     if (figure.heat())
         text += "heat " + std::to_string(figure.heat()->columns) + " x " +
@@ -65,6 +65,9 @@ std::string digest(const Figure& figure) {
     for (const FailureMark& f : figure.all<FailureMark>())
         text += "failure " + std::to_string(f.style) + " " + f.label + ": " + f.text + ", " +
                 nineDigits(f.x) + "\n";
+    for (const EventMarks& m : figure.all<EventMarks>())
+        text += "events " + std::to_string(m.style) + " " + m.label + ": " + m.text + ", " +
+                std::to_string(m.x.size()) + " marks, x " + hash(m.x) + ", y " + hash(m.y) + "\n";
     if (figure.find<RoundOffFloor>()) text += "floor " + nineDigits(floorOf(figure)) + "\n";
     if (const DoubtfulBand* band = figure.find<DoubtfulBand>())
         text += "doubtful below " + nineDigits(band->top) + "\n";

@@ -34,8 +34,11 @@ enum class SeriesKind {
     markedCurve,  ///< parametric, with a dot at every value
     marks,        ///< dots alone
     cells,        ///< a unit square around every point
+    ticks,        ///< a short vertical stroke at every point, x monotone
 };
-constexpr bool hasLine(SeriesKind kind) { return kind != SeriesKind::marks && kind != SeriesKind::cells; }
+constexpr bool hasLine(SeriesKind kind) {
+    return kind != SeriesKind::marks && kind != SeriesKind::cells && kind != SeriesKind::ticks;
+}
 constexpr bool hasMarks(SeriesKind kind) {
     return kind == SeriesKind::markedLine || kind == SeriesKind::markedCurve || kind == SeriesKind::marks;
 }
@@ -96,6 +99,14 @@ struct FailureMark {
     std::string text;  ///< "diverged at t = 0.31"
 };
 
+/// Steps of a scheme in which something happened besides: a mark at the node where each ended.
+struct EventMarks {
+    std::string label;
+    int style = 0;
+    std::string text;          ///< "energy unsolvable: 18 of 600 steps"
+    std::vector<double> x, y;  ///< y not a number: at the lower edge
+};
+
 /// A faint horizontal line: what round-off alone would give.
 struct RoundOffFloor {
     double y = 0;
@@ -106,7 +117,8 @@ struct DoubtfulBand {
     double top = 0;
 };
 
-using Layer = std::variant<Series, HeatMap, FailureMark, Guide, Label, RoundOffFloor, DoubtfulBand>;
+using Layer =
+    std::variant<Series, HeatMap, FailureMark, EventMarks, Guide, Label, RoundOffFloor, DoubtfulBand>;
 
 enum class Aspect {
     free,

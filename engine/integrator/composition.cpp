@@ -132,10 +132,9 @@ int defaultOrder(const Claims& scheme) { return scheme.order + 2; }
 std::string compositionRefusal(const Settings& composition, const Claims& scheme, std::string& hint) {
     const int order = composition.integer("order");
     if (!scheme.isOneStep) {
-        hint = "the one-step form of the scheme, or no composition";
-        return "needs a one-step method: this scheme goes on from the level before as well, and that is a "
-               "whole "
-               "step away, while the parts of a composition are of different lengths";
+        hint = "a one-step scheme, or no composition";
+        return "needs a one-step method: this scheme carries more than the state from step to step, and the "
+               "parts of a composition are of different lengths";
     }
     if (!scheme.isSymmetric) {
         hint =

@@ -10,6 +10,9 @@ namespace extremal {
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
                       const State& initial, const State& state) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
+    const Family* const family = scheme.family ? scheme.family : familyFor(system);
+    if (family && family->advice)
+        if (const std::string own = family->advice(outcome); !own.empty()) return own;
     if (outcome == Outcome::lost)
         return "The solution could not be followed any further. Try a smaller step, or an earlier end.";
     if (outcome == Outcome::stepBudget)
@@ -17,8 +20,6 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
                "earlier end.";
     if (!scheme.properties.caution.empty()) return "The scheme " + scheme.properties.caution + ".";
     // A state that has blown up says nothing of frequencies: the start counts as well.
-    if (const Family* family = familyFor(system); family && family->advice)
-        if (const std::string own = family->advice(outcome); !own.empty()) return own;
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
     const double limit = scheme.stabilityLimit();
     if (w > 0 && std::isfinite(limit) && limit > 0 && step * w > limit)

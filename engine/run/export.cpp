@@ -170,6 +170,23 @@ std::string defectCsv(const ActionDefect& defect) {
     return text;
 }
 
+template <class Sink>
+void writeSteps(const StepRecords& steps, Sink&& sink) {
+    std::string text = "k,t,step,discrete_energy,density,outcome\n";
+    for (const StepRecord& s : steps.all) {
+        text += std::to_string(s.k);
+        for (const double value : {s.t, s.step, s.discreteEnergy, s.density}) {
+            text += ',';
+            if (std::isfinite(value)) text += formatNumber(value);
+        }
+        text.append(",").append(s.outcomeText()).append("\n");
+        if (text.size() < 1 << 16) continue;
+        sink(text);
+        text.clear();
+    }
+    sink(text);
+}
+
 /// A file of a folder, and what writes it into a batch that has it open.
 struct ExportFile {
     std::string name;
@@ -184,6 +201,10 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
         files.push_back({slug + ".field.csv", [frames, system](FileBatch& batch) {
                              writeFrames(system->field, frames->all,
                                          [&](const std::string& block) { batch.append(block); });
+                         }});
+    if (const StepRecords* steps = scheme.products.find<StepRecords>())
+        files.push_back({slug + ".steps.csv", [steps](FileBatch& batch) {
+                             writeSteps(*steps, [&](const std::string& block) { batch.append(block); });
                          }});
     if (const Sections* sections = scheme.products.find<Sections>())
         for (std::size_t k = 0; k < sections->all.size(); ++k)

@@ -1,7 +1,7 @@
 /// The files of a finished comparison: scene.json, one <slug>.csv per scheme and its products by their
 /// suffixes
-/// (<slug>.field.csv, .section.csv, .kkt.csv, .action-defect.csv), parameter-map.csv, summary.csv,
-/// summary.json.
+/// (<slug>.field.csv, .steps.csv, .section.csv, .kkt.csv, .action-defect.csv), parameter-map.csv,
+/// summary.csv, summary.json.
 ///
 /// CSV: comma, header row, quoting as in RFC 4180, LF, UTF-8; the shortest numbers that read back the same;
 /// an unknown or not finite value is an empty cell. Every file is written under a temporary name; only when

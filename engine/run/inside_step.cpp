@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t mostPoints = 20000;
 
 /// Points inside a step: enough for a smooth curve where steps are few, none where they are many.
-int pointsPerStep(bool isAdaptive, long long steps) {
+int pointsPerStep(bool isUnplanned, long long steps) {
     constexpr long long fewSteps = 500, points = 2000;
-    if (isAdaptive) return 8;
+    if (isUnplanned) return 8;
     return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
 }
 
@@ -45,10 +45,10 @@ std::string sectionColumn(const View& view, const System& system) {
 }
 
 InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const ProductPlan& plan,
-                       const System& system, bool isAdaptive, long long steps, Observer error)
+                       const System& system, bool isUnplanned, long long steps, Observer error)
     : result_(result), error_(std::move(error)), steps_(steps) {
     if (plan.has(Product::denseOutput) || plan.has(Product::denseError))
-        points_ = pointsPerStep(isAdaptive, steps);
+        points_ = pointsPerStep(isUnplanned, steps);
     const std::vector<Column> columns = leadingColumns(system);
     width_ = columns.size() - 1;
     for (const View& view : scene.views) {

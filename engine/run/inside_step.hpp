@@ -23,10 +23,11 @@ std::string sectionColumn(const View& view, const System& system);
 
 class InsideStep {
 public:
-    /// Writes the products of the plan into `result`. `steps`: planned; dense output is kept for few.
+    /// Writes the products of the plan into `result`. `steps`: planned, or `isUnplanned`; dense output is
+    /// kept for few.
     /// `error`: may be empty.
     InsideStep(SchemeResult& result, const Scene& scene, const ProductPlan& plan, const System& system,
-               bool isAdaptive, long long steps, Observer error);
+               bool isUnplanned, long long steps, Observer error);
 
     bool isWanted() const { return points_ > 0 || !sections_.empty(); }
     void start(const State& state);

@@ -18,7 +18,7 @@ MapReference::MapReference(const ResolvedScene& resolved, const std::vector<doub
     double nodes = 0;
     for (const double step : steps) nodes += (scene.end.value - scene.start.value) / step + 1;
     const bool isSmall = SharedSolution::isSmall(nodes, initial.x.size());
-    if (scene.reference.kind == ReferenceSpec::Kind::scheme && !resolved.reference.front().isAdaptive() &&
+    if (scene.reference.kind == ReferenceSpec::Kind::scheme && resolved.reference.front().isFixed() &&
         isSmall) {
         runScheme(resolved, steps, stop);
         return;

@@ -8,7 +8,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/map_reference.hpp"
-#include "engine/run/march.hpp"
+#include "engine/run/march_grid.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
@@ -141,9 +141,7 @@ struct MapColumn {
         };
         const MarchSink sink{measure, false, observer.readsQuantities};
         State state = start;
-        MarchGrid nodesOfTime;
-        nodesOfTime.clock = {start.t, step};
-        nodesOfTime.steps = stepCount(scene.start.value, scene.end.value, step);
+        const MarchGrid nodesOfTime = marchGrid(scene, scheme, step);
         const Outcome outcome = march(*integrator, state, nodesOfTime, {&sink, 1}, stop).outcome;
         if (outcome == Outcome::stopped) return {};
         if (outcome != Outcome::converged && result.isDone()) return {MapCell::End::failed, outcome};

@@ -71,7 +71,11 @@ public:
     }
 
 private:
-    bool isDone() const { return isFixed_ ? state_.node >= grid_.steps : state_.t >= grid_.end; }
+    /// Times that are sums reach the end to round-off.
+    bool isDone() const {
+        constexpr double slack = 1e-9;
+        return isFixed_ ? state_.node >= grid_.steps : state_.t >= grid_.end - slack * lastStep_;
+    }
 
     /// Up to `count` steps; the report of the last one.
     StepReport takeSteps(NodeBlock& nodes, std::size_t count) {
@@ -84,6 +88,7 @@ private:
             } else {
                 report = integrator_.advance(state_, grid_.end);
                 if (report.outcome != Outcome::converged) break;
+                if (integrator_.grid() == TimeGrid::free) lastStep_ = report.step;
                 nodes.push(state_, report);
                 if (double* values = nodes.lastQuantities()) integrator_.measure(state_, values);
             }
@@ -123,7 +128,8 @@ private:
     MarchGrid grid_;
     std::span<const MarchSink> sinks_;
     bool isFixed_;
-    State before_;  ///< where the block at hand began
+    double lastStep_ = 0;  ///< where times are unknowns
+    State before_;         ///< where the block at hand began
     MarchReport report_;
 };
 

@@ -11,6 +11,7 @@
 #include "engine/run/action_defect.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/run/parameter_map.hpp"
+#include "engine/run/step_records.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/frames.hpp"
 #include "engine/trajectory/trajectory.hpp"
@@ -66,7 +67,8 @@ public:
     std::size_t size() const { return all_.size(); }
 
 private:
-    using Value = std::variant<DenseOutput, FieldFrames, Sections, KktPattern, ActionDefect, ParameterMaps>;
+    using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, KktPattern, ActionDefect,
+                               ParameterMaps>;
     std::vector<Value> all_;
 };
 

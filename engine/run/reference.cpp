@@ -38,7 +38,7 @@ public:
             before_ = state_.t;
             const bool isFixed = integrator_->grid() == TimeGrid::fixed;
             const StepReport report =
-                integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : end_);
+                integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : std::max(end_, t));
             hasFailed_ = report.outcome != Outcome::converged;
         }
         if (hasFailed_)
@@ -67,7 +67,7 @@ private:
     bool hasFailed_ = false;
 };
 
-/// `end`: where error-controlled codes land.
+/// `end`: where error-controlled codes land, unless they are asked beyond it.
 std::function<ExactSolution()> stepped(SteppedSolution::Make make, const State& initial, double end) {
     return [make = std::move(make), initial, end]() -> ExactSolution {
         const auto solution = std::make_shared<SteppedSolution>(make, initial, end);
@@ -273,7 +273,7 @@ void shareReference(Reference& reference, const ResolvedScene& resolved) {
         std::find(scene.observe.begin(), scene.observe.end(), "order") != scene.observe.end();
     for (const ResolvedScheme& scheme : resolved.schemes) {
         const SchemeSpec& spec = scheme.spec;
-        if (!spec.isEnabled || scheme.isAdaptive()) continue;
+        if (!spec.isEnabled || !scheme.isFixed()) continue;
         for (const double divisor : {1.0, 2.0, 4.0})
             if (divisor == 1 || isOrderMeasured) grids.push_back({start, spec.step.value / divisor});
     }

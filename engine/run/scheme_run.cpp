@@ -12,10 +12,9 @@
 #include "engine/run/advice.hpp"
 #include "engine/run/equations.hpp"
 #include "engine/run/inside_step.hpp"
-#include "engine/run/march.hpp"
+#include "engine/run/march_grid.hpp"
 #include "engine/run/reuse.hpp"
 #include "engine/run/row_sampler.hpp"
-#include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -70,9 +69,8 @@ struct SchemeRun::Recording {
     const System& system;
     std::stop_token stop;
     double step;
-    bool isAdaptiveScheme;
-    long long steps = 0;    ///< planned; 0 for adaptive schemes
-    long long maxRows = 0;  ///< adaptive: rows kept at most; more sets hasOverflown
+    long long steps = 0;    ///< planned; 0 where their number is not known before
+    long long maxRows = 0;  ///< of those: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
     ProductPlan plan;     ///< products to make
     Observer denseError;  ///< measured along the dense output as well, where it is in the plan
@@ -96,12 +94,11 @@ struct SchemeRun::Recording {
           system(*resolved.system),
           stop(std::move(stop_)),
           step(step_),
-          isAdaptiveScheme(scheme_.isAdaptive()),
           frames(system.field.y.empty() ? FrameKeeper::usual : FrameKeeper::large),
           sampler(initial.t, scene.every ? std::optional<double>(scene.every->value) : std::nullopt, stride),
           initialNode(initial),
           state(initial) {
-        if (!isAdaptiveScheme) steps = stepCount(scene.start.value, scene.end.value, step);
+        steps = marchGrid(scene, scheme, step).steps;
         result.spec = spec;
         result.scheme = std::make_shared<const ResolvedScheme>(scheme);
         result.style = style;
@@ -223,6 +220,24 @@ struct SchemeRun::Recording {
             isLastNodeRow = t >= after - 1e-12 * (after - before);
         }
     }
+    /// Every step, where times are unknowns: their file and the picture of the mesh show what no row does.
+    void recordSteps(const Stretch& stretch) {
+        const NodeBlock& nodes = stretch.nodes;
+        const auto said = integrator->quantities();
+        StepRecords& records = result.products.make<StepRecords>();
+        for (std::size_t i = 0; i < nodes.size() && !stretch.isStart; ++i) {
+            StepRecord record;
+            record.k = nodes.node(i) - 1;
+            record.t = i > 0 ? nodes.t(i - 1) : stretch.before.t;
+            record.step = nodes.report(i).step;
+            record.event = nodes.report(i).event;
+            for (std::size_t j = 0; j < said.size(); ++j) {
+                if (said[j].name == "discrete_energy") record.discreteEnergy = nodes.quantities(i)[j];
+                if (said[j].name == "density") record.density = nodes.quantities(i)[j];
+            }
+            records.add(record);
+        }
+    }
     /// More nodes than can be held: count on, keep nothing; a second march knows the stride.
     void limitRows() {
         if (maxRows > 0 && static_cast<long long>(result.trajectory.rows()) > maxRows) hasOverflown = true;
@@ -254,6 +269,13 @@ struct SchemeRun::Recording {
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
             s.advice = adviceFor(outcome, scheme, step, system, initialNode, state);
+            if (scheme.grid == TimeGrid::free && outcome != Outcome::stopped) {
+                StepRecord record;
+                record.k = state.node;
+                record.t = state.t;
+                record.outcome = outcome;
+                result.products.make<StepRecords>().add(record);
+            }
         }
         const Column* energy = result.trajectory.find("energy_error");
         if (energy) s.energyDrift = slope(result.trajectory.columns[0].values, energy->values);
@@ -265,7 +287,7 @@ struct SchemeRun::Recording {
         const bool isDense = scene.isDense && scene.every;
         std::optional<InsideStep> inside;
         if (stateWidth > 0)  // else no row holds a state
-            inside.emplace(result, scene, plan, system, isAdaptiveScheme, steps, std::move(denseError));
+            inside.emplace(result, scene, plan, system, !scheme.isFixed(), steps, std::move(denseError));
         if (inside && !inside->isWanted()) inside.reset();
         std::vector<MarchSink> sinks;
         const bool readsQuantities = std::any_of(observers.begin(), observers.end(),
@@ -281,6 +303,12 @@ struct SchemeRun::Recording {
                              return true;
                          },
                          isDense});
+        if (scheme.grid == TimeGrid::free)
+            sinks.push_back({[&](const Stretch& stretch) {
+                                 recordSteps(stretch);
+                                 return true;
+                             },
+                             false, true});
         if (inside)
             sinks.push_back({[&](const Stretch& stretch) {
                                  if (stretch.isStart)
@@ -297,11 +325,7 @@ struct SchemeRun::Recording {
             if (!stretch.isStart) publish();
             return true;
         }});
-        MarchGrid grid;
-        grid.clock = {scene.start.value, step};
-        grid.steps = steps;
-        grid.end = scene.end.value;
-        grid.budget = std::max(steps, static_cast<long long>(std::min(scene.maxSteps, 9e18)));
+        const MarchGrid grid = marchGrid(scene, scheme, step);
         const MarchReport report = march(*integrator, state, grid, sinks, stop);
         if (!isLastNodeRow)
             recordAlone(state, report.last, report.lastQuantities, static_cast<double>(state.node));
@@ -370,12 +394,11 @@ void SchemeRun::run(const Reference& reference, ExactActions* exact, const std::
         return p;
     };
     try {
-        const bool isFree = scheme_.isAdaptive() && !scene_.every;
-        const long long planned =
-            scheme_.isAdaptive() ? 0 : stepCount(scene_.start.value, scene_.end.value, spec_.step.value);
-        Recording p = record(isFree ? 1 : RowSampler::stride(planned), isFree ? heldRows : 0);
+        const bool isUnplanned = !scheme_.isFixed() && !scene_.every;
+        const long long planned = marchGrid(scene_, scheme_, spec_.step.value).steps;
+        Recording p = record(isUnplanned ? 1 : RowSampler::stride(planned), isUnplanned ? heldRows : 0);
         SchemeResult result = std::move(p.result);
-        if (isFree) {
+        if (isUnplanned) {
             const long long m = RowSampler::stride(result.summary.steps);
             if (p.hasOverflown) {
                 result = std::move(record(m, 0).result);
@@ -406,8 +429,8 @@ void SchemeRun::run(const Reference& reference, ExactActions* exact, const std::
     }
 }
 
-/// Slope of log(max error) over log(step) from runs with h, h/2 and h/4; points at the floor of the reference
-/// or of round-off are left out.
+/// Slope of log(max error) over log(step) from runs with h, h/2 and h/4; where steps are unknowns, over the
+/// mean step of each run. Points at the floor of the reference or of round-off are left out.
 void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference,
                              const std::stop_token& stop) const {
     const State& initial = resolved_.initial;
@@ -424,7 +447,8 @@ void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference,
         const double floor = std::max(2.2e-15 * scale * static_cast<double>(p.result.summary.steps),
                                       10 * reference.info.estimatedError);
         if (p.result.summary.status != RunStatus::done || !(error > floor)) break;
-        x.push_back(std::log(spec_.step.value / divisor));
+        const double mean = (p.result.summary.tEnd - own.t) / static_cast<double>(p.result.summary.steps);
+        x.push_back(std::log(scheme_.isFixed() ? step : mean));
         y.push_back(std::log(error));
     }
     if (x.size() >= 2) result.summary.orderMeasured = slope(x, y);

@@ -122,7 +122,8 @@ void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
                const std::string& pointer) {
     if (scheme.isAdaptive()) return;
     const SchemeCase at{*scene.system,          scene.initial,       scheme.discretization,
-                        scheme.spec.step.value, scheme.isComposed(), scheme.spec.allowsUnstable};
+                        scheme.spec.step.value, scheme.isComposed(), scheme.spec.allowsUnstable,
+                        scene.scene.end.value};
     Findings findings;
     if (scheme.baseline && scheme.baseline->check)
         scheme.baseline->check(at, findings);

@@ -193,7 +193,7 @@ void readStep(Reader& reader, const Value& scheme, const std::string& pointer, b
         reader.warning(childPointer(pointer, other),
                        isAdaptive
                            ? "is not used: " + spec.baseline.type + " chooses its steps by its tolerance"
-                           : std::string("is not used: the step is fixed"));
+                           : std::string("is not used: the scheme has a step"));
     const Value* value = scheme.find(wanted);
     if (const auto implied = impliedStepOf(reader, spec)) {
         const auto given =

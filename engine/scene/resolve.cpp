@@ -65,6 +65,7 @@ ResolvedScheme resolve(const SchemeSpec& scheme) {
         r.discretization = std::move(*discretization);
         r.family = familyOf(r.discretization.space);
         if (!r.family) throw InvalidScene("/space/type", "there is no space \"" + scheme.space.type + "\"");
+        r.grid = r.family->grid;
         r.properties = describe(r.discretization);
         r.claims = r.properties.claims;
     } else {
@@ -73,7 +74,7 @@ ResolvedScheme resolve(const SchemeSpec& scheme) {
         r.baseline = findBaseline(scheme.baseline.type);
         if (!r.baseline) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
         r.claims = claimsOf(*r.baseline, scheme.baseline);
-        if (r.baseline->isAdaptive) r.grid = TimeGrid::landing;
+        r.grid = r.baseline->isAdaptive ? TimeGrid::landing : r.baseline->grid;
     }
     if (scheme.composition.type.empty()) return r;
     r.parts = compositionParts(scheme.composition, r.claims.order);

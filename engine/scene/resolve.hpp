@@ -31,6 +31,9 @@ struct ResolvedScheme {
     /// Largest step * frequency on the harmonic oscillator; infinity: none; 0: not known. That of a
     /// composition is measured when it is first asked for.
     double stabilityLimit() const;
+    /// Nodes are products of the run.
+    bool isFixed() const { return grid == TimeGrid::fixed; }
+    /// Has a tolerance in place of a step.
     bool isAdaptive() const { return grid == TimeGrid::landing; }
     /// Whether it can integrate the system.
     bool fits(const System& system) const;

@@ -112,7 +112,7 @@ State exactStart(const Scene& scene, const System& system) {
 State schemeStart(const ResolvedScene& resolved, const ResolvedScheme& scheme, double step) {
     const Scene& scene = resolved.scene;
     const System& system = *resolved.system;
-    if (scene.initial.second != Initial::Second::position || scheme.isAdaptive()) return resolved.initial;
+    if (scene.initial.second != Initial::Second::position || !scheme.isFixed()) return resolved.initial;
     const double at = scene.initial.at->value, steps = at / step;
     const int n = static_cast<int>(std::lround(std::min(steps, 1e6)));
     if (n < 1 || std::abs(steps - n) > 1e-9 * n)

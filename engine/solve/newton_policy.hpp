@@ -4,8 +4,8 @@
 /// An iteration says how large its correction is relative to the unknowns, e_j = |delta_j| / |x|, and is told
 /// what to do. Corrections go on to round-off, so that symplecticity and momentum maps hold to round-off: a
 /// tolerance is for those who want less. Users: the condensed Galerkin step and its fixed point over all
-/// nodes (integrator/), the Lie group step and the product form (family/), small dense systems
-/// (solve/newton.hpp).
+/// nodes (integrator/), the Lie group step, the product form and the moving times (family/), small dense
+/// systems (solve/newton.hpp).
 ///
 /// T: scalar of the step. epsilon: unit of its last place.
 #pragma once
@@ -87,6 +87,13 @@ struct NewtonLimits {
         NewtonLimits l;
         l.tolerance = tolerance;
         l.predicted = T(0.25) * tolerance;
+        return l;
+    }
+    /// One element whose step is varied until its energy is right: a new Jacobian in every iteration, whose
+    /// factors at the solution say how it moves with the step.
+    static NewtonLimits elementStep(const T& tolerance) {
+        NewtonLimits l;
+        l.tolerance = tolerance;
         return l;
     }
     /// The product form, with a new Jacobian in every iteration. Amplitudes over a small mean are

@@ -25,6 +25,7 @@ enum class Product {
     sections,      ///< states where a column passes zero upwards
     kktPattern,    ///< the structure of the equations of a discretization
     actionDefect,  ///< distance of the discrete Lagrangian from the exact one, by step
+    steps,         ///< every step, of schemes whose times are unknowns
     parameterMap,  ///< errors over a grid of a parameter and the step
 };
 

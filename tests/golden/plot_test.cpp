@@ -77,6 +77,25 @@ private slots:
         v.id = "polhode";
         check(picture(makeFigure(run(scene), v, &system)), "plot-polhode");
     }
+    /// Until t = 6, with the steps without a root marked.
+    void theTimeMeshMatchesItsImage() {
+        const Scene scene =
+            readScene(loadSceneText("preset:pendulum-rotation-sem"), {{"/time/end", 6.0}}).scene;
+        const Comparison comparison = run(scene);
+        const System system = makeSystem(scene);
+        const auto drawn = [&](const char* id) {
+            View v;
+            v.id = id;
+            return makeFigure(comparison, v, &system);
+        };
+        check(picture(drawn("mesh")), "plot-time-mesh");
+        check(picture(drawn("step"), Theme::dark()), "plot-steps-marked-dark");
+        for (const char* id : {"mesh", "step"}) {
+            Figure bare = drawn(id);
+            bare.drop<EventMarks>();
+            QVERIFY(!isWithin(compareImages(picture(drawn(id)), picture(bare), 8), GoldenLimits::plot()));
+        }
+    }
     void aCurveShiftedByOnePixelIsSeen() {
         const Figure straight = figure("phase");
         Figure shifted = straight;

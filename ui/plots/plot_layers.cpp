@@ -288,6 +288,16 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
                     map);
     }
     if (series.kind == SeriesKind::cells) drawCells(painter, map, series);
+    if (series.kind == SeriesKind::ticks) {
+        const double unit = std::abs(map(map.x.low, 1).y() - map(map.x.low, 0).y()),
+                     half = std::min(isHighlighted ? 9.0 : 7.0, (isHighlighted ? 0.45 : 0.35) * unit);
+        painter.setPen(QPen(color, 1));
+        for (std::size_t i = 0; i < series.x.size(); ++i) {
+            const QPointF p = map(series.x[i], series.y[i]);
+            if (std::isfinite(p.x()) && std::isfinite(p.y()) && map.rect.adjusted(-1, 0, 1, 0).contains(p))
+                painter.drawLine(p - QPointF(0, half), p + QPointF(0, half));
+        }
+    }
     if (hasMarks(series.kind)) {
         constexpr std::size_t few = 100;  // more are dots: a cloud, not points to be told apart
         const bool isCloud = series.x.size() > few && !hasLine(series.kind);
@@ -319,6 +329,7 @@ void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Seri
 
 void MarksLayer::draw(QCPPainter* painter) {
     const PixelMap map = shared_.map();
+    drawEvents(*painter, map);
     drawFailures(*painter, map);
     if (shared_.figure.heat() && !shared_.figure.heat()->scale.empty()) drawMapScale(*painter, map, shared_);
     if (shared_.figure.message.empty()) return;
@@ -371,6 +382,27 @@ void MarksLayer::drawFailures(QCPPainter& painter, const PixelMap& map) const {
                   .bottom() +
               4;
         if (top > map.rect.bottom() - 20) return;
+    }
+}
+
+/// A small triangle that stands on the curve, or on the lower edge.
+void MarksLayer::drawEvents(QCPPainter& painter, const PixelMap& map) const {
+    constexpr double half = 3.5, height = 6, least = 2 * half + 1;  // pixels between two of a scheme
+    for (const EventMarks& marks : shared_.figure.all<EventMarks>()) {
+        if (shared_.hidden.contains(QString::fromStdString(marks.label))) continue;
+        painter.setPen(QPen(shared_.colorOf(marks.style), 1.1));
+        painter.setBrush(shared_.theme.panel);
+        std::optional<QPointF> last;
+        for (std::size_t i = 0; i < marks.x.size(); ++i) {
+            QPointF at(map(marks.x[i], map.y.low).x(), map.rect.bottom());
+            if (const QPointF on = map(marks.x[i], marks.y[i]); std::isfinite(on.y())) at = on;
+            if (!std::isfinite(at.x()) || !map.rect.adjusted(-1, -1, 1, 1).contains(at)) continue;
+            if (last && std::hypot(at.x() - last->x(), at.y() - last->y()) < least) continue;
+            last = at;
+            const QPointF tip = at - QPointF(0, 1.5);
+            painter.drawPolygon(QPolygonF{tip, tip + QPointF(-half, -height), tip + QPointF(half, -height)});
+        }
+        painter.setBrush(Qt::NoBrush);
     }
 }
 

@@ -60,6 +60,7 @@ protected:
     void draw(QCPPainter* painter) override;
 
 private:
+    void drawEvents(QCPPainter& painter, const PixelMap& map) const;
     void drawFailures(QCPPainter& painter, const PixelMap& map) const;
     std::optional<QPointF> endOfCurve(const std::string& label, const PixelMap& map) const;
     const FigurePlot::Shared& shared_;

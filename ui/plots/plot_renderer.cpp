@@ -57,7 +57,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     const double rowHeight = std::ceil(metrics.height()) + 3, sample = 26, gap = 6, space = 16;
     double x = rect.left(), y = rect.top();
     for (const Series& s : figure.series()) {
-        if (s.kind == SeriesKind::cells || s.style < 0)
+        if (s.kind == SeriesKind::cells || s.kind == SeriesKind::ticks || s.style < 0)
             continue;  // named by the title, and in the plot itself
         const QString label = metrics.elidedText(QString::fromStdString(seriesName(s)), Qt::ElideRight,
                                                  rect.width() - sample - gap);
@@ -89,7 +89,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         x += width + space;
     }
     const bool isNamed = std::any_of(figure.series().begin(), figure.series().end(), [](const Series& s) {
-        return s.kind != SeriesKind::cells && s.style >= 0;
+        return s.kind != SeriesKind::cells && s.kind != SeriesKind::ticks && s.style >= 0;
     });
     return isNamed ? y + rowHeight - rect.top() : 0;
 }

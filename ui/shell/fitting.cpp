@@ -33,11 +33,7 @@ std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene) {
     return entries;
 }
 
-ChoiceGrid choicesFor(const Scene& scene) {
-    const System system = makeSystem(scene);
-    const Family* const family = familyFor(system);
-    return family ? family->choices(system) : ChoiceGrid{};
-}
+ChoiceGrid choicesFor(const Scene& scene) { return choicesFor(makeSystem(scene)); }
 
 const ChoiceGrid::Cell* nearestChoice(const ChoiceGrid& grid, const std::string& rule, int degree) {
     const ChoiceGrid::Cell* best = nullptr;

@@ -240,8 +240,7 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {
     next.model.type = entry.item.id;
     for (const FieldInfo& f : entry.item.parameters) next.model.keys.emplace_back(f.key, f.firstValue());
     const System system = entry.make(next.model);
-    const Family* const family = familyFor(system);
-    const ChoiceGrid choices = family ? family->choices(system) : ChoiceGrid{};
+    const ChoiceGrid choices = choicesFor(system);
     next.end.value = entry.exampleEnd;
     Value::Array schemes;
     const Value document = toValue(scene);

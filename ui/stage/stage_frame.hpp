@@ -42,6 +42,7 @@ struct StageLayer {
     Rgb colour;
     std::vector<Shape> shapes;      ///< of role body
     std::vector<TrailPoint> trail;  ///< oldest first
+    std::vector<TrailPoint> marks;  ///< where steps had an event, as far back as the trail
     Point insetTracer{};            ///< its point in the inset, if there is one
     std::vector<TrailPoint> insetTrail;
     bool hasEnded = false;  ///< the scheme failed before t: its last state, drawn faintly
@@ -61,7 +62,9 @@ struct StageFrame {
     std::vector<Shape> scenery;
     std::vector<StageLayer> layers;  ///< in the order of the scene
     std::optional<StageInset> inset;
-    std::vector<std::string> notes;  ///< failures before t: "Stormer-Verlet diverged at t = 0.31"
+    /// Failures before t, "Stormer-Verlet diverged at t = 0.31", and events, "SEM 2: energy unsolvable, 3
+    /// steps".
+    std::vector<std::string> notes;
 };
 
 }  // namespace extremal

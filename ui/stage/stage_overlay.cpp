@@ -34,7 +34,7 @@ void paintNotes(QPainter& painter, const QRectF& area, const StageFrame& frame, 
     double y = area.top() + 8;
     for (std::size_t i = 0; i < frame.notes.size(); ++i) {
         const bool isLast = y + 2 * (lineHeight + 4) > area.center().y() && i + 1 < frame.notes.size();
-        QString text = isLast ? QStringLiteral("%1 more ended early").arg(frame.notes.size() - i)
+        QString text = isLast ? QStringLiteral("%1 more").arg(frame.notes.size() - i)
                               : QString::fromStdString(frame.notes[i]);
         text = metrics.elidedText(text, Qt::ElideRight, area.width() - 36);
         const QRectF chip(area.left() + 10, y, metrics.horizontalAdvance(text) + 16, lineHeight);

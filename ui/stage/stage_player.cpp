@@ -354,6 +354,32 @@ std::vector<TrailPoint> StagePlayer::trail(const Track& track, const Trace& trac
     return points;
 }
 
+/// Where steps had an event: as far back as the trail, or since the start where there is none.
+std::vector<TrailPoint> StagePlayer::marks(const Track& track, double t) const {
+    constexpr std::size_t most = 200;
+    std::vector<TrailPoint> points;
+    const double now = std::min(t, track.t.back()), span = trace_.span;
+    const auto& all = track.result->events.marks;
+    std::vector<double> x;
+    for (auto mark = all.rbegin(); mark != all.rend() && points.size() < most; ++mark) {
+        if (mark->t > now) continue;
+        if (span > 0 && now - mark->t > span) break;
+        stateAt(track, mark->t, x);
+        const Point p = tracer(x, false);
+        if (isFinite(p)) points.push_back({p, span > 0 ? (now - mark->t) / span : 0, false});
+    }
+    return points;
+}
+
+std::string StagePlayer::eventNote(const Track& track, const std::string& label, double t) const {
+    const auto& all = track.result->events.marks;
+    const auto count = std::count_if(all.begin(), all.end(), [&](const auto& m) { return m.t <= t; });
+    if (count == 0) return {};
+    std::string event(name(all.front().event));
+    std::replace(event.begin(), event.end(), '-', ' ');
+    return label + ": " + event + ", " + std::to_string(count) + (count == 1 ? " step" : " steps");
+}
+
 std::string StagePlayer::failureNote(const Track& track, const std::string& label) const {
     const Summary& summary = track.result->summary;
     std::string cause(name(summary.cause));
@@ -411,6 +437,9 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
                 frame.scenery.push_back(shape);
         }
         layer.trail = trail(track, trace_, t);
+        layer.marks = marks(track, t);
+        if (const std::string note = eventNote(track, layer.label, t); !note.empty())
+            frame.notes.push_back(note);
         if (inset_) {
             layer.insetTracer = tracer(x, true);
             layer.insetTrail = trail(track, insetTrace_, t);

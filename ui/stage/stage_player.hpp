@@ -75,6 +75,8 @@ private:
     Point tracer(const std::vector<double>& x, bool isInset) const;
     void stateAt(const Track& track, double t, std::vector<double>& x) const;
     std::vector<TrailPoint> trail(const Track& track, const Trace& trace, double t) const;
+    std::vector<TrailPoint> marks(const Track& track, double t) const;
+    std::string eventNote(const Track& track, const std::string& label, double t) const;
     std::string failureNote(const Track& track, const std::string& label) const;
 
     std::shared_ptr<const Comparison> comparison_;

@@ -266,6 +266,16 @@ void drawTrail(Pen& pen, const StageLayer& layer, double width) {
     }
 }
 
+/// A ring where a step had an event.
+void drawMarks(Pen& pen, const StageLayer& layer, const Rgb& ground) {
+    constexpr double outer = 4.2, inner = 2.6;
+    for (const TrailPoint& p : layer.marks) {
+        if (!(p.age < 1)) continue;
+        pen.disc(p.r, outer, layer.colour);
+        pen.disc(p.r, inner, ground);
+    }
+}
+
 /// Schemes that agree lie on top of each other. Their discs get smaller from the first to the last and are
 /// drawn in this order, so that coinciding schemes show as rings.
 double ringScale(std::size_t index, std::size_t count) {
@@ -371,6 +381,11 @@ void drawLayers(Pen& pen, const StageFrame& frame) {
         const StageLayer& layer = frame.layers[i];
         pen.open(true, layer.hasEnded ? 0.25 : i == 0 ? 1 : 0.85);
         drawTrail(pen, layer, i == 0 ? 2.2 : 1.6);
+    }
+    for (std::size_t i = count; i-- > 0;) {
+        if (frame.layers[i].marks.empty()) continue;
+        pen.open(false, 1);
+        drawMarks(pen, frame.layers[i], frame.style.background);
     }
     for (std::size_t i = count; i-- > 0;) {
         const StageLayer& layer = frame.layers[i];

@@ -2,14 +2,13 @@
 /// by Newton.
 ///
 /// Written on the Hamiltonian side, independently of the Galerkin step, whose discretization (degree 1,
-/// midpoint) it must equal to round-off. The Jacobian of X_H follows from the Hessian of L at v = v(q, p):
-/// with M = L_vv,
-///     v_q = -M^{-1} L_vq,  v_p = M^{-1},   pdot_q = L_qq + L_qv v_q,  pdot_p = L_qv v_p.
+/// midpoint) it must equal to round-off.
 #include <Eigen/LU>
 
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/flow_method.hpp"
 
 namespace extremal::baselines {
@@ -23,17 +22,13 @@ class ImplicitMidpoint final : public FlowMethod<D> {
     using BigVector = Eigen::VectorXd;
 
 public:
-    ImplicitMidpoint(const Mechanics<double>& mechanics, double step) : Base(mechanics, step) {
+    ImplicitMidpoint(const Mechanics<double>& mechanics, double step)
+        : Base(mechanics, step), jacobian_(mechanics) {
         const int d = this->d();
         for (Vector* v : {&q_, &p_, &dq_, &dp_}) *v = Vector::Zero(d);
-        gradient_ = BigVector::Zero(2 * d);
         r_ = BigVector::Zero(2 * d);
-        hessian_ = Square::Zero(2 * d, 2 * d);
         system_ = Square::Zero(2 * d, 2 * d);
-        inverseMass_ = vq_ = Square::Zero(d, d);
         lu_ = Eigen::PartialPivLU<Square>(2 * d);
-        massLu_ = Eigen::PartialPivLU<Square>(d);
-        identity_ = Square::Identity(d, d);
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ImplicitMidpoint>(*this); }
@@ -81,27 +76,17 @@ private:
     }
     /// I - h/2 DX_H at (q_, p_), factored; dq_ holds v(q_, p_).
     void assemble(double t, double half) {
-        const auto& m = this->mechanics_;
-        const int d = this->d();
-        double value = 0;
-        m.jet(m.model.get(), t, q_.data(), dq_.data(), &value, gradient_.data(), hessian_.data());
         ++this->report_.cost.evaluations;
-        massLu_.compute(hessian_.bottomRightCorner(d, d));
-        inverseMass_ = massLu_.solve(identity_);
-        vq_.noalias() = -inverseMass_.lazyProduct(hessian_.bottomLeftCorner(d, d));
         system_.setIdentity();
-        system_.topLeftCorner(d, d) -= half * vq_;
-        system_.topRightCorner(d, d) = -half * inverseMass_;
-        system_.bottomLeftCorner(d, d) =
-            -half * (hessian_.topLeftCorner(d, d) + hessian_.topRightCorner(d, d).lazyProduct(vq_));
-        system_.bottomRightCorner(d, d) -= half * hessian_.topRightCorner(d, d).lazyProduct(inverseMass_);
+        system_ -= half * jacobian_.evaluate(t, q_.data(), dq_.data());
         lu_.compute(system_);
     }
 
     Vector q_, p_, dq_, dp_;
-    BigVector gradient_, r_;
-    Square hessian_, system_, inverseMass_, vq_, identity_;
-    Eigen::PartialPivLU<Square> lu_, massLu_;
+    BigVector r_;
+    Square system_;
+    FlowJacobian jacobian_;
+    Eigen::PartialPivLU<Square> lu_;
 };
 
 }  // namespace

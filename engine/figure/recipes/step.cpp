@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/figure/build.hpp"
+#include "engine/run/step_records.hpp"
 
 namespace extremal::recipes {
 namespace {
@@ -10,10 +11,26 @@ Figure makeStep(const FigureContext& context) {
     Figure figure = startFigure(context, "Step size");
     figure.x = timeAxis(context);
     figure.y = logAxis(axisTitle("h", columnInfo(context, "t").unit));
+    const auto hasRecords = [](const SchemeResult& scheme) {
+        const StepRecords* const steps = scheme.products.find<StepRecords>();
+        return steps && !steps->all.empty();
+    };
     addAgainstTime(figure, context, "step", Take::magnitude);
     for (const auto& scheme : context.comparison.schemes) {
         const std::span<const double> t = scheme->trajectory["t"];
-        if (t.empty() || scheme->trajectory.find("step") || !(scheme->spec.step.value > 0)) continue;
+        if (t.empty() || scheme->trajectory.find("step")) continue;
+        if (hasRecords(*scheme)) {
+            Series s;
+            s.label = scheme->spec.label;
+            s.style = scheme->style;
+            for (const StepRecord& step : scheme->products.find<StepRecords>()->all) {
+                s.x.push_back(step.t);
+                s.y.push_back(std::abs(step.step));
+            }
+            figure.add(std::move(s));
+            continue;
+        }
+        if (!(scheme->spec.step.value > 0)) continue;
         Series s;
         s.label = scheme->spec.label;
         s.style = scheme->style;

@@ -33,7 +33,7 @@ public:
         report.cost = {1, 2, 3, 4};
         state.memory[0] += 1;
         state.x[0] = state.memory[0] >= troubleFrom ? std::nan("") : state.memory[0];
-        if (std::fmod(state.memory[0], 3) == 0) report.event = StepEvent::energyReset;
+        if (std::fmod(state.memory[0], 3) == 0) report.event = StepEvent::energyUnsolvable;
         state.t = grid_ == TimeGrid::fixed     ? until
                   : grid_ == TimeGrid::landing ? std::min(until, state.t + h)
                                                : state.t + h;
@@ -126,7 +126,7 @@ private slots:
         Counting integrator;
         State state{0, 0, {0}, {}};
         const MarchReport report = march(integrator, state, gridTo(50, 0.5), {}, {});
-        QCOMPARE(report.events.counts[static_cast<std::size_t>(StepEvent::energyReset)], 33LL);
+        QCOMPARE(report.events.counts[static_cast<std::size_t>(StepEvent::energyUnsolvable)], 33LL);
         QCOMPARE(report.events.counts[0], 67LL);
         QCOMPARE(report.events.marks.size(), std::size_t{33});
         QCOMPARE(report.events.marks[1].node, 6LL);
@@ -239,11 +239,11 @@ private slots:
         const State state{1, 3, {0}, {}};
         const Observer observer = findObservable("step")->bind({none, state, {}, nullptr, 0.5, {}});
         StepReport report;
-        report.event = StepEvent::energyReset;
+        report.event = StepEvent::energyUnsolvable;
         std::array<double, 2> values{};
         observer.evaluate(state, report, values.data());
         QCOMPARE(observer.columns[1].words.at(static_cast<std::size_t>(values[1])),
-                 std::string("energy-reset"));
+                 std::string("energy-unsolvable"));
         observer.evaluate(state, {}, values.data());
         QCOMPARE(observer.columns[1].words.at(static_cast<std::size_t>(values[1])), std::string("converged"));
     }

@@ -90,7 +90,7 @@ private slots:
         row("/schemes/1={\"step\":1}", "/schemes/1", "names neither a space, a baseline nor a scheme");
         row("/schemes/1/baseline=rk5", "/schemes/1/baseline", "unknown baseline \"rk5\"", "rk4");
         row("/schemes/1/baseline=dopri5", "/schemes/1/step", "is not used: dopri5 chooses its steps");
-        row("/schemes/1/tolerance=1", "/schemes/1/tolerance", "is not used: the step is fixed");
+        row("/schemes/1/tolerance=1", "/schemes/1/tolerance", "is not used: the scheme has a step");
         row("/schemes/1={\"baseline\":\"dopri5\"}", "/schemes/1/tolerance", "is required");
         row("/schemes/1={\"baseline\":\"rk4\"}", "/schemes/1/step", "is required");
         row("/schemes/1={\"scheme\":\"galerkin-gaus-2\",\"step\":1}", "/schemes/1/scheme", "unknown scheme",

@@ -118,8 +118,9 @@ private slots:
             return read.errors.size() == 1 ? read.errors[0].hint : "";
         };
         const std::string has =
-            "; kepler has curve-error, discrete-lagrangian, energy, error, momentum, parameter-map, phase, "
-            "section, sparsity, stage, step, trajectory and work-precision";
+            "; kepler has curve-error, discrete-energy, discrete-lagrangian, energy, error, mesh, momentum, "
+            "monitor, parameter-map, phase, section, solvability, sparsity, stage, step, trajectory and "
+            "work-precision";
         QCOMPARE(hint("carpet"), "it needs a field or a wave function" + has);
         QCOMPARE(hint("norm"), "it needs a wave function" + has);
         QCOMPARE(hint("polhode"), "it needs a rigid body" + has);

@@ -1,0 +1,136 @@
+/// The average vector field method: z_1 = z_0 + h int_0^1 X_H(z_0 + xi (z_1 - z_0)) dxi, the integral by
+/// Gauss points.
+///
+/// With the exact integral H(z_1) = H(z_0), since (z_1 - z_0) . int grad H = H(z_1) - H(z_0) and J is skew. n
+/// points integrate grad H along the chord exactly where H is a polynomial of degree at most 2n; elsewhere
+/// the energy error is that of the rule, O(h^(2n+1)) per step. Symmetric, of order 2, not symplectic;
+/// quadratic invariants other than H are not kept. Sources: Quispel and McLaren 2008; Celledoni et al. 2012.
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/baseline/flow_jacobian.hpp"
+#include "engine/baseline/flow_method.hpp"
+#include "engine/quadrature/rule.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+template <int D>
+class AverageVectorField final : public FlowMethod<D> {
+    using Base = FlowMethod<D>;
+    using Vector = typename Base::Vector;
+
+public:
+    AverageVectorField(const Mechanics<double>& mechanics, double step, int points)
+        : Base(mechanics, step), rule_(gauss<double>(points)), jacobian_(mechanics) {
+        const int d = this->d();
+        for (Vector* v : {&q_, &p_, &dq_, &dp_}) *v = Vector::Zero(d);
+        average_ = change_ = residual_ = Eigen::VectorXd::Zero(2 * d);
+        system_ = Eigen::MatrixXd::Zero(2 * d, 2 * d);
+        lu_ = Eigen::PartialPivLU<Eigen::MatrixXd>(2 * d);
+    }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<AverageVectorField>(*this); }
+
+private:
+    void step(double t) override {
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const int d = this->d();
+        const double h = this->h();
+        this->flow(t, this->q0_, this->p0_, dq_, dp_);
+        if (this->report_.outcome != Outcome::converged) return;
+        change_ << h * dq_, h * dp_;
+        double last = infinity;
+        bool wantsJacobian = true;
+        for (int iteration = 0; iteration < 50; ++iteration) {
+            if (this->stop().stop_requested()) {
+                this->report_.outcome = Outcome::stopped;
+                return;
+            }
+            evaluate(t, wantsJacobian);
+            if (this->report_.outcome != Outcome::converged) return;
+            residual_ = lu_.solve(h * average_ - change_);
+            change_ += residual_;
+            ++this->report_.cost.linearSolves;
+            ++this->report_.cost.iterations;
+            const double size = residual_.cwiseAbs().maxCoeff(),
+                         scale = std::max({this->q0_.cwiseAbs().maxCoeff(), this->p0_.cwiseAbs().maxCoeff(),
+                                           change_.cwiseAbs().maxCoeff()});
+            this->report_.residual = scale > 0 ? size / scale : size;
+            if (!(size < infinity)) {
+                this->report_.outcome = Outcome::notFinite;
+                return;
+            }
+            if (size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) {
+                this->q1_ = this->q0_ + change_.head(d);
+                this->p1_ = this->p0_ + change_.tail(d);
+                return;
+            }
+            wantsJacobian = size > last / 10;
+            last = size;
+        }
+        this->report_.outcome = Outcome::diverged;
+    }
+    /// The average of X_H along the chord, and, where it is wanted, I - h sum_i b_i c_i DX_H factored.
+    void evaluate(double t, bool withJacobian) {
+        const int d = this->d();
+        const double h = this->h();
+        average_.setZero();
+        if (withJacobian) system_.setIdentity();
+        for (std::size_t i = 0; i < rule_.c.size(); ++i) {
+            const double c = rule_.c[i], b = rule_.b[i];
+            q_ = this->q0_ + c * change_.head(d);
+            p_ = this->p0_ + c * change_.tail(d);
+            this->flow(t + c * h, q_, p_, dq_, dp_);
+            if (this->report_.outcome != Outcome::converged) return;
+            average_.head(d) += b * dq_;
+            average_.tail(d) += b * dp_;
+            if (!withJacobian) continue;
+            system_ -= (h * b * c) * jacobian_.evaluate(t + c * h, q_.data(), dq_.data());
+            ++this->report_.cost.evaluations;
+        }
+        if (withJacobian) lu_.compute(system_);
+    }
+
+    Rule<double> rule_;
+    FlowJacobian jacobian_;
+    Vector q_, p_, dq_, dp_;
+    Eigen::VectorXd average_, change_, residual_;
+    Eigen::MatrixXd system_;
+    Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+};
+
+}  // namespace
+
+BaselineEntry average_vector_field() {
+    constexpr int usual = 3;
+    BaselineEntry e;
+    e.item = {
+        "average-vector-field",
+        "average vector field",
+        "Keeps the energy: exactly where H is a polynomial of degree at most twice the points. Order 2, "
+        "symmetric, not symplectic.",
+        {integerField("points", "n", 1, 16, usual, "Gauss points of the average along the chord.")},
+        Claims{2, true, false, {"quartic energy"}},
+        ""};
+    e.claims = [](const Settings& settings) {
+        Claims claims{2, true, false, {}};
+        if (settings.integer("points") >= 2) claims.conserves = {"quartic energy"};
+        if (settings.integer("points") == 1)  // the midpoint rule
+            claims = {2, true, true, {"momentum", "quadratic invariants"}};
+        return claims;
+    };
+    e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.make = [](const System& system, const BaselineOptions& options) {
+        return makeFlowMethod<AverageVectorField>(system.mechanics(), options.step,
+                                                  options.settings.integer("points"));
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

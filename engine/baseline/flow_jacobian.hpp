@@ -1,0 +1,51 @@
+/// The Jacobian of Hamilton's vector field X_H = (qdot, pdot), from the Hessian of L at v = v(q, p): with
+/// M = L_vv,
+///     v_q = -M^{-1} L_vq,  v_p = M^{-1},   pdot_q = L_qq + L_qv v_q,  pdot_p = L_qv v_p.
+/// For implicit baselines. Rows and columns: q first, then p. Nothing is allocated after the constructor.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "engine/model/mechanics.hpp"
+
+namespace extremal {
+
+class FlowJacobian {
+public:
+    using Square = Eigen::MatrixXd;
+    using Vector = Eigen::VectorXd;
+
+    explicit FlowJacobian(const Mechanics<double>& mechanics)
+        : mechanics_(mechanics),
+          gradient_(Vector::Zero(2 * mechanics.dimension)),
+          hessian_(Square::Zero(2 * mechanics.dimension, 2 * mechanics.dimension)),
+          matrix_(hessian_),
+          inverseMass_(Square::Zero(mechanics.dimension, mechanics.dimension)),
+          vq_(inverseMass_),
+          identity_(Square::Identity(mechanics.dimension, mechanics.dimension)),
+          massLu_(mechanics.dimension) {}
+
+    /// At (q, p), v = v(q, p) being known.
+    const Square& evaluate(double t, const double* q, const double* v) {
+        const int d = mechanics_.dimension;
+        double value = 0;
+        mechanics_.jet(mechanics_.model.get(), t, q, v, &value, gradient_.data(), hessian_.data());
+        massLu_.compute(hessian_.bottomRightCorner(d, d));
+        inverseMass_ = massLu_.solve(identity_);
+        vq_.noalias() = -inverseMass_.lazyProduct(hessian_.bottomLeftCorner(d, d));
+        matrix_.topLeftCorner(d, d) = vq_;
+        matrix_.topRightCorner(d, d) = inverseMass_;
+        matrix_.bottomLeftCorner(d, d) =
+            hessian_.topLeftCorner(d, d) + hessian_.topRightCorner(d, d).lazyProduct(vq_);
+        matrix_.bottomRightCorner(d, d) = hessian_.topRightCorner(d, d).lazyProduct(inverseMass_);
+        return matrix_;
+    }
+
+private:
+    Mechanics<double> mechanics_;
+    Vector gradient_;
+    Square hessian_, matrix_, inverseMass_, vq_, identity_;
+    Eigen::PartialPivLU<Square> massLu_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,147 @@
+#include "engine/family/energy_momentum/element_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace extremal {
+
+ElementStep::ElementStep(Mechanics<double> mechanics, Table<double> table, const SolverPolicy& policy)
+    : mechanics_(std::move(mechanics)),
+      table_(std::move(table)),
+      kernel_(mechanics_, table_, ElementBasis::increments),
+      policy_(policy),
+      tolerance_(toleranceOf<double>(policy)) {
+    const int d = dimension(), unknowns = table_.unknowns() * d;
+    lu_ = SmallLu<double>(unknowns);
+    for (Vector* v : {&Y_, &byStep_, &residual_}) *v = Vector::Zero(unknowns);
+    z_ = Vector::Zero(unknowns + d);
+    p0_ = velocity_ = Vector::Zero(d);
+    gradient_ = Vector::Zero(2 * d);
+}
+
+void ElementStep::startAt(const double* q, const double* p) {
+    isSolved_ = false;
+    for (int k = 0; k < dimension(); ++k) {
+        z_(k) = q[k];
+        p0_(k) = p[k];
+    }
+}
+
+bool ElementStep::startAfresh(double t, double h) {
+    if (!mechanics_.velocity(mechanics_.model.get(), t, z_.data(), p0_.data(), velocity_.data()))
+        return false;
+    Y_.setZero();
+    Y_.tail(dimension()) = h * velocity_;
+    return true;
+}
+
+/// S and all its derivatives, and the left-hand sides of the equations, at the present Y.
+bool ElementStep::evaluate(double t, double h, StepReport& report) {
+    const int d = dimension(), n = unknowns();
+    z_.tail(n) = Y_;
+    report.cost.evaluations += table_.nodes();
+    if (!kernel_.evaluate(t, h, z_, DerivativeOrder::second, derivatives_)) return false;
+    const auto& S = derivatives_.gradient;
+    residual_ = S.tail(n);
+    for (int k = 0; k < d; ++k) residual_(n - d + k) = p0_(k) + (S(k) - S(n + k));
+    return true;
+}
+
+Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, StepReport& report) {
+    using Verdict = NewtonPolicy<double>::Verdict;
+    const int d = dimension(), n = unknowns(), m = table_.unknowns();
+    NewtonPolicy<double> policy(NewtonLimits<double>::elementStep(tolerance_));
+    for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
+        if (stop.stop_requested()) return Outcome::stopped;
+        if (!evaluate(t, h, report)) return Outcome::notFinite;
+        const auto& H = derivatives_.hessian;
+        for (int j = 0; j < n; ++j) {
+            double* const column = lu_.column(j);
+            for (int i = 0; i < n - d; ++i) column[i] = H(d + i, d + j);
+            for (int k = 0; k < d; ++k) column[n - d + k] = H(k, d + j) - H(n + k, d + j);
+        }
+        const auto factors = lu_.factorise();
+        if (factors != SmallLu<double>::Result::regular)
+            return factors == SmallLu<double>::Result::singular ? Outcome::singular : Outcome::notFinite;
+        lu_.solve(residual_.data());
+        report.cost.linearSolves += 2;
+        ++report.cost.iterations;
+        double size = 0;
+        for (int k = 0; k < d; ++k) {
+            double change = 0, increment = 0;
+            for (int a = 0; a < m; ++a) {
+                change = std::max(change, std::abs(residual_(a * d + k)));
+                increment = std::max(increment, std::abs(Y_(a * d + k)));
+            }
+            size = std::max(size, relativeCorrection(change, increment, z_(k)));
+        }
+        report.residual = size;
+        const Verdict verdict = policy.judge(size);
+        policy.jacobianIsNew();
+        if (verdict == Verdict::converged) return Outcome::converged;
+        if (verdict == Verdict::notFinite) return Outcome::notFinite;
+        if (verdict == Verdict::diverged) return Outcome::diverged;
+        Y_ -= residual_;
+    }
+    return Outcome::diverged;
+}
+
+Outcome ElementStep::solve(double t, double h, const std::stop_token& stop, StepReport& report) {
+    if (isSolved_ && h == h_) return Outcome::converged;
+    Outcome outcome = Outcome::diverged;
+    if (isSolved_) {
+        Y_ += (h - h_) * byStep_;
+        outcome = newton(t, h, stop, report);
+    }
+    if (outcome != Outcome::converged && outcome != Outcome::stopped)
+        outcome = startAfresh(t, h) ? newton(t, h, stop, report) : Outcome::singular;
+    h_ = h;
+    isSolved_ = outcome == Outcome::converged;
+    if (isSolved_) followStep();
+    return outcome;
+}
+
+/// dY/dh with the factors of the last iteration, and dE_d/dh.
+void ElementStep::followStep() {
+    const int d = dimension(), n = unknowns();
+    const auto& c = derivatives_.gradientByStep;
+    byStep_ = -c.tail(n);
+    for (int k = 0; k < d; ++k) byStep_(n - d + k) = c(n + k) - c(k);
+    lu_.solve(byStep_.data());
+    energyByStep_ = -derivatives_.byStepTwice - c.tail(n).dot(byStep_);
+}
+
+double ElementStep::energyScale() const {
+    const double lagrangian = derivatives_.action / h_;
+    return std::abs(lagrangian) + std::abs(lagrangian + discreteEnergy());
+}
+
+void ElementStep::denseOutput(double t, double tau, std::span<double> x) const {
+    const int d = dimension(), m = table_.unknowns();
+    std::vector<double> value(static_cast<std::size_t>(table_.space.size)), slope(value.size());
+    table_.space.evaluate(tau, value, slope);
+    const Vector phi = table_.change.transpose() * Eigen::Map<const Vector>(value.data(), table_.space.size);
+    const auto at = [](int k) { return static_cast<std::size_t>(k); };
+    for (int k = 0; k < d; ++k) {
+        x[at(k)] = z_(k);
+        x[at(d + k)] = p0_(k);
+        for (int a = 0; a < m; ++a) x[at(k)] += phi(a) * Y_(a * d + k);
+    }
+    const std::vector<double> share = weightsUpTo(table_, tau);
+    Vector q(d), v(d), gradient(2 * d);
+    for (int i = 0; i < table_.nodes(); ++i) {
+        q = z_.head(d);
+        v.setZero();
+        for (int a = 0; a < m; ++a) {
+            q += table_.value(i, a) * Y_.segment(a * d, d);
+            v += table_.derivative(i, a) / h_ * Y_.segment(a * d, d);
+        }
+        mechanics_.gradient(mechanics_.model.get(), t + table_.node(i) * h_, q.data(), v.data(),
+                            gradient.data());
+        for (int k = 0; k < d; ++k) x[at(d + k)] += h_ * share[static_cast<std::size_t>(i)] * gradient(k);
+    }
+}
+
+}  // namespace extremal

@@ -1,0 +1,18 @@
+/// The meshes of time of all schemes, one above the other: a tick at every node.
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+
+ViewEntry mesh() {
+    return {.item = viewItem("mesh", "Time mesh",
+                             "the nodes of time of every scheme, a tick each; steps without a root of the "
+                             "energy equation are marked"),
+            .recipe = OwnRecipe{"mesh"},
+            .scales = {true, false, false, Across::time},
+            .products = {Product::steps},
+            .missing = [](const View&, const System& system) {
+                return std::string(kindOf<BoundaryProblem>(system) ? "a motion" : "");
+            }};
+}
+
+}  // namespace extremal::views
