@@ -1,12 +1,15 @@
 #include "engine/integrator/condensed.hpp"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "engine/action/element_kernel.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/core/problem.hpp"
 
@@ -45,6 +48,29 @@ public:
         step_.denseOutput(tau, x.data(), x.data() + mechanics_.dimension);
     }
     double periodsPerStep() const override { return periods_; }
+
+    /// E_d = -dS/dh at the solution; not where the functions change with the step, or L with time.
+    std::span<const Quantity> quantities() const override {
+        static const Quantity energy{"discrete_energy", "", "E_d", ""};
+        const bool exists = periods_ == 0 && !mechanics_.isTimeDependent;
+        return {&energy, exists ? 1u : 0u};
+    }
+    void measure(const State& state, double* values) const override {
+        const int d = mechanics_.dimension;
+        if (!kernel_) kernel_.emplace(mechanics_, tables_(h_), ElementBasis::increments);
+        Eigen::VectorXd Y(kernel_->size() - d), z(kernel_->size());
+        std::vector<double> start(static_cast<std::size_t>(2 * d));
+        step_.coefficients(Y.data());
+        denseOutput(0, start);
+        int next = 0;
+        for (int k = 0; k < d; ++k) {
+            z(kernel_->index(k, 0)) = start[static_cast<std::size_t>(k)];
+            for (int a = 1; a < kernel_->functions(k); ++a) z(kernel_->index(k, a)) = Y(next++);
+        }
+        ElementDerivatives<double> S;
+        const bool isFinite = kernel_->evaluate(state.t - h_, h_, z, DerivativeOrder::first, S);
+        values[0] = isFinite ? -S.byStep : std::numeric_limits<double>::quiet_NaN();
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Condensed>(*this); }
 
 private:
@@ -59,6 +85,7 @@ private:
     SolverPolicy policy_;
     double h_, periods_ = 0;
     GalerkinStep<double, D> step_;
+    mutable std::optional<ElementKernel<double>> kernel_;  ///< made where the discrete energy is asked for
 };
 
 }  // namespace

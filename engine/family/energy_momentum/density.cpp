@@ -1,6 +1,7 @@
 #include "engine/family/energy_momentum/density.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stop_token>
 
@@ -34,9 +35,10 @@ std::optional<DensitySample> sampleDensity(const Mechanics<double>& mechanics, E
 std::optional<SolvabilityForecast> forecastSolvability(const Mechanics<double>& mechanics,
                                                        const Table<double>& table, int order,
                                                        const State& start, double h, double end) {
-    constexpr long long mostSteps = 2000;
+    constexpr double mostSteps = 2000, fewestSteps = 20, work = 4e7;  // unknowns cubed
     constexpr int finer = 2;
     const int degree = table.space.degree + finer, d = mechanics.dimension;
+    const double steps = std::clamp(work / std::pow(degree * d, 3), fewestSteps, mostSteps);
     const SolverPolicy policy;
     ElementStep probe(mechanics, table, policy);
     ElementStep motion(
@@ -48,12 +50,17 @@ std::optional<SolvabilityForecast> forecastSolvability(const Mechanics<double>& 
     std::optional<DensitySample> before;
     const Clock clock{start.t, h};
     int samples = 0, insignificant = 0;
-    for (long long k = 0; k <= mostSteps && at.t <= end; ++k) {
+    for (long long k = 0; static_cast<double>(k) <= steps && at.t <= end; ++k) {
         const std::optional<DensitySample> now = sampleDensity(mechanics, probe, order, at, h);
         if (!now) break;
         forecast.until = at.t;
         ++samples;
         insignificant += !now->isSignificant();
+        if (const double size = std::abs(now->density); size > forecast.largest) {
+            forecast.largest = size;
+            forecast.timeOfLargest = at.t;
+        }
+        if (k == 0) forecast.first = std::abs(now->density);
         if (now->isSignificant()) {
             forecast.vanishes = false;
             if (before && before->density * now->density < 0)

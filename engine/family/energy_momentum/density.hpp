@@ -36,11 +36,14 @@ struct SolvabilityForecast {
     std::vector<double> signChanges;  ///< times
     bool vanishes = false;            ///< nowhere above round-off: steps are undetermined
     double unresolved = 0;            ///< share of the motion where it is not above round-off
-    double until = 0;                 ///< time up to which the motion was followed
+    double first = 0, largest = 0;    ///< its size at the start, and where it is largest
+    double timeOfLargest = 0;
+    double until = 0;  ///< time up to which the motion was followed
 };
 
-/// Follows the motion from a state until `end`, by at most some hundreds of steps of a fixed length h of a
-/// Galerkin scheme of higher degree. Empty where a step has no solution.
+/// Follows the motion from a state until `end`, by at most 2000 steps of a fixed length h of a Galerkin
+/// scheme of higher degree, fewer of large systems: some tens of milliseconds. Empty where a step has no
+/// solution.
 std::optional<SolvabilityForecast> forecastSolvability(const Mechanics<double>& mechanics,
                                                        const Table<double>& table, int order,
                                                        const State& start, double h, double end);

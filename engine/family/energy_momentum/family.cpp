@@ -153,6 +153,21 @@ int solvableDegree(const SchemeCase& scheme) {
     return 0;
 }
 
+/// Steps that would be shorter than is allowed, as the monitor is the same on all of them: a start where they
+/// are long.
+void checkShortest(const SchemeCase& scheme, const SolvabilityForecast& found, Findings& findings) {
+    const auto& [space, quadrature, solver] = scheme.discretization;
+    const int order = describe(space, quadrature).claims.order;
+    const double shortest = scheme.step * std::pow(found.first / found.largest, 1.0 / (order + 1)),
+                 least = movingTimeOptions(space, order, scheme.step).least;
+    if (!(shortest < least)) return;
+    findings.warning("/space/hmin",
+                     "is " + formatNumber(least, 3) + ", and steps will be about " +
+                         formatNumber(shortest, 2) + " near t = " + formatNumber(found.timeOfLargest, 3) +
+                         ": shorter ones count as without a root",
+                     "the key hmin of the space, " + formatNumber(shortest / 2, 1));
+}
+
 void checkSolvability(const SchemeCase& scheme, Findings& findings) {
     const auto& [space, quadrature, solver] = scheme.discretization;
     const auto found = forecast(scheme, space, quadrature);
@@ -172,6 +187,8 @@ void checkSolvability(const SchemeCase& scheme, Findings& findings) {
                              " the density of the local action error is below the round-off of the discrete "
                              "energy, which then hardly tells how long a step is",
                          "a longer first step, or a lower degree");
+    if (found->signChanges.empty() && found->unresolved <= most)
+        return checkShortest(scheme, *found, findings);
     if (found->signChanges.empty()) return;
     const int other = solvableDegree(scheme);
     const std::string policy = space.text("policy");

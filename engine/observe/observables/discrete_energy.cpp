@@ -1,6 +1,6 @@
 /// The discrete energy E_d = -dS/dh of the step that ended at each row, and how far it is from that of the
-/// first step: what a scheme with moving times keeps. The energy at the nodes is another thing, and is not
-/// kept.
+/// first step: schemes with moving times keep it, those with a fixed step do not. The energy at the nodes is
+/// another thing.
 #include <limits>
 
 #include "engine/observe/catalog.hpp"
@@ -12,7 +12,7 @@ ObservableEntry discrete_energy() {
     e.item = {"discrete-energy",
               "discrete energy",
               "Discrete energy of the step that ended at each row, and its distance from that of the first "
-              "step; of schemes whose times are unknowns.",
+              "step; of discretizations without a fast frequency.",
               {},
               {},
               "coordinates"};

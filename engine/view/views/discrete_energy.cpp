@@ -6,8 +6,8 @@ namespace extremal::views {
 
 ViewEntry discrete_energy() {
     return {.item = viewItem("discrete-energy", "Discrete energy error",
-                             "|E_d − E_d(0)| of schemes whose times are unknowns, logarithmic; the energy at "
-                             "the nodes is another thing and not constant",
+                             "|E_d − E_d(0)| of discretizations against time or steps, logarithmic: constant "
+                             "where the times are unknowns; the energy at the nodes is another thing",
                              {againstField()}),
             .recipe = ErrorAgainstTime{"discrete_energy_error", "|E_d − E_d(0)|", 1},
             .scales = logAgainstTime,

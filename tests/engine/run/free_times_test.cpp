@@ -17,6 +17,8 @@
 namespace extremal::free_times_test {
 namespace {
 
+using namespace std::string_literals;
+
 std::string rotating(const std::string& schemes, const std::string& more) {
     return R"({"extremal":1,"model":{"type":"pendulum","g":1},"initial":{"q":[0],"p":[2.2]},"time":{"end":12},"schemes":[)" +
            schemes + "]," + more + "}";
@@ -146,6 +148,9 @@ private slots:
         const double failed = run(stop.scene).schemes.at(0)->summary.failedAt;
         qInfo("sign change predicted at %.3f, the run ended at %.3f", predicted, failed);
         QVERIFY(std::abs(failed - predicted) < 0.2);  // measured: 0.12, of steps of 0.24
+        const ReadScene far = readScene(
+            R"({"extremal":1,"model":{"type":"kepler"},"initial":{"q":[1.6,0],"p":[0,0.5]},"time":{"end":6},"schemes":[{"step":0.3,"scheme":"sem-2"}],"observe":["energy"]})"s);
+        QCOMPARE(far.warnings.at(0).pointer, std::string("/schemes/0/space/hmin"));
         const ReadScene well = read("double-well-sem");
         QVERIFY(well.warnings.at(0).hint.find("degree 2") != std::string::npos);
     }
@@ -189,6 +194,28 @@ private slots:
             QVERIFY(std::isnan((*t)["discrete_energy"][0]));
             for (std::size_t k = 1; k < t->rows(); ++k) QVERIFY(std::isfinite((*t)["discrete_energy"][k]));
         }
+    }
+    /// The same quantity of the same element: of a fixed step it varies with the energy at the nodes.
+    void fixedStepsHaveADiscreteEnergyThatVaries() {
+        const Comparison c = run(
+            readScene(
+                orbit(
+                    R"({"label":"a","step":0.05,"scheme":"galerkin-gauss-2"},{"label":"b","step":0.05,"scheme":"sem-2"},{"label":"c","step":0.05,"baseline":"rk4"})",
+                    R"("observe":["discrete-energy"])"))
+                .scene);
+        const auto of = [&](std::size_t i, const char* column) {
+            return c.schemes.at(i)->trajectory[column];
+        };
+        const auto largest = [](std::span<const double> errors) {
+            double most = 0;
+            for (const double e : errors.subspan(1)) most = std::max(most, std::abs(e));
+            return most;
+        };
+        // The first steps are the same.
+        QVERIFY(std::abs(of(0, "discrete_energy")[1] - of(1, "discrete_energy")[1]) < 2e-15);
+        QVERIFY(largest(of(0, "discrete_energy_error")) > 1e-6);
+        QVERIFY(largest(of(1, "discrete_energy_error")) < 1e-14);
+        QVERIFY(std::isnan(of(2, "discrete_energy")[1]));
     }
     void theOrderIsMeasuredOverTheMeanStep() {
         const Comparison c =
