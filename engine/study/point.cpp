@@ -6,23 +6,13 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
-#include "engine/run/march.hpp"
-#include "engine/scene/bind.hpp"
+#include "engine/run/march_grid.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
 
 constexpr double shortest = 2e-3, longest = 2;  ///< seconds: of one measurement, of all of a point
-
-MarchGrid gridOf(const Scene& scene, double step) {
-    MarchGrid grid;
-    grid.clock = {scene.start.value, step};
-    if (step > 0) grid.steps = stepCount(scene.start.value, scene.end.value, step);
-    grid.end = scene.end.value;
-    grid.budget = std::max(grid.steps, static_cast<long long>(std::min(scene.maxSteps, 9e18)));
-    return grid;
-}
 
 /// Largest size over all nodes, or that of the last one, of the observer's extreme.
 class Measured {
@@ -56,7 +46,7 @@ public:
           scheme_(schemeAt(scene, point)),
           step_(point.step),
           start_(schemeStart(scene, scheme_, step_)),
-          grid_(gridOf(scene.scene, step_)),
+          grid_(marchGrid(scene.scene, scheme_, step_)),
           stop_(stop) {}
 
     PointResult measure(const Metric& metric, ExactSolution reference) {
