@@ -33,6 +33,7 @@ struct Properties {
     std::string hint;         ///< the remedy for a refusal
     std::string caution;  ///< a warning of every scene that has it ("is an experiment: ..."); may be empty
     std::string remark;   ///< for the tooltip, in place of the order; may be empty
+    std::string instability;    ///< why it is unstable for every step, where the oscillator does not show it
     double stabilityLimit = 0;  ///< largest step * frequency on the harmonic oscillator; infinity if none
 };
 

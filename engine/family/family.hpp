@@ -21,6 +21,7 @@
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/system.hpp"
 #include "engine/space/catalog.hpp"
+#include "engine/trajectory/element_clocks.hpp"
 
 namespace extremal {
 
@@ -61,6 +62,11 @@ struct ShapeFunction {
     int node = 0, elements = 0;
 };
 
+/// Frequencies of plane waves on the mesh of a scheme, and of the field equation; NaN where they grow.
+struct DispersionCurve {
+    std::vector<double> waveNumber, frequency, exact;
+};
+
 struct Family {
     CatalogItem item;    ///< id: that of the folder
     std::string source;  ///< "Leok 2004, sec. 3"
@@ -76,6 +82,13 @@ struct Family {
     bool isVariant = false;
 
     bool (*applies)(const System&) = nullptr;
+    /// The keys of the model at the resolution of a space; none where it has none of its own, so that the
+    /// scheme is on the mesh of the scene. Null: spaces have none.
+    std::optional<Settings> (*model)(const Settings& space, const Settings& model) = nullptr;
+    /// The state from which steps pass through the values of two levels, `step` apart, where the scheme can
+    /// start so. Null: it starts from the state.
+    State (*startThrough)(const System&, const Discretization&, double step, const State& first,
+                          const State& second) = nullptr;
     /// Why a discretization cannot be used on a system of the family; empty if it can. Null: all can.
     std::string (*mismatch)(const Discretization&, const System&) = nullptr;
     /// The rule with its default keys; of an empty or automatic one the rule itself, where it does not depend
@@ -85,7 +98,8 @@ struct Family {
     Discretization (*estimate)(const Discretization&, const System&, const State& start) = nullptr;
     Properties (*describe)(const Discretization&) = nullptr;
     /// Null where the user gives the step.
-    std::optional<ImpliedStep> (*impliedStep)(const Settings& space, const ParameterValue&) = nullptr;
+    std::optional<ImpliedStep> (*impliedStep)(const Settings& space, const Settings& model,
+                                              const ParameterValue&) = nullptr;
     /// What stands against a step, beyond the limits of the harmonic oscillator. Null: nothing.
     void (*check)(const SchemeCase&, Findings&) = nullptr;
     /// The highest frequency that the stability limit of Properties is to be multiplied with. Null: that of
@@ -106,6 +120,15 @@ struct Family {
     /// Of node `node` of a scheme with this step, where its space is made of functions of nodes. Null
     /// elsewhere.
     ShapeFunction (*shapeFunction)(const System&, const Discretization&, double step, int node) = nullptr;
+    /// The elements of schemes that give each its own step, after `duration` and at x. Null: they do not.
+    ElementClocks (*elements)(const System&, const Discretization&, double step, double duration,
+                              const double* x) = nullptr;
+    /// How fast waves run in a scheme. Null: it has no waves.
+    DispersionCurve (*dispersion)(const System&, const Discretization&, double step) = nullptr;
+    /// What schemes measure of themselves at nodes, for the observable of that id; none where they do not.
+    /// Null: nothing.
+    std::optional<Measure> (*measure)(std::string_view observable, const System&, const Discretization&,
+                                      double step) = nullptr;
     /// The one table of a space and a rule, where no system and no step is in it. Null where there is none.
     Table<double> (*table)(const Settings& space, const Settings& quadrature) = nullptr;
     /// Throws InvalidScene where it cannot.

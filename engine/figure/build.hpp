@@ -45,6 +45,11 @@ inline const std::vector<Frame>* framesOf(const SchemeResult& scheme) {
     return frames && !frames->all.empty() ? &frames->all : nullptr;
 }
 
+/// The system that a scheme integrates: its own where its space has its own mesh. There must be one.
+inline const System& systemOf(const FigureContext& context, const SchemeResult& scheme) {
+    return scheme.scheme && scheme.scheme->ownSystem ? *scheme.scheme->ownSystem : *context.system;
+}
+
 /// One series per scheme: a column, or its magnitude, against time.
 enum class Take { value, magnitude };
 void addAgainstTime(Figure& figure, const FigureContext& context, std::string_view column, Take take);

@@ -61,6 +61,11 @@ public:
         return report;
     }
 
+    /// Whether advance() looks for infinities itself and then leaves the state as it was, with the outcome
+    /// notFinite: for states so wide that a run should neither copy them before a step nor read them after
+    /// it.
+    virtual bool checksFinite() const { return false; }
+
     /// What the integrator can say of its last step besides the report: a discrete energy, a residual, ...
     virtual std::span<const Quantity> quantities() const { return {}; }
     /// Their values, one for each, where something reads them. `state`: as the last advance() left it.

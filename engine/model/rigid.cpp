@@ -186,7 +186,7 @@ void describeBody(System& system, const Body& body) {
         return true;
     };
     system.frequency = [body](double, const double* x) { return frequency(body, x); };
-    system.start = [body](const Settings& initial) { return startOf(body, initial); };
+    system.start = [body](const Settings& initial, double) { return startOf(body, initial); };
     system.isSpatial = true;
     system.phaseX = "momentum.body.1";
     system.phaseY = "momentum.body.2";

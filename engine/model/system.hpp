@@ -65,12 +65,14 @@ struct FieldSampling {
     std::vector<double> y;                ///< of a rectangle, the nodes in its second direction; else empty
     std::vector<std::string> components;  ///< "re", "im"
     std::size_t places() const { return x.size() * (y.empty() ? 1 : y.size()); }
+    double period = 0;  ///< along x: the first node is met again after it; 0: not periodic
     /// Component after component, each at all places, along x first.
     std::function<void(const double* state, double* values)> sample;
     explicit operator bool() const { return static_cast<bool>(sample); }
 };
 
 class Hamiltonian;
+struct FieldProblem;
 struct EllipticProblem;
 
 /// What kind of problem a system is: what schemes are made for. Families and baselines ask for it; whoever
@@ -81,11 +83,15 @@ using Body = BodyMechanics<double>;    ///< a Lagrangian on a group
 struct Wave {
     std::shared_ptr<const Hamiltonian> hamiltonian;
 };
+/// A field over an interval: its Lagrangian and its mesh (model/field/problem.hpp).
+struct ScalarField {
+    std::shared_ptr<const FieldProblem> problem;
+};
 /// No motion, but a boundary-value problem along x (model/elliptic.hpp).
 struct BoundaryProblem {
     std::shared_ptr<const EllipticProblem> problem;
 };
-using SystemKind = std::variant<std::monostate, Mechanical, Body, Wave, BoundaryProblem>;
+using SystemKind = std::variant<std::monostate, Mechanical, Body, Wave, ScalarField, BoundaryProblem>;
 
 /// What a system measures of its own states, for the observable of that id.
 struct Measure {
@@ -141,9 +147,14 @@ struct System {
     std::function<bool(double t, const double* x, double* dx)> rate;  ///< xdot, to draw what is between rows
     std::function<double(double t, const double* x)>
         frequency;  ///< of the fastest motion, rad per unit of time
-    /// x at the start, from the checked keys of /initial (ModelEntry::initial). Throws InvalidScene, with
-    /// pointers relative to /initial.
-    std::function<std::vector<double>(const Settings& initial)> start;
+    /// x at the start, at time t, from the checked keys of /initial (ModelEntry::initial). Throws
+    /// InvalidScene, with pointers relative to /initial.
+    std::function<std::vector<double>(const Settings& initial, double t)> start;
+    /// Where initial data say more than a state does (the name of an exact solution): the exact solution that
+    /// they start, or an empty function where none is known. Takes the place of `exact`.
+    std::function<ExactSolution(const Settings& initial, const State& start)> exactFrom;
+    /// Whether initial data are known at all times by the user's word, so that schemes start from two levels.
+    std::function<bool(const Settings& initial)> givesLevels;
 
     FieldSampling field;
     /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be
@@ -172,6 +183,7 @@ struct System {
     const Mechanical& mechanics() const { return std::get<Mechanical>(kind); }
     const Body& body() const { return std::get<Body>(kind); }
     const std::shared_ptr<const Hamiltonian>& hamiltonian() const { return std::get<Wave>(kind).hamiltonian; }
+    const FieldProblem& fieldProblem() const { return *std::get<ScalarField>(kind).problem; }
 };
 
 /// The system as one of a kind, or null: kindOf<Body>(system).
@@ -182,6 +194,7 @@ const Kind* kindOf(const System& system) {
 inline bool isMechanical(const System& system) { return kindOf<Mechanical>(system) != nullptr; }
 inline bool isBody(const System& system) { return kindOf<Body>(system) != nullptr; }
 inline bool isWave(const System& system) { return kindOf<Wave>(system) != nullptr; }
+inline bool isField(const System& system) { return kindOf<ScalarField>(system) != nullptr; }
 /// The measure for an observable, or null.
 const Measure* measureOf(const System& system, std::string_view observable);
 

@@ -17,7 +17,7 @@ std::shared_ptr<ExactActions> exactActionsOf(const ResolvedScene& scene, const P
 void addEquations(SchemeResult& result, const ProductPlan& plan, const ResolvedScene& scene,
                   const ResolvedScheme& scheme, const State& start, ExactActions* exact,
                   const std::stop_token& stop) {
-    const System& system = *scene.system;
+    const System& system = *systemOf(scene, scheme);
     if (!isMechanical(system)) return;
     const Discretization* const plain = scheme.plain();
     const auto failureOf = [&](const char* view) { return unsuitableFor(*findView(view), scheme); };

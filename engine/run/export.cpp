@@ -187,6 +187,19 @@ void writeSteps(const StepRecords& steps, Sink&& sink) {
     sink(text);
 }
 
+std::string elementsCsv(const ElementClocks& clocks) {
+    std::string text = "element,x,step,updates,energy\n";
+    for (std::size_t e = 0; e < clocks.x.size(); ++e) {
+        text += std::to_string(e);
+        for (const double value : {clocks.x[e], clocks.step[e], clocks.updates[e], clocks.energy[e]}) {
+            text += ',';
+            if (std::isfinite(value)) text += formatNumber(value);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
 /// A file of a folder, and what writes it into a batch that has it open.
 struct ExportFile {
     std::string name;
@@ -195,7 +208,8 @@ struct ExportFile {
 
 /// The products of a scheme, each by its suffix: "<slug>.field.csv", ...
 void addProducts(std::vector<ExportFile>& files, const std::string& slug, const SchemeResult& scheme,
-                 const std::shared_ptr<const System>& system) {
+                 const std::shared_ptr<const System>& ofScene) {
+    const auto system = scheme.scheme && scheme.scheme->ownSystem ? scheme.scheme->ownSystem : ofScene;
     if (const FieldFrames* frames = scheme.products.find<FieldFrames>();
         frames && !frames->all.empty() && system)
         files.push_back({slug + ".field.csv", [frames, system](FileBatch& batch) {
@@ -206,6 +220,9 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
         files.push_back({slug + ".steps.csv", [steps](FileBatch& batch) {
                              writeSteps(*steps, [&](const std::string& block) { batch.append(block); });
                          }});
+    if (const ElementClocks* clocks = scheme.products.find<ElementClocks>())
+        files.push_back(
+            {slug + ".elements.csv", [clocks](FileBatch& batch) { batch.append(elementsCsv(*clocks)); }});
     if (const Sections* sections = scheme.products.find<Sections>())
         for (std::size_t k = 0; k < sections->all.size(); ++k)
             files.push_back({slug + (k == 0 ? ".section.csv" : ".section-" + std::to_string(k + 1) + ".csv"),

@@ -109,12 +109,15 @@ struct MapColumn {
 
     MapCell runCell(const ResolvedScheme& scheme, std::size_t row) const {
         const double step = grid.steps[row];
-        const System& system = *resolved.system;
+        const System& system = *systemOf(resolved, scheme);
         const Scene& scene = resolved.scene;
         const State start = schemeStart(resolved, scheme, step);
         const auto integrator = scheme.make(system, step, start);
-        const Observer observer = observable.bind(
-            {system, start, reference.at(row), scheme.plain(), step, integrator->quantities()});
+        const Observer observer = observable.bind({system, start,
+                                                   scheme.ownSystem && observable.needsReference
+                                                       ? exactSolution(scene, system, start)
+                                                       : reference.at(row),
+                                                   scheme.plain(), step, integrator->quantities()});
         const auto found = std::find_if(observer.columns.begin(), observer.columns.end(),
                                         [&](const Column& c) { return c.name == grid.column; });
         if (found == observer.columns.end()) return {MapCell::End::refused};

@@ -17,12 +17,15 @@ double threadSeconds() {
 /// One march on its way.
 class March {
 public:
-    March(Integrator& integrator, State& state, const MarchGrid& grid, std::span<const MarchSink> sinks)
+    /// `remembers`: whether the state before a block is needed.
+    March(Integrator& integrator, State& state, const MarchGrid& grid, std::span<const MarchSink> sinks,
+          bool remembers)
         : integrator_(integrator),
           state_(state),
           grid_(grid),
           sinks_(sinks),
-          isFixed_(integrator.grid() == TimeGrid::fixed) {}
+          isFixed_(integrator.grid() == TimeGrid::fixed),
+          remembers_(remembers) {}
 
     MarchReport run(NodeBlock& nodes, const std::stop_token& stop) {
         if (state_.memory.empty()) integrator_.begin(state_);
@@ -98,10 +101,11 @@ private:
     void remember() {
         before_.t = state_.t;
         before_.node = state_.node;
-        before_.x.assign(state_.x.begin(), state_.x.end());
+        if (remembers_) before_.x.assign(state_.x.begin(), state_.x.end());
     }
     /// Nodes from the first that is not finite on were not reached.
     void checkFinite(NodeBlock& nodes) {
+        if (integrator_.checksFinite()) return;
         const std::size_t finite = nodes.finiteNodes();
         if (finite == nodes.size()) return;
         report_.outcome = Outcome::notFinite;
@@ -127,7 +131,7 @@ private:
     State& state_;
     MarchGrid grid_;
     std::span<const MarchSink> sinks_;
-    bool isFixed_;
+    bool isFixed_, remembers_;
     double lastStep_ = 0;  ///< where times are unknowns
     State before_;         ///< where the block at hand began
     MarchReport report_;
@@ -148,7 +152,7 @@ MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
     const std::size_t capacity =
         looksInside ? 1
                     : std::clamp<std::size_t>(numbersOfBlock / std::max<std::size_t>(1, width), 1, mostNodes);
-    March run(integrator, state, grid, sinks);
+    March run(integrator, state, grid, sinks, looksInside || !integrator.checksFinite());
     if (capacity == 1) {
         NodeBlock nodes = NodeBlock::referring(width, quantities);
         return run.run(nodes, stop);

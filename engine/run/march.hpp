@@ -40,8 +40,9 @@ struct MarchReport {
 /// from.
 struct Stretch {
     const NodeBlock& nodes;
-    const State& before;  ///< the first of these steps began here; without its memory
-    const State& state;   ///< at the last node
+    /// The first of these steps began here; without its memory. x is known where a sink looks inside steps.
+    const State& before;
+    const State& state;  ///< at the last node
     const Integrator& integrator;
     const MarchReport& soFar;
     bool isStart = false;

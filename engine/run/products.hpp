@@ -13,6 +13,7 @@
 #include "engine/run/parameter_map.hpp"
 #include "engine/run/step_records.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/trajectory/element_clocks.hpp"
 #include "engine/trajectory/frames.hpp"
 #include "engine/trajectory/trajectory.hpp"
 #include "engine/view/catalog.hpp"
@@ -67,7 +68,8 @@ public:
     std::size_t size() const { return all_.size(); }
 
 private:
-    using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, KktPattern, ActionDefect,
+    using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, ElementClocks, KktPattern,
+                               ActionDefect,
                                ParameterMaps>;
     std::vector<Value> all_;
 };

@@ -241,8 +241,8 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (kind == Kind::none) return {};
     if (kind == Kind::scheme) return fromScheme(resolved, stop);
     if (kind == Kind::file) return fromFile(scene, system);
-    if (system.exact) {
-        if (system.exact(initial)) {
+    {
+        if (exactSolution(scene, system, initial)) {
             double scale = 0;
             for (const double v : initial.x) scale = std::max(scale, std::abs(v));
             Reference reference;
@@ -252,7 +252,7 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
                                                     (scene.end.value - scene.start.value)
                                               : 0;
             reference.info = {"exact", 2e-15 * std::max(turnsInPhase ? 1.0 : scale, turns), "exact solution"};
-            reference.make = [exact = system.exact, initial] { return exact(initial); };
+            reference.make = [scene, system, initial] { return exactSolution(scene, system, initial); };
             return reference;
         }
     }
@@ -260,6 +260,17 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
         throw InvalidScene("/reference", "no exact solution is known from these initial data",
                            "use \"auto\"");
     return computed(scene, system, initial, stop);
+}
+
+Reference referenceFor(const Reference& reference, const ResolvedScene& resolved,
+                       const ResolvedScheme& scheme) {
+    if (!scheme.ownSystem || !reference.make) return reference;
+    Reference own{reference.info, {}};
+    if (reference.info.type == "exact")
+        own.make = [&scene = resolved.scene, system = scheme.ownSystem, initial = scheme.ownInitial] {
+            return exactSolution(scene, *system, initial);
+        };
+    return own;
 }
 
 void shareReference(Reference& reference, const ResolvedScene& resolved) {

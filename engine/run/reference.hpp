@@ -20,6 +20,10 @@ struct Reference {
     std::function<ExactSolution()> make;
 };
 
+/// The reference as a scheme on a mesh of its own sees it: the exact solution at its nodes, else none.
+Reference referenceFor(const Reference& reference, const ResolvedScene& resolved,
+                       const ResolvedScheme& scheme);
+
 /// Prepares the reference a scene asks for. Takes time for computed ones; gives up with kind none when
 /// stopped. Throws InvalidScene for a file that cannot be used.
 Reference makeReference(const ResolvedScene& resolved, const std::stop_token& stop);

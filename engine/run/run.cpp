@@ -11,6 +11,7 @@
 #include "engine/run/equations.hpp"
 #include "engine/run/map_run.hpp"
 #include "engine/run/reference.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/run/scheme_run.hpp"
 #include "engine/scene/resolve.hpp"
 
@@ -46,7 +47,7 @@ struct Run::Impl {
                 needsSchemes = needsSchemes || !isKnown;
             }
         reference = options.reference;
-        if (scene.reference.kind == ReferenceSpec::Kind::exact && (!system.exact || !system.exact(initial)))
+        if (scene.reference.kind == ReferenceSpec::Kind::exact && !exactSolution(scene, system, initial))
             throw InvalidScene("/reference", "no exact solution is known for these initial data",
                                "use \"auto\"");
     }

@@ -91,7 +91,7 @@ struct SchemeRun::Recording {
         : scene(resolved.scene),
           scheme(scheme_),
           spec(scheme_.spec),
-          system(*resolved.system),
+          system(*systemOf(resolved, scheme_)),
           stop(std::move(stop_)),
           step(step_),
           frames(system.field.y.empty() ? FrameKeeper::usual : FrameKeeper::large),
@@ -330,6 +330,9 @@ struct SchemeRun::Recording {
         if (!isLastNodeRow)
             recordAlone(state, report.last, report.lastQuantities, static_cast<double>(state.node));
         if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);
+        if (scheme.plain() && scheme.family->elements)
+            result.products.make<ElementClocks>() = scheme.family->elements(
+                system, scheme.discretization, step, state.t - initialNode.t, state.x.data());
         finish(report);
     }
 };
@@ -364,10 +367,11 @@ void SchemeRun::publish(const SchemeResult& result) {
     latest_ = std::move(copy);
 }
 
-void SchemeRun::run(const Reference& reference, ExactActions* exact, const std::stop_token& stop) {
+void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
     if (isKnown_) return;
-    const System& system = *resolved_.system;
-    const State& initial = resolved_.initial;
+    const Reference reference = referenceFor(ofScene, resolved_, scheme_);
+    const System& system = *systemOf(resolved_, scheme_);
+    const State& initial = initialOf(resolved_, scheme_);
     const int style = latest()->style;
     using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
@@ -433,7 +437,7 @@ void SchemeRun::run(const Reference& reference, ExactActions* exact, const std::
 /// mean step of each run. Points at the floor of the reference or of round-off are left out.
 void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference,
                              const std::stop_token& stop) const {
-    const State& initial = resolved_.initial;
+    const State& initial = initialOf(resolved_, scheme_);
     double scale = 0;
     for (const double v : initial.x) scale = std::max(scale, std::abs(v));
     std::vector<double> x, y;

@@ -17,7 +17,7 @@ State initialState(const Scene& scene, const System& system) {
     State state;
     state.t = scene.start.value;
     if (system.start) {
-        state.x = system.start(scene.initial.given);
+        state.x = system.start(scene.initial.given, state.t);
         return state;
     }
     if (scene.initial.second == Initial::Second::position) return exactStart(scene, system);
@@ -35,6 +35,11 @@ State initialState(const Scene& scene, const System& system) {
         for (std::size_t i = 0; i < d; ++i) state.x[d + i] = gradient[d + i];
     }
     return state;
+}
+
+ExactSolution exactSolution(const Scene& scene, const System& system, const State& initial) {
+    if (system.exactFrom) return system.exactFrom(scene.initial.given, initial);
+    return system.exact ? system.exact(initial) : ExactSolution();
 }
 
 long long stepCount(double start, double end, double step) {

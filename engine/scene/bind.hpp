@@ -12,6 +12,9 @@ System makeSystem(const Scene& scene);
 /// momentum of the exact motion between them. Schemes start from schemeStart (scene/two_positions.hpp).
 State initialState(const Scene& scene, const System& system);
 
+/// The exact solution through the start of the scene; empty where none is known.
+ExactSolution exactSolution(const Scene& scene, const System& system, const State& initial);
+
 /// Number of whole steps from start to the last node not after end + 1e-9 step.
 long long stepCount(double start, double end, double step);
 

@@ -78,8 +78,12 @@ bool checkDiscretization(Reader& reader, const SchemeSpec& scheme, const Propert
         return false;
     }
     if (properties.stabilityLimit <= 0 && !scheme.allowsUnstable) {
-        reader.error(pointer, "is unstable for every step, even on the harmonic oscillator",
-                     "another quadrature, or \"allow_unstable\": true");
+        const std::string& reason = properties.instability;
+        reader.error(pointer,
+                     "is unstable for every step" +
+                         (reason.empty() ? ", even on the harmonic oscillator" : ": " + reason),
+                     (properties.hint.empty() ? "another quadrature" : properties.hint) +
+                         ", or \"allow_unstable\": true");
         return false;
     }
     if (!properties.shortfall.empty() && scheme.kind == SchemeSpec::Kind::discretization)
@@ -100,7 +104,8 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
                const std::string& pointer) {
     constexpr double longest = 60;
     const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
-    const double slowestStep = family && family->slowestStep ? family->slowestStep(*scene.system) : 5e-3;
+    const double slowestStep =
+        family && family->slowestStep ? family->slowestStep(*systemOf(scene, scheme)) : 5e-3;
     const double duration = scene.scene.end.value - scene.scene.start.value;
     const SchemeSpec& spec = scheme.spec;
     if (!spec.isEnabled || (!scheme.isAdaptive() && duration / spec.step.value * slowestStep < longest))
@@ -121,8 +126,8 @@ void report(Reader& reader, const std::string& pointer, const Findings& findings
 void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     if (scheme.isAdaptive()) return;
-    const SchemeCase at{*scene.system,          scene.initial,       scheme.discretization,
-                        scheme.spec.step.value, scheme.isComposed(), scheme.spec.allowsUnstable,
+    const SchemeCase at{*systemOf(scene, scheme), initialOf(scene, scheme), scheme.discretization,
+                        scheme.spec.step.value,   scheme.isComposed(),      scheme.spec.allowsUnstable,
                         scene.scene.end.value};
     Findings findings;
     if (scheme.baseline && scheme.baseline->check)
@@ -139,7 +144,7 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
                const std::string& pointer) {
     try {
         const double step = scheme.spec.step.value;
-        scheme.make(*scene.system, step, scene.initial);
+        scheme.make(*systemOf(scene, scheme), step, initialOf(scene, scheme));
         schemeStart(scene, scheme, step);
         checkStep(reader, scene, scheme, pointer);
     } catch (const InvalidScene& e) {
@@ -189,13 +194,21 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
     if (resolved.system && !checkStart(reader, resolved)) return;
     if (scene.end.value > scene.start.value) checkRows(reader, scene);
     if (resolved.system) checkCaution(reader, resolved);
+    for (std::size_t i = 0; i < resolved.schemes.size() && resolved.system; ++i) {
+        try {
+            resolveSystem(resolved.schemes[i], scene);
+        } catch (const InvalidScene& e) {
+            for (const Problem& p : e.problems())
+                reader.error(childPointer("/schemes", places[i]) + "/space", p.message, p.hint);
+        }
+    }
     for (std::size_t i = 0; i < resolved.schemes.size(); ++i)
         checkScheme(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
     for (const ResolvedScheme& scheme : resolved.reference)
         checkScheme(reader, resolved, scheme, "/reference/scheme");
     if (!resolved.system || !reader.errors.empty() || scene.reference.kind != ReferenceSpec::Kind::exact)
         return;
-    if (!resolved.system->exact || !resolved.system->exact(resolved.initial))
+    if (!exactSolution(scene, *resolved.system, resolved.initial))
         reader.error("/reference",
                      "no exact solution of " + scene.model.type + " is known for these initial data",
                      "take auto");

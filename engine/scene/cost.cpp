@@ -19,7 +19,8 @@ double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) 
     constexpr double budget = 3e-3;
     constexpr int largestBlock = 1024;
     const double start = scene.scene.start.value, end = scene.scene.end.value;
-    const auto integrator = scheme.make(*scene.system, scheme.spec.step.value, scene.initial);
+    const auto integrator =
+        scheme.make(*systemOf(scene, scheme), scheme.spec.step.value, initialOf(scene, scheme));
     State state = schemeStart(scene, scheme, scheme.spec.step.value);
     integrator->begin(state);
     const bool isFixed = integrator->grid() == TimeGrid::fixed;

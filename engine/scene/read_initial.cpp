@@ -59,7 +59,7 @@ std::vector<Number> literals(const std::vector<double>& values) {
 
 /// Keys of the model's own; the system says what is wrong with them together.
 void readGiven(Reader& reader, const Value* initial, const System& system, const ModelEntry& entry,
-               Initial& result) {
+               double start, Initial& result) {
     Reader quiet;
     readFields(quiet, entry.exampleInitial, "/initial", entry.initial, {}, result.given);
     if (!initial && entry.initial.empty()) return;  // nothing to say
@@ -68,7 +68,7 @@ void readGiven(Reader& reader, const Value* initial, const System& system, const
     Settings given;
     if (!readFields(reader, *initial, "/initial", entry.initial, {}, given)) return;
     try {
-        system.start(given);
+        system.start(given, start);
         result.given = std::move(given);
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error("/initial" + p.pointer, p.message, p.hint);
@@ -81,7 +81,7 @@ void readInitial(Reader& reader, const Value& document, const System& system, Sc
     const ModelEntry* entry = findModel(scene.model.type);
     const Value* initial = document.find("initial");
     Initial& result = scene.initial;
-    if (system.start) return readGiven(reader, initial, system, *entry, result);
+    if (system.start) return readGiven(reader, initial, system, *entry, scene.start.value, result);
     // The example of a model whose coordinates are the user's own fits only some; the others start from zero.
     const std::size_t d = system.coordinates.size();
     const bool fits = entry->exampleQ.size() == d;

@@ -111,7 +111,9 @@ std::optional<System> readModel(Reader& reader, const Value& document, Scene& sc
     if (!settings) return {};
     scene.model = *settings;
     try {
-        return entry->make(*settings);
+        System system = entry->make(*settings);
+        reader.model = *settings;
+        return system;
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error("/model" + p.pointer, p.message, p.hint);
         return {};

@@ -178,10 +178,11 @@ std::optional<ImpliedStep> impliedStepOf(const Reader& reader, const SchemeSpec&
     const auto discretization = discretizationOf(spec);
     const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
     if (!family || !family->impliedStep) return {};
-    return family->impliedStep(discretization->space, [&](std::string_view name) -> std::optional<double> {
-        const auto known = reader.parameters.find(name);
-        return known == reader.parameters.end() ? std::nullopt : known->second;
-    });
+    return family->impliedStep(discretization->space, reader.model,
+                               [&](std::string_view name) -> std::optional<double> {
+                                   const auto known = reader.parameters.find(name);
+                                   return known == reader.parameters.end() ? std::nullopt : known->second;
+                               });
 }
 
 void readStep(Reader& reader, const Value& scheme, const std::string& pointer, bool isAdaptive,

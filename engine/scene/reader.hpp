@@ -39,6 +39,7 @@ public:
     /// Parameters of the model that expressions may use. A parameter whose own value is wrong, and already
     /// reported, is there without a value: what depends on it is not reported again.
     std::map<std::string, std::optional<double>, std::less<>> parameters;
+    Settings model;                ///< as read; no type: it is wrong
     bool hasUnknownModel = false;  ///< no name can be judged
 
     void error(std::string pointer, std::string message, std::string hint = {});

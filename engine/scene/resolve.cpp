@@ -82,6 +82,14 @@ ResolvedScheme resolve(const SchemeSpec& scheme) {
     return r;
 }
 
+void resolveSystem(ResolvedScheme& scheme, const Scene& scene) {
+    if (!scheme.family || !scheme.family->model) return;
+    const auto model = scheme.family->model(scheme.discretization.space, scene.model);
+    if (!model) return;
+    scheme.ownSystem = std::make_shared<const System>(findModel(scene.model.type)->make(*model));
+    scheme.ownInitial = initialState(scene, *scheme.ownSystem);
+}
+
 ResolvedScene resolve(const Scene& scene) {
     ResolvedScene r;
     r.scene = scene;
@@ -89,6 +97,7 @@ ResolvedScene resolve(const Scene& scene) {
     r.initial = initialState(scene, *r.system);
     for (const SchemeSpec& scheme : scene.schemes) r.schemes.push_back(resolve(scheme));
     for (const SchemeSpec& scheme : scene.reference.scheme) r.reference.push_back(resolve(scheme));
+    for (ResolvedScheme& scheme : r.schemes) resolveSystem(scheme, scene);
     return r;
 }
 

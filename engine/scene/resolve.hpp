@@ -24,6 +24,10 @@ struct ResolvedScheme {
     Properties properties;          ///< of a family, without its composition
     Claims claims;                  ///< with its composition
     TimeGrid grid = TimeGrid::fixed;
+    /// Where the space has a resolution of its own: the system on the mesh of the scheme, and its start.
+    /// Null: the system of the scene.
+    std::shared_ptr<const System> ownSystem = {};
+    State ownInitial = {};
 
     bool isComposed() const { return !parts.empty(); }
     /// The discretization that the scheme is, not one that it is composed of; null for baselines.
@@ -54,6 +58,18 @@ struct ResolvedScene {
     std::vector<ResolvedScheme> schemes;    ///< one for each of scene.schemes, disabled ones as well
     std::vector<ResolvedScheme> reference;  ///< one where a scheme is the reference
 };
+
+/// The system that a scheme integrates, and its state at the start of the scene.
+inline const std::shared_ptr<const System>& systemOf(const ResolvedScene& scene,
+                                                     const ResolvedScheme& scheme) {
+    return scheme.ownSystem ? scheme.ownSystem : scene.system;
+}
+inline const State& initialOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
+    return scheme.ownSystem ? scheme.ownInitial : scene.initial;
+}
+
+/// Gives the scheme its own system where its space has a resolution of its own. Throws InvalidScene.
+void resolveSystem(ResolvedScheme& scheme, const Scene& scene);
 
 /// Throws InvalidScene where the scene is not valid.
 ResolvedScene resolve(const Scene& scene);

@@ -111,8 +111,16 @@ State exactStart(const Scene& scene, const System& system) {
 
 State schemeStart(const ResolvedScene& resolved, const ResolvedScheme& scheme, double step) {
     const Scene& scene = resolved.scene;
-    const System& system = *resolved.system;
-    if (scene.initial.second != Initial::Second::position || !scheme.isFixed()) return resolved.initial;
+    const System& system = *systemOf(resolved, scheme);
+    const State& initial = initialOf(resolved, scheme);
+    if (scheme.plain() && scheme.family->startThrough && system.givesLevels &&
+        system.givesLevels(scene.initial.given)) {
+        State second = initial;
+        second.t += step;
+        exactSolution(scene, system, initial)(second.t, second.x);
+        return scheme.family->startThrough(system, scheme.discretization, step, initial, second);
+    }
+    if (scene.initial.second != Initial::Second::position || !scheme.isFixed()) return initial;
     const double at = scene.initial.at->value, steps = at / step;
     const int n = static_cast<int>(std::lround(std::min(steps, 1e6)));
     if (n < 1 || std::abs(steps - n) > 1e-9 * n)

@@ -19,14 +19,15 @@ namespace extremal {
 
 /// What a run can make besides its rows.
 enum class Product {
-    denseOutput,   ///< the state between the nodes, where steps are few
-    denseError,    ///< its distance from the reference
-    frames,        ///< samples of a field or wave function
-    sections,      ///< states where a column passes zero upwards
-    kktPattern,    ///< the structure of the equations of a discretization
-    actionDefect,  ///< distance of the discrete Lagrangian from the exact one, by step
-    steps,         ///< every step, of schemes whose times are unknowns
-    parameterMap,  ///< errors over a grid of a parameter and the step
+    denseOutput,    ///< the state between the nodes, where steps are few
+    denseError,     ///< its distance from the reference
+    frames,         ///< samples of a field or wave function
+    sections,       ///< states where a column passes zero upwards
+    kktPattern,     ///< the structure of the equations of a discretization
+    actionDefect,   ///< distance of the discrete Lagrangian from the exact one, by step
+    elementClocks,  ///< steps and updates of the elements of asynchronous schemes
+    steps,          ///< every step, of schemes whose times are unknowns
+    parameterMap,   ///< errors over a grid of a parameter and the step
 };
 
 /// What stands along the x axis of a view.

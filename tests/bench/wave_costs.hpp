@@ -42,7 +42,7 @@ inline State makeStart(const System& system, Value::Object psi) {
     Settings given;
     given.keys.emplace_back("psi", std::move(psi));
     given.keys.emplace_back("normalise", true);
-    return {0, 0, system.start(given)};
+    return {0, 0, system.start(given, 0)};
 }
 
 inline Discretization gauss(int degree, const char* solver, double tolerance) {

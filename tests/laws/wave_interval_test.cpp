@@ -295,7 +295,7 @@ private slots:
         given.keys.emplace_back(
             "psi", Value::Object{{"packet", "gaussian"}, {"centre", left + 0.2}, {"width", 0.4}});
         given.keys.emplace_back("normalise", true);
-        const State packet{0, 0, system.start(given)};
+        const State packet{0, 0, system.start(given, 0)};
         QVERIFY(std::abs(atNode(system, packet, 29)) < 1e-3 && !system.caution(packet.x.data()).empty());
     }
 
@@ -343,7 +343,7 @@ private slots:
             Settings given;
             given.keys.emplace_back("psi", Value::Object{{"packet", packet}});
             given.keys.emplace_back("normalise", true);
-            QVERIFY(refusal([&] { system.start(given); }).starts_with("/psi/packet"));
+            QVERIFY(refusal([&] { system.start(given, 0); }).starts_with("/psi/packet"));
         }
     }
 };

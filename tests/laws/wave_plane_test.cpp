@@ -36,7 +36,7 @@ State startOf(const System& system, Value::Object psi) {
     Settings given;
     given.keys.emplace_back("psi", std::move(psi));
     given.keys.emplace_back("normalise", true);
-    return {0, 0, system.start(given)};
+    return {0, 0, system.start(given, 0)};
 }
 State packetOn(const System& system) {
     return startOf(system, {{"packet", "periodic-gaussian"},

@@ -27,7 +27,7 @@ inline State waveStart(const System& system, double kappa = 20, double centre = 
                                                  {"centre", centre},
                                                  {"wave_number", waveNumber}});
     given.keys.emplace_back("normalise", true);
-    return {0, 0, system.start(given)};
+    return {0, 0, system.start(given, 0)};
 }
 
 inline System systemA(int modes = 256) { return waveSystem(modes); }

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/core/text.hpp"
+#include "engine/scene/bind.hpp"
 #include "ui/stage/stage_inset.hpp"
 
 namespace extremal {
@@ -119,6 +120,15 @@ void StagePlayer::prepare() {
     if (!system_.draw) return;
     for (const auto& result : comparison_->schemes) addTrack(result);
     if (tracks_.empty()) return;
+    for (Track& track : tracks_) {
+        const auto& scheme = track.result->scheme;
+        track.system = scheme && scheme->ownSystem ? scheme->ownSystem.get() : nullptr;
+    }
+    if (isField(system_)) {
+        const State start = initialState(comparison_->scene, system_);
+        exact_ = exactSolution(comparison_->scene, system_, start);
+        exactWidth_ = start.x.size();
+    }
 
     // Schemes that failed, or that reach far beyond the others, do not set the scale of the picture.
     std::vector<Extent> all;
@@ -227,7 +237,7 @@ StagePlayer::Extent StagePlayer::findBounds(const Track& track) const {
     for (std::size_t row = 0; row < track.t.size(); row += stride) {
         rowState(track, row, x);
         drawing.clear();
-        system_.draw(x.data(), drawing);
+        (track.system ? *track.system : system_).draw(x.data(), drawing);
         for (const Shape& shape : drawing.shapes) addExtent(shape, points);
         points.push_back(drawing.tracer);
     }
@@ -407,12 +417,25 @@ Camera StagePlayer::fittedCamera(double width, double height, double margin) con
     return camera;
 }
 
+/// The exact solution as a line.
+void StagePlayer::addExact(double t, StageFrame& frame) const {
+    if (!exact_) return;
+    std::vector<double> x(exactWidth_);
+    exact_(t, x);
+    Drawing drawing;
+    system_.draw(x.data(), drawing);
+    for (Shape& shape : drawing.shapes)
+        if (auto* curtain = std::get_if<Curtain>(&shape))
+            frame.scenery.push_back(Curve{std::move(curtain->top), 1.6, 1, ShapeRole::scenery});
+}
+
 StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
     StageFrame frame;
     frame.t = t;
     frame.style = style;
     frame.bounds = bounds_;
     frame.inset = inset_;
+    addExact(t, frame);
     std::vector<double> x;
     Drawing drawing;
     for (const Track& track : tracks_) {
@@ -428,7 +451,7 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
         if (layer.hasEnded) frame.notes.push_back(failureNote(track, layer.label));
         stateAt(track, t, x);
         drawing.clear();
-        system_.draw(x.data(), drawing);
+        (track.system ? *track.system : system_).draw(x.data(), drawing);
         const bool isFirst = frame.layers.empty();
         for (const Shape& shape : drawing.shapes) {
             if (!isScenery(shape))

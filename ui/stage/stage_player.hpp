@@ -46,6 +46,7 @@ private:
     /// The rows of one scheme that can be drawn: those before the first value that is not finite.
     struct Track {
         std::shared_ptr<const SchemeResult> result;
+        const System* system = nullptr;  ///< of the scheme, whose mesh may be its own
         std::span<const double> t;
         std::vector<std::span<const double>> state;  ///< one per state column
         std::vector<double> frameTimes;              ///< of fields, whose rows are frames: t is a view of it
@@ -73,6 +74,7 @@ private:
     bool stateBetween(const Track& track, std::size_t row, double t, std::vector<double>& x) const;
     bool isResolved(const Track& track, std::size_t row, const Trace& trace, double& bend) const;
     Point tracer(const std::vector<double>& x, bool isInset) const;
+    void addExact(double t, StageFrame& frame) const;
     void stateAt(const Track& track, double t, std::vector<double>& x) const;
     std::vector<TrailPoint> trail(const Track& track, const Trace& trace, double t) const;
     std::vector<TrailPoint> marks(const Track& track, double t) const;
@@ -83,6 +85,8 @@ private:
     System system_;
     std::vector<Track> tracks_;
     Bounds bounds_, seen_;
+    ExactSolution exact_;  ///< of a field, drawn behind the schemes
+    std::size_t exactWidth_ = 0;
     Trace trace_, insetTrace_{true, 0, 0};
     std::optional<StageInset> inset_;
 };

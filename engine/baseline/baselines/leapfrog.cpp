@@ -1,25 +1,34 @@
-/// Leapfrog for wave functions, psi^{l+1} = psi^{l-1} - (2 i dt/hbar) H psi^l: explicit, stable for |E| dt <=
-/// hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2.
+/// Leapfrog. Of fields, u^{l+1} = 2 u^l - u^{l-1} + dt^2 (c^2 delta_x^2 u^l - W'(u^l)): explicit, stable for
+/// c dt <= dx. Of wave functions, psi^{l+1} = psi^{l-1} - (2 i dt/hbar) H psi^l: explicit, stable for |E| dt
+/// <= hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2.
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/baseline/field_method.hpp"
+#include "engine/family/field/field_step.hpp"
+#include "engine/family/field/step_limit.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
 
 namespace extremal::baselines {
 
 BaselineEntry leapfrog() {
     BaselineEntry e;
-    e.item = {"leapfrog",
-              "leapfrog",
-              "Three levels, explicit: one product with H a step; stable for |E| dt up to ħ.",
-              {},
-              Claims{2, true, true, {"bilinear form"}, false},
-              "a wave function"};
-    e.applies = [](const System& system) { return isWave(system); };
+    e.item = {
+        "leapfrog",
+        "leapfrog",
+        "Explicit: wave functions in three levels, stable for |E| dt up to ħ; fields with the mass at the "
+        "nodes, stable for c dt up to dx.",
+        {},
+        Claims{2, true, true, {"bilinear form"}, false},
+        "a wave function or a field"};
+    e.applies = [](const System& system) { return isWave(system) || isField(system); };
     e.stabilityLimit = 1;
     e.check = [](const SchemeCase& scheme, Findings& findings) {
+        if (isField(scheme.system))
+            return checkFieldStep(*lumpedForm(scheme.system), 2, scheme, "leapfrog", findings);
         checkWaveLimit(1, waveFrequency(scheme.system, 0), scheme.step, scheme.allowsUnstable, findings);
     };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
+        if (isField(system)) return makeExplicitField(lumpedForm(system), options.step);
         if (system.hamiltonian()->isTimeDependent())
             throw InvalidScene("/baseline", "leapfrog needs a potential that does not depend on t", "strang");
         requirePeriodic(system, "/baseline", "leapfrog",

@@ -43,7 +43,8 @@ Properties describeElements(const Discretization& discretization) {
 }
 
 /// The length of an element follows from their number.
-std::optional<ImpliedStep> impliedStep(const Settings& space, const ParameterValue& parameter) {
+std::optional<ImpliedStep> impliedStep(const Settings& space, const Settings&,
+                                       const ParameterValue& parameter) {
     if (const double own = space.number("elements"); own > 0) return ImpliedStep{1 / own, {}, true};
     if (const auto model = parameter("elements")) return ImpliedStep{1 / *model, "1/elements", false};
     return {};

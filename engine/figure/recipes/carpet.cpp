@@ -29,8 +29,27 @@ std::vector<double> marginal(const wave::Grid& grid, const std::vector<double>& 
     return sums;
 }
 
+/// A field at the middles of equal rows, linear between its nodes, which may be anywhere.
+std::vector<double> atRows(const FieldSampling& field, const std::vector<double>& values, double bottom,
+                           double top, int rows) {
+    const std::size_t n = field.x.size();
+    std::vector<double> at;
+    std::size_t j = 0;
+    for (int row = 0; row < rows; ++row) {
+        const double x = bottom + (top - bottom) * (row + 0.5) / rows;
+        while (j + 1 < n && field.x[j + 1] <= x) ++j;
+        const bool isLast = j + 1 == n;  // of a periodic field; else the last node is the end
+        const double right = isLast ? field.x[0] + field.period : field.x[j + 1],
+                     next = isLast ? values[0] : values[j + 1];
+        const double part = right > field.x[j] ? (x - field.x[j]) / (right - field.x[j]) : 0;
+        at.push_back(values[j] + part * (next - values[j]));
+    }
+    return at;
+}
+
 HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, double end) {
     const FieldSampling& field = system.field;
+    const bool isScalar = isField(system);
     const std::vector<Frame>& frames = *framesOf(scheme);
     const bool isUneven = isWave(system) && !system.hamiltonian()->isPeriodic();
     const std::size_t n = isUneven ? interpolatedRows : field.x.size();
@@ -44,6 +63,7 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
     heat.right = end;
     heat.bottom = field.x.front();
     heat.top = field.x.back() + step;
+    if (isScalar) heat.top = field.period > 0 ? heat.bottom + field.period : field.x.back();
     if (isUneven) {
         heat.bottom = system.hamiltonian()->domain().left;
         heat.top = heat.bottom + system.hamiltonian()->domain().length;
@@ -57,13 +77,16 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
                                       [](const Frame& f, double at) { return f.t < at; });
         if (after == frames.end() || (after != frames.begin() && t - (after - 1)->t < after->t - t)) --after;
         const bool isThere = t <= last + seconds / heat.columns;
-        const std::vector<double> made = isUneven ? resampled(to, *after->values)
-                                         : isRectangle
-                                             ? marginal(system.hamiltonian()->grid(), *after->values)
-                                             : std::vector<double>();
+        const std::vector<double> made =
+            isUneven      ? resampled(to, *after->values)
+            : isScalar    ? atRows(field, *after->values, heat.bottom, heat.top, heat.rows)
+            : isRectangle ? marginal(system.hamiltonian()->grid(), *after->values)
+                          : std::vector<double>();
         const std::vector<double>& values = made.empty() ? *after->values : made;
         for (int row = 0; row < heat.rows; ++row) {
-            const auto j = static_cast<std::size_t>((row + 0.5) * static_cast<double>(n) / heat.rows);
+            const auto j = isScalar
+                               ? static_cast<std::size_t>(row)
+                               : static_cast<std::size_t>((row + 0.5) * static_cast<double>(n) / heat.rows);
             const double a = values[j], b = isComplex ? values[n + j] : 0;
             heat.values.push_back(!isThere ? Summary::unknown : isComplex ? std::hypot(a, b) : a);
             if (isComplex) heat.hues.push_back(std::atan2(b, a) / (2 * std::numbers::pi));
@@ -83,10 +106,11 @@ Figure makeCarpet(const FigureContext& context) {
     if (scheme && context.system && context.system->field) {
         const auto& time = context.comparison.scene;
         figure.title = "Carpet of " + scheme->spec.label;
-        figure.add(heatOf(*context.system, *scheme, time.start.value, time.end.value));
+        figure.add(heatOf(systemOf(context, *scheme), *scheme, time.start.value, time.end.value));
         figure.y.range = {figure.heat()->bottom, figure.heat()->top};
         const std::string most = " · at most " + shortNumber(figure.heat()->high);
         if (!figure.heat()->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase" + most;
+        if (isField(*context.system)) figure.subtitle = "u" + most;
         if (!context.system->field.y.empty()) figure.subtitle = "√∫|ψ|² dy" + most;
     } else if (context.system && !context.system->field) {
         figure.message = "The model is no field";

@@ -6,6 +6,7 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
+#include "engine/scene/bind.hpp"
 
 namespace extremal::recipes {
 namespace {
@@ -49,6 +50,23 @@ void addPotential(Figure& figure, const Hamiltonian& h, double height) {
     s.style = 7;
     s.x = h.x();
     for (const double v : V) s.y.push_back(height * (v - *low) / (*high - *low));
+    figure.add(std::move(s));
+}
+
+/// The exact solution of a field at the time of the frames, as a guide for the eye.
+void addExact(Figure& figure, const FigureContext& context, double t) {
+    const Scene& scene = context.comparison.scene;
+    const State start = initialState(scene, *context.system);
+    const ExactSolution exact = exactSolution(scene, *context.system, start);
+    if (!exact) return;
+    Series s;
+    s.label = "exact solution";
+    s.style = 7;
+    s.tone = Tone::pale;
+    s.x = context.system->field.x;
+    std::vector<double> x(start.x.size());
+    exact(t, x);
+    s.y.assign(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(s.x.size()));
     figure.add(std::move(s));
 }
 
@@ -109,7 +127,7 @@ Figure makeProfile(const FigureContext& context) {
     double height = 0;
     for (const auto& scheme : context.comparison.schemes) {
         if (!context.system || !context.system->field || !framesOf(*scheme)) continue;
-        const FieldSampling& field = context.system->field;
+        const FieldSampling& field = systemOf(context, *scheme).field;
         const auto& values = *framesOf(*scheme)->back().values;
         const std::size_t n = field.x.size();
         const bool isUneven = isWave && !context.system->hamiltonian()->isPeriodic();
@@ -132,6 +150,13 @@ Figure makeProfile(const FigureContext& context) {
         if (parts.size() > 1) figure.subtitle += ", Im ψ is pale";
     }
     if (context.system && !context.system->field) figure.message = "The model is no field";
+    if (context.system && isField(*context.system) && !figure.series().empty()) {
+        double t = 0;
+        for (const auto& scheme : context.comparison.schemes)
+            if (framesOf(*scheme)) t = framesOf(*scheme)->back().t;
+        figure.subtitle = "at t = " + shortNumber(t, 4);
+        addExact(figure, context, t);
+    }
     if (isWave && height > 0 && !context.system->field.x.empty())
         addPotential(figure, *context.system->hamiltonian(), height);
     finishFigure(figure, context, "Profile over space");

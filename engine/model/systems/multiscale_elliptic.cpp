@@ -57,7 +57,7 @@ System makeMultiscaleElliptic(const Settings& settings) {
                                                      double* values) {
         values[0] = std::abs(x[0] - reference[0]) / scale;
     };
-    s.start = [](const Settings&) { return std::vector<double>{0, 0}; };
+    s.start = [](const Settings&, double) { return std::vector<double>{0, 0}; };
     s.draw = [](const double*, Drawing&) {};
     s.phaseX = "t";
     s.phaseY = "u";

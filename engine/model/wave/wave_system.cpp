@@ -76,7 +76,7 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     s.draw = [h](const double* values, Drawing& drawing) { drawWave(*h, values, drawing); };
     s.frequency = [h](double t, const double* x) { return frequencyOf(*h, t, x); };
     s.caution = [h](const double* x) { return resolutionCaution(*h, coefficients(x)); };
-    s.start = [h](const Settings& initial) {
+    s.start = [h](const Settings& initial, double) {
         const std::vector<Complex> c =
             wave::makePacket(*initial.find("psi"), "/psi", initial.flag("normalise"), h,
                              {{"hbar", h->hbar()}, {"m", h->mass()}});

@@ -12,11 +12,11 @@ ObservableEntry discrete_energy() {
     e.item = {"discrete-energy",
               "discrete energy",
               "Discrete energy of the step that ended at each row, and its distance from that of the first "
-              "step; of discretizations without a fast frequency.",
+              "step; of discretizations without a fast frequency, and of fields.",
               {},
               {},
-              "coordinates"};
-    e.applies = [](const System& system) { return isMechanical(system); };
+              "coordinates, or a field"};
+    e.applies = [](const System& system) { return isMechanical(system) || isField(system); };
     e.bind = [](const ObserveContext& context) {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         const std::optional<std::size_t> energy = context.quantity("discrete_energy");

@@ -1,0 +1,71 @@
+/// Method of lines for fields: second differences in space (the mass at the nodes), and the classical
+/// Runge-Kutta method of order 4 in time.
+#include <algorithm>
+#include <utility>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/baseline/field_method.hpp"
+#include "engine/family/field/field_step.hpp"
+#include "engine/family/field/step_limit.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+class LinesRk4 final : public FieldMarch {
+public:
+    LinesRk4(std::shared_ptr<const SpatialForm> shape, double step) : FieldMarch(std::move(shape), step) {
+        inverse_ = form().lumpedMass();
+        for (int i = 0; i < form().size(); ++i) {
+            double& m = inverse_[static_cast<std::size_t>(i)];
+            m = form().problem().isFixed(i) ? 0 : 1 / m;
+        }
+        for (auto* v : {&at_, &rate_}) v->resize(2 * n());
+    }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<LinesRk4>(*this); }
+
+private:
+    Outcome step(const double* x, double* next, StepReport& report) override {
+        constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+        std::copy_n(x, 2 * n(), next);
+        for (int stage = 0; stage < 4; ++stage) {
+            for (std::size_t i = 0; i < 2 * n(); ++i)
+                at_[i] = stage == 0 ? x[i] : x[i] + node[stage] * h() * rate_[i];
+            std::copy_n(at_.begin() + static_cast<std::ptrdiff_t>(n()), n(), rate_.begin());
+            double* acceleration = rate_.data() + n();
+            std::fill_n(acceleration, n(), 0.0);
+            form().addForce(at_.data(), 1, acceleration);
+            for (std::size_t i = 0; i < n(); ++i) acceleration[i] *= inverse_[i];
+            for (std::size_t i = 0; i < 2 * n(); ++i) next[i] += weight[stage] * h() * rate_[i];
+        }
+        report.cost.evaluations = 4 * form().evaluations();
+        return Outcome::converged;
+    }
+
+    std::vector<double> inverse_, at_, rate_;
+};
+
+constexpr double limit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
+
+}  // namespace
+
+BaselineEntry method_of_lines_rk4() {
+    BaselineEntry e;
+    e.item = {
+        "method-of-lines-rk4",
+        "method of lines, RK4",
+        "Fields: second differences in space, the classical Runge-Kutta method in time; energy is lost.",
+        {},
+        Claims{4, false, false, {"momentum"}},
+        "a field"};
+    e.applies = isField;
+    e.stabilityLimit = limit;
+    e.check = [](const SchemeCase& scheme, Findings& findings) {
+        checkFieldStep(*lumpedForm(scheme.system), limit, scheme, "method-of-lines-rk4", findings);
+    };
+    e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
+        return std::make_unique<LinesRk4>(lumpedForm(system), options.step);
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

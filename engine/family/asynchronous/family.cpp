@@ -1,0 +1,172 @@
+/// Asynchronous variational integrators: each element of a bar has its own step (Leok 2004, sec. 2.1).
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/asynchronous/bar.hpp"
+#include "engine/family/asynchronous/element_forces.hpp"
+#include "engine/family/family.hpp"
+
+namespace extremal::family {
+namespace {
+
+SpaceEntry asynchronousSpace() {
+    SpaceEntry e;
+    FieldInfo courant = positive("courant", "Courant number", "", 0.5,
+                                 "Step of an element over its critical step, at most 1.");
+    courant.symbol = "C";
+    courant.max = 1;
+    courant.whyLimits = "beyond 1 an element alone is unstable";
+    e.item = {
+        "asynchronous",
+        "asynchronous",
+        "Linear elements with steps of their own, by dyadic levels or real numbers.",
+        {choiceField("levels", "levels", {"dyadic", "real"},
+                     "dyadic: steps are a power of two times the smallest; real: proportional to the size "
+                     "of the element, which resonates."),
+         courant, flagField("balance", true, "No element has more than twice the step of a neighbour.")},
+        {},
+        "an elastic bar"};
+    return e;
+}
+
+bool isReal(const Settings& space) { return space.text("levels") == "real"; }
+
+Levels levelsOf(const FieldProblem& problem, const Settings& space) {
+    return dyadicLevels(problem.mesh, space.number("courant"), problem.speed(), space.flag("balance"));
+}
+
+const std::shared_ptr<const FieldProblem>& problemOf(const System& system) {
+    return std::get<ScalarField>(system.kind).problem;
+}
+
+Properties describeAsynchronous(const Discretization& d) {
+    Properties p;
+    const bool real = isReal(d.space);
+    p.space = "linear elements with steps of their own";
+    p.claims = {2, !real, true, {"momentum"}, !real};
+    p.curveOrder = 2;
+    p.shortName = real ? "real" : "2:1";
+    p.knownAs = std::string("asynchronous, ") + (real                      ? "real steps"
+                                                 : d.space.flag("balance") ? "dyadic 2:1"
+                                                                           : "dyadic");
+    p.stabilityLimit = std::numeric_limits<double>::infinity();
+    if (real)
+        p.caution = "has real-valued steps, which resonate with each other: its energy grows over long times";
+    p.remark = real ? "steps beat with each other; a warning example" : "order 2, steps by powers of two";
+    return p;
+}
+
+/// Of dyadic levels the largest step, after which all elements are at one time; of real steps the same for
+/// comparison.
+std::optional<ImpliedStep> impliedStep(const Settings& space, const Settings& model, const ParameterValue&) {
+    const ModelEntry* entry = findModel(model.type);
+    if (!entry) return {};
+    const System system = entry->make(model);
+    if (!isField(system)) return {};
+    return ImpliedStep{levelsOf(system.fieldProblem(), space).largest(), {}, !isReal(space)};
+}
+
+/// The largest local wave speed at the start, relative to that at rest.
+double stiffening(const FieldProblem& problem, const double* u) {
+    double most = 1;
+    const int n = problem.size();
+    for (int e = 0; e < problem.mesh.elements(); ++e) {
+        const double strain = (u[(e + 1) % n] - u[e]) / problem.mesh.size(e);
+        most = std::max(most, problem.elastic.at(strain).modulus / problem.elastic.k);
+    }
+    return std::sqrt(most);
+}
+
+void checkAsynchronous(const SchemeCase& scheme, Findings& findings) {
+    const double courant = scheme.discretization.space.number("courant"),
+                 most = stiffening(*problemOf(scheme.system), scheme.initial.x.data());
+    if (!scheme.allowsUnstable && courant * most > 1 + 1e-12)
+        findings.error("/space/courant",
+                       formatNumber(courant) +
+                           " is beyond the critical step of an element: the strain at the "
+                           "start makes it stiffer by a factor of " +
+                           formatNumber(most, 3) + " in its frequency",
+                       "at most " + formatNumber(1 / most, 3) + ", or \"allow_unstable\": true");
+}
+
+ElementClocks elementsOf(const System& system, const Discretization& d, double, double duration,
+                         const double* x) {
+    const FieldProblem& problem = *problemOf(system);
+    const Levels levels = levelsOf(problem, d.space);
+    const double C = d.space.number("courant");
+    ElementClocks clocks;
+    const int n = problem.size();
+    for (int e = 0; e < problem.mesh.elements(); ++e) {
+        const double L = problem.mesh.size(e);
+        const auto a = static_cast<std::size_t>(e), b = static_cast<std::size_t>((e + 1) % n);
+        const double h = isReal(d.space) ? C * L / problem.speed() : levels.step(e);
+        clocks.x.push_back(problem.mesh.x[a] + L / 2);
+        clocks.step.push_back(h);
+        clocks.updates.push_back(std::floor(duration / h * (1 + 1e-12) + 0.5));
+        const double va = x[n + e], vb = x[static_cast<std::size_t>(n) + b];
+        clocks.energy.push_back(L * problem.elastic.at((x[b] - x[a]) / L).energy +
+                                L / 2 * (problem.potential(x[a]) + problem.potential(x[b])) +
+                                L / 4 * (va * va + vb * vb));
+    }
+    return clocks;
+}
+
+ChoiceGrid choices(const System&) {
+    ChoiceGrid grid;
+    grid.subtitle = "levels × Courant number";
+    for (const char* C : {"0.2", "0.4", "0.5", "0.8"}) grid.columns.push_back({std::string("C ") + C, {}});
+    for (const char* levels : {"dyadic", "real"}) {
+        grid.rows.push_back({levels, {}});
+        for (const double C : {0.2, 0.4, 0.5, 0.8}) {
+            ChoiceGrid::Cell cell;
+            cell.discretization.space = {
+                "asynchronous", {{"levels", levels}, {"courant", C}, {"balance", true}}, {}};
+            cell.discretization.quadrature = {"auto", {}, {}};
+            cell.id = std::string(levels) + "." + formatNumber(C);
+            cell.text = formatNumber(C);
+            cell.title = describe(cell.discretization).knownAs + ", C = " + formatNumber(C);
+            grid.cells.push_back(std::move(cell));
+        }
+    }
+    return grid;
+}
+
+std::unique_ptr<Integrator> makeAsynchronous(const System& system, const Discretization& d, double step) {
+    const auto& problem = problemOf(system);
+    if (problem->nodes.degree != 1)
+        throw InvalidScene("/space", "asynchronous elements are linear", "elements of degree 1");
+    if (isReal(d.space)) return makeRealStepBar(problem, d.space.number("courant"), step);
+    return makeDyadicBar(problem, levelsOf(*problem, d.space), step);
+}
+
+}  // namespace
+
+Family asynchronous() {
+    Family f;
+    f.item = {"asynchronous", "asynchronous", "Elements with steps of their own.", {}, {}, "an elastic bar"};
+    f.source = "Leok 2004, sec. 2.1";
+    f.spaces = {asynchronousSpace()};
+    f.hasDenseOutput = false;
+    f.applies = [](const System& system) { return isField(system) && system.fieldProblem().isBody; };
+    f.completeRule = [](const Settings&, const Settings&) {
+        return Settings{"auto", {}, {}};  // one node in time for each element
+    };
+    f.describe = describeAsynchronous;
+    f.check = checkAsynchronous;
+    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
+    f.impliedStep = impliedStep;
+    f.elements = elementsOf;
+    f.choices = choices;
+    f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
+    f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
+    f.make = makeAsynchronous;
+    return f;
+}
+
+}  // namespace extremal::family

@@ -1,0 +1,35 @@
+/// What a tent space and a tensor product of rules mean: degrees, the rule of each direction, and how a step
+/// is made. Internal to engine/family/field.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "engine/family/discretization.hpp"
+#include "engine/family/field/time_table.hpp"
+#include "engine/model/field/spatial_form.hpp"
+#include "engine/quadrature/rule.hpp"
+
+namespace extremal {
+
+struct TentDegrees {
+    int space = 1, time = 1;
+};
+/// Of the space's key `degree`: one number for both directions, or one for each.
+TentDegrees tentDegrees(const Settings& space);
+
+/// The settings of a rule in "space" or "time"; one rule is that of both.
+Settings ruleSettingsIn(const Settings& quadrature, const char* direction);
+/// The rule itself; `exact` is Gauss with degree + 1 nodes, exact for the quadratic part of the action.
+Rule<double> ruleIn(const Settings& quadrature, const char* direction, int degree);
+
+/// The integrals over space of a discretization, on the mesh of the problem.
+std::shared_ptr<const SpatialForm> spatialForm(const Discretization& d,
+                                               std::shared_ptr<const FieldProblem> problem);
+TimeTable timeTable(const Discretization& d);
+
+/// 1 - 4 sum_a w_a xi_a (1 - xi_a) of linear functions, and its like: the smallest eigenvalue of the mass of
+/// an element, relative to the largest. 0: the rule does not see the mass of a wave.
+double leastMass(int degree, const Rule<double>& rule);
+
+}  // namespace extremal

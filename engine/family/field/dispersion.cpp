@@ -1,0 +1,79 @@
+#include "engine/family/field/dispersion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "engine/core/dense.hpp"
+#include "engine/integrator/stability.hpp"
+
+namespace extremal {
+
+double spatialEigenvalue(int degree, const Rule<double>& rule, double kdx) {
+    using Matrix = dense::Matrix<double>;
+    const int r = degree, n = r + 1;
+    const LobattoBasis basis(r);
+    Matrix M = Matrix::Zero(n, n), K = Matrix::Zero(n, n);
+    std::vector<double> value(static_cast<std::size_t>(n)), slope(value);
+    for (int q = 0; q < rule.size(); ++q) {
+        basis.at(rule.c[static_cast<std::size_t>(q)], value.data(), slope.data());
+        for (int a = 0; a < n; ++a)
+            for (int b = 0; b < n; ++b) {
+                const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
+                M(a, b) += rule.b[static_cast<std::size_t>(q)] * value[i] * value[j];
+                K(a, b) += rule.b[static_cast<std::size_t>(q)] * slope[i] * slope[j];
+            }
+    }
+    // Bloch waves: the last node is exp(i kdx) times the first. A Hermitian problem of r unknowns as a real
+    // symmetric one of 2 r, each eigenvalue twice.
+    const std::complex<double> turn = std::polar(1.0, kdx);
+    const auto reduced = [&](const Matrix& A) {
+        dense::Matrix<std::complex<double>> B = dense::Matrix<std::complex<double>>::Zero(r, r);
+        for (int a = 0; a < n; ++a)
+            for (int b = 0; b < n; ++b) {
+                const std::complex<double> left = a == r ? std::conj(turn) : 1.0, right = b == r ? turn : 1.0;
+                B(a % r, b % r) += left * A(a, b) * right;
+            }
+        Matrix real(2 * r, 2 * r);
+        real << B.real(), -B.imag(), B.imag(), B.real();
+        return real;
+    };
+    const Matrix massive = reduced(M), stiff = reduced(K);
+    const auto parts = dense::symmetricEigen<double>(massive);
+    if (parts.values(0) < 1e-13 * parts.values(2 * r - 1)) return std::numeric_limits<double>::infinity();
+    const Matrix scale = parts.vectors * parts.values.cwiseSqrt().cwiseInverse().asDiagonal();
+    const auto eigen = dense::symmetricEigen<double>(scale.transpose() * stiff * scale);
+    // Branch b of the mesh belongs to wave numbers from b pi to (b + 1) pi.
+    const int branch = std::clamp(static_cast<int>(kdx / std::numbers::pi), 0, r - 1);
+    return eigen.values(2 * branch);
+}
+
+double halfTrace(const TimeTable& time, double z) {
+    const int s = time.degree();
+    // S = sum_lm A_lm U_l U_m / 2 with h = 1; p = -dS/dU_0, p' = dS/dU_s.
+    dense::Matrix<double> A = dense::Matrix<double>::Zero(s + 1, s + 1);
+    for (int l = 0; l <= s; ++l)
+        for (int m = 0; m <= s; ++m) {
+            A(l, m) = time.mass(l, m);
+            for (int q = 0; q < time.points(); ++q)
+                A(l, m) -= z * z * time.weight(q) * time.value(q, l) * time.value(q, m);
+        }
+    dense::Matrix<double> rhs = dense::Matrix<double>::Zero(s, 2);
+    rhs.col(0) = -A.block(0, 0, s, 1);
+    rhs(0, 1) = -1;
+    const dense::Matrix<double> U = dense::solve<double>(A.block(0, 1, s, s), rhs);
+    const double q = U(s - 1, 0);
+    const double p = A.block(s, 1, 1, s).row(0).dot(U.col(1));
+    return (q + p) / 2;
+}
+
+double timeLimit(const TimeTable& time) {
+    if (time.degree() > 1) return firstInstability([&](double z) { return halfTrace(time, z); });
+    double theta = 0;
+    for (int q = 0; q < time.points(); ++q) theta += time.weight(q) * time.value(q, 0) * time.value(q, 1);
+    return theta < 0.25 - 1e-14 ? 2 / std::sqrt(1 - 4 * theta) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace extremal

@@ -1,0 +1,371 @@
+/// Fields: hat functions and their higher-order likes on a mesh of space and time (Leok 2004, sec. 2.1,
+/// multisymplectic variational integrators).
+#include "engine/family/family.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "engine/action/table.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/field/discretization.hpp"
+#include "engine/family/field/dispersion.hpp"
+#include "engine/family/field/field_step.hpp"
+#include "engine/family/field/mass_matrix.hpp"
+#include "engine/family/field/patch_form.hpp"
+#include "engine/family/field/slab_stepper.hpp"
+#include "engine/family/field/step_limit.hpp"
+#include "engine/family/rule_choices.hpp"
+#include "engine/family/table_properties.hpp"
+#include "engine/model/field/field_system.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/quadrature/tensor.hpp"
+#include "engine/solve/newton_policy.hpp"
+#include "engine/space/polynomial.hpp"
+
+namespace extremal::family {
+namespace {
+
+constexpr int mostTimeDegree = 4;
+
+SpaceEntry tent() {
+    SpaceEntry e;
+    FieldInfo degree =
+        jsonField("degree", "degree", "r, s", Value(1.0),
+                  "Degree of the polynomials on a cell: one number, or {\"space\": r, \"time\": "
+                  "s}; r up to 3, s up to 4.");
+    FieldInfo cells = integerField("cells", "N", 2, 4e6, nullptr,
+                                   "Number of elements in space; default: that of the model.");
+    cells.isOptional = true;
+    e.item = {
+        "tent",
+        "hat functions",
+        "Continuous functions of space and time that are polynomials on each cell of a rectangular mesh.",
+        {degree, cells},
+        {},
+        "a field"};
+    return e;
+}
+
+std::string text(const char* name, int degree) {
+    return degree == 1 ? std::string("linear in ") + name
+                       : "of degree " + std::to_string(degree) + " in " + name;
+}
+
+/// What a rule in one direction promises for polynomials of a degree there.
+Properties inDirection(const Settings& quadrature, const char* direction, int degree) {
+    Settings own = ruleSettingsIn(quadrature, direction);
+    if (own.type == "exact")
+        own = {"gauss", {{"nodes", static_cast<double>(degree + 1)}, {"panels", 1.0}}, {}};
+    if (!isPlainRule(own)) {
+        Properties p;
+        refuseRule(own, p);
+        return p;
+    }
+    return describeTable(
+        [&] {
+            return makeTable<double>(polynomialSpace<double>(degree, PolynomialBasis::lobatto),
+                                     makeRule<double>(own));
+        },
+        own);
+}
+
+/// "trapezoid", "gauss 2": a rule for people.
+std::string ruleName(const Settings& quadrature, const char* direction) {
+    const Settings own = ruleSettingsIn(quadrature, direction);
+    return own.type + (own.find("nodes") ? " " + std::to_string(own.integer("nodes")) : "");
+}
+
+/// The largest c dt/dx on a uniform mesh.
+double courantLimit(int degree, const Rule<double>& space, double limitInTime) {
+    double most = 0;
+    for (int b = 1; b <= degree; ++b)
+        most = std::max(most, spatialEigenvalue(degree, space, b * std::acos(-1.0) * (1 - 1e-15)));
+    for (int i = 0; i <= 64 * degree; ++i)
+        most = std::max(most, spatialEigenvalue(degree, space, i * std::acos(-1.0) / 64));
+    return limitInTime / std::sqrt(most);
+}
+
+Properties describeTent(const Discretization& d) {
+    const TentDegrees degrees = tentDegrees(d.space);
+    Properties p;
+    p.space = text("space", degrees.space) + ", " + text("time", degrees.time);
+    if (degrees.space < 1 || degrees.space > FieldNodes::mostDegree || degrees.time < 1 ||
+        degrees.time > mostTimeDegree) {
+        p.refusal = "degrees go from 1 to " + std::to_string(FieldNodes::mostDegree) + " in space and to " +
+                    std::to_string(mostTimeDegree) + " in time";
+        p.hint = "\"degree\": {\"space\": 1, \"time\": 1}";
+        return p;
+    }
+    const Properties space = inDirection(d.quadrature, "space", degrees.space),
+                     time = inDirection(d.quadrature, "time", degrees.time);
+    for (const auto& [own, where] : {std::pair{&space, " in space"}, std::pair{&time, " in time"}})
+        if (!own->refusal.empty()) {
+            p.refusal = own->refusal + where;
+            p.hint = own->hint;
+            return p;
+        }
+    const Rule<double> rule = ruleIn(d.quadrature, "space", degrees.space);
+    p.claims.order = std::min(space.claims.order, time.claims.order);
+    p.claims.isSymmetric = time.claims.isSymmetric;
+    p.claims.isSymplectic = true;
+    p.claims.conserves = {"multisymplectic form", "momentum"};
+    p.curveOrder = std::min(degrees.space, degrees.time) + 1;
+    p.shortName = "T" + std::to_string(p.claims.order);
+    p.prefix = "Fields ";
+    const TimeTable table = timeTable(d);
+    const double limit = timeLimit(table);
+    p.stabilityLimit = limit;
+    const bool isLumped = rule.size() == degrees.space + 1 && rule.c.front() == 0 && rule.c.back() == 1;
+    p.isExplicit = table.isTrapezoid() && isLumped;
+    const std::string spaceRule = ruleName(d.quadrature, "space"), timeRule = ruleName(d.quadrature, "time");
+    if (degrees.space == 1 && degrees.time == 1) {
+        if (p.isExplicit) p.knownAs = "leapfrog";
+        if (spaceRule == "midpoint" && timeRule == "midpoint") p.knownAs = "Preissman box scheme";
+    }
+    if (std::isinf(limit)) {
+        p.remark = "order " + std::to_string(p.claims.order) + ", stable at every step";
+    } else if (leastMass(degrees.space, rule) == 0) {
+        p.stabilityLimit = 0;
+        p.instability =
+            "the rule " + spaceRule +
+            " in space does not see the mass of the wave that alternates from node to node, whose "
+            "frequency is infinite, and the rule " +
+            timeRule + " in time is stable up to a finite one alone";
+        p.hint = "midpoint in time, or another rule in space";
+        p.remark = "unstable for every step";
+    } else {
+        p.remark = "order " + std::to_string(p.claims.order) + ", stable for c dt/dx up to " +
+                   formatNumber(courantLimit(degrees.space, rule, limit), 3);
+    }
+    if (p.knownAs.empty()) p.knownAs = spaceRule + " × " + timeRule;
+    return p;
+}
+
+/// One rule is that of both directions. By itself, of linear functions the trapezoidal rule in both, which
+/// makes the step explicit; of higher degrees Gauss, with one node more in space, where it then is exact.
+Settings completeTent(const Settings& space, const Settings& quadrature) {
+    const TentDegrees degrees = tentDegrees(space);
+    const bool isAutomatic = quadrature.type.empty() || quadrature.type == "auto";
+    if (!isAutomatic) return completeRule(quadrature, {std::max(degrees.space, degrees.time), 1});
+    const auto part = [](const char* type, double nodes) {
+        Value rule{Value::Object{{"type", type}}};
+        if (nodes > 0) rule.set("nodes", nodes);
+        rule.set("panels", 1.0);
+        return rule;
+    };
+    const bool isExplicit = degrees.time == 1;
+    const Value alongX = degrees.space == 1 && isExplicit ? part("trapezoid", 0)
+                         : isExplicit                     ? part("lobatto", degrees.space + 1)
+                                                          : part("gauss", degrees.space + 1),
+                alongT = isExplicit ? part("trapezoid", 0) : part("gauss", degrees.time);
+    return {"product", {{tensorParts[0], alongX}, {tensorParts[1], alongT}}, {}};
+}
+
+std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
+    const int degree = tentDegrees(space).space, cells = space.integer("cells");
+    if (degree == 1 && (cells == 0 || cells == model.integer("cells"))) return {};
+    Settings own = model;
+    for (auto& [key, value] : own.keys)
+        if (key == "cells" && cells > 0) value = static_cast<double>(cells);
+    own.keys.emplace_back(elementDegreeKey, static_cast<double>(degree));
+    return own;
+}
+
+std::shared_ptr<const FieldProblem> problemFor(const System& system, const Discretization& d) {
+    const auto& problem = std::get<ScalarField>(system.kind).problem;
+    if (problem->nodes.degree != tentDegrees(d.space).space)
+        throw InvalidScene("/space/degree",
+                           "the field has elements of degree " + std::to_string(problem->nodes.degree));
+    return problem;
+}
+
+void checkTent(const SchemeCase& scheme, Findings& findings) {
+    const Discretization& d = scheme.discretization;
+    if (describe(d).stabilityLimit <= 0) return;  // said already
+    checkFieldStep(*spatialForm(d, problemFor(scheme.system, d)), timeLimit(timeTable(d)), scheme,
+                   describe(d).knownAs, findings);
+}
+
+/// A complete rule of one direction, as an object.
+Value completePart(const char* type, int degree, std::optional<int> nodes = {}) {
+    const Settings rule = completeRule({type, {}, {}}, {degree, 1, 1, nodes});
+    Value value{Value::Object{{"type", rule.type}}};
+    for (const auto& [key, v] : rule.keys) value.set(key, v);
+    return value;
+}
+
+ChoiceGrid choices(const System&) {
+    struct Direction {
+        const char* heading;
+        const char* description;
+        int degree;
+        const char* rule;
+        int nodes;
+    };
+    static constexpr Direction rows[] = {{"trap", "linear in space, trapezoidal rule", 1, "trapezoid", 0},
+                                         {"exact", "linear in space, exact", 1, "exact", 0},
+                                         {"mid", "linear in space, midpoint rule", 1, "midpoint", 0},
+                                         {"G 3", "quadratic in space, Gauss 3", 2, "gauss", 3},
+                                         {"G 4", "cubic in space, Gauss 4", 3, "gauss", 4}};
+    static constexpr Direction columns[] = {{"trap", "linear in time, trapezoidal rule", 1, "trapezoid", 0},
+                                            {"exact", "linear in time, exact", 1, "exact", 0},
+                                            {"mid", "linear in time, midpoint rule", 1, "midpoint", 0},
+                                            {"G 2", "quadratic in time, Gauss 2", 2, "gauss", 2},
+                                            {"G 3", "cubic in time, Gauss 3", 3, "gauss", 3}};
+    ChoiceGrid grid;
+    grid.subtitle = "space × time";
+    for (const Direction& c : columns) grid.columns.push_back({c.heading, c.description});
+    for (const Direction& r : rows) {
+        grid.rows.push_back({r.heading, r.description});
+        for (const Direction& c : columns) {
+            ChoiceGrid::Cell cell;
+            const auto partOf = [](const Direction& d) {
+                return completePart(d.rule, d.degree,
+                                    d.nodes > 0 ? std::optional<int>(d.nodes) : std::nullopt);
+            };
+            const Value degree = r.degree == 1 && c.degree == 1
+                                     ? Value(1.0)
+                                     : Value(Value::Object{{"space", r.degree}, {"time", c.degree}});
+            cell.discretization = {
+                {"tent", {{"degree", degree}}, {}},
+                {"product", {{tensorParts[0], partOf(r)}, {tensorParts[1], partOf(c)}}, {}},
+                {}};
+            const Properties known = describe(cell.discretization);
+            cell.id = std::to_string(r.degree) + r.rule + "." + std::to_string(c.degree) + c.rule;
+            cell.text = known.stabilityLimit <= 0 ? "–" : std::isinf(known.stabilityLimit) ? "∞" : "ν";
+            cell.superscript = std::to_string(known.claims.order);
+            cell.title = std::string(r.description) + " × " + c.description;
+            grid.cells.push_back(std::move(cell));
+        }
+    }
+    return grid;
+}
+
+/// Up to r pi waves in an element. Of the branches of arccos the one nearest to the field equation.
+DispersionCurve dispersionOf(const System& system, const Discretization& d, double step) {
+    const auto problem = problemFor(system, d);
+    const int r = problem->nodes.degree;
+    const Rule<double> rule = ruleIn(d.quadrature, "space", r);
+    const TimeTable time = timeTable(d);
+    const double dx = problem->mesh.length() / problem->mesh.elements(), k = problem->elastic.k,
+                 turn = 2 * std::acos(-1.0);
+    const double curvature = problem->potential.isLinear() ? problem->potential.largestCurvature(0, 0) : 0;
+    constexpr int points = 300;
+    DispersionCurve curve;
+    for (int i = 1; i <= points; ++i) {
+        const double kdx = r * turn / 2 * i / points * (1 - 1e-12), K = kdx / dx;
+        const double exact = std::sqrt(k * K * K + curvature), wanted = step * exact;
+        const double z = step * std::sqrt(k * spatialEigenvalue(r, rule, kdx) / (dx * dx) + curvature);
+        const double half = std::isfinite(z) ? halfTrace(time, z) : std::nan("");
+        double best = std::nan("");
+        if (std::abs(half) <= 1 + 1e-12) {
+            const double angle = std::acos(std::clamp(half, -1.0, 1.0)),
+                         turns = turn * std::round(wanted / turn);
+            for (const double candidate : {turns + angle, turns - angle})
+                if (!(std::abs(candidate - wanted) >= std::abs(best - wanted))) best = candidate;
+        }
+        curve.waveNumber.push_back(K);
+        curve.frequency.push_back(best / step);
+        curve.exact.push_back(exact);
+    }
+    return curve;
+}
+
+/// R_0 = 0 of the slab between the two levels, for v.
+State startThrough(const System& system, const Discretization& d, double step, const State& first,
+                   const State& second) {
+    const TimeTable time = timeTable(d);
+    if (time.degree() != 1) return first;
+    const auto form = spatialForm(d, problemFor(system, d));
+    const auto n = static_cast<std::size_t>(form->size());
+    std::vector<double> at(n), force(n, 0);
+    for (int q = 0; q < time.points(); ++q) {
+        for (std::size_t i = 0; i < n; ++i)
+            at[i] = time.value(q, 0) * first.x[i] + time.value(q, 1) * second.x[i];
+        form->addForce(at.data(), step * time.weight(q) * time.value(q, 0), force.data());
+    }
+    MassMatrix(*form).solve(force.data());
+    State state = first;
+    for (std::size_t i = 0; i < n; ++i)
+        state.x[n + i] = system.fieldProblem().isFixed(static_cast<int>(i))
+                             ? 0
+                             : (second.x[i] - first.x[i]) / step - force[i];
+    return state;
+}
+
+std::unique_ptr<Integrator> makeTent(const System& system, const Discretization& d, double step) {
+    const auto problem = problemFor(system, d);
+    const TentDegrees degrees = tentDegrees(d.space);
+    if (d.solver.type == "newton")
+        return makeSlabStepper(problem, degrees.time, ruleIn(d.quadrature, "space", degrees.space),
+                               ruleIn(d.quadrature, "time", degrees.time), step);
+    auto form = spatialForm(d, problem);
+    const TimeTable time = timeTable(d);
+    if (time.isTrapezoid()) return makeExplicitField(std::move(form), step);
+    const double most = d.solver.number("max_iterations");
+    return makeImplicitField(std::move(form), time, step, d.solver.number("tolerance"),
+                             most > 0 ? static_cast<int>(most) : SolverPolicy{}.maxIterations);
+}
+
+/// The patch is the middle half of the elements.
+std::optional<Measure> measure(std::string_view observable, const System& system, const Discretization& d,
+                               double step) {
+    if (observable != "multisymplectic") return {};
+    const auto problem = problemFor(system, d);
+    const int N = problem->mesh.elements();
+    if (N < 8) return {};
+    const TentDegrees degrees = tentDegrees(d.space);
+    const PatchForm patch(problem, degrees.time, ruleIn(d.quadrature, "space", degrees.space),
+                          ruleIn(d.quadrature, "time", degrees.time), step, N / 4, 3 * N / 4, 1);
+    return Measure{"multisymplectic",
+                   {{"multisymplectic", "", "Σ Ω / Σ |Ω|", ""}},
+                   0,
+                   [patch, n = static_cast<std::size_t>(problem->size())](const State& initial) {
+                       return [patch = PatchForm(patch), n, last = initial.t, before = initial.x](
+                                  double t, const double* x, double* values) mutable {
+                           if (t != last) patch.advance(before.data(), x);
+                           values[0] = patch.boundary().relative();
+                           last = t;
+                           before.assign(x, x + 2 * n);
+                       };
+                   }};
+}
+
+}  // namespace
+
+Family field() {
+    Family f;
+    f.item = {"field", "field", "Hat functions on a mesh of space and time.", {}, {}, "a field"};
+    f.source = "Leok 2004, sec. 2.1";
+    f.spaces = {tent()};
+    f.solverMethods = {"banded", "newton"};
+    f.takesTensorRules = true;
+    f.hasDenseOutput = false;
+    f.applies = isField;
+    f.model = modelOf;
+    f.startThrough = startThrough;
+    f.completeRule = completeTent;
+    f.describe = describeTent;
+    f.check = checkTent;
+    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };  // checkTent knows
+    f.slowestStep = [](const System& system) {
+        return 5e-3 * std::max(1.0, system.fieldProblem().size() / 2000.0);
+    };
+    f.choices = choices;
+    f.rules = [](const Settings&) { return plainRules(); };
+    f.isSame = [](const Discretization& a, double, const Discretization& b) {
+        return a.space == b.space && a.quadrature == b.quadrature;
+    };
+    f.dispersion = dispersionOf;
+    f.measure = measure;
+    f.make = makeTent;
+    return f;
+}
+
+}  // namespace extremal::family

@@ -1,0 +1,75 @@
+/// What the integrators of fields share: two buffers, dense output, the discrete energy.
+///
+/// A step writes u and v at the new level into a buffer, which is exchanged with the state: nothing is
+/// copied, and the state is as it was where a step fails. What is not finite is seen by the step itself.
+/// Internal to engine/family/field and the baselines of fields.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/family/field/time_table.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/field/spatial_form.hpp"
+
+namespace extremal {
+
+/// One-step methods for the values of a field.
+class FieldMarch : public Integrator {
+public:
+    FieldMarch(std::shared_ptr<const SpatialForm> form, double step);
+
+    double stepSize() const final { return h_; }
+    void setStep(double h) final;
+    bool checksFinite() const final { return true; }
+    StepReport advance(State& state, double until) final;
+    /// A shorter step from the level before, made on each use.
+    void denseOutput(double tau, std::span<double> x) const final;
+
+protected:
+    /// From level x to level `next`, u then v each. Called after prepare(). What is not finite is found
+    /// afterwards, unless the step says that it looked itself.
+    virtual Outcome step(const double* x, double* next, StepReport& report) = 0;
+    /// Before the first step of a size.
+    virtual void prepare() {}
+
+    const SpatialForm& form() const { return *form_; }
+    std::size_t n() const { return n_; }
+    double h() const { return h_; }
+    void setChecked() { isChecked_ = true; }
+    /// The level before that of the state, after a step.
+    const std::vector<double>& before() const { return other_; }
+
+private:
+    std::shared_ptr<const SpatialForm> form_;
+    std::size_t n_;
+    double h_;
+    bool isPrepared_ = false, isChecked_ = false;
+    std::vector<double> other_;  ///< the next level during a step, the one before after it
+};
+
+/// Schemes that follow from a discrete action. The discrete energy of a slab is -dS/dh of its action S: with
+/// the rules of the scheme
+///     E = sum_q b_q (|u_t|^2_M / 2 + U(u)).
+/// It is computed where a run asks for it.
+class FieldStep : public FieldMarch {
+public:
+    using FieldMarch::FieldMarch;
+    std::span<const Quantity> quantities() const final;
+    void measure(const State& state, double* values) const final {
+        values[0] = slabEnergy(before().data(), state.x.data());
+    }
+
+protected:
+    /// Of the last slab, whose ends are given.
+    virtual double slabEnergy(const double* before, const double* after) const = 0;
+};
+
+/// Explicit in time: the trapezoidal rule in time, degree 1. The mass is inverted where it is not diagonal.
+std::unique_ptr<Integrator> makeExplicitField(std::shared_ptr<const SpatialForm> form, double step);
+
+/// Any degree and rule in time, by Newton's method with a banded Jacobian.
+std::unique_ptr<Integrator> makeImplicitField(std::shared_ptr<const SpatialForm> form, const TimeTable& time,
+                                              double step, double tolerance, int maxIterations);
+
+}  // namespace extremal

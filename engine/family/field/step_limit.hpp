@@ -1,0 +1,17 @@
+/// The largest step of a field on its mesh, checked before a run.
+#pragma once
+
+#include <string>
+
+#include "engine/family/family.hpp"
+#include "engine/model/field/spatial_form.hpp"
+
+namespace extremal {
+
+/// An error for a step with step * sqrt(Lambda) > limit, unless the scheme allows it: Lambda is the largest
+/// eigenvalue of the elements (SpatialForm::largestEigenvalue) at the start. `limit`: largest step *
+/// frequency of the scheme in time; `name` of the scheme, for people.
+void checkFieldStep(const SpatialForm& form, double limit, const SchemeCase& scheme, const std::string& name,
+                    Findings& findings);
+
+}  // namespace extremal

@@ -1,0 +1,158 @@
+#include "engine/model/field/field_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/model/field/profile.hpp"
+#include "engine/model/field/spatial_form.hpp"
+
+namespace extremal {
+namespace {
+
+using Shared = std::shared_ptr<const FieldProblem>;
+
+FieldSampling samplingOf(const Shared& problem) {
+    FieldSampling f;
+    f.x = problem->nodes.x;
+    f.components = {"u", "u_t"};
+    f.period = problem->mesh.isPeriodic() ? problem->mesh.length() : 0;
+    f.sample = [n = 2 * f.x.size()](const double* x, double* values) { std::copy_n(x, n, values); };
+    return f;
+}
+
+ErrorMeasure errorOf(const Shared& problem) {
+    ErrorMeasure m;
+    m.columns = {{"error", "", "‖u - u ref‖", ""}};
+    m.evaluate = [weights = errorWeights(*problem)](const double* x, const double* reference,
+                                                    double* values) {
+        double sum = 0;
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            sum += weights[i] * (x[i] - reference[i]) * (x[i] - reference[i]);
+        values[0] = std::sqrt(sum);
+    };
+    return m;
+}
+
+/// sum_i m_i v_i = integral of u_t, kept where u -> u + constant is a symmetry.
+MomentumMap fieldMomentum(const Shared& problem) {
+    return {"field", "∫u_t", "", [problem](const double* x, const double*) {
+                const double* v = x + problem->size();
+                double sum = 0;
+                for (std::size_t i = 0; i < problem->nodes.weight.size(); ++i)
+                    sum += problem->nodes.weight[i] * v[i];
+                return sum;
+            }};
+}
+
+Measure translationMeasure(const Shared& problem) {
+    return {"translation-momentum",
+            {{"translation_momentum", "", "-∫u_t u_x", ""},
+             {"translation_momentum_error", "", "change of -∫u_t u_x", ""}},
+            1,
+            [problem](const State& initial) {
+                const double start = translationMomentum(*problem, initial.x.data());
+                return [problem, start](double, const double* x, double* values) {
+                    values[0] = translationMomentum(*problem, x);
+                    values[1] = values[0] - start;
+                };
+            }};
+}
+
+/// u over x as a curtain above 0; `unit`: how high 1 stands.
+void drawField(const FieldProblem& problem, double unit, const double* u, Drawing& drawing) {
+    constexpr std::size_t mostPoints = 1000;
+    const double left = problem.mesh.left(), right = left + problem.mesh.length();
+    drawing.tracer = {left + problem.mesh.length() / 2, 0, 0};
+    if (drawing.isTracerOnly) return;
+    drawing.shapes.push_back(Segment{{left, 0, 0}, {right, 0, 0}, 1.2, ShapeRole::scenery});
+    Curtain curtain;
+    const std::vector<double>& x = problem.nodes.x;
+    // Of many nodes the extremes of each group, so that no narrow wave is missed.
+    const std::size_t group = (x.size() + mostPoints - 1) / mostPoints;
+    for (std::size_t first = 0; first < x.size(); first += group) {
+        const std::size_t last = std::min(x.size(), first + group);
+        const auto [low, high] = std::minmax_element(u + first, u + last);
+        const auto add = [&](const double* at) {
+            curtain.top.push_back({x[static_cast<std::size_t>(at - u)], unit * *at, 0});
+        };
+        add(std::min(low, high));
+        if (low != high) add(std::max(low, high));
+    }
+    if (problem.mesh.isPeriodic()) curtain.top.push_back({right, unit * u[0], 0});
+    drawing.shapes.push_back(std::move(curtain));
+}
+
+}  // namespace
+
+std::vector<double> errorWeights(const FieldProblem& problem) {
+    const std::vector<double>& x = problem.nodes.x;
+    const std::size_t n = x.size();
+    if (problem.mesh.isUniform() && problem.nodes.degree == 1)
+        return std::vector<double>(n, problem.mesh.length() / problem.mesh.elements());
+    std::vector<double> weights(n, 0);
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        weights[i] += (x[i + 1] - x[i]) / 2;
+        weights[i + 1] += (x[i + 1] - x[i]) / 2;
+    }
+    if (problem.mesh.isPeriodic()) {
+        const double last = problem.mesh.left() + problem.mesh.length() - x.back();
+        weights.front() += last / 2;
+        weights.back() += last / 2;
+    }
+    return weights;
+}
+
+double translationMomentum(const FieldProblem& problem, const double* x) {
+    const FieldNodes& nodes = problem.nodes;
+    const int width = nodes.degree + 1;
+    const Rule<double> rule = lobatto<double>(width);
+    double value[FieldNodes::mostDegree + 1],
+        slope[(FieldNodes::mostDegree + 1) * (FieldNodes::mostDegree + 1)];
+    for (int q = 0; q < width; ++q)
+        nodes.basis.at(rule.c[static_cast<std::size_t>(q)], value, slope + q * width);
+    const double* v = x + problem.size();
+    double sum = 0;
+    for (int e = 0; e < nodes.elements; ++e)
+        for (int q = 0; q < width; ++q) {
+            double u_x = 0;  // times the size of the element
+            for (int a = 0; a < width; ++a) u_x += slope[q * width + a] * x[nodes.node(e, a)];
+            sum -= rule.b[static_cast<std::size_t>(q)] * v[nodes.node(e, q)] * u_x;
+        }
+    return sum;
+}
+
+System makeFieldSystem(Shared problem, double amplitude) {
+    System s;
+    s.kind = ScalarField{problem};
+    const auto form =
+        std::make_shared<const SpatialForm>(problem, lobatto<double>(problem->nodes.degree + 1));
+    s.energy = [form](double, const double* x) {
+        return form->kineticEnergy(x + form->size()) + form->energy(x);
+    };
+    s.error = errorOf(problem);
+    s.field = samplingOf(problem);
+    s.measures = {translationMeasure(problem)};
+    if (problem->potential.kind() == FieldPotential::Kind::none &&
+        problem->mesh.boundary != Boundary::dirichlet)
+        s.momenta = {fieldMomentum(problem)};
+    s.start = [problem](const Settings& initial, double t) {
+        return fieldState(fieldProfile(initial, *problem, t), *problem, t);
+    };
+    s.exactFrom = [problem](const Settings& initial, const State& start) -> ExactSolution {
+        const FieldProfile profile = fieldProfile(initial, *problem, start.t);
+        if (!profile.isExact) return {};
+        return [problem, profile](double t, std::span<double> x) {
+            const std::size_t n = problem->nodes.x.size();
+            for (std::size_t i = 0; i < n; ++i) profile.at(problem->nodes.x[i], t, &x[i], &x[n + i]);
+        };
+    };
+    s.givesLevels = [problem](const Settings& initial) { return initial.find("exact") != nullptr; };
+    const double unit = 0.25 * problem->mesh.length() / amplitude;
+    s.draw = [problem, unit](const double* values, Drawing& drawing) {
+        drawField(*problem, unit, values, drawing);
+    };
+    return s;
+}
+
+}  // namespace extremal

@@ -1,0 +1,28 @@
+/// What models of fields share: the System of a field problem.
+#pragma once
+
+#include <memory>
+
+#include "engine/model/field/problem.hpp"
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+/// A key of the settings of such a model that no scene has: the degree of the elements, where a scheme has
+/// its own (Family::model).
+inline constexpr const char* elementDegreeKey = "element_degree";
+
+/// Energy, momenta, error, sampling, drawing, start and exact solution of a field. Energy is that of the
+/// values at the nodes, by the Lobatto rule of the nodes of each element: the same for all schemes.
+/// `amplitude`: a usual size of u, which the drawing is scaled by.
+System makeFieldSystem(std::shared_ptr<const FieldProblem> problem, double amplitude);
+
+/// sum_i dx_i e_i^2 uses the whole dx at every node of a uniform mesh, ends included, else half of both
+/// neighbouring distances.
+std::vector<double> errorWeights(const FieldProblem& problem);
+
+/// -integral of u_t u_x: the momentum of translation, by the Lobatto rule of the nodes of each element. Kept
+/// by the field equation of a periodic field, and nearly so by schemes.
+double translationMomentum(const FieldProblem& problem, const double* x);
+
+}  // namespace extremal

@@ -1,0 +1,39 @@
+/// A field u(x, t) over an interval:
+///
+///     L = integral of u_t^2 / 2 - a(x) phi(u_x) - W(u) dx,    u_tt = (a phi'(u_x))_x - W'(u).
+///
+/// The state of a field is x = (u_0 .. u_{n-1}, v_0 .. v_{n-1}): u and u_t at the nodes of its mesh. At a
+/// Dirichlet boundary the values stay as they are and v is 0.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "engine/mesh/mesh.hpp"
+#include "engine/model/field/elasticity.hpp"
+#include "engine/model/field/nodes.hpp"
+#include "engine/model/field/potential.hpp"
+
+namespace extremal {
+
+struct FieldProblem {
+    Mesh mesh;
+    FieldNodes nodes;
+    Elasticity elastic;
+    FieldPotential potential;
+    std::function<double(double x)> coefficient;  ///< a(x); empty: 1
+
+    bool isBody = false;  ///< u displaces the points of a body: elements have a strain of their own
+
+    int size() const { return nodes.size(); }
+    double speed() const { return std::sqrt(elastic.k); }
+    /// Whether the value at a node stays as it is.
+    bool isFixed(int node) const {
+        return mesh.boundary == Boundary::dirichlet && (node == 0 || node == size() - 1);
+    }
+    /// The field equation is linear.
+    bool isLinear() const { return elastic.isLinear() && potential.isLinear(); }
+};
+
+}  // namespace extremal

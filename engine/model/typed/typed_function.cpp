@@ -1,0 +1,80 @@
+#include "engine/model/typed/typed_function.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/typed/symbolic.hpp"
+
+namespace extremal::typed {
+namespace {
+
+/// Names that formulas know and functions of place do not.
+void checkNames(const std::string& text, const Formula& formula) {
+    std::vector<std::string> known = formula.coordinates;
+    for (const auto& [name, value] : formula.parameters) known.push_back(name);
+    known.push_back("pi");
+    const Expression expression = parseExpression(text);
+    for (const Expression::Node& node : expression.nodes) {
+        const bool isName = node.kind == Operator::name,
+                   isVelocity = node.kind == Operator::call && node.name == "dot";
+        if (isVelocity || (isName && std::find(known.begin(), known.end(), node.name) == known.end()))
+            throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position,
+                                  "it may use " + joinNames(known));
+    }
+}
+
+}  // namespace
+
+TypedFunction::TypedFunction(const std::string& text, const std::string& pointer,
+                             std::vector<std::string> variables,
+                             std::vector<std::pair<std::string, double>> parameters)
+    : variables_(static_cast<int>(variables.size())) {
+    Formula formula;
+    formula.coordinates = std::move(variables);
+    formula.parameters = std::move(parameters);
+    formula.text = text;
+    try {
+        checkNames(text, formula);
+        const auto symbolic = differentiate(formula);
+        const int d = variables_;
+        std::vector<int> roots{symbolic->value};
+        roots.insert(roots.end(), symbolic->gradient.begin(), symbolic->gradient.begin() + d);
+        roots.insert(roots.end(), symbolic->hessian.begin(), symbolic->hessian.begin() + d * (d + 1) / 2);
+        Graph graph;
+        const std::vector<int> here =
+            graph.adopt(symbolic->graph, roots, [&](int symbol) -> std::optional<double> {
+                const int k = symbol - formula.firstParameter();
+                if (k < 0) return {};
+                return formula.parameters[static_cast<std::size_t>(k)].second;
+            });
+        value_ = Tape::of(graph, std::vector<int>{here.front()}, d);
+        all_ = Tape::of(graph, here, d);
+    } catch (const ExpressionError& e) {
+        throw InvalidScene(
+            pointer, "the expression " + std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
+    }
+}
+
+void TypedFunction::evaluate(const double* y, double* value, double* gradient, double* hessian) const {
+    const Tape& tape = gradient || hessian ? all_ : value_;
+    constexpr std::size_t most = 192;
+    double small[most];
+    std::vector<double> large;
+    double* registers = small;
+    if (tape.registers() > most) {
+        large.resize(tape.registers());
+        registers = large.data();
+    }
+    std::copy_n(y, variables_, registers);
+    tape.run(registers);
+    const auto d = static_cast<std::size_t>(variables_);
+    *value = tape.output(0, registers);
+    if (gradient)
+        for (std::size_t i = 0; i < d; ++i) gradient[i] = tape.output(1 + i, registers);
+    if (hessian)
+        for (std::size_t i = 0; i < d * (d + 1) / 2; ++i) hessian[i] = tape.output(1 + d + i, registers);
+}
+
+}  // namespace extremal::typed

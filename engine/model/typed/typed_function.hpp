@@ -1,0 +1,37 @@
+/// A typed function of one or more variables with its first and second derivatives.
+///
+/// f(y_0, ..), an expression in the names of its variables and parameters, differentiated symbolically and
+/// flattened to one tape: f, df/dy_i, d2f/dy_i dy_j. Errors are InvalidScene with the pointer given and a
+/// caret below the place.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/model/typed/tape.hpp"
+
+namespace extremal::typed {
+
+class TypedFunction {
+public:
+    TypedFunction(const std::string& text, const std::string& pointer, std::vector<std::string> variables,
+                  std::vector<std::pair<std::string, double>> parameters);
+
+    int variables() const { return variables_; }
+    /// Fills f, then the gradient, then the lower triangle of the Hessian row by row; any of the last two may
+    /// be null.
+    void evaluate(const double* y, double* value, double* gradient, double* hessian) const;
+    double operator()(const double* y) const {
+        double value = 0;
+        evaluate(y, &value, nullptr, nullptr);
+        return value;
+    }
+
+private:
+    int variables_;
+    Tape value_, all_;
+};
+
+}  // namespace extremal::typed

@@ -1,0 +1,19 @@
+/// How fast waves run in each scheme, against the field equation.
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+
+ViewEntry dispersion() {
+    FieldInfo show = choiceField("show", "show", {"frequency", "error"},
+                                 "The frequency, or its relative error, over the wave number.");
+    return {.item = viewItem("dispersion", "Dispersion",
+                             "frequencies of plane waves in each scheme of a field, over their wave number",
+                             {std::move(show)}),
+            .recipe = OwnRecipe{"dispersion"},
+            .scales = {true, false, false, Across::other},
+            .missing = [](const View&, const System& system) {
+                return std::string(isField(system) ? "" : "a field");
+            }};
+}
+
+}  // namespace extremal::views

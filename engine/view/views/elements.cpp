@@ -1,0 +1,30 @@
+/// The steps, updates or energies of the elements of asynchronous schemes over the mesh.
+#include "engine/family/family.hpp"
+#include "engine/view/catalog.hpp"
+
+namespace extremal::views {
+namespace {
+
+bool hasElementClocks(const System& system) {
+    for (const Family& family : families())
+        if (family.elements && family.applies(system)) return true;
+    return false;
+}
+
+}  // namespace
+
+ViewEntry elements() {
+    FieldInfo show = choiceField("show", "show", {"step", "updates", "energy"},
+                                 "The step of each element, how often it acted, or its energy at the end.");
+    return {.item = viewItem("elements", "Elements",
+                             "steps, updates or energies of the elements of asynchronous schemes",
+                             {std::move(show)}),
+            .recipe = OwnRecipe{"elements"},
+            .scales = {true, false, true, Across::place},
+            .products = {Product::elementClocks},
+            .missing = [](const View&, const System& system) {
+                return std::string(hasElementClocks(system) ? "" : "an elastic bar");
+            }};
+}
+
+}  // namespace extremal::views

@@ -1,0 +1,208 @@
+/// Asynchronous schemes on graded and notched bars: energies, counts of updates, momentum, order; and that
+/// real-valued steps resonate.
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/family/family.hpp"
+#include "engine/mesh/levels.hpp"
+#include "engine/model/field/problem.hpp"
+#include "engine/model/system.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::asynchronous_test {
+namespace {
+
+System bar(int cells, const char* grading, double ratio, const char* material,
+           const char* boundary = "dirichlet") {
+    return findModel("elastic-bar")
+        ->make({"elastic-bar",
+                {{"cells", static_cast<double>(cells)},
+                 {"grading", grading},
+                 {"ratio", ratio},
+                 {"notch", 10.0},
+                 {"material", material},
+                 {"boundary", boundary}},
+                {}});
+}
+
+Discretization asynchronous(double courant, const char* levels = "dyadic", bool balance = true) {
+    return {{"asynchronous", {{"levels", levels}, {"courant", courant}, {"balance", balance}}, {}},
+            {"auto", {}, {}},
+            {}};
+}
+
+struct Energies {
+    double largest = 0, drift = 0;  ///< relative; mean of the last tenth less that of the first
+    long long updates = 0;
+};
+
+Energies energiesOf(const System& system, const Discretization& d, double step, double end, const char* u) {
+    const auto integrator = makeIntegrator(system, d, {0, step});
+    State state;
+    state.x = system.start({"", {{"displacement", u}}, {}}, 0);
+    integrator->begin(state);
+    const double start = system.energy(0, state.x.data());
+    const auto steps = static_cast<long long>(end / step + 1e-9), tenth = std::max(1LL, steps / 10);
+    Energies e;
+    for (long long k = 1; k <= steps; ++k) {
+        const StepReport report = integrator->advance(state, static_cast<double>(k) * step);
+        if (report.outcome != Outcome::converged) {
+            e.largest = std::numeric_limits<double>::infinity();
+            return e;
+        }
+        e.updates += report.cost.evaluations;
+        const double change = system.energy(0, state.x.data()) / start - 1;
+        e.largest = std::max(e.largest, std::abs(change));
+        if (k <= tenth) e.drift -= change / static_cast<double>(tenth);
+        if (k > steps - tenth) e.drift += change / static_cast<double>(tenth);
+    }
+    return e;
+}
+
+Levels levelsOf(const System& system, double courant, bool balance = true) {
+    return dyadicLevels(system.fieldProblem().mesh, courant, 1, balance);
+}
+
+constexpr const char* wave = "0.005*sin(pi*X)";
+
+}  // namespace
+
+class AsynchronousTest : public QObject {
+    Q_OBJECT
+private slots:
+    void dyadicLevelsKeepEnergyOverTenMillionUpdates_data() {
+        QTest::addColumn<QString>("material");
+        for (const char* material : {"linear", "fput", "neo-hookean"})
+            QTest::newRow(material) << QString(material);
+    }
+    void dyadicLevelsKeepEnergyOverTenMillionUpdates() {
+        QFETCH(QString, material);
+        const System system = bar(100, "geometric", 50, qPrintable(material));
+        const Levels levels = levelsOf(system, 0.5);
+        const Energies e = energiesOf(system, asynchronous(0.5), levels.largest(), 120, wave);
+        qInfo("%lld updates, at most %.1e, drift %.1e", e.updates, e.largest, e.drift);
+        QVERIFY(e.updates > 10'000'000);
+        QVERIFY(e.largest < 2e-2);          // 3.1e-3
+        QVERIFY(std::abs(e.drift) < 1e-3);  // 8e-8 linear, 1.5e-4 others
+        // Against all elements with the step of the smallest: 2.85 times fewer.
+        const double synchronous = 100 / levels.smallest * 120;
+        QVERIFY(synchronous > 2.8 * static_cast<double>(e.updates));
+    }
+    void realStepsResonate() {
+        const System system = bar(100, "geometric", 50, "fput");
+        const Energies e = energiesOf(system, asynchronous(0.5, "real"), 0.05, 100, wave);
+        QVERIFY2(e.drift > 0.4, qPrintable(QString::number(e.drift)));  // 0.50 in the mean, 0.69 at most
+    }
+    void aNotchIsCheap() {
+        const System system = bar(200, "notch", 1000, "linear");
+        const Levels levels = levelsOf(system, 0.5);
+        double updates = 0, unbalanced = 0;
+        for (int e = 0; e < 200; ++e) {
+            updates += 1 / levels.step(e);
+            unbalanced += 1 / levelsOf(system, 0.5, false).step(e);
+        }
+        QVERIFY(200 / levels.smallest / updates > 15);     // 16.2
+        QVERIFY(200 / levels.smallest / unbalanced > 19);  // 19.3
+        const Energies e = energiesOf(system, asynchronous(0.5), levels.largest(), 0.5, wave);
+        QVERIFY(e.largest < 1e-4);  // 8e-6
+    }
+    void neighboursDifferByAFactorOfTwoAtMost() {
+        for (const char* grading : {"geometric", "notch"})
+            for (const double ratio : {3.0, 50.0, 700.0}) {
+                const System system = bar(60, grading, ratio, "linear");
+                const Mesh& mesh = system.fieldProblem().mesh;
+                const Levels levels = levelsOf(system, 0.4);
+                for (int e = 0; e < 60; ++e) {
+                    QVERIFY(levels.step(e) <= 0.4 * mesh.size(e) * (1 + 1e-9));
+                    if (e > 0)
+                        QVERIFY(std::abs(levels.level[static_cast<std::size_t>(e)] -
+                                         levels.level[static_cast<std::size_t>(e) - 1]) <= 1);
+                }
+            }
+    }
+    void aFreeBarKeepsItsMomentum() {
+        for (const char* kind : {"dyadic", "real"}) {
+            const System system = bar(100, "geometric", 50, "fput", "neumann");
+            const double step = std::string(kind) == "real" ? 0.05 : levelsOf(system, 0.5).largest();
+            const auto integrator = makeIntegrator(system, asynchronous(0.5, kind), {0, step});
+            State state;
+            state.x = system.start({"", {{"displacement", wave}, {"velocity", "0.25 + 0.01*X"}}, {}}, 0);
+            const MomentumMap& map = system.momenta.at(0);
+            const double before = map.value(state.x.data(), state.x.data());
+            for (int k = 0; k < 200; ++k) QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
+            const double change = map.value(state.x.data(), state.x.data()) - before;
+            QVERIFY2(std::abs(change) < 1e-13, qPrintable(QString::number(change)));  // 2e-15
+        }
+    }
+    void dyadicStepsAreSymmetricAndOfOrderTwo() {
+        const System system = bar(40, "geometric", 10, "fput");
+        const Levels levels = levelsOf(system, 0.5);
+        State start;
+        start.x = system.start({"", {{"displacement", "0.05*sin(pi*X)"}}, {}}, 0);
+        const auto after = [&](double step, int steps, State state) {
+            const auto integrator = makeIntegrator(system, asynchronous(0.5), {state.t, step});
+            state.node = 0;
+            for (int k = 0; k < steps; ++k) (void)advance(*integrator, state);
+            return state;
+        };
+        const double h = levels.largest();
+        const State there = after(h, 20, start), back = after(-h, 20, there);
+        double away = 0;
+        for (std::size_t i = 0; i < start.x.size(); ++i)
+            away = std::max(away, std::abs(back.x[i] - start.x[i]));
+        QVERIFY(away < 1e-14);
+        // Against steps of a sixteenth, with the same ratios.
+        const State exact = after(h / 16, 320, start);
+        std::vector<double> errors;
+        for (const int parts : {1, 2}) {
+            const State coarse = after(h / parts, 20 * parts, start);
+            double error = 0;
+            for (std::size_t i = 0; i < start.x.size() / 2; ++i)
+                error = std::max(error, std::abs(coarse.x[i] - exact.x[i]));
+            errors.push_back(error);
+        }
+        const double order = std::log2(errors[0] / errors[1]);
+        QVERIFY2(std::abs(order - 2) < 0.2, qPrintable(QString::number(order)));
+    }
+    void clocksCountWhatHappens() {
+        const System system = bar(60, "geometric", 20, "linear");
+        for (const char* kind : {"dyadic", "real"}) {
+            const Discretization d = asynchronous(0.5, kind);
+            const double step = levelsOf(system, 0.5).largest();
+            const auto integrator = makeIntegrator(system, d, {0, step});
+            State state;
+            state.x = system.start({"", {{"displacement", wave}}, {}}, 0);
+            long long updates = 0;
+            for (int k = 1; k <= 50; ++k) updates += integrator->advance(state, k * step).cost.evaluations;
+            const ElementClocks clocks =
+                familyOf(d.space)->elements(system, d, step, 50 * step, state.x.data());
+            double sum = 0, energy = 0;
+            for (const double n : clocks.updates) sum += n;
+            for (const double e : clocks.energy) energy += e;
+            QCOMPARE(sum, static_cast<double>(updates));
+            QVERIFY(std::abs(energy / system.energy(0, state.x.data()) - 1) < 1e-12);
+        }
+    }
+    void aRealRunResumesFromItsState() {
+        const System system = bar(30, "geometric", 7, "fput");
+        const auto one = makeIntegrator(system, asynchronous(0.5, "real"), {0, 0.013}), two = one->clone();
+        State state;
+        state.x = system.start({"", {{"displacement", wave}}, {}}, 0);
+        one->begin(state);
+        for (int k = 0; k < 5; ++k) QVERIFY(advance(*one, state).outcome == Outcome::converged);
+        State copy = state;
+        for (int k = 0; k < 5; ++k) {
+            QVERIFY(advance(*one, state).outcome == Outcome::converged);
+            QVERIFY(advance(*two, copy).outcome == Outcome::converged);
+        }
+        QVERIFY(state.x == copy.x && state.memory == copy.memory);
+    }
+};
+
+EXTREMAL_TEST(AsynchronousTest)
+
+}  // namespace extremal::asynchronous_test
+
+#include "asynchronous_test.moc"
