@@ -21,7 +21,7 @@
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/system.hpp"
 #include "engine/space/catalog.hpp"
-#include "engine/trajectory/element_clocks.hpp"
+#include "engine/core/element_clocks.hpp"
 
 namespace extremal {
 

@@ -13,7 +13,7 @@
 #include "engine/run/parameter_map.hpp"
 #include "engine/run/step_records.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/trajectory/element_clocks.hpp"
+#include "engine/core/element_clocks.hpp"
 #include "engine/trajectory/frames.hpp"
 #include "engine/trajectory/trajectory.hpp"
 #include "engine/view/catalog.hpp"

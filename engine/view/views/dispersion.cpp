@@ -1,7 +1,14 @@
 /// How fast waves run in each scheme, against the field equation.
+#include "engine/model/field/problem.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal::views {
+namespace {
+
+/// On a mesh of equal elements.
+bool hasWaves(const System& system) { return isField(system) && !system.fieldProblem().isBody; }
+
+}  // namespace
 
 ViewEntry dispersion() {
     FieldInfo show = choiceField("show", "show", {"frequency", "error"},
@@ -12,7 +19,7 @@ ViewEntry dispersion() {
             .recipe = OwnRecipe{"dispersion"},
             .scales = {true, false, false, Across::other},
             .missing = [](const View&, const System& system) {
-                return std::string(isField(system) ? "" : "a field");
+                return std::string(hasWaves(system) ? "" : "a field");
             }};
 }
 
