@@ -42,10 +42,10 @@ std::vector<double> tolerances() {
     return all;
 }
 
-bool hasStepOfItsSpace(const ResolvedScheme& scheme) {
+bool hasStepOfItsSpace(const ResolvedScheme& scheme, const Settings& model) {
     if (!scheme.family || !scheme.family->impliedStep) return false;
     const auto anyValue = [](std::string_view) { return std::optional(1.0); };
-    const auto implied = scheme.family->impliedStep(scheme.discretization.space, anyValue);
+    const auto implied = scheme.family->impliedStep(scheme.discretization.space, model, anyValue);
     return implied && implied->isOfSpace;
 }
 
@@ -55,7 +55,7 @@ std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,
                              const ResolvedScheme& scheme) {
     const bool isGiven = !spec.steps.empty() || spec.points > 0 || spec.from != 0 || spec.to != 0;
     std::vector<double> all;
-    if (hasStepOfItsSpace(scheme)) {
+    if (hasStepOfItsSpace(scheme, scene.scene.model)) {
         all = {scheme.spec.step.value};
     } else if (scheme.isAdaptive()) {
         all = tolerances();
