@@ -42,8 +42,8 @@ private:
 class PointRun {
 public:
     PointRun(const ResolvedScene& scene, const StudyPoint& point, const std::stop_token& stop)
-        : scene_(scene),
-          scheme_(schemeAt(scene, point)),
+        : scheme_(schemeAt(scene, point)),
+          system_(*systemOf(scene, scheme_)),
           step_(point.step),
           start_(schemeStart(scene, scheme_, step_)),
           grid_(marchGrid(scene.scene, scheme_, step_)),
@@ -51,10 +51,10 @@ public:
 
     PointResult measure(const Metric& metric, ExactSolution reference) {
         PointResult result;
-        const auto integrator = scheme_.make(*scene_.system, step_, start_);
+        const auto integrator = scheme_.make(system_, step_, start_);
         const bool isKnown = !metric.observable->needsReference || reference;
-        Measured measured(metric.observable->bind({*scene_.system, start_, std::move(reference),
-                                                   scheme_.plain(), step_, integrator->quantities()}),
+        Measured measured(metric.observable->bind({system_, start_, std::move(reference), scheme_.plain(),
+                                                   step_, integrator->quantities()}),
                           metric.isAtEnd);
         const auto see = [&](const Stretch& stretch) {
             if (isKnown) measured.see(stretch.nodes);
@@ -88,7 +88,7 @@ public:
         for (int i = 0; i < repeat && all < longest && !stop_.stop_requested(); ++i) {
             double sum = 0;
             for (int k = 0; k < together && !stop_.stop_requested(); ++k) {
-                const auto integrator = scheme_.make(*scene_.system, step_, start_);
+                const auto integrator = scheme_.make(system_, step_, start_);
                 State state = start_;
                 sum += march(*integrator, state, grid_, {}, stop_).cpuSeconds;
             }
@@ -112,8 +112,8 @@ private:
         return scheme;
     }
 
-    const ResolvedScene& scene_;
     ResolvedScheme scheme_;
+    const System& system_;
     double step_;
     State start_;
     MarchGrid grid_;

@@ -6,7 +6,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/march.hpp"
-#include "engine/scene/bind.hpp"
+#include "engine/run/march_grid.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/overrides.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -79,8 +79,9 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
     const ResolvedScheme& scheme = scene.schemes.front();
     const double step = scheme.spec.step.value;
     const State start = schemeStart(scene, scheme, step);
-    const auto integrator = scheme.make(*scene.system, step, start);
-    const EnergyFunction energy = energyOf(*scene.system);
+    const System& system = *systemOf(scene, scheme);
+    const auto integrator = scheme.make(system, step, start);
+    const EnergyFunction energy = energyOf(system);
     const std::size_t size = start.x.size();
     const double first = energy ? energy(start.t, start.x.data()) : 0, norm = sizeOf(start.x.data(), size);
     EnergyLine line;
@@ -96,11 +97,7 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
         return !isLarge;
     }};
     State state = start;
-    MarchGrid grid;
-    grid.clock = {start.t, step};
-    if (!scheme.isAdaptive()) grid.steps = stepCount(scene.scene.start.value, scene.scene.end.value, step);
-    grid.end = scene.scene.end.value;
-    grid.budget = std::max(grid.steps, static_cast<long long>(std::min(scene.scene.maxSteps, 1e9)));
+    const MarchGrid grid = marchGrid(scene.scene, scheme, step);
     const MarchReport report = march(*integrator, state, grid, {&look, 1}, stop);
     StabilityResult r;
     if (report.outcome == Outcome::stopped) return r;

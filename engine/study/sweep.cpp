@@ -97,6 +97,11 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         if (onReference) onReference(reference_);
     }
     const auto referenceOf = [&](const StudyPoint& point) {
+        if (const ResolvedScheme& own = scene_.schemes[point.scheme]; own.ownSystem) {
+            const Reference ofMesh =
+                referenceFor({reference_, [&] { return reference.at(point.row); }}, scene_, own);
+            return ofMesh.make ? ofMesh.make() : ExactSolution{};
+        }
         return point.step == 0 && scheme.make ? scheme.make() : reference.at(point.row);
     };
     std::mutex mutex;
