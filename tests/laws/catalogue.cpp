@@ -185,6 +185,8 @@ const Ground grounds[] = {
      "schrodinger-gauss-1", 0.002},
     {R"({"extremal":1,"model":{"type":"multiscale-elliptic","a":"10/(1+0.95*sin(2*pi*s)) ","epsilon":0.025,"f":"x^2","elements":50})",
      "elliptic-linear", 0.02},
+    {R"({"extremal":1,"model":{"type":"field","potential":"sine-gordon","domain":[-20,20],"boundary":"periodic","cells":41},"initial":{"profile":"breather","omega":0.9},"time":{"end":2})",
+     "multisymplectic-1", 0.05},
 };
 
 }  // namespace
