@@ -1,5 +1,5 @@
-/// The reference of runs with several steps (a column of a map, a study): computed once, at the nodes of every
-/// step, and then looked up by every scheme. An exact solution is asked directly.
+/// The reference of runs with several steps (a column of a map, a study): computed once, at the nodes of
+/// every step, and then looked up by every scheme. An exact solution is asked directly.
 ///
 /// A scheme as the reference runs once for every step h of the grid, with h/n, n the least that is not above
 /// its own step: its nodes are then those of the run. (Between its nodes a variational scheme is worse than

@@ -69,8 +69,7 @@ public:
 
 private:
     using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, ElementClocks, KktPattern,
-                               ActionDefect,
-                               ParameterMaps>;
+                               ActionDefect, ParameterMaps>;
     std::vector<Value> all_;
 };
 
