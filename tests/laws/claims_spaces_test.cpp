@@ -8,8 +8,11 @@ namespace extremal::laws::claims_spaces_test {
 
 class ClaimsSpacesTest : public QObject {
     Q_OBJECT
-    const ClaimSuite suite_{SubjectKind::coordinates,
-                            [](const CatalogueScheme& c) { return c.group == Group::space; }};
+    // Moving times are measured under their names and in laws.moving_times: every rule with every policy
+    // would take longer than all other spaces together.
+    const ClaimSuite suite_{SubjectKind::coordinates, [](const CatalogueScheme& c) {
+                                return c.group == Group::space && c.scheme.grid != TimeGrid::free;
+                            }};
 
 private slots:
     void everyClaimHolds_data() {
