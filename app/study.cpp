@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <fstream>
-#include <memory>
-#include <mutex>
 #include <sstream>
 #include <thread>
 
 #include "app/load.hpp"
-#include "app/progress.hpp"
 #include "app/report.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
+#include "app/watch_run.hpp"
 #include "engine/core/text.hpp"
 #include "engine/figure/study_figure.hpp"
 #include "engine/run/export.hpp"
@@ -104,11 +102,10 @@ StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyOptions& study
     return {scene, options};
 }
 
-template <class Work>
-void writeResults(const StudyEntry& study, const Work& work, const std::filesystem::path& folder,
-                  bool isPlotted) {
-    for (const StudyTable& table : tablesOf(study, work))
-        writeFile(folder / (table.name + ".csv"), csvText(table));
+template <class Study>
+void writeResults(const StudyEntry& study, const Study& work, const std::vector<StudyTable>& tables,
+                  const std::filesystem::path& folder, bool isPlotted) {
+    for (const StudyTable& table : tables) writeFile(folder / (table.name + ".csv"), csvText(table));
     const Figure figure = studyFigure(study.item.id, work);
     if (!isPlotted || figure.view.empty()) return;
     qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
@@ -149,11 +146,11 @@ std::string tableText(const StudyTable& summary) {
 }
 
 /// Whether a wanted error was reached; if none did, says which scheme came nearest.
-bool isReached(const StudyEntry& study, const Sweep& sweep) {
+bool isReached(const StudyEntry& study, const Sweep& sweep, const StudyTable& table) {
     if (study.over != StudyEntry::Over::wantedError) return true;
     const auto isDone = [](const SweepRow& row) { return row.result.isDone(); };
     if (std::any_of(sweep.rows().begin(), sweep.rows().end(), isDone)) return true;
-    const Value rows = rowsValue(tablesOf(study, sweep).front());
+    const Value rows = rowsValue(table);
     std::string nearest = "no scheme ran to the end";
     if (!rows.asArray().empty() && rows.asArray().front().find("error")->isNumber())
         nearest = rows.asArray().front().find("label")->asString() + ", " +
@@ -162,14 +159,16 @@ bool isReached(const StudyEntry& study, const Sweep& sweep) {
                  "the nearest: " + nearest);
     return false;
 }
-bool isReached(const StudyEntry&, const StabilityStudy&) { return true; }
+bool isReached(const StudyEntry&, const StabilityStudy&, const StudyTable&) { return true; }
 
-template <class Work>
-int report(const StudyEntry& study, const Work& work, const std::string& folder, bool isInterrupted,
+/// The files, and what the terminal shows.
+template <class Study>
+int report(const StudyEntry& study, const Study& work, const StudyOptions& given, bool isInterrupted,
            const CommonOptions& options) {
-    const int code = isInterrupted ? interrupted : isReached(study, work) ? done : failed;
+    const std::vector<StudyTable> tables = tablesOf(study, work);
+    writeResults(study, work, tables, given.out, given.isPlotted);
+    const int code = isInterrupted ? interrupted : isReached(study, work, tables.front()) ? done : failed;
     if (options.isJson) {
-        const std::vector<StudyTable> tables = tablesOf(study, work);
         Value document;
         document.set("study", study.item.id);
         document.set("rows", rowsValue(tables.front()));
@@ -179,41 +178,34 @@ int report(const StudyEntry& study, const Work& work, const std::string& folder,
     }
     if (isInterrupted) printProblem("", "interrupted: the results are partial", "--resume goes on");
     if (options.isQuiet) return code;
-    return print(tableText(summaryOf(study, work)) + "\n" + study.item.id + ".csv in " + folder + "\n", code);
+    return print(tableText(summaryOf(study, work)) + "\n" + study.item.id + ".csv in " + given.out + "\n",
+                 code);
 }
 
-/// Runs what is not known on another thread and waits; Ctrl-C stops it, and a second one ends the program.
-/// True: it was interrupted.
-template <class Work>
-bool waitFor(Work& work, StudyLog& log, InterruptWatch& watch, const CommonOptions& options) {
-    ProgressLine progress(!options.isQuiet);
+/// Runs what is not known on another thread and waits. True: it was interrupted.
+template <class Study>
+bool runAndWait(Study& study, StudyLog& log, InterruptWatch& watch, const CommonOptions& options) {
     std::atomic<bool> isFinished{false};
     std::exception_ptr failure;
     std::jthread worker([&](const std::stop_token& stop) {
         try {
             runLines(
-                work, [&](const std::string& line) { log.append(line); }, stop);
+                study, [&](const std::string& line) { log.append(line); }, stop);
         } catch (...) {
             failure = std::current_exception();
         }
         isFinished = true;
     });
-    bool isInterrupted = false;
-    for (int pause = 1; !isFinished; pause = std::min(2 * pause, 30)) {
-        if (watch.wait(pause)) {
-            if (isInterrupted) std::_Exit(interrupted);
-            isInterrupted = true;
-            worker.request_stop();
-        }
-        progress.show(work.fraction(), isInterrupted ? "stopping" : "studying");
-    }
+    const Work work{[&] { return isFinished.load(); }, [&] { return study.fraction(); },
+                    [] { return std::string("studying"); }, [&] { worker.request_stop(); }};
+    const bool isInterrupted = waitFor(work, watch, options);
     worker.join();
     if (failure) std::rethrow_exception(failure);
     return isInterrupted;
 }
 
-template <class Work>
-int guarded(const std::string& file, Work&& work) {
+template <class Function>
+int guarded(const std::string& file, Function&& work) {
     try {
         return work();
     } catch (const InvalidScene& e) {
@@ -250,8 +242,8 @@ std::filesystem::path onlyLogIn(const std::string& folder) {
     return logs.front();
 }
 
-template <class Work>
-int runStudy(const StudyEntry& study, Work work, const ReadScene& read, const StudyOptions& options,
+template <class Study>
+int runStudy(const StudyEntry& study, Study work, const ReadScene& read, const StudyOptions& options,
              const CommonOptions& common) {
     InterruptWatch watch;
     prepareFolder(options.out);
@@ -261,14 +253,13 @@ int runStudy(const StudyEntry& study, Work work, const ReadScene& read, const St
     std::vector<std::string> known;
     StudyLog log = options.isResumed ? StudyLog::resume(file, head, known) : StudyLog::begin(file, head);
     for (const std::string& line : known) (void)takeLine(line, work);
-    const bool isInterrupted = waitFor(work, log, watch, common);
-    writeResults(study, work, options.out, options.isPlotted);
-    return report(study, work, options.out, isInterrupted, common);
+    const bool isInterrupted = runAndWait(work, log, watch, common);
+    return report(study, work, options, isInterrupted, common);
 }
 
 /// `heads`: the first lines of the logs, all alike.
-template <class Work>
-int mergeLogs(const StudyEntry& study, Work work, const ReadScene& read, const StudyOptions& options,
+template <class Study>
+int mergeLogs(const StudyEntry& study, Study work, const ReadScene& read, const StudyOptions& options,
               const CommonOptions& common) {
     std::vector<int> owners(work.size(), -1);
     for (std::size_t f = 0; f < options.folders.size(); ++f)
@@ -292,8 +283,7 @@ int mergeLogs(const StudyEntry& study, Work work, const ReadScene& read, const S
             "every shard, each run to its end");
     prepareFolder(options.out);
     writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));
-    writeResults(study, work, options.out, options.isPlotted);
-    return report(study, work, options.out, false, common);
+    return report(study, work, options, false, common);
 }
 
 }  // namespace

@@ -9,17 +9,24 @@
 
 namespace extremal::app {
 
-bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
+bool waitFor(const Work& work, InterruptWatch& watch, const CommonOptions& options) {
     ProgressLine progress(!options.isQuiet);
     bool isInterrupted = false;
-    for (int pause = 1; !run.isFinished(); pause = std::min(2 * pause, 30)) {
+    for (int pause = 1; !work.isFinished(); pause = std::min(2 * pause, 30)) {
         if (watch.wait(pause)) {
             if (isInterrupted) std::_Exit(interrupted);
             isInterrupted = true;
-            run.stop();
+            work.stop();
         }
-        progress.show(run.fraction(), isInterrupted ? "stopping" : "running");
+        progress.show(work.fraction(), isInterrupted ? "stopping" : work.doing());
     }
+    return isInterrupted;
+}
+
+bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
+    const Work work{[&] { return run.isFinished(); }, [&] { return run.fraction(); },
+                    [] { return std::string("running"); }, [&] { run.stop(); }};
+    const bool isInterrupted = waitFor(work, watch, options);
     run.wait();
     return isInterrupted;
 }

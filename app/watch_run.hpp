@@ -1,11 +1,25 @@
-/// Waiting for a run on the command line: progress, Ctrl-C, and what became of it.
+/// Waiting for a run, or a study, on the command line: progress, Ctrl-C, and what became of it.
 #pragma once
+
+#include <functional>
+#include <string>
 
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "engine/run/run.hpp"
 
 namespace extremal::app {
+
+/// Work on another thread.
+struct Work {
+    std::function<bool()> isFinished;
+    std::function<double()> fraction;
+    std::function<std::string()> doing;  ///< what the line of progress says
+    std::function<void()> stop;          ///< returns at once
+};
+/// Waits until the work is finished; a first Ctrl-C stops it, a second one ends the program. True: it was
+/// interrupted.
+bool waitFor(const Work& work, InterruptWatch& watch, const CommonOptions& options);
 
 /// Waits for the run; a first Ctrl-C stops it and keeps what is done, a second one ends the program. True: it
 /// was interrupted, and the results are partial.

@@ -6,6 +6,7 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
+#include "engine/run/error_floor.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/convergence.hpp"
 #include "engine/study/pareto.hpp"
@@ -27,8 +28,7 @@ Figure startOf(const Sweep& sweep, const char* view, const char* title) {
     figure.view = view;
     figure.title = title;
     figure.y = logAxis(errorTitle(sweep));
-    const double own = sweep.reference().estimatedError;
-    if (std::isfinite(own) && own > 0) figure.add(DoubtfulBand{10 * own});
+    if (const double floor = referenceFloor(sweep.reference()); floor > 0) figure.add(DoubtfulBand{floor});
     return figure;
 }
 
@@ -87,9 +87,10 @@ void addOrderGuides(Figure& figure) {
 Figure convergenceFigure(const Sweep& sweep) {
     Figure figure = startOf(sweep, "convergence", "Error against step");
     figure.x = logAxis(axisTitle("step h", sweep.scene().system->timeUnit));
-    double scale = 0;
-    for (const double v : sweep.scene().initial.x) scale = std::max(scale, std::abs(v));
+    const std::vector<OrderFit> fits = fitOrders(sweep);
+    auto next = fits.begin();
     for (const SchemeRows& scheme : bySchemes(sweep)) {
+        const OrderFit& fit = *next++;
         Series s = curveOf(sweep, scheme);
         for (const auto& [point, result] : scheme.rows)
             if (point.step > 0 && result.isDone()) {
@@ -97,7 +98,6 @@ Figure convergenceFigure(const Sweep& sweep) {
                 s.y.push_back(result.error);
             }
         if (s.x.empty()) continue;
-        const OrderFit fit = fitOrder(scheme.rows, floorOf(sweep.reference()), scale);
         if (fit.isKnown()) s.label += ": " + shortNumber(fit.order, 3);
         figure.add(std::move(s));
     }

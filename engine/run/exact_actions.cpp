@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "engine/core/line_fit.hpp"
 #include "engine/family/family.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/solve/discrete_lagrangian.hpp"
@@ -44,17 +46,12 @@ void fit(ActionDefect& result) {
         most = std::max(most, slope);
     }
     if (most - least > 0.15 * most) return;
-    double mx = 0, my = 0, sxx = 0, sxy = 0;
+    std::vector<double> x, y;
     for (int i = result.fitFrom; i < result.fitTo; ++i) {
-        mx += std::log(result.h[at(i)]) / points;
-        my += std::log(result.defect[at(i)]) / points;
+        x.push_back(std::log(result.h[at(i)]));
+        y.push_back(std::log(result.defect[at(i)]));
     }
-    for (int i = result.fitFrom; i < result.fitTo; ++i) {
-        const double x = std::log(result.h[at(i)]) - mx;
-        sxx += x * x;
-        sxy += x * (std::log(result.defect[at(i)]) - my);
-    }
-    result.order = sxy / sxx;
+    result.order = lineThrough(x, y).slope;
 }
 
 }  // namespace

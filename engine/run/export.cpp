@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "engine/core/known_value.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/file_batch.hpp"
 #include "engine/scene/bind.hpp"
@@ -40,16 +41,6 @@ void writeRows(const Trajectory& trajectory, Sink&& sink) {
         }
     }
     sink(block);
-}
-
-Value knownNumber(double x) {
-    if (std::isfinite(x)) return x;
-    return nullptr;
-}
-
-Value knownText(std::string_view text) {
-    if (text.empty()) return nullptr;
-    return std::string(text);
 }
 
 /// The row of summary.csv as keys and values; null is an empty cell.

@@ -7,8 +7,18 @@
 #include <unistd.h>
 
 #include "engine/run/export.hpp"
+#include "engine/run/write_all.hpp"
 
 namespace extremal {
+
+void writeAll(int descriptor, std::string_view text, const std::filesystem::path& file) {
+    for (std::size_t done = 0; done < text.size();) {
+        const ssize_t n = ::write(descriptor, text.data() + done, text.size() - done);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) throw ExportError(file, std::strerror(errno));
+        done += static_cast<std::size_t>(n);
+    }
+}
 
 std::filesystem::path FileBatch::temporary(const std::string& name) const {
     return folder_ / ("." + name + "." + std::to_string(::getpid()) + ".tmp");
@@ -27,14 +37,7 @@ void FileBatch::open(const std::string& name) {
     names_.push_back(name);
 }
 
-void FileBatch::append(const std::string& text) {
-    for (std::size_t done = 0; done < text.size();) {
-        const ssize_t n = ::write(descriptor_, text.data() + done, text.size() - done);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) throw ExportError(folder_ / names_.back(), std::strerror(errno));
-        done += static_cast<std::size_t>(n);
-    }
-}
+void FileBatch::append(const std::string& text) { writeAll(descriptor_, text, folder_ / names_.back()); }
 
 void FileBatch::close() {
     // Some file systems tell only now that they are full.

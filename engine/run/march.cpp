@@ -1,18 +1,12 @@
 #include "engine/run/march.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <limits>
 
+#include "engine/core/thread_clock.hpp"
+
 namespace extremal {
 namespace {
-
-double threadSeconds() {
-    timespec ts{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &ts);
-    return static_cast<double>(ts.tv_sec) + 1e-9 * static_cast<double>(ts.tv_nsec);
-}
 
 /// One march on its way.
 class March {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <stop_token>
 #include <thread>
 #include <vector>
 
+#include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/equations.hpp"
@@ -37,8 +39,7 @@ struct Run::Impl {
     Impl(ResolvedScene r, const RunOptions& options)
         : resolved(std::move(r)), plan(scene, system), maps(resolved.scene) {
         for (const Product product : options.products) plan.add(product);
-        const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-        threads = options.threads > 0 ? options.threads : cores;
+        threads = options.threads;
         for (std::size_t i = 0; i < scene.schemes.size(); ++i)
             if (scene.schemes[i].isEnabled) {
                 const bool isKnown = i < options.known.size() && options.known[i];
@@ -84,18 +85,12 @@ struct Run::Impl {
             reference = ref.info;
         }
         const std::shared_ptr<ExactActions> exact = needsSchemes ? exactActionsOf(resolved, plan) : nullptr;
-        std::atomic<std::size_t> next{0};
-        const std::size_t all = tasks.size() + maps.tasks();
-        auto takeTasks = [&] {
-            for (std::size_t i = next++; i < all; i = next++)
-                i < tasks.size() ? tasks[i]->run(ref, exact.get(), stop) : maps.run(i - tasks.size(), stop);
-        };
-        {
-            std::vector<std::jthread> pool;
-            const auto helpers = std::min<std::size_t>(threads, all);
-            for (std::size_t i = 1; i < helpers; ++i) pool.emplace_back(takeTasks);
-            takeTasks();
-        }
+        std::vector<std::size_t> all(tasks.size() + maps.tasks());
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        // A task that has not begun when a stop is requested still reports that it was stopped.
+        forEachInPool(all, threads, {}, [&](std::size_t i) {
+            i < tasks.size() ? tasks[i]->run(ref, exact.get(), stop) : maps.run(i - tasks.size(), stop);
+        });
         isFinished = true;
         isFinished.notify_all();
     }

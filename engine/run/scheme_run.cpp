@@ -6,11 +6,13 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/line_fit.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/advice.hpp"
 #include "engine/run/equations.hpp"
+#include "engine/run/error_floor.hpp"
 #include "engine/run/inside_step.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/run/reuse.hpp"
@@ -19,26 +21,6 @@
 
 namespace extremal {
 namespace {
-
-/// Least-squares slope of y over x; NaN values are left out.
-double slope(const std::vector<double>& x, const std::vector<double>& y) {
-    double n = 0, mx = 0, my = 0, sxx = 0, sxy = 0;
-    for (std::size_t i = 0; i < x.size(); ++i)
-        if (std::isfinite(y[i])) {
-            n += 1;
-            mx += x[i];
-            my += y[i];
-        }
-    if (n < 2) return Summary::unknown;
-    mx /= n;
-    my /= n;
-    for (std::size_t i = 0; i < x.size(); ++i)
-        if (std::isfinite(y[i])) {
-            sxx += (x[i] - mx) * (x[i] - mx);
-            sxy += (x[i] - mx) * (y[i] - my);
-        }
-    return sxx > 0 ? sxy / sxx : Summary::unknown;
-}
 
 /// Every m-th value from the first, and the last.
 std::vector<double> thinned(const std::vector<double>& values, std::size_t m) {
@@ -278,7 +260,7 @@ struct SchemeRun::Recording {
             }
         }
         const Column* energy = result.trajectory.find("energy_error");
-        if (energy) s.energyDrift = slope(result.trajectory.columns[0].values, energy->values);
+        if (energy) s.energyDrift = lineThrough(result.trajectory.columns[0].values, energy->values).slope;
     }
 
     /// Integrates to the end or the first trouble; `publish` is called between blocks.
@@ -437,9 +419,7 @@ void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::st
 /// mean step of each run. Points at the floor of the reference or of round-off are left out.
 void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference,
                              const std::stop_token& stop) const {
-    const State& initial = initialOf(resolved_, scheme_);
-    double scale = 0;
-    for (const double v : initial.x) scale = std::max(scale, std::abs(v));
+    const double scale = largestEntry(initialOf(resolved_, scheme_));
     std::vector<double> x, y;
     for (const double divisor : {1.0, 2.0, 4.0}) {
         const double step = spec_.step.value / divisor;
@@ -447,15 +427,14 @@ void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference,
         Recording p(resolved_, scheme_, own, reference, {"error"}, step, 1LL << 60, 0, stop);
         p.run([] {});
         const double error = p.result.summary.maxError;
-        // Round-off accumulates along the run: in the worst case, for growing errors, by every step.
-        const double floor = std::max(2.2e-15 * scale * static_cast<double>(p.result.summary.steps),
-                                      10 * reference.info.estimatedError);
+        const double floor =
+            std::max(roundOffFloor(scale, p.result.summary.steps), referenceFloor(reference.info));
         if (p.result.summary.status != RunStatus::done || !(error > floor)) break;
         const double mean = (p.result.summary.tEnd - own.t) / static_cast<double>(p.result.summary.steps);
         x.push_back(std::log(scheme_.isFixed() ? step : mean));
         y.push_back(std::log(error));
     }
-    if (x.size() >= 2) result.summary.orderMeasured = slope(x, y);
+    if (x.size() >= 2) result.summary.orderMeasured = lineThrough(x, y).slope;
 }
 
 }  // namespace extremal

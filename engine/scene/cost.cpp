@@ -1,20 +1,9 @@
 #include "engine/scene/cost.hpp"
 
-#include <ctime>
-
+#include "engine/core/thread_clock.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
-namespace {
-
-double threadSeconds() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-}  // namespace
-
 double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     constexpr double budget = 3e-3;
     constexpr int largestBlock = 1024;

@@ -1,7 +1,6 @@
 #include "engine/study/catalog.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/core/text.hpp"
 #include "engine/run/export.hpp"
@@ -57,20 +56,5 @@ Value rowsValue(const StudyTable& table) {
     }
     return all;
 }
-
-std::vector<SchemeRows> bySchemes(const Sweep& sweep) {
-    std::vector<SchemeRows> all;
-    const std::vector<SweepRow>& rows = sweep.rows();
-    for (std::size_t first = 0; first < rows.size();) {
-        std::size_t last = first;
-        while (last < rows.size() && rows[last].point.scheme == rows[first].point.scheme) ++last;
-        all.push_back({rows[first].point.scheme, std::span(rows).subspan(first, last - first)});
-        first = last;
-    }
-    return all;
-}
-
-Value knownNumber(double value) { return std::isfinite(value) ? Value(value) : Value(nullptr); }
-Value knownText(std::string_view text) { return text.empty() ? Value(nullptr) : Value(std::string(text)); }
 
 }  // namespace extremal

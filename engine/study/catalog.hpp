@@ -47,16 +47,4 @@ StudyTable summaryOf(const StudyEntry& study, const StabilityStudy& stability);
 std::string csvText(const StudyTable& table);
 Value rowsValue(const StudyTable& table);
 
-/// The rows of a sweep that belong to one scheme, for each scheme that has any.
-struct SchemeRows {
-    std::size_t scheme = 0;
-    std::span<const SweepRow> rows;
-};
-std::vector<SchemeRows> bySchemes(const Sweep& sweep);
-
-/// null where it is not finite.
-Value knownNumber(double value);
-/// null where it is empty.
-Value knownText(std::string_view text);
-
 }  // namespace extremal

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "engine/study/sweep.hpp"
 
@@ -28,11 +29,7 @@ struct OrderFit {
 /// round-off of a state of size `scale`, do not count.
 OrderFit fitOrder(std::span<const SweepRow> rows, double floor, double scale);
 
-/// Ten times the reference's error; 0 where it is not known.
-double floorOf(const ReferenceInfo& reference);
-
-/// Largest error that round-off explains after so many steps, for a state of this size: worst case, for
-/// errors that grow, every step adds its own.
-double roundOffOf(double scale, long long steps);
+/// Of every scheme of a sweep, in the order of bySchemes().
+std::vector<OrderFit> fitOrders(const Sweep& sweep);
 
 }  // namespace extremal

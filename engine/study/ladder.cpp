@@ -8,6 +8,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/study/values_between.hpp"
 
 namespace extremal {
 namespace {
@@ -19,13 +20,6 @@ void requirePositive(double value, const char* option) {
         throw InvalidScene(option, "must be positive and finite, got " + formatNumber(value));
 }
 
-std::vector<double> equalRatios(double from, double to, int count) {
-    std::vector<double> all;
-    for (int i = 0; i < count; ++i)
-        all.push_back(count == 1 ? from : from * std::pow(to / from, static_cast<double>(i) / (count - 1)));
-    return all;
-}
-
 std::vector<double> wanted(const LadderSpec& spec) {
     for (const double step : spec.steps) requirePositive(step, "--steps");
     if (!spec.steps.empty()) return spec.steps;
@@ -33,7 +27,7 @@ std::vector<double> wanted(const LadderSpec& spec) {
     requirePositive(spec.to, "--to");
     if (spec.points < 1 || spec.points > 1000)
         throw InvalidScene("--points", "must be 1 to 1000, got " + std::to_string(spec.points));
-    return equalRatios(spec.from, spec.to, spec.points);
+    return valuesBetween(spec.from, spec.to, spec.points, true);
 }
 
 std::vector<double> tolerances() {
@@ -62,7 +56,8 @@ std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,
     } else {
         const double length = scene.scene.end.value - scene.scene.start.value;
         const double own = scheme.spec.step.value;
-        const std::vector<double> steps = isGiven ? wanted(spec) : equalRatios(8 * own, own / 128, 11);
+        const std::vector<double> steps =
+            isGiven ? wanted(spec) : valuesBetween(8 * own, own / 128, 11, true);
         for (const double step : steps) {
             const double n = std::max(1.0, std::round(length / step));
             const bool isInside = n >= fewestSteps && n <= std::max(mostSteps, length / own * (1 + 1e-9));

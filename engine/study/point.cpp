@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -39,19 +40,26 @@ private:
     std::vector<double> values_;
 };
 
+ResolvedScheme withStep(ResolvedScheme scheme, double step, double tolerance) {
+    if (step > 0) scheme.spec.step = {step, {}};
+    if (tolerance > 0) scheme.spec.tolerance = tolerance;
+    return scheme;
+}
+
 class PointRun {
 public:
     PointRun(const ResolvedScene& scene, const StudyPoint& point, const std::stop_token& stop)
-        : scheme_(schemeAt(scene, point)),
+        : scheme_(withStep(scene.schemes[point.scheme], point.step, point.tolerance)),
           system_(*systemOf(scene, scheme_)),
           step_(point.step),
           start_(schemeStart(scene, scheme_, step_)),
           grid_(marchGrid(scene.scene, scheme_, step_)),
+          integrator_(scheme_.make(system_, step_, start_)),
           stop_(stop) {}
 
     PointResult measure(const Metric& metric, ExactSolution reference) {
         PointResult result;
-        const auto integrator = scheme_.make(system_, step_, start_);
+        const auto integrator = integrator_->clone();
         const bool isKnown = !metric.observable->needsReference || reference;
         Measured measured(metric.observable->bind({system_, start_, std::move(reference), scheme_.plain(),
                                                    step_, integrator->quantities()}),
@@ -88,7 +96,7 @@ public:
         for (int i = 0; i < repeat && all < longest && !stop_.stop_requested(); ++i) {
             double sum = 0;
             for (int k = 0; k < together && !stop_.stop_requested(); ++k) {
-                const auto integrator = scheme_.make(system_, step_, start_);
+                const auto integrator = integrator_->clone();
                 State state = start_;
                 sum += march(*integrator, state, grid_, {}, stop_).cpuSeconds;
             }
@@ -103,24 +111,20 @@ public:
     }
 
 private:
-    static ResolvedScheme schemeAt(const ResolvedScene& scene, const StudyPoint& point) {
-        ResolvedScheme scheme = scene.schemes[point.scheme];
-        if (point.step > 0)
-            scheme.spec.step = {point.step, {}};
-        else
-            scheme.spec.tolerance = point.tolerance;
-        return scheme;
-    }
-
     ResolvedScheme scheme_;
     const System& system_;
     double step_;
     State start_;
     MarchGrid grid_;
+    std::unique_ptr<Integrator> integrator_;  ///< as it is before a run: each run has a copy
     std::stop_token stop_;
 };
 
 }  // namespace
+
+ResolvedScheme schemeAt(const ResolvedScene& scene, std::size_t scheme, const PointResult& result) {
+    return withStep(scene.schemes[scheme], result.step, result.tolerance);
+}
 
 PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const Metric& metric,
                      ExactSolution reference, int repeat, const std::stop_token& stop) {

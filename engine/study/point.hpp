@@ -35,12 +35,16 @@ struct PointResult {
     double step = 0, tolerance = 0;  ///< where it was measured: of the point, or what a search found
     long long steps = 0;
     Cost cost = {};
-    double cpuSeconds = unknown;  ///< median
-    double cpuSpread = unknown;   ///< half the distance between the fastest and the slowest repetition
-    std::string reason;           ///< of a refused point, in words; not exported
+    double cpuSeconds = unknown;        ///< median
+    double predictedSeconds = unknown;  ///< of a search: what a trial of a few steps says of the run
+    double cpuSpread = unknown;         ///< half the distance between the fastest and the slowest repetition
+    std::string reason;                 ///< of a refused point, in words; not exported
 
     bool isDone() const { return status == RunStatus::done; }
 };
+
+/// The scheme of the scene with the step or tolerance of a result.
+ResolvedScheme schemeAt(const ResolvedScene& scene, std::size_t scheme, const PointResult& result);
 
 /// Runs it. `reference`: empty where the metric needs none or there is none. `repeat`: timed runs, 0 for
 /// none. Status `partial` where it was stopped.

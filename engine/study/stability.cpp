@@ -10,6 +10,7 @@
 #include "engine/scene/codec.hpp"
 #include "engine/scene/overrides.hpp"
 #include "engine/scene/two_positions.hpp"
+#include "engine/study/values_between.hpp"
 
 namespace extremal {
 namespace {
@@ -143,16 +144,7 @@ std::string_view name(StabilityClass c) {
     return "";
 }
 
-std::vector<double> VariedNumber::values() const {
-    std::vector<double> all;
-    for (int i = 0; i < count; ++i) {
-        const double part = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
-        all.push_back(i + 1 == count && count > 1 ? to
-                      : isLog                     ? from * std::pow(to / from, part)
-                                                  : from + (to - from) * part);
-    }
-    return all;
-}
+std::vector<double> VariedNumber::values() const { return valuesBetween(from, to, count, isLog); }
 
 VariedNumber parseAxis(const std::string& text, const std::string& option) {
     const std::size_t equals = text.find('=');

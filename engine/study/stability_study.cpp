@@ -4,14 +4,12 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
-#include <thread>
 
+#include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/study/cells.hpp"
-#include "engine/study/pool.hpp"
 #include "engine/study/study_log.hpp"
 
 namespace extremal {
@@ -114,12 +112,7 @@ StabilityOptions stabilityOptionsOf(const Value& value) {
 }
 
 std::string headOf(const std::string& study, const StabilityStudy& stability) {
-    Value head;
-    head.set("extremal", 1);
-    head.set("study", study);
-    head.set("options", optionsValue(stability.options()));
-    head.set("scene", fingerprint(writeScene(stability.scene().scene)));
-    return writeCompactJson(head);
+    return headOf(study, optionsValue(stability.options()), stability.scene().scene);
 }
 
 std::optional<std::size_t> takeLine(const std::string& line, StabilityStudy& stability) {

@@ -12,6 +12,9 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/run/export.hpp"
+#include "engine/run/write_all.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
 
 namespace extremal {
 namespace {
@@ -34,6 +37,15 @@ std::string fingerprint(const std::string& text) {
     boost::crc_optimal<64, 0x42f0e1eba9ea3693ULL, ~0ULL, ~0ULL, true, true> crc;
     crc.process_bytes(text.data(), text.size());
     return hex(crc.checksum(), 16);
+}
+
+std::string headOf(const std::string& study, const Value& options, const Scene& scene) {
+    Value head;
+    head.set("extremal", 1);
+    head.set("study", study);
+    head.set("options", options);
+    head.set("scene", fingerprint(writeScene(scene)));
+    return writeCompactJson(head);
 }
 
 std::vector<std::string> linesOf(const std::filesystem::path& log) {
@@ -80,20 +92,13 @@ StudyLog StudyLog::resume(const std::filesystem::path& file, const std::string& 
     std::ifstream in(file, std::ios::binary | std::ios::ate);
     if (in.tellg() > 0) {
         in.seekg(-1, std::ios::end);
-        if (in.get() != '\n' && ::write(log.descriptor_, "\n", 1) != 1)
-            throw ExportError(file, std::strerror(errno));
+        if (in.get() != '\n') writeAll(log.descriptor_, "\n", file);
     }
     return log;
 }
 
 void StudyLog::append(const std::string& text) {
-    const std::string line = text + ' ' + checksum(text) + '\n';
-    for (std::size_t done = 0; done < line.size();) {
-        const ssize_t n = ::write(descriptor_, line.data() + done, line.size() - done);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) throw ExportError(file_, std::strerror(errno));
-        done += static_cast<std::size_t>(n);
-    }
+    writeAll(descriptor_, text + ' ' + checksum(text) + '\n', file_);
 }
 
 }  // namespace extremal

@@ -11,10 +11,16 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/value.hpp"
+#include "engine/scene/scene.hpp"
+
 namespace extremal {
 
 /// Of the text of a scene: equal ones are the same study.
 std::string fingerprint(const std::string& text);
+
+/// The first line of a log, without its checksum.
+std::string headOf(const std::string& study, const Value& options, const Scene& scene);
 
 /// The lines of a log whose checksums are right, without these.
 std::vector<std::string> linesOf(const std::filesystem::path& log);

@@ -5,15 +5,22 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <thread>
 
+#include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/map_reference.hpp"
-#include "engine/study/pool.hpp"
+#include "engine/scene/cost.hpp"
 #include "engine/study/search.hpp"
 
 namespace extremal {
+
+namespace {
+
+/// Of a reference that is asked itself.
+constexpr std::size_t noRow = std::numeric_limits<std::size_t>::max();
+
+}  // namespace
 
 struct Sweep::Counters {
     std::atomic<std::size_t> done{0}, wanted{0};
@@ -55,22 +62,42 @@ Sweep::Sweep(ResolvedScene scene, SweepOptions options)
     if (isSearch && !(std::isfinite(options_.wantedError) && options_.wantedError > 0))
         throw InvalidScene("--error",
                            "must be positive and finite, got " + formatNumber(options_.wantedError));
-    for (const std::size_t i : chosenSchemes(scene_.scene, options_.only))
-        for (const double value : isSearch ? std::vector{scene_.schemes[i].spec.step.value}
-                                           : ladderOf(options_.ladder, scene_, scene_.schemes[i])) {
-            StudyPoint point;
-            point.scheme = i;
-            if (scene_.schemes[i].isAdaptive()) {
-                point.tolerance = isSearch ? scene_.schemes[i].spec.tolerance.value_or(1e-6) : value;
-                point.row = std::numeric_limits<std::size_t>::max();  // no table has its nodes
-            } else {
-                point.step = value;
-                const auto known = isSearch ? steps_.end() : std::find(steps_.begin(), steps_.end(), value);
-                point.row = static_cast<std::size_t>(known - steps_.begin());
-                if (!isSearch && known == steps_.end()) steps_.push_back(value);
-            }
-            rows_.push_back({point, {}});
+    for (const std::size_t scheme : chosenSchemes(scene_.scene, options_.only))
+        if (isSearch)
+            addOwnPoint(scheme);
+        else
+            addLadder(scheme);
+}
+
+/// Where a search begins. No table of the reference has the nodes that it will ask for.
+void Sweep::addOwnPoint(std::size_t scheme) {
+    const ResolvedScheme& own = scene_.schemes[scheme];
+    StudyPoint point;
+    point.scheme = scheme;
+    if (own.isAdaptive())
+        point.tolerance = own.spec.tolerance.value_or(1e-6);
+    else
+        point.step = own.spec.step.value;
+    point.row = noRow;
+    rows_.push_back({point, {}});
+}
+
+void Sweep::addLadder(std::size_t scheme) {
+    const ResolvedScheme& own = scene_.schemes[scheme];
+    for (const double value : ladderOf(options_.ladder, scene_, own)) {
+        StudyPoint point;
+        point.scheme = scheme;
+        if (own.isAdaptive()) {
+            point.tolerance = value;
+            point.row = noRow;
+        } else {
+            point.step = value;
+            const auto known = std::find(steps_.begin(), steps_.end(), value);
+            point.row = static_cast<std::size_t>(known - steps_.begin());
+            if (known == steps_.end()) steps_.push_back(value);
         }
+        rows_.push_back({point, {}});
+    }
 }
 
 bool Sweep::isComplete() const {
@@ -114,6 +141,8 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
                                  ? searchPoint(scene_, point, options_.wantedError, options_.repeat, run)
                                  : run(point, options_.repeat);
         if (result.status == RunStatus::partial) return;
+        if (options_.wantedError > 0 && result.isDone())
+            result.predictedSeconds = predictSeconds(scene_, schemeAt(scene_, point.scheme, result));
         const std::lock_guard lock(mutex);
         rows_[i].result = std::move(result);
         if (onPoint) onPoint(i, rows_[i].result);
@@ -124,6 +153,18 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
 double Sweep::fraction() const {
     const std::size_t wanted = counters_->wanted;
     return wanted > 0 ? static_cast<double>(counters_->done) / static_cast<double>(wanted) : 0;
+}
+
+std::vector<SchemeRows> bySchemes(const Sweep& sweep) {
+    std::vector<SchemeRows> all;
+    const std::vector<SweepRow>& rows = sweep.rows();
+    for (std::size_t first = 0; first < rows.size();) {
+        std::size_t last = first;
+        while (last < rows.size() && rows[last].point.scheme == rows[first].point.scheme) ++last;
+        all.push_back({rows[first].point.scheme, std::span(rows).subspan(first, last - first)});
+        first = last;
+    }
+    return all;
 }
 
 }  // namespace extremal

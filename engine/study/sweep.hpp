@@ -8,7 +8,7 @@
 
 #include <functional>
 #include <memory>
-#include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -85,6 +85,9 @@ public:
 
 private:
     struct Counters;
+    void addOwnPoint(std::size_t scheme);
+    void addLadder(std::size_t scheme);
+
     ResolvedScene scene_;
     SweepOptions options_;
     Metric metric_;
@@ -93,5 +96,12 @@ private:
     ReferenceInfo reference_;
     std::shared_ptr<Counters> counters_;
 };
+
+/// The rows of a sweep that belong to one scheme, for each scheme that has any.
+struct SchemeRows {
+    std::size_t scheme = 0;
+    std::span<const SweepRow> rows;
+};
+std::vector<SchemeRows> bySchemes(const Sweep& sweep);
 
 }  // namespace extremal

@@ -2,8 +2,6 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
-#include "engine/scene/codec.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/study/cells.hpp"
 #include "engine/study/study_log.hpp"
 
@@ -19,12 +17,13 @@ std::string pointLine(std::size_t index, const PointResult& r) {
     for (const long long value :
          {r.steps, r.cost.iterations, r.cost.evaluations, r.cost.linearSolves, r.cost.rejected})
         line += ',' + std::to_string(value);
-    for (const double value : {r.cpuSeconds, r.cpuSpread, r.step, r.tolerance}) line += ',' + cellOf(value);
+    for (const double value : {r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance})
+        line += ',' + cellOf(value);
     return line;
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 15) return {};
+    if (cells.size() != 16) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -34,13 +33,14 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.cost = {count(cells[7]), count(cells[8]), count(cells[9]), count(cells[10])};
     r.cpuSeconds = cellNumber(cells[11]);
     r.cpuSpread = cellNumber(cells[12]);
-    r.step = cellNumber(cells[13]);
-    r.tolerance = cellNumber(cells[14]);
+    r.predictedSeconds = cellNumber(cells[13]);
+    r.step = cellNumber(cells[14]);
+    r.tolerance = cellNumber(cells[15]);
     return r;
 }
 
 bool isSameButForTimes(PointResult a, PointResult b) {
-    for (PointResult* r : {&a, &b}) r->cpuSeconds = r->cpuSpread = PointResult::unknown;
+    for (PointResult* r : {&a, &b}) r->cpuSeconds = r->cpuSpread = r->predictedSeconds = PointResult::unknown;
     return pointLine(0, a) == pointLine(0, b);
 }
 
@@ -80,12 +80,7 @@ SweepOptions optionsOf(const Value& value) {
 }
 
 std::string headOf(const std::string& study, const Sweep& sweep) {
-    Value head;
-    head.set("extremal", 1);
-    head.set("study", study);
-    head.set("options", optionsValue(sweep.options()));
-    head.set("scene", fingerprint(writeScene(sweep.scene().scene)));
-    return writeCompactJson(head);
+    return headOf(study, optionsValue(sweep.options()), sweep.scene().scene);
 }
 
 std::optional<std::size_t> takeLine(const std::string& line, Sweep& sweep) {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/known_value.hpp"
 #include "engine/core/text.hpp"
-#include "engine/scene/cost.hpp"
 #include "engine/study/catalog.hpp"
 
 namespace extremal::studies {
@@ -22,13 +22,6 @@ std::vector<const SweepRow*> ranked(const Sweep& sweep) {
         return a->result.isDone() ? cost(*a) < cost(*b) : a->result.error < b->result.error;
     });
     return all;
-}
-
-ResolvedScheme schemeAt(const Sweep& sweep, const SweepRow& row) {
-    ResolvedScheme scheme = sweep.scene().schemes[row.point.scheme];
-    if (row.result.step > 0) scheme.spec.step = {row.result.step, {}};
-    if (row.result.tolerance > 0) scheme.spec.tolerance = row.result.tolerance;
-    return scheme;
 }
 
 /// What the wanted error needs of the scheme.
@@ -61,14 +54,11 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
     int rank = 0;
     for (const SweepRow* row : ranked(sweep)) {
         const PointResult& r = row->result;
-        const ResolvedScheme scheme = schemeAt(sweep, *row);
-        const double predicted = r.isDone() ? predictSeconds(sweep.scene(), scheme) : 0;
-        all.push_back({r.isDone() ? Value(++rank) : Value(nullptr), scheme.spec.label,
-                       r.step > 0 ? Value(r.step) : Value(nullptr),
-                       predicted > 0 ? Value(predicted) : Value(nullptr), knownNumber(r.cpuSeconds),
+        all.push_back({r.isDone() ? Value(++rank) : Value(nullptr),
+                       sweep.scene().scene.schemes[row->point.scheme].label, positiveNumber(r.step),
+                       positiveNumber(r.predictedSeconds), knownNumber(r.cpuSeconds),
                        static_cast<double>(r.cost.evaluations), knownNumber(r.error), keptOf(*row),
-                       leftOutOf(sweep, *row), r.tolerance > 0 ? Value(r.tolerance) : Value(nullptr),
-                       name(r.status)});
+                       leftOutOf(sweep, *row), positiveNumber(r.tolerance), name(r.status)});
     }
     return all;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/known_value.hpp"
 #include "engine/study/catalog.hpp"
 
 namespace extremal {

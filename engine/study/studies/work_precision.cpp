@@ -1,6 +1,7 @@
 /// What accuracy costs: work-precision.csv.
 #include <algorithm>
 
+#include "engine/core/known_value.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/pareto.hpp"
 
@@ -14,11 +15,10 @@ std::vector<Value::Array> rowsOfWork(const Sweep& sweep) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& [point, result] = rows[i];
         if (result.status == RunStatus::waiting) continue;
-        all.push_back({sweep.scene().scene.schemes[point.scheme].label,
-                       point.step > 0 ? Value(point.step) : Value(nullptr),
-                       point.tolerance > 0 ? Value(point.tolerance) : Value(nullptr),
-                       knownNumber(result.error), knownNumber(result.cpuSeconds),
-                       knownNumber(result.cpuSpread), static_cast<double>(result.cost.evaluations),
+        all.push_back({sweep.scene().scene.schemes[point.scheme].label, positiveNumber(point.step),
+                       positiveNumber(point.tolerance), knownNumber(result.error),
+                       knownNumber(result.cpuSeconds), knownNumber(result.cpuSpread),
+                       static_cast<double>(result.cost.evaluations),
                        static_cast<double>(result.cost.linearSolves), name(result.status),
                        knownText(name(result.cause)), front[i]});
     }
@@ -37,10 +37,9 @@ std::vector<Value::Array> summaryOfWork(const Sweep& sweep) {
     });
     std::vector<Value::Array> all;
     for (const SweepRow* row : best)
-        all.push_back({sweep.scene().scene.schemes[row->point.scheme].label,
-                       row->point.step > 0 ? Value(row->point.step) : Value(nullptr),
-                       row->point.tolerance > 0 ? Value(row->point.tolerance) : Value(nullptr),
-                       knownNumber(row->result.error), knownNumber(row->result.cpuSeconds),
+        all.push_back({sweep.scene().scene.schemes[row->point.scheme].label, positiveNumber(row->point.step),
+                       positiveNumber(row->point.tolerance), knownNumber(row->result.error),
+                       knownNumber(row->result.cpuSeconds),
                        static_cast<double>(row->result.cost.evaluations)});
     return all;
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "engine/core/problem.hpp"
+#include "engine/run/error_floor.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/study/catalog.hpp"
@@ -159,7 +160,7 @@ private slots:
         runAll(sweep);
         QVERIFY(sweep.isComplete());
         for (const SchemeRows& scheme : bySchemes(sweep)) {
-            const OrderFit fit = fitOrder(scheme.rows, floorOf(sweep.reference()), 2);
+            const OrderFit fit = fitOrder(scheme.rows, referenceFloor(sweep.reference()), 2);
             const int claimed = sweep.scene().schemes[scheme.scheme].claims.order;
             qInfo("claimed %d, measured %.3f, r2 %.6f", claimed, fit.order, fit.r2);
             QVERIFY(std::abs(fit.order - claimed) < 0.1);  // 1.98, 3.97

@@ -1,4 +1,4 @@
-/// Independent pieces of work on threads. Internal to engine/study.
+/// Independent pieces of work on threads.
 #pragma once
 
 #include <algorithm>
