@@ -1,8 +1,28 @@
 #include "engine/observe/catalog.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace extremal {
+
+Observer observeQuantity(const ObserveContext& context, std::string_view quantity, Column value,
+                         Column change) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const std::optional<std::size_t> index = context.quantity(quantity);
+    Observer o;
+    o.readsQuantities = index.has_value();
+    o.columns = {std::move(value), std::move(change)};
+    o.extreme = 1;
+    o.evaluate = [index, first = unknown](const NodeBlock& nodes, double* values,
+                                          std::size_t stride) mutable {
+        for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
+            values[0] = index ? nodes.quantities(i)[*index] : unknown;
+            if (!(first == first)) first = values[0];
+            values[1] = values[0] - first;
+        }
+    };
+    return o;
+}
 
 const ObservableEntry* findObservable(std::string_view id) {
     const auto& all = observableEntries();

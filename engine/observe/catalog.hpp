@@ -32,11 +32,7 @@ struct ObserveContext {
     std::span<const Quantity> quantities = {};
 
     /// Where the quantity of a name is among them.
-    std::optional<std::size_t> quantity(std::string_view name) const {
-        for (std::size_t i = 0; i < quantities.size(); ++i)
-            if (quantities[i].name == name) return i;
-        return std::nullopt;
-    }
+    std::optional<std::size_t> quantity(std::string_view name) const { return indexOf(quantities, name); }
 };
 
 /// An observable bound to one run: its columns, and a pure function from a node to their values.
@@ -50,6 +46,11 @@ struct Observer {
     /// Whether it reads NodeBlock::quantities: they are measured only then.
     bool readsQuantities = false;
 };
+
+/// An observer of a quantity that the integrator says of each step, and of its change from the first known
+/// value; the latter is its extreme. Both stay unknown for integrators that have no such quantity.
+Observer observeQuantity(const ObserveContext& context, std::string_view quantity, Column value,
+                         Column change);
 
 struct ObservableEntry {
     CatalogItem item;
