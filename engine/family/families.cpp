@@ -10,8 +10,8 @@
 #include "engine/core/text.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
-#include "engine/quadrature/tensor.hpp"
 #include "engine/family/table_of.hpp"
+#include "engine/quadrature/tensor.hpp"
 
 namespace extremal {
 namespace {
@@ -175,6 +175,13 @@ std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretiz
                            method + " does not solve the equations of " + family.item.title + " schemes",
                            methods.empty() ? "leave it out" : "auto or " + joinNames(methods));
     return family.make(system, discretization, clock.step);
+}
+
+ReferencePlan referenceBy(std::string description, const System& system, const Discretization& scheme) {
+    ReferencePlan plan;
+    plan.description = std::move(description);
+    plan.make = [system, scheme](double step) { return makeIntegrator(system, scheme, {0, step}); };
+    return plan;
 }
 
 std::unique_ptr<Integrator> trustedIntegrator(const System& system, const State& start, double step) {

@@ -56,6 +56,9 @@ struct ReferencePlan {
     double step = 0, expectedError = 0;
 };
 
+/// References by a discretization, whose steps are halved until two of them agree.
+ReferencePlan referenceBy(std::string description, const System& system, const Discretization& scheme);
+
 /// The function of a node, as a curve.
 struct ShapeFunction {
     std::vector<double> x, phi;

@@ -79,12 +79,7 @@ Properties describeGalerkin(const Discretization& discretization) {
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {
-    ReferencePlan plan;
-    plan.description = "Gauss collocation of degree 12";
-    plan.make = [system, gauss = *namedScheme("gauss-collocation-12")](double step) {
-        return makeIntegrator(system, gauss, {0, step});
-    };
-    return plan;
+    return referenceBy("Gauss collocation of degree 12", system, *namedScheme("gauss-collocation-12"));
 }
 
 ChoiceGrid choices(const System&) {

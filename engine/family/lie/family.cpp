@@ -89,12 +89,7 @@ void checkRotation(const SchemeCase& scheme, Findings& findings) {
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {
-    ReferencePlan plan;
-    plan.description = "Lie group Gauss of degree 8";
-    plan.make = [system, gauss = *namedScheme("lie-8")](double step) {
-        return makeIntegrator(system, gauss, {0, step});
-    };
-    return plan;
+    return referenceBy("Lie group Gauss of degree 8", system, *namedScheme("lie-8"));
 }
 
 ChoiceGrid choices(const System&) {

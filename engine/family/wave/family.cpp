@@ -148,8 +148,8 @@ void checkStep(const SchemeCase& scheme, Findings& findings) {
 /// long.
 ReferencePlan trusted(const System& system, const State& start, double duration) {
     const Hamiltonian& h = *system.hamiltonian();
-    ReferencePlan plan;
     if (h.dimension() == 2 && !h.isTimeDependent()) {
+        ReferencePlan plan;
         constexpr double perStep = 60;
         const double products = duration * (h.highest() - h.lowest()) / (2 * h.hbar());
         plan.step = duration / std::ceil(std::max(1.0, products / perStep));
@@ -160,10 +160,8 @@ ReferencePlan trusted(const System& system, const State& start, double duration)
         };
         return plan;
     }
-    const Discretization gauss = withShift(*namedScheme("schrodinger-gauss-8"), system, start);
-    plan.description = "Gauss of degree 8";
-    plan.make = [system, gauss](double step) { return makeIntegrator(system, gauss, {0, step}); };
-    return plan;
+    return referenceBy("Gauss of degree 8", system,
+                       withShift(*namedScheme("schrodinger-gauss-8"), system, start));
 }
 
 ChoiceGrid choices(const System& system) {
