@@ -68,8 +68,14 @@ void MapReference::share(const ResolvedScene& resolved, const std::vector<double
     reference_.make = [shared] { return SharedSolution::reader(shared); };
 }
 
-ExactSolution MapReference::at(std::size_t row) const {
-    if (row >= tables_.size()) return reference_.make ? reference_.make() : ExactSolution{};
+ExactSolution MapReference::at(std::size_t row, const ResolvedScene& resolved,
+                               const ResolvedScheme& scheme) const {
+    if (row < tables_.size()) return scheme.ownSystem ? ExactSolution{} : atNodes(row);
+    const Reference own = referenceFor(reference_, resolved, scheme);
+    return own.make ? own.make() : ExactSolution{};
+}
+
+ExactSolution MapReference::atNodes(std::size_t row) const {
     return [table = tables_[row]](double t, std::span<double> x) {
         const auto node = static_cast<std::size_t>(std::llround((t - table->start) / table->step));
         const auto from = table->states.begin() + static_cast<std::ptrdiff_t>(node * table->width);

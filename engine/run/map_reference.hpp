@@ -21,11 +21,10 @@ public:
     MapReference(const ResolvedScene& resolved, const std::vector<double>& steps,
                  const std::stop_token& stop);
 
-    /// For a run with the step of this row; empty where there is no reference.
-    ExactSolution at(std::size_t row) const;
+    /// For a run of a scheme with the step of this row; empty where there is no reference.
+    ExactSolution at(std::size_t row, const ResolvedScene& resolved, const ResolvedScheme& scheme) const;
     /// Of the reference that is asked itself; that of a scheme's tables has none.
     const ReferenceInfo& info() const { return reference_.info; }
-    bool isKnown() const { return !tables_.empty() || reference_.make; }
 
 private:
     struct Table {
@@ -36,6 +35,7 @@ private:
     void runScheme(const ResolvedScene& resolved, const std::vector<double>& steps,
                    const std::stop_token& stop);
     void share(const ResolvedScene& resolved, const std::vector<double>& steps);
+    ExactSolution atNodes(std::size_t row) const;
 
     Reference reference_;
     std::vector<std::shared_ptr<const Table>> tables_;  ///< empty: the reference is asked itself

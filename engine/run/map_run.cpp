@@ -113,11 +113,10 @@ struct MapColumn {
         const Scene& scene = resolved.scene;
         const State start = schemeStart(resolved, scheme, step);
         const auto integrator = scheme.make(system, step, start);
-        const Observer observer = observable.bind({system, start,
-                                                   scheme.ownSystem && observable.needsReference
-                                                       ? exactSolution(scene, system, start)
-                                                       : reference.at(row),
-                                                   scheme.plain(), step, integrator->quantities()});
+        const ExactSolution exact =
+            observable.needsReference ? reference.at(row, resolved, scheme) : ExactSolution{};
+        const Observer observer =
+            observable.bind({system, start, exact, scheme.plain(), step, integrator->quantities()});
         const auto found = std::find_if(observer.columns.begin(), observer.columns.end(),
                                         [&](const Column& c) { return c.name == grid.column; });
         if (found == observer.columns.end()) return {MapCell::End::refused};
@@ -128,7 +127,7 @@ struct MapColumn {
         MapCell result;
         result.end = MapCell::End::done;
         // Without a reference an error stays unknown; a state that grows is seen all the same.
-        const bool isKnown = !observable.needsReference || reference.isKnown();
+        const bool isKnown = !observable.needsReference || exact;
         const auto measure = [&](const Stretch& stretch) {
             const NodeBlock& nodes = stretch.nodes;
             values.resize(std::max(values.size(), width * nodes.capacity()),

@@ -124,12 +124,9 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         if (onReference) onReference(reference_);
     }
     const auto referenceOf = [&](const StudyPoint& point) {
-        if (const ResolvedScheme& own = scene_.schemes[point.scheme]; own.ownSystem) {
-            const Reference ofMesh =
-                referenceFor({reference_, [&] { return reference.at(point.row); }}, scene_, own);
-            return ofMesh.make ? ofMesh.make() : ExactSolution{};
-        }
-        return point.step == 0 && scheme.make ? scheme.make() : reference.at(point.row);
+        const ResolvedScheme& run = scene_.schemes[point.scheme];
+        if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
+        return reference.at(point.row, scene_, run);
     };
     std::mutex mutex;
     forEachInPool(wanted, options_.threads, stop, [&](std::size_t i) {
