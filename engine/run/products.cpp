@@ -1,14 +1,19 @@
 #include "engine/run/products.hpp"
 
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/view_choices.hpp"
 
 namespace extremal {
 
-ProductPlan::ProductPlan(const Scene& scene, const System& system) {
-    for (const View& view : shownViews(scene))
+ProductPlan::ProductPlan(const ResolvedScene& resolved) {
+    for (const View& view : shownViews(resolved.scene))
         if (const ViewEntry* entry = findView(view.id))
             for (const Product product : entry->products) add(product);
-    if (system.field) add(Product::frames);  // rows do not hold the state: the export writes it from frames
+    // Rows do not hold the state of a field, nor every step of a scheme whose times are unknowns: exports
+    // write files of both.
+    if (resolved.system->field) add(Product::frames);
+    for (const ResolvedScheme& scheme : resolved.schemes)
+        if (scheme.grid == TimeGrid::free) add(Product::steps);
 }
 
 bool needs(const View& view, Product product) {

@@ -8,17 +8,19 @@
 #include <variant>
 #include <vector>
 
+#include "engine/core/element_clocks.hpp"
 #include "engine/run/action_defect.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/run/parameter_map.hpp"
 #include "engine/run/step_records.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/core/element_clocks.hpp"
 #include "engine/trajectory/frames.hpp"
 #include "engine/trajectory/trajectory.hpp"
 #include "engine/view/catalog.hpp"
 
 namespace extremal {
+
+struct ResolvedScene;
 
 /// t and the state of a run of few steps, several times in each step; with Product::denseError the column
 /// "error" as well.
@@ -78,7 +80,7 @@ class ProductPlan {
 public:
     ProductPlan() = default;
     /// What the views of a scene need, its default views where it names none, and what its export needs.
-    ProductPlan(const Scene& scene, const System& system);
+    explicit ProductPlan(const ResolvedScene& resolved);
 
     bool has(Product product) const { return std::find(all_.begin(), all_.end(), product) != all_.end(); }
     void add(Product product) {

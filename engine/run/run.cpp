@@ -13,8 +13,8 @@
 #include "engine/run/equations.hpp"
 #include "engine/run/map_run.hpp"
 #include "engine/run/reference.hpp"
-#include "engine/scene/bind.hpp"
 #include "engine/run/scheme_run.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 
 namespace extremal {
@@ -37,7 +37,7 @@ struct Run::Impl {
     std::jthread coordinator;
 
     Impl(ResolvedScene r, const RunOptions& options)
-        : resolved(std::move(r)), plan(scene, system), maps(resolved.scene) {
+        : resolved(std::move(r)), plan(resolved), maps(resolved.scene) {
         for (const Product product : options.products) plan.add(product);
         threads = options.threads;
         for (std::size_t i = 0; i < scene.schemes.size(); ++i)

@@ -203,9 +203,11 @@ struct SchemeRun::Recording {
         }
     }
     /// Every step, where times are unknowns: their file and the picture of the mesh show what no row does.
+    bool recordsSteps() const { return scheme.grid == TimeGrid::free && plan.has(Product::steps); }
     void recordSteps(const Stretch& stretch) {
         const NodeBlock& nodes = stretch.nodes;
-        const auto said = integrator->quantities();
+        const std::span<const Quantity> said = integrator->quantities();
+        const auto energy = indexOf(said, "discrete_energy"), density = indexOf(said, "density");
         StepRecords& records = result.products.make<StepRecords>();
         for (std::size_t i = 0; i < nodes.size() && !stretch.isStart; ++i) {
             StepRecord record;
@@ -213,10 +215,8 @@ struct SchemeRun::Recording {
             record.t = i > 0 ? nodes.t(i - 1) : stretch.before.t;
             record.step = nodes.report(i).step;
             record.event = nodes.report(i).event;
-            for (std::size_t j = 0; j < said.size(); ++j) {
-                if (said[j].name == "discrete_energy") record.discreteEnergy = nodes.quantities(i)[j];
-                if (said[j].name == "density") record.density = nodes.quantities(i)[j];
-            }
+            if (energy) record.discreteEnergy = nodes.quantities(i)[*energy];
+            if (density) record.density = nodes.quantities(i)[*density];
             records.add(record);
         }
     }
@@ -251,7 +251,7 @@ struct SchemeRun::Recording {
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
             s.advice = adviceFor(outcome, scheme, step, system, initialNode, state);
-            if (scheme.grid == TimeGrid::free && outcome != Outcome::stopped) {
+            if (recordsSteps() && outcome != Outcome::stopped) {
                 StepRecord record;
                 record.k = state.node;
                 record.t = state.t;
@@ -285,7 +285,7 @@ struct SchemeRun::Recording {
                              return true;
                          },
                          isDense});
-        if (scheme.grid == TimeGrid::free)
+        if (recordsSteps())
             sinks.push_back({[&](const Stretch& stretch) {
                                  recordSteps(stretch);
                                  return true;
