@@ -9,6 +9,7 @@
 
 #include "engine/group/so3.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/jacobian.hpp"
 
 namespace extremal::laws {
 
@@ -185,7 +186,7 @@ inline Eigen::MatrixXd canonicalForm(const State& s, double sign = 1) {
 template <class Step>  // State -> std::optional<State>
 double bodySymplecticDefect(Step&& step, const State& start, double sign = 1, Eigen::VectorXd own = {}) {
     constexpr double delta = 2e-3;
-    constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
+    constexpr std::array<double, 3> c = centralDifferences;
     const auto n = static_cast<Eigen::Index>(start.x.size() - 4);
     if (own.size() == 0) own = Eigen::VectorXd::Ones(n);
     const std::optional<State> end = step(start);

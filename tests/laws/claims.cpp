@@ -11,6 +11,7 @@
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/observe/catalog.hpp"
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/jacobian.hpp"
 
 namespace extremal::laws {
 namespace {
@@ -43,39 +44,20 @@ double errorOf(const Trial& trial, long long steps) {
     return worst;
 }
 
-constexpr std::array<double, 3> differences = {45. / 60, -9. / 60, 1. / 60};
-
 /// In coordinates: M^T J M - J for the derivative M of one step by central differences of order 6. Every
 /// coordinate is measured in its own size, every entry (i, j) in the root of the actions of i and j.
 double canonicalDefect(const Trial& trial, double each) {
     const Subject& on = trial.on;
-    constexpr double delta = 5e-4;
-    const std::size_t n = on.start.x.size(), d = on.half();
-    const auto action = [&](std::size_t i) { return on.own[i % d] * on.own[i % d + d]; };
-    std::vector<double> M(n * n);
+    const std::size_t d = on.half();
+    std::vector<double> action(d);
+    for (std::size_t i = 0; i < d; ++i) action[i] = on.own[i] * on.own[i + d];
     const auto integrator = trial.make(on.time / each);
-    for (std::size_t j = 0; j < n; ++j)
-        for (int k = 1; k <= 3; ++k)
-            for (const int sign : {1, -1}) {
-                State s = on.start;
-                s.x[j] += sign * k * delta * on.own[j];
-                integrator->begin(s);
-                const auto end = after(*integrator, s, 1);
-                if (!end) return unknown;
-                for (std::size_t i = 0; i < n; ++i)
-                    M[i * n + j] +=
-                        sign * differences[static_cast<std::size_t>(k - 1)] * end->x[i] / (delta * on.own[i]);
-            }
-    double largest = 0, defect = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-            largest = std::max(largest, std::abs(M[i * n + j]));
-            double w = j == i + d ? -action(i) : i == j + d ? action(j) : 0;
-            for (std::size_t k = 0; k < d; ++k)
-                w += action(k) * (M[k * n + i] * M[(k + d) * n + j] - M[(k + d) * n + i] * M[k * n + j]);
-            defect = std::max(defect, std::abs(w) / std::sqrt(action(i) * action(j)));
-        }
-    return defect / largest;
+    const auto step = [&](State from) {
+        integrator->begin(from);
+        return after(*integrator, from, 1);
+    };
+    const auto M = jacobianOf(step, on.start, 5e-4, on.own);
+    return M ? symplecticDefect(*M, action) : unknown;
 }
 
 /// How far a step moves <a, b>, whose imaginary part is the symplectic form and whose real part the metric.

@@ -8,6 +8,7 @@
 #include "engine/group/se3.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/jacobian.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::motion_routes_test {
@@ -194,7 +195,7 @@ Eigen::Matrix<double, 12, 12> canonicalForm(const State& s, double sign) {
 }
 double symplecticDefect(const Discretization& discretization, double sign) {
     constexpr double delta = 1e-3;
-    constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
+    constexpr std::array<double, 3> c = centralDifferences;
     const System system = satellite();
     const auto step = [&](const State& s) {
         return after(*makeIntegrator(system, discretization, {0, 0.2}), s, 1).value();

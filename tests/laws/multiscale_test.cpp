@@ -10,6 +10,7 @@
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/multiscale/resonance.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/jacobian.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::multiscale_test {
@@ -78,27 +79,15 @@ private slots:
         const System s = spring(1e4);
         for (int r = 1; r <= 3; ++r)
             for (const double h : {0.05, 0.21}) {
-                // Central differences of order 6; the fast discretization in its own units.
+                // The fast discretization in its own units: the form is 0.01 da dp_a + dtheta dp_theta.
                 const std::array<double, 4> unit = {0.01, 1, 1, 1};
-                Eigen::Matrix4d M = Eigen::Matrix4d::Zero(), J = Eigen::Matrix4d::Zero();
-                for (int j = 0; j < 4; ++j)
-                    for (int n = 1; n <= 3; ++n)
-                        for (const int sign : {1, -1}) {
-                            State state = springStart(1e4);
-                            const auto column = static_cast<std::size_t>(j);
-                            const double delta = 2e-3 * unit[column], c[3] = {45. / 60, -9. / 60, 1. / 60};
-                            state.x[column] += sign * n * delta;
-                            const auto end = after(*makeIntegrator(s, named(r), {0, h}), state, 1);
-                            QVERIFY(end);
-                            for (int i = 0; i < 4; ++i)
-                                M(i, j) += sign * c[n - 1] * end->x[static_cast<std::size_t>(i)] / delta *
-                                           unit[column] / unit[static_cast<std::size_t>(i)];
-                        }
-                // In these units the form is 0.01 da dp_a + dtheta dp_theta.
-                J(0, 2) = unit[0];
-                J(1, 3) = 1;
-                J -= Eigen::Matrix4d(J.transpose());
-                const double defect = (M.transpose() * J * M - J).norm();
+                const std::array<double, 2> action = {0.01, 1};
+                const auto step = [&](const State& from) {
+                    return after(*makeIntegrator(s, named(r), {0, h}), from, 1);
+                };
+                const auto M = jacobianOf(step, springStart(1e4), 2e-3, unit);
+                QVERIFY(M);
+                const double defect = symplecticDefect(*M, action);
                 qInfo("R%d, h = %g: %.1e", r, h, defect);
                 QVERIFY(defect < 1e-8);
             }

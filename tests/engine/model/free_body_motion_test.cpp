@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/laws/bodies.hpp"
+#include "tests/tools/jacobian.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::free_body_motion_test {
@@ -11,7 +12,7 @@ namespace {
 
 /// |xdot - rate(x)| by central differences of order 6, relative to the rates.
 double residual(const System& system, const ExactSolution& solution, double t, double h) {
-    const std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
+    constexpr std::array<double, 3> c = centralDifferences;
     std::vector<double> x(10), dx(10), plus(10), minus(10), slope(10, 0);
     solution(t, x);
     (void)rateOf(system, t, x.data(), dx.data());

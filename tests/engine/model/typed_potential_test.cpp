@@ -8,6 +8,7 @@
 #include "engine/group/se3.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed_potential.hpp"
+#include "tests/tools/jacobian.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::typed_potential_test {
@@ -72,7 +73,7 @@ private slots:
             const auto g = somewhere();
             const Evaluated here = at(body, g);
             constexpr double d = 1e-3;
-            constexpr std::array<double, 3> c = {45. / 60, -9. / 60, 1. / 60};
+            constexpr std::array<double, 3> c = centralDifferences;
             double force = 0, slope = 0, transposed = 0;
             for (int b = 0; b < dimension; ++b) {
                 const Eigen::VectorXd zeta = Eigen::VectorXd::Unit(dimension, b);

@@ -8,6 +8,7 @@
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/typeset.hpp"
 #include "tests/engine/model/typed/typed.hpp"
+#include "tests/tools/jacobian.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::lagrangian_test {
@@ -99,7 +100,7 @@ private slots:
             QVERIFY(std::abs(here.value - expected) < 1e-14 * std::max(1.0, std::abs(expected)));
         }
         constexpr double delta = 1e-2;  // differences of order 6
-        constexpr double c[3] = {45. / 60, -9. / 60, 1. / 60};
+        constexpr std::array<double, 3> c = centralDifferences;
         double largest = 1;
         for (const double h : here.hessian) largest = std::max(largest, std::abs(h));
         for (const double g : here.gradient) largest = std::max(largest, std::abs(g));
@@ -111,8 +112,9 @@ private slots:
                     std::vector<double> z = at;
                     z[i] += sign * k * delta;
                     const Jet2 there = jet(z);
-                    slope += sign * c[k - 1] * there.value / delta;
-                    for (std::size_t j = 0; j < 4; ++j) row[j] += sign * c[k - 1] * there.gradient[j] / delta;
+                    slope += sign * c[static_cast<std::size_t>(k - 1)] * there.value / delta;
+                    for (std::size_t j = 0; j < 4; ++j)
+                        row[j] += sign * c[static_cast<std::size_t>(k - 1)] * there.gradient[j] / delta;
                 }
             QVERIFY2(std::abs(slope - here.gradient[i]) < 1e-8 * largest,
                      qPrintable(QString("gradient %1").arg(i)));
