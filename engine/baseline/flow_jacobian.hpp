@@ -41,6 +41,9 @@ public:
         return matrix_;
     }
 
+    /// The one last evaluated.
+    const Square& matrix() const { return matrix_; }
+
 private:
     Mechanics<double> mechanics_;
     Vector gradient_;

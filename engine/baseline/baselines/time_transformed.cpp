@@ -11,8 +11,8 @@
 /// not zero. The order over the mean step is 4, not the 2 of the midpoint rule: the leading correction of K,
 /// epsilon^2/24 K''(X_K, X_K) = epsilon^2 sigma^3 density at K = 0, is a constant there by the choice of
 /// sigma, and what it is off K = 0 is a multiple of H - E, which changes the fictitious time alone.
-/// Its gradient is taken by differences of order 6; it is multiplied by the small H - E. Sources:
-/// Hairer 1997; Reich 1999; Hairer, Lubich, Wanner 2006, VIII.2.1.
+/// The gradient of sigma, which the small H - E multiplies, needs X_H'' along the motion: differences of
+/// order 6 of X_H' along it. Sources: Hairer 1997; Reich 1999; Hairer, Lubich, Wanner 2006, VIII.2.1.
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -33,10 +33,10 @@ class TimeTransformed final : public Integrator {
 public:
     TimeTransformed(const Mechanics<double>& mechanics, double step)
         : mechanics_(mechanics), d_(mechanics.dimension), first_(step), jacobian_(mechanics) {
-        for (Vector* v : {&z0_, &z1_, &z_, &shifted_, &flow_, &second_, &flowHere_, &gradSigma_, &gradH_,
-                          &turned_, &residual_})
+        for (Vector* v : {&z0_, &z1_, &z_, &shifted_, &flow_, &flowThere_, &second_, &gradSigma_,
+                          &turnedFlow_, &turned_, &residual_})
             *v = Vector::Zero(2 * d_);
-        system_ = Square::Zero(2 * d_, 2 * d_);
+        system_ = A_ = B_ = Square::Zero(2 * d_, 2 * d_);
         lu_ = Eigen::PartialPivLU<Square>(2 * d_);
     }
 
@@ -97,47 +97,70 @@ private:
     bool hamiltonianFlow(const Z& z, Vector& f) const {
         return mechanics_.flow(mechanics_.model.get(), 0, z.data(), z.data() + d_, f.data(), f.data() + d_);
     }
-    /// Leaves X_H in flow_ and its Jacobian in jacobian_.
+    /// X_H in f, and its Jacobian.
+    template <class Z>
+    const Square* derivatives(const Z& z, Vector& f) {
+        report_.cost.evaluations += 2;
+        return hamiltonianFlow(z, f) ? &jacobian_.evaluate(0, z.data(), f.data()) : nullptr;
+    }
+    /// K v, where u . K v = u_p . v_q - u_q . v_p.
+    void turn(const Vector& v, Vector& turned) const { turned << -v.tail(d_), v.head(d_); }
     template <class Z>
     double density(const Z& z) {
-        report_.cost.evaluations += 2;
-        if (!hamiltonianFlow(z, flow_)) return std::numeric_limits<double>::quiet_NaN();
-        const Square& DX = jacobian_.evaluate(0, z.data(), flow_.data());
-        second_.noalias() = DX.lazyProduct(flow_);
+        const Square* const A = derivatives(z, flow_);
+        if (!A) return std::numeric_limits<double>::quiet_NaN();
+        second_.noalias() = A->lazyProduct(flow_);
         return (flow_.tail(d_).dot(second_.head(d_)) - flow_.head(d_).dot(second_.tail(d_))) / 24;
+    }
+    /// The gradient of the density at z_ into gradSigma_: with f = X_H, A = X_H' and B = X_H''(f, .)
+    ///     24 density' = A^T K A f - A^T A^T K f - B^T K f.
+    void densityGradient() {
+        constexpr std::array<double, 3> weights = {45. / 60, -9. / 60, 1. / 60};
+        constexpr double relativeShift = 2e-3;
+        lastDensity_ = density(z_);
+        A_ = jacobian_.matrix();
+        turn(flow_, turnedFlow_);
+        turn(second_, turned_);
+        turned_.noalias() -= A_.transpose().lazyProduct(turnedFlow_);
+        gradSigma_.noalias() = A_.transpose().lazyProduct(turned_);
+        // A time in which neither the coordinates nor the momenta change by more than a small part of their
+        // size.
+        double rate = 0;
+        for (int from = 0; from < 2 * d_; from += d_) {
+            const double size = z_.segment(from, d_).cwiseAbs().maxCoeff();
+            rate = std::max(rate, flow_.segment(from, d_).cwiseAbs().maxCoeff() / (size > 0 ? size : 1));
+        }
+        if (rate > 0) {
+            const double shift = relativeShift / rate;
+            B_.setZero();
+            for (int k = 1; k <= 3; ++k)
+                for (const int sign : {1, -1}) {
+                    shifted_ = z_ + (sign * k * shift) * flow_;
+                    if (const Square* const there = derivatives(shifted_, flowThere_))
+                        B_ += (sign * weights[static_cast<std::size_t>(k - 1)] / shift) * *there;
+                    else
+                        B_.setConstant(std::numeric_limits<double>::quiet_NaN());
+                }
+            gradSigma_.noalias() -= B_.transpose().lazyProduct(turnedFlow_);
+        }
+        gradSigma_ /= 24;
     }
     /// At z_: sigma, its gradient, and I - epsilon/2 D(J grad K) without the second derivatives of sigma,
     /// which H - E multiplies; the right-hand side in turned_. False where the density is of the other sign.
     bool linearise() {
-        constexpr std::array<double, 3> weights = {45. / 60, -9. / 60, 1. / 60};
-        constexpr double relativeShift = 2e-3;
         const double half = first_ / 2;
-        for (int j = 0; j < 2 * d_; ++j) {
-            const double size = (j < d_ ? z_.head(d_) : z_.tail(d_)).cwiseAbs().maxCoeff(),
-                         delta = relativeShift * (size > 0 ? size : 1);
-            double slope = 0;
-            for (int k = 1; k <= 3; ++k)
-                for (const int sign : {1, -1}) {
-                    shifted_ = z_;
-                    shifted_(j) += sign * k * delta;
-                    slope += sign * weights[static_cast<std::size_t>(k - 1)] * density(shifted_) / delta;
-                }
-            gradSigma_(j) = slope;
-        }
-        lastDensity_ = density(z_);
+        densityGradient();
         const double ratio = lastDensity_ / scale_;
         if (!(ratio > 0)) return false;
         sigma_ = 1 / std::cbrt(ratio);
         gradSigma_ *= -sigma_ / (3 * lastDensity_);
-        flowHere_ = flow_;
-        gradH_ << -flowHere_.tail(d_), flowHere_.head(d_);
         turned_ << gradSigma_.tail(d_), -gradSigma_.head(d_);
         system_.setIdentity();
-        system_ -= (half * sigma_) * jacobian_.evaluate(0, z_.data(), flowHere_.data());
-        system_ -= half * flowHere_ * gradSigma_.transpose();
-        system_ -= half * turned_ * gradH_.transpose();
+        system_ -= (half * sigma_) * A_;
+        system_ -= half * flow_ * gradSigma_.transpose();
+        system_ -= half * turned_ * turnedFlow_.transpose();
         lu_.compute(system_);
-        turned_ = sigma_ * flowHere_ + (energyAt(z_) - energy_) * turned_;
+        turned_ = sigma_ * flow_ + (energyAt(z_) - energy_) * turned_;
         return true;
     }
     void solve() {
@@ -179,8 +202,8 @@ private:
     double first_;  ///< epsilon: the first step, as sigma is 1 at the start
     FlowJacobian jacobian_;
     double energy_ = 0, scale_ = 0, sigma_ = 1, step_ = 0, lastDensity_ = 0;
-    Vector z0_, z1_, z_, shifted_, flow_, second_, flowHere_, gradSigma_, gradH_, turned_, residual_;
-    Square system_;
+    Vector z0_, z1_, z_, shifted_, flow_, flowThere_, second_, gradSigma_, turnedFlow_, turned_, residual_;
+    Square system_, A_, B_;
     Eigen::PartialPivLU<Square> lu_;
     StepReport report_;
 };
