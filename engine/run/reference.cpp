@@ -149,6 +149,25 @@ Reference computed(const Scene& scene, const System& system, const State& initia
     return best;
 }
 
+/// The error of an exact solution: an angle that grows by w t is not known better than to round-off of w t.
+/// Where the error is not one of the phase itself, most of the motion is slower than at its fastest (measured
+/// in engine.run.reference).
+double exactError(const System& system, const State& initial, double duration) {
+    const auto norm = [](const std::vector<double>& v) {
+        double sum = 0;
+        for (const double x : v) sum = std::hypot(sum, x);
+        return sum;
+    };
+    double w = highestFrequency(system, initial);
+    if (std::vector<double> rate(initial.x.size());
+        w == 0 && rateOf(system, initial.t, initial.x.data(), rate.data()) && norm(initial.x) > 0)
+        w = norm(rate) / norm(initial.x);
+    if (system.error.isOfPhase) return 1e-14 * std::max(1.0, w * duration / 4);
+    double scale = 0;
+    for (const double v : initial.x) scale = std::max(scale, std::abs(v));
+    return 2e-15 * scale * std::max(1.0, w * duration / 10);
+}
+
 Reference fromScheme(const ResolvedScene& resolved, const std::stop_token& stop) {
     const Scene& scene = resolved.scene;
     const System& system = *resolved.system;
@@ -241,20 +260,12 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (kind == Kind::none) return {};
     if (kind == Kind::scheme) return fromScheme(resolved, stop);
     if (kind == Kind::file) return fromFile(scene, system);
-    {
-        if (exactSolution(scene, system, initial)) {
-            double scale = 0;
-            for (const double v : initial.x) scale = std::max(scale, std::abs(v));
-            Reference reference;
-            // An angle that grows by w t cannot be known better than to round-off of w t.
-            const bool turnsInPhase = system.error.isOfPhase;
-            const double turns = turnsInPhase ? 0.25 * highestFrequency(system, initial) *
-                                                    (scene.end.value - scene.start.value)
-                                              : 0;
-            reference.info = {"exact", 2e-15 * std::max(turnsInPhase ? 1.0 : scale, turns), "exact solution"};
-            reference.make = [scene, system, initial] { return exactSolution(scene, system, initial); };
-            return reference;
-        }
+    if (exactSolution(scene, system, initial)) {
+        Reference reference;
+        const double estimate = exactError(system, initial, scene.end.value - scene.start.value);
+        reference.info = {"exact", estimate, "exact solution"};
+        reference.make = [scene, system, initial] { return exactSolution(scene, system, initial); };
+        return reference;
     }
     if (kind == Kind::exact)
         throw InvalidScene("/reference", "no exact solution is known from these initial data",

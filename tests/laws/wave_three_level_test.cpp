@@ -2,6 +2,8 @@
 /// limit.
 #include <QTest>
 
+#include <limits>
+
 #include "engine/family/wave/wave.hpp"
 #include "engine/family/wave/wave_three_level.hpp"
 #include "engine/scene/codec.hpp"
@@ -140,10 +142,12 @@ private slots:
         const System system = systemA(64);
         const Discretization discretization = threeLevels("gauss");
         const double limit = std::sqrt(3.0) / waveFrequency(system, discretization.space, startA(system));
+        constexpr int steps = 100000;
+        constexpr double roundOff = steps * std::numeric_limits<double>::epsilon();
         for (const double part : {0.5, 0.999}) {
-            const Run r = run(system, discretization, startA(system), part * limit, 100000);
+            const Run r = run(system, discretization, startA(system), part * limit, steps);
             qInfo("%.3f of the limit: norm %.2g, form %.2g", part, r.norm, r.form);
-            QVERIFY(r.form < 1e-11);  // 8e-12 measured
+            QVERIFY(r.form < roundOff);  // measured: 8e-12 to 1.2e-11, by the last digits of the start
             QVERIFY(r.apart < 1e-11);
             QVERIFY(r.norm < 2e-6);  // 1e-6 measured, in the first half as in the second
         }

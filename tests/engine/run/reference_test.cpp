@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 #include "engine/family/wave/chebyshev_series.hpp"
 #include "engine/run/reference.hpp"
@@ -96,6 +97,19 @@ ExactSolution inSeries(const ResolvedScene& scene, int samples) {
     };
 }
 
+/// Without a potential every mode has its own phase.
+ExactSolution freely(const ResolvedScene& scene) {
+    return [h = scene.system->hamiltonian(), start = scene.initial](double t, std::span<double> x) {
+        for (std::size_t k = 0; k < h->kinetic().size(); ++k) {
+            const long double angle = -static_cast<long double>(h->kinetic()[k]) * t / h->hbar();
+            const std::complex<long double> phase = std::polar(1.0L, angle),
+                                            c(start.x[2 * k], start.x[2 * k + 1]), end = c * phase;
+            x[2 * k] = static_cast<double>(end.real());
+            x[2 * k + 1] = static_cast<double>(end.imag());
+        }
+    };
+}
+
 std::string scene(const std::string& model, const std::string& initial, const std::string& end,
                   const std::string& reference = "\"auto\"") {
     return R"({"extremal":1,"model":)" + model + R"(,"initial":)" + initial + R"(,"time":{"end":)" + end +
@@ -140,6 +154,40 @@ private slots:
             isWave(*known.system) ? inSeries(known, samples) : known.system->exact(known.initial);
         QVERIFY(truth);
         QVERIFY(broken(unknown, truth, samples) < 1);  // measured: at most 0.6, Kepler, e = 0.95
+    }
+    void exactOnesKeepTheirPromise_data() {
+        QTest::addColumn<QString>("scene");
+        const auto row = [](const char* name, const std::string& s) {
+            QTest::newRow(name) << QString::fromStdString(s);
+        };
+        const auto wave = [](const char* end, const char* model) {
+            return R"({"extremal":1,"time":{"end":)" + std::string(end) +
+                   R"(},"model":{"type":"schrodinger",)" + model +
+                   R"(},"schemes":[{"scheme":"schrodinger-gauss-1","step":0.01}],"initial":{"psi":)"
+                   R"({"packet":"periodic-gaussian","kappa":20,"centre":1.2,"wave_number":5}}})";
+        };
+        row("wave function", wave("2", R"("modes":96,"potential":"50*(1 - cos(x)) ")"));
+        row("wave function, long", wave("20", R"("modes":96,"potential":"50*(1 - cos(x)) ")"));
+        row("wave function, unresolved", wave("2", R"("modes":96,"potential":"5000*(1 - cos(x)) ")"));
+        row("semiclassical wave", wave("2", R"("modes":256,"hbar":0.02,"potential":"1 - cos(x) ")"));
+        row("free wave", wave("2", R"("modes":256,"potential":"0*x")"));
+        row("free wave, long", wave("200", R"("modes":64,"potential":"0*x")"));
+        row("Kepler", scene(R"({"type":"kepler"})", R"({"q":[0.4,0],"p":[0,2]})", "20"));
+        row("Kepler, long", scene(R"({"type":"kepler"})", R"({"q":[0.4,0],"p":[0,2]})", "200"));
+    }
+    void exactOnesKeepTheirPromise() {
+        QFETCH(QString, scene);
+        const ResolvedScene s = resolved(scene.toStdString());
+        constexpr int samples = 100;
+        const double between = s.scene.end.value / samples;
+        const auto kepler = [](const QuadState& x, QuadState& dx, const Quad&) {
+            const Quad r2 = x[0] * x[0] + x[1] * x[1], r3 = r2 * sqrt(r2);
+            dx = {x[2], x[3], -x[0] / r3, -x[1] / r3};
+        };
+        const ExactSolution truth = !isWave(*s.system)      ? inQuadruple(s.initial, kepler, between, 400)
+                                    : scene.contains("0*x") ? freely(s)
+                                                            : inSeries(s, samples);
+        QVERIFY(broken(s, truth, samples) < 1);
     }
     void chaoticAndStiffOnesKeepTheirPromise_data() {
         QTest::addColumn<bool>("isStiff");
