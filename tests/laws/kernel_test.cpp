@@ -11,7 +11,7 @@
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/family/table_of.hpp"
-#include "engine/family/lie/lie_step_build.hpp"
+#include "engine/family/lie/lie_step.hpp"
 #include "engine/family/multiscale/multiscale.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/integrator/galerkin_step.hpp"

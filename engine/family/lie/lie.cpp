@@ -2,12 +2,16 @@
 
 #include <utility>
 
-#include "engine/family/lie/lie_step_build.hpp"
 #include "engine/core/memo_cache.hpp"
+#include "engine/family/lie/lie_step_build.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/space/polynomial.hpp"
 
 namespace extremal {
+
+template class LieStep<double, RotationGroup<double>>;
+template class LieStep<double, MotionGroup<double>>;
+
 namespace {
 
 template <class G>
