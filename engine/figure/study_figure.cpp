@@ -34,8 +34,9 @@ Figure startOf(const Sweep& sweep, const char* view, const char* title) {
 
 Series curveOf(const Sweep& sweep, const SchemeRows& scheme) {
     Series s;
-    s.label = sweep.scene().scene.schemes[scheme.scheme].label;
-    s.style = static_cast<int>(scheme.scheme);
+    const SchemeSpec& spec = sweep.scene().scene.schemes[scheme.scheme];
+    s.label = spec.label;
+    s.style = styleOf(spec, scheme.scheme);
     s.kind = SeriesKind::markedLine;
     return s;
 }
@@ -142,8 +143,7 @@ Figure workPrecisionFigure(const Sweep& sweep) {
 
 Figure studyFigure(std::string_view study, const Sweep& sweep) {
     if (study == "convergence") return convergenceFigure(sweep);
-    if (study == "work-precision") return workPrecisionFigure(sweep);
-    return {};
+    return workPrecisionFigure(sweep);
 }
 
 namespace {
@@ -162,7 +162,7 @@ Figure alongX(const StabilityStudy& study) {
     for (std::size_t scheme = 0; scheme < study.scene().scene.schemes.size(); ++scheme) {
         Series s;
         s.label = study.scene().scene.schemes[scheme].label;
-        s.style = static_cast<int>(scheme);
+        s.style = styleOf(study.scene().scene.schemes[scheme], scheme);
         s.kind = SeriesKind::markedLine;
         for (const StabilityStudy::Row& row : study.rows()) {
             if (row.scheme != scheme || row.result.kind == StabilityClass::waiting) continue;

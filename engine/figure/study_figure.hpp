@@ -15,7 +15,7 @@ Figure convergenceFigure(const Sweep& sweep);
 /// Errors against the CPU time, with the Pareto front behind the curves.
 Figure workPrecisionFigure(const Sweep& sweep);
 
-/// The figure of a study by its id; empty where it has none.
+/// The figure of a study by its id: errors against costs unless it has one of its own.
 Figure studyFigure(std::string_view study, const Sweep& sweep);
 Figure studyFigure(std::string_view study, const StabilityStudy& stability);
 

@@ -1,7 +1,5 @@
 #include "engine/study/metric.hpp"
 
-#include <vector>
-
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 
@@ -18,15 +16,18 @@ bool isMeasurable(const ObservableEntry& entry, const System& system, const Stat
 
 }  // namespace
 
-Metric metricOf(const std::string& name, bool isAtEnd, const System& system, const State& start) {
+std::vector<std::string> metricNames(const System& system, const State& start) {
     std::vector<std::string> names;
-    for (const ObservableEntry& entry : observableEntries()) {
-        if (!isMeasurable(entry, system, start)) continue;
-        if (nameOf(entry) == name) return {name, &entry, isAtEnd};
-        names.push_back(nameOf(entry));
-    }
+    for (const ObservableEntry& entry : observableEntries())
+        if (isMeasurable(entry, system, start)) names.push_back(nameOf(entry));
+    return names;
+}
+
+Metric metricOf(const std::string& name, bool isAtEnd, const System& system, const State& start) {
+    for (const ObservableEntry& entry : observableEntries())
+        if (nameOf(entry) == name && isMeasurable(entry, system, start)) return {name, &entry, isAtEnd};
     throw InvalidScene("--metric", "\"" + name + "\" cannot be measured for " + system.id,
-                       "one of " + joinNames(names));
+                       "one of " + joinNames(metricNames(system, start)));
 }
 
 }  // namespace extremal

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
@@ -14,6 +15,9 @@ struct Metric {
     const ObservableEntry* observable = nullptr;
     bool isAtEnd = false;  ///< at the last node in place of the maximum
 };
+
+/// The names of what can be measured for a system, in the order of the catalogue.
+std::vector<std::string> metricNames(const System& system, const State& start);
 
 /// Throws InvalidScene (pointer "--metric") where the system has no such observable, or where it declares no
 /// extreme; the hint lists those that can be measured.

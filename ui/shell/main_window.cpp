@@ -42,6 +42,7 @@
 #include "ui/shell/timeline.hpp"
 #include "ui/shell/typeset.hpp"
 #include "ui/shell/workspace.hpp"
+#include "ui/study/study_page.hpp"
 
 namespace extremal {
 
@@ -108,6 +109,7 @@ void MainWindow::makePages() {
     tabs_->setDrawBase(false);
     tabs_->addTab(tr("Compare"));
     tabs_->addTab(tr("Notes"));
+    tabs_->addTab(tr("Studies"));
     centreColumn->addWidget(tabs_);
     centreColumn->addWidget(new Banners(*notices_));
     pages_ = new QStackedWidget;
@@ -116,7 +118,9 @@ void MainWindow::makePages() {
     notes_->setOpenExternalLinks(true);
     notes_->setAccessibleName(tr("Notes"));
     pages_->addWidget(compare_);
+    studies_ = new StudyPage(*workspace_, theme_);
     pages_->addWidget(notes_);
+    pages_->addWidget(studies_);
     centreColumn->addWidget(pages_, 1);
     timeline_ = new Timeline(*playback_);
     centreColumn->addWidget(timeline_);
@@ -130,6 +134,14 @@ void MainWindow::makePages() {
                         tr("Loaded from the map: %1.").arg(text),
                         tr("the dot in each map marks the scene; Ctrl+Z undoes this"),
                         {{tr("Undo"), [this] { workspace_->undo(); }}}});
+    });
+    connect(studies_, &StudyPage::pointUsed, this, [this](const QString& text) {
+        notices_->post({Notice::Kind::information,
+                        "study",
+                        tr("In the scene now: %1.").arg(text),
+                        tr("Ctrl+Z undoes this"),
+                        {{tr("Compare"), [this] { tabs_->setCurrentIndex(0); }},
+                         {tr("Undo"), [this] { workspace_->undo(); }}}});
     });
     connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
         notices_->post(
@@ -207,6 +219,7 @@ void MainWindow::setTheme(const Theme& theme) {
     discretizer_->setTheme(theme_);
     schemes_->setTheme(theme_);
     compare_->setTheme(theme_);
+    studies_->setTheme(theme_);
     startPage_->setTheme(theme_);
     if (isRemembered_) {
         QSettings settings;

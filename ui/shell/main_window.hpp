@@ -26,6 +26,7 @@ class Playback;
 class RunControl;
 class SchemeList;
 class StartPage;
+class StudyPage;
 class Timeline;
 class ValuesTable;
 class Workspace;
@@ -51,6 +52,7 @@ public:
     CompareView& compareView() { return *compare_; }
     Discretizer& discretizer() { return *discretizer_; }
     Notices& notices() { return *notices_; }
+    StudyPage& studies() { return *studies_; }
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -92,12 +94,13 @@ private:
     Discretizer* discretizer_;
     SchemeList* schemes_;
     StartPage* startPage_;
+    StudyPage* studies_;
     Timeline* timeline_;
     ValuesTable* values_;
     HelpWindow* help_ = nullptr;
     LogWindow* log_ = nullptr;
     QStackedWidget* stack_;  ///< start page or work page
-    QStackedWidget* pages_;  ///< Compare, Notes
+    QStackedWidget* pages_;  ///< Compare, Notes, Studies
     QTabBar* tabs_;
     QSplitter* splitter_;
     QTextBrowser* notes_;

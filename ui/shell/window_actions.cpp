@@ -4,6 +4,7 @@
 #include <QMenu>
 #include <QMessageBox>
 #include <QStatusBar>
+#include <QTabBar>
 
 #include "engine/run/export.hpp"
 #include "engine/scene/bind.hpp"
@@ -26,11 +27,13 @@
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
+#include "ui/study/study_page.hpp"
 
 #include <QStackedWidget>
 
 #include <algorithm>
 #include <filesystem>
+#include <tuple>
 
 namespace extremal {
 
@@ -145,6 +148,10 @@ void MainWindow::addViewActions() {
         values_->setVisible(values_->isHidden());
         showValues();
     });
+    for (const auto& [index, id, text] :
+         {std::tuple{0, "compare", tr("Compare")}, {1, "notes", tr("Notes")}, {2, "studies", tr("Studies")}})
+        actions_->add(id, menu, text, {QKeySequence(Qt::CTRL | (Qt::Key_1 + index))},
+                      [this, index = index] { tabs_->setCurrentIndex(index); });
     auto* plots = new QMenu(tr("Plots"), this);
     connect(plots, &QMenu::aboutToShow, this, [this, plots] { fillPlots(*plots); });
     actions_->addSubmenu(menu, plots);
@@ -194,8 +201,17 @@ void MainWindow::addRunActions() {
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
     actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
+        if (studies_->isVisible() && studies_->stop()) return;
         if (!compare_->restore()) run_->stop();
     });
+    actions_->addSeparator(menu);
+    actions_->add(
+        "runStudy", menu, tr("Run the study"), {QKeySequence(Qt::CTRL | Qt::Key_R)},
+        [this] {
+            tabs_->setCurrentIndex(2);
+            studies_->start();
+        },
+        tr("Every scheme that is on over many steps: errors, costs, and what is worth it"));
 }
 
 void MainWindow::openDialog() {
