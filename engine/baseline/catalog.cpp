@@ -32,7 +32,8 @@ bool canIntegrate(const BaselineEntry& entry, const System& system) {
     return true;
 }
 
-Claims claimsOf(const BaselineEntry& entry, const Settings& settings) {
+Claims claimsOf(const BaselineEntry& entry, const Settings& settings, const System* system) {
+    if (system && entry.claimsOn) return entry.claimsOn(*system);
     return entry.claims ? entry.claims(settings) : entry.item.claims.value_or(Claims{});
 }
 

@@ -27,6 +27,8 @@ struct BaselineEntry {
     TimeGrid grid = TimeGrid::fixed;
     std::function<bool(const System&)> applies;     ///< empty: every system with coordinates
     std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
+    std::function<Claims(const System&)> claimsOn;  ///< where they depend on the kind of system
+    int orderInSpace = 0;  ///< of fields on meshes, which compositions in time do not raise; 0: there is none
     double stabilityLimit =
         0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
     /// What stands against a step beyond the stability limit of the harmonic oscillator; null: nothing.
@@ -38,8 +40,8 @@ struct BaselineEntry {
 /// Whether a baseline can integrate a system: it applies, and where few do, its maker does not refuse.
 bool canIntegrate(const BaselineEntry& entry, const System& system);
 
-/// The claims of a baseline with these keys.
-Claims claimsOf(const BaselineEntry& entry, const Settings& settings);
+/// The claims of a baseline with these keys; on a system, where it is known.
+Claims claimsOf(const BaselineEntry& entry, const Settings& settings, const System* system = nullptr);
 
 const std::vector<BaselineEntry>& baselineCatalog();
 const BaselineEntry* findBaseline(std::string_view id);

@@ -22,9 +22,10 @@ struct Discretization {
 struct Properties {
     /// Measured by tests/laws for every family, and what `extremal list` prints.
     Claims claims;
-    int curveOrder = 0;   ///< order of q between the nodes
-    std::string space;    ///< "polynomials of degree 3": of the space, for people
-    std::string knownAs;  ///< "implicit midpoint", "Störmer-Verlet", "Lobatto IIIA-IIIB", ...; may be empty
+    int curveOrder = 0;    ///< order of q between the nodes
+    int orderInSpace = 0;  ///< which compositions in time do not raise; 0: there is none
+    std::string space;     ///< "polynomials of degree 3": of the space, for people
+    std::string knownAs;   ///< "implicit midpoint", "Störmer-Verlet", "Lobatto IIIA-IIIB", ...; may be empty
     std::string shortName;    ///< for a cell of a grid: "mid", "SV", "G4", "L6"
     std::string prefix;       ///< of the label of a new scheme that is not known by a name: "Lie "
     bool isExplicit = false;  ///< for separable systems

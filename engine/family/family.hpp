@@ -59,6 +59,13 @@ struct ReferencePlan {
 /// References by a discretization, whose steps are halved until two of them agree.
 ReferencePlan referenceBy(std::string description, const System& system, const Discretization& scheme);
 
+/// The scheme that references of systems on meshes are computed with: on a mesh of its own.
+struct ReferenceMesh {
+    std::string description;
+    Discretization discretization;
+    double step = 0, elements = 0;
+};
+
 /// The function of a node, as a curve.
 struct ShapeFunction {
     std::vector<double> x, phi;
@@ -88,6 +95,12 @@ struct Family {
     /// The keys of the model at the resolution of a space; none where it has none of its own, so that the
     /// scheme is on the mesh of the scene. Null: spaces have none.
     std::optional<Settings> (*model)(const Settings& space, const Settings& model) = nullptr;
+    /// The keys of the model on a mesh of `factor` times as many elements: orders are those of a refinement
+    /// of the mesh and the step together, of all schemes for systems of the family. Null: of the step alone.
+    Settings (*refined)(const Settings& model, int factor) = nullptr;
+    /// The largest step that is stable, for what the window adds; infinity: none is not. Null: that of the
+    /// harmonic oscillator at the highest frequency.
+    double (*largestStep)(const System&, const Discretization&, const State& start) = nullptr;
     /// The state from which steps pass through the values of two levels, `step` apart, where the scheme can
     /// start so. Null: it starts from the state.
     State (*startThrough)(const System&, const Discretization&, double step, const State& first,
@@ -114,6 +127,9 @@ struct Family {
     std::string (*advice)(Outcome) = nullptr;
     /// Null where the family provides no reference.
     ReferencePlan (*reference)(const System&, const State& start, double duration) = nullptr;
+    /// Of systems on meshes, in place of `reference`: `refinement` 0, 1, .. doubles cells and steps. `step`:
+    /// the shortest of the scene's schemes. Null: none.
+    ReferenceMesh (*referenceMesh)(const Settings& model, double step, int refinement) = nullptr;
     ChoiceGrid (*choices)(const System&) = nullptr;
     /// The ids of the rules that a space can have, the preferred one first.
     std::vector<std::string> (*rules)(const Settings& space) = nullptr;

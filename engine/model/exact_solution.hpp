@@ -3,7 +3,8 @@
 /// Made from a callable `(double t, std::span<double> x)`, or, where many times at once are cheaper, from a
 /// callable
 /// `(std::span<const double> t, double* x)` with the state of time i at x + i * width. It may keep a warm
-/// start between calls, so each thread makes its own. Empty where there is none.
+/// start between calls, so each thread makes its own. Empty where there is none. The solution of a field may
+/// be known at all places besides.
 #pragma once
 
 #include <concepts>
@@ -32,6 +33,11 @@ public:
         };
     }
 
+    /// Of a field, where it is known at all places: u at each of them, then u_t. Places ascend. Else empty.
+    using AtPlaces = std::function<void(double t, std::span<const double> places, double* values)>;
+    const AtPlaces& atPlaces() const { return atPlaces_; }
+    void setAtPlaces(AtPlaces at) { atPlaces_ = std::move(at); }
+
     explicit operator bool() const { return static_cast<bool>(many_); }
 
     void operator()(double t, std::span<double> x) const { many_({&t, 1}, x.data(), x.size()); }
@@ -40,6 +46,7 @@ public:
 
 private:
     std::function<void(std::span<const double> t, double* x, std::size_t width)> many_;
+    AtPlaces atPlaces_;
 };
 
 }  // namespace extremal

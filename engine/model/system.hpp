@@ -53,6 +53,9 @@ struct ErrorMeasure {
     bool isOfPhase = false;         ///< of an angle or phase that grows with t, known to its round-off only
     /// One value per column.
     std::function<void(const double* x, const double* reference, double* values)> evaluate;
+    /// Of a field, the L2 norm of the distance of the function with the values x from the solution, which is
+    /// known at all places. May be empty.
+    std::function<double(double t, const double* x, const ExactSolution& reference)> ofFunction = {};
 };
 
 /// The energy at (t, x).
@@ -65,7 +68,9 @@ struct FieldSampling {
     std::vector<double> y;                ///< of a rectangle, the nodes in its second direction; else empty
     std::vector<std::string> components;  ///< "re", "im"
     std::size_t places() const { return x.size() * (y.empty() ? 1 : y.size()); }
-    double period = 0;  ///< along x: the first node is met again after it; 0: not periodic
+    double period = 0;        ///< along x: the first node is met again after it; 0: not periodic
+    std::size_t further = 0;  ///< values of a sample behind those of the places, for the drawing alone
+    std::size_t size() const { return places() * components.size() + further; }
     /// Component after component, each at all places, along x first.
     std::function<void(const double* state, double* values)> sample;
     explicit operator bool() const { return static_cast<bool>(sample); }
@@ -73,6 +78,7 @@ struct FieldSampling {
 
 class Hamiltonian;
 struct FieldProblem;
+struct MembraneProblem;
 struct EllipticProblem;
 
 /// What kind of problem a system is: what schemes are made for. Families and baselines ask for it; whoever
@@ -87,11 +93,16 @@ struct Wave {
 struct ScalarField {
     std::shared_ptr<const FieldProblem> problem;
 };
+/// A membrane over a disc, on triangles (model/membrane/problem.hpp).
+struct Membrane {
+    std::shared_ptr<const MembraneProblem> problem;
+};
 /// No motion, but a boundary-value problem along x (model/elliptic.hpp).
 struct BoundaryProblem {
     std::shared_ptr<const EllipticProblem> problem;
 };
-using SystemKind = std::variant<std::monostate, Mechanical, Body, Wave, ScalarField, BoundaryProblem>;
+using SystemKind =
+    std::variant<std::monostate, Mechanical, Body, Wave, ScalarField, Membrane, BoundaryProblem>;
 
 /// What a system measures of its own states, for the observable of that id.
 struct Measure {
@@ -157,6 +168,8 @@ struct System {
     std::function<bool(const Settings& initial)> givesLevels;
 
     FieldSampling field;
+    /// The state of a field at other places, as good as at its nodes: all u, then all u_t. May be empty.
+    std::function<void(const double* x, std::span<const double> places, double* values)> at;
     /// What is doubtful in a state, for people ("under-resolved: .."); empty text where nothing is. May be
     /// empty.
     std::function<std::string(const double* x)> caution;

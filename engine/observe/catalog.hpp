@@ -40,6 +40,9 @@ struct Observer {
     std::vector<Column> columns;  ///< names, symbols, units; values empty
     /// Fills one value per column.
     Evaluation evaluate;
+    /// Columns behind those, whose values cost more and are computed at rows alone. Empty: none.
+    std::vector<Column> rowColumns = {};
+    std::function<void(double t, const double* x, double* values)> evaluateRow = {};
     /// Column whose size goes into the summary as a maximum over every node ("energy_error", ...); -1 if
     /// none.
     int extreme = -1;

@@ -64,8 +64,7 @@ void MapReference::share(const ResolvedScene& resolved, const std::vector<double
     for (const double step : steps)
         for (long long k = 0; k <= stepCount(scene.start.value, scene.end.value, step); ++k)
             times.push_back(Clock{initial.t, step}.at(k));
-    const auto shared = std::make_shared<SharedSolution>(reference_.make, std::move(times), initial.x.size());
-    reference_.make = [shared] { return SharedSolution::reader(shared); };
+    reference_.share(std::move(times), initial.x.size(), resolved.system);
 }
 
 ExactSolution MapReference::at(std::size_t row, const ResolvedScene& resolved,

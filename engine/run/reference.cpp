@@ -168,6 +168,67 @@ double exactError(const System& system, const State& initial, double duration) {
     return 2e-15 * scale * std::max(1.0, w * duration / 10);
 }
 
+/// The family that references of the system are computed with on meshes of their own; null: there is none.
+const Family* familyOnMeshes(const System& system) {
+    for (const Family& family : families())
+        if (family.referenceMesh && family.applies(system)) return &family;
+    return nullptr;
+}
+
+/// Refined at least once, and further while that is cheap. The error of a solution is an eighth of its
+/// distance from the one before: orders are 5 and more. None where initial data are known on the mesh of the
+/// scene alone, or where it would cost minutes.
+Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, const std::stop_token& stop) {
+    constexpr double mostElementSteps = 2e7, cheap = 1e5, gain = 8;
+    const Scene& scene = resolved.scene;
+    const double length = scene.end.value - scene.start.value;
+    double step = length / 100;
+    for (const SchemeSpec& spec : scene.schemes)
+        if (spec.isEnabled && spec.step.value > 0) step = std::min(step, spec.step.value);
+    const auto solutionOf = [&](int refinement) {
+        const ReferenceMesh mesh = family.referenceMesh(scene.model, step, refinement);
+        ResolvedScheme scheme;
+        scheme.family = &family;
+        scheme.discretization = mesh.discretization;
+        resolveSystem(scheme, scene);
+        return MeshSolution{scheme.ownSystem, scheme.ownInitial.x.size(),
+                            stepped(
+                                [own = scheme.ownSystem, d = mesh.discretization, h = mesh.step, stop] {
+                                    auto integrator = makeIntegrator(*own, d, {0, h});
+                                    integrator->setStop(stop);
+                                    return integrator;
+                                },
+                                scheme.ownInitial, scene.end.value)};
+    };
+    const ErrorMeasure measure = errorMeasure(*resolved.system, resolved.initial);
+    const auto costOf = [&](int refinement) {
+        const ReferenceMesh mesh = family.referenceMesh(scene.model, step, refinement);
+        return mesh.elements * (length / mesh.step);
+    };
+    if (costOf(1) > mostElementSteps) return {};
+    Reference reference;
+    try {
+        MeshSolution coarse = solutionOf(0);
+        for (int refinement = 1;; ++refinement) {
+            MeshSolution fine = solutionOf(refinement);
+            const double error = distance(fine.on(resolved.system), coarse.on(resolved.system), step, true,
+                                          scene, *resolved.system, resolved.initial, stop) /
+                                 gain;
+            if (stop.stop_requested() || !std::isfinite(error)) return {};
+            if (refinement > 1 && error > reference.info.estimatedError) break;
+            reference.info = {"computed", error,
+                              family.referenceMesh(scene.model, step, refinement).description};
+            reference.onMesh = fine;
+            coarse = std::move(fine);
+            if (error < 1e-13 * std::max(measure.scale, 1.0) || costOf(refinement + 1) > cheap) break;
+        }
+    } catch (const InvalidScene&) {
+        return {};  // values at the nodes of the scene alone
+    }
+    reference.make = [fine = reference.onMesh, system = resolved.system] { return fine.on(system); };
+    return reference;
+}
+
 Reference fromScheme(const ResolvedScene& resolved, const std::stop_token& stop) {
     const Scene& scene = resolved.scene;
     const System& system = *resolved.system;
@@ -270,6 +331,8 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (kind == Kind::exact)
         throw InvalidScene("/reference", "no exact solution is known from these initial data",
                            "use \"auto\"");
+    if (const Family* const family = familyOnMeshes(system); family && system.at)
+        return computedOnMesh(resolved, *family, stop);
     return computed(scene, system, initial, stop);
 }
 
@@ -277,11 +340,44 @@ Reference referenceFor(const Reference& reference, const ResolvedScene& resolved
                        const ResolvedScheme& scheme) {
     if (!scheme.ownSystem || !reference.make) return reference;
     Reference own{reference.info, {}};
+    if (reference.onMesh.system)
+        own.make = [mesh = reference.onMesh, system = scheme.ownSystem] { return mesh.on(system); };
     if (reference.info.type == "exact")
         own.make = [&scene = resolved.scene, system = scheme.ownSystem, initial = scheme.ownInitial] {
             return exactSolution(scene, *system, initial);
         };
     return own;
+}
+
+ExactSolution MeshSolution::on(const std::shared_ptr<const System>& other) const {
+    const ExactSolution solution = make();
+    auto at = [own = system, solution, x = std::vector<double>(width)](
+                  double t, std::span<const double> places, double* values) mutable {
+        solution(t, x);
+        own->at(x.data(), places, values);
+    };
+    ExactSolution read = [at, other](double t, std::span<double> x) mutable {
+        at(t, other->field.x, x.data());
+    };
+    read.setAtPlaces(at);
+    return read;
+}
+
+void Reference::share(std::vector<double> times, std::size_t width, std::shared_ptr<const System> system) {
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    const bool hasMesh = onMesh.system != nullptr;
+    if (hasMesh) width = onMesh.width;
+    if (!SharedSolution::isSmall(static_cast<double>(times.size()), width)) return;
+    const auto shared =
+        std::make_shared<SharedSolution>(hasMesh ? onMesh.make : make, std::move(times), width);
+    const auto reader = [shared] { return SharedSolution::reader(shared); };
+    if (!hasMesh) {
+        make = reader;
+        return;
+    }
+    onMesh.make = reader;
+    make = [mesh = onMesh, system = std::move(system)] { return mesh.on(system); };
 }
 
 void shareReference(Reference& reference, const ResolvedScene& resolved) {
@@ -307,11 +403,7 @@ void shareReference(Reference& reference, const ResolvedScene& resolved) {
     for (const Clock& grid : grids)
         for (long long k = 0; k <= stepCount(start, scene.end.value, grid.step); ++k)
             times.push_back(grid.at(k));
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
-    if (!SharedSolution::isSmall(static_cast<double>(times.size()), width)) return;
-    const auto shared = std::make_shared<SharedSolution>(reference.make, std::move(times), width);
-    reference.make = [shared] { return SharedSolution::reader(shared); };
+    reference.share(std::move(times), width, resolved.system);
 }
 
 }  // namespace extremal

@@ -1,26 +1,43 @@
 /// The solution that errors are measured against, and how good it is itself.
 ///
 /// exact: the model's own; computed: Gauss collocation of degree 12 at a step refined until two of them
-/// agree, evaluated on its dense output; scheme: a scheme of the user's choice; file: rows of a CSV,
-/// known only at their times.
+/// agree, evaluated on its dense output; for fields elements of high degree on a mesh that is finer than that
+/// of the scene; scheme: a scheme of the user's choice; file: rows of a CSV, known only at their times.
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <stop_token>
+#include <vector>
 
 #include "engine/model/system.hpp"
 #include "engine/run/comparison.hpp"
 
 namespace extremal {
 
+/// A solution on a mesh of its own.
+struct MeshSolution {
+    std::shared_ptr<const System> system;  ///< null: there is none
+    std::size_t width = 0;                 ///< of its states
+    std::function<ExactSolution()> make;
+    /// A solution read off at the nodes of another mesh.
+    ExactSolution on(const std::shared_ptr<const System>& other) const;
+};
+
 struct Reference {
     ReferenceInfo info;
     /// Makes a solution for one run: each keeps its own place in time. Empty where there is no reference. At
     /// times it does not know it gives NaN.
     std::function<ExactSolution()> make;
+    /// Where it has a mesh of its own. `make` is read off it.
+    MeshSolution onMesh = {};
+
+    /// Computes the solution once for all its users, at these times. Not where its states at all of them are
+    /// too many numbers. `width`: of the states of the scene.
+    void share(std::vector<double> times, std::size_t width, std::shared_ptr<const System> system);
 };
 
-/// The reference as a scheme on a mesh of its own sees it: the exact solution at its nodes, else none.
+/// The reference as a scheme on a mesh of its own sees it: the solution at its nodes, or none.
 Reference referenceFor(const Reference& reference, const ResolvedScene& resolved,
                        const ResolvedScheme& scheme);
 

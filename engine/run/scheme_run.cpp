@@ -111,6 +111,7 @@ struct SchemeRun::Recording {
                 b.own = Summary::memberOf(id);
             }
             for (const Column& c : b.observer.columns) result.trajectory.columns.push_back(c);
+            for (const Column& c : b.observer.rowColumns) result.trajectory.columns.push_back(c);
             observers.push_back(std::move(b));
         }
     }
@@ -140,6 +141,10 @@ struct SchemeRun::Recording {
         double* row = values.data() + i * width;
         row[0] = nodes.t(i);
         std::copy_n(nodes.x(i), stateWidth, row + 1);
+        for (const Bound& b : observers)
+            if (b.observer.evaluateRow)
+                b.observer.evaluateRow(nodes.t(i), nodes.x(i),
+                                       row + b.firstColumn + b.observer.columns.size());
         for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
         result.trajectory.nodes.push_back(done);
         if (system.field && plan.has(Product::frames)) recordFrame(nodes.t(i), nodes.x(i), false);
@@ -153,8 +158,7 @@ struct SchemeRun::Recording {
         frames.offer(
             t, isLast,
             [&] {
-                auto picture = std::make_shared<std::vector<double>>(system.field.places() *
-                                                                     system.field.components.size());
+                auto picture = std::make_shared<std::vector<double>>(system.field.size());
                 system.field.sample(x, picture->data());
                 return picture;
             },
@@ -402,7 +406,7 @@ void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::st
             addEquations(result, plan_, resolved_, scheme_, own, exact, stop);
         }
         if (wantsOrder && result.summary.status == RunStatus::done && !scheme_.isAdaptive() && reference.make)
-            measureOrder(result, reference, stop);
+            measureOrder(result, reference, ofScene, stop);
         publish(result);
     } catch (const InvalidScene& e) {
         SchemeResult failed = *latest();
@@ -415,16 +419,25 @@ void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::st
     }
 }
 
-/// Slope of log(max error) over log(step) from runs with h, h/2 and h/4; where steps are unknowns, over the
-/// mean step of each run. Points at the floor of the reference or of round-off are left out.
-void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference,
+/// Slope of log(max error) over log(step) from runs with h, h/2 and h/4: of fields on meshes that are refined
+/// with the step, and where steps are unknowns over the mean step of each run. Points at the floor of the
+/// reference or of round-off are left out.
+void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference, const Reference& ofScene,
                              const std::stop_token& stop) const {
     const double scale = largestEntry(initialOf(resolved_, scheme_));
     std::vector<double> x, y;
     for (const double divisor : {1.0, 2.0, 4.0}) {
         const double step = spec_.step.value / divisor;
-        const State own = schemeStart(resolved_, scheme_, step);
-        Recording p(resolved_, scheme_, own, reference, {"error"}, step, 1LL << 60, 0, stop);
+        ResolvedScheme finer = scheme_;
+        if (divisor > 1) try {
+                finer = refined(scheme_, resolved_, static_cast<int>(divisor));
+            } catch (const InvalidScene&) {
+                break;  // values at the nodes of one mesh
+            }
+        const Reference its = divisor > 1 ? referenceFor(ofScene, resolved_, finer) : reference;
+        if (!its.make) break;
+        const State own = schemeStart(resolved_, finer, step);
+        Recording p(resolved_, finer, own, its, {"error"}, step, 1LL << 60, 0, stop);
         p.run([] {});
         const double error = p.result.summary.maxError;
         const double floor =

@@ -38,7 +38,8 @@ public:
 private:
     struct Recording;
     void publish(const SchemeResult& result);
-    void measureOrder(SchemeResult& result, const Reference& reference, const std::stop_token& stop) const;
+    void measureOrder(SchemeResult& result, const Reference& reference, const Reference& ofScene,
+                      const std::stop_token& stop) const;
 
     const ResolvedScene& resolved_;
     const ResolvedScheme& scheme_;

@@ -49,8 +49,8 @@ ReadScene readDocument(const Value& document, const std::string& directory) {
     ResolvedScene resolved;
     resolved.scene = scene;
     if (system) resolved.system = std::make_shared<const System>(*system);
-    for (const SchemeSpec& spec : scene.schemes) resolved.schemes.push_back(resolve(spec));
-    for (const SchemeSpec& spec : scene.reference.scheme) resolved.reference.push_back(resolve(spec));
+    for (const SchemeSpec& spec : scene.schemes) resolved.schemes.push_back(resolve(spec, model));
+    for (const SchemeSpec& spec : scene.reference.scheme) resolved.reference.push_back(resolve(spec, model));
     checkWhole(reader, resolved, places);
     if (reader.errors.empty()) result.resolved = std::make_shared<const ResolvedScene>(std::move(resolved));
     result.errors = std::move(reader.errors);

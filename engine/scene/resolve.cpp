@@ -1,5 +1,7 @@
 #include "engine/scene/resolve.hpp"
 
+#include <algorithm>
+
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
@@ -58,7 +60,7 @@ std::optional<Discretization> discretizationOf(const SchemeSpec& scheme) {
     return found;
 }
 
-ResolvedScheme resolve(const SchemeSpec& scheme) {
+ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
     ResolvedScheme r;
     r.spec = scheme;
     if (auto discretization = discretizationOf(scheme)) {
@@ -73,12 +75,14 @@ ResolvedScheme resolve(const SchemeSpec& scheme) {
             throw InvalidScene("/scheme", "unknown scheme \"" + scheme.named + "\"");
         r.baseline = findBaseline(scheme.baseline.type);
         if (!r.baseline) throw InvalidScene("/baseline", "unknown baseline \"" + scheme.baseline.type + "\"");
-        r.claims = claimsOf(*r.baseline, scheme.baseline);
+        r.claims = claimsOf(*r.baseline, scheme.baseline, system);
         r.grid = r.baseline->isAdaptive ? TimeGrid::landing : r.baseline->grid;
     }
     if (scheme.composition.type.empty()) return r;
     r.parts = compositionParts(scheme.composition, r.claims.order);
     r.claims = composedClaims(scheme.composition, r.claims);
+    const int most = r.baseline ? r.baseline->orderInSpace : r.properties.orderInSpace;
+    if (most > 0) r.claims.order = std::min(r.claims.order, most);
     return r;
 }
 
@@ -90,13 +94,30 @@ void resolveSystem(ResolvedScheme& scheme, const Scene& scene) {
     scheme.ownInitial = initialState(scene, *scheme.ownSystem);
 }
 
+ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& resolved, int factor) {
+    ResolvedScheme finer = scheme;
+    const Settings& model = resolved.scene.model;
+    for (const Family& family : families()) {
+        if (!family.refined || !family.applies(*resolved.system)) continue;
+        std::optional<Settings> own;
+        if (scheme.family && scheme.family->model)
+            own = scheme.family->model(scheme.discretization.space, model);
+        const Settings keys = family.refined(own.value_or(model), factor);
+        finer.ownSystem = std::make_shared<const System>(findModel(model.type)->make(keys));
+        finer.ownInitial = initialState(resolved.scene, *finer.ownSystem);
+        break;
+    }
+    return finer;
+}
+
 ResolvedScene resolve(const Scene& scene) {
     ResolvedScene r;
     r.scene = scene;
     r.system = std::make_shared<const System>(makeSystem(scene));
     r.initial = initialState(scene, *r.system);
-    for (const SchemeSpec& scheme : scene.schemes) r.schemes.push_back(resolve(scheme));
-    for (const SchemeSpec& scheme : scene.reference.scheme) r.reference.push_back(resolve(scheme));
+    for (const SchemeSpec& scheme : scene.schemes) r.schemes.push_back(resolve(scheme, r.system.get()));
+    for (const SchemeSpec& scheme : scene.reference.scheme)
+        r.reference.push_back(resolve(scheme, r.system.get()));
     for (ResolvedScheme& scheme : r.schemes) resolveSystem(scheme, scene);
     return r;
 }

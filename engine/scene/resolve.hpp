@@ -48,8 +48,9 @@ struct ResolvedScheme {
 /// The complete discretization that a scheme is or is composed of; none for baselines.
 std::optional<Discretization> discretizationOf(const SchemeSpec& scheme);
 
-/// Keys must be checked and complete. Throws InvalidScene where a name is not known.
-ResolvedScheme resolve(const SchemeSpec& scheme);
+/// Keys must be checked and complete. Claims are those on the system, where it is known. Throws InvalidScene
+/// where a name is not known.
+ResolvedScheme resolve(const SchemeSpec& scheme, const System* system = nullptr);
 
 struct ResolvedScene {
     Scene scene;
@@ -70,6 +71,10 @@ inline const State& initialOf(const ResolvedScene& scene, const ResolvedScheme& 
 
 /// Gives the scheme its own system where its space has a resolution of its own. Throws InvalidScene.
 void resolveSystem(ResolvedScheme& scheme, const Scene& scene);
+
+/// The scheme on a mesh of `factor` times as many elements, where the system has a mesh; else as it is.
+/// Throws InvalidScene where the initial data are not known there.
+ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& scene, int factor);
 
 /// Throws InvalidScene where the scene is not valid.
 ResolvedScene resolve(const Scene& scene);

@@ -70,7 +70,7 @@ public:
 
 private:
     void add(std::string name, Group group, int degree, const SchemeSpec& spec) {
-        CatalogueScheme c{std::move(name), group, degree, resolve(spec)};
+        CatalogueScheme c{std::move(name), group, degree, resolve(spec, &system_)};
         c.scheme.spec.label = c.name;
         c.scheme.spec.step = {c.scheme.isAdaptive() ? 0 : step_, {}};
         if (!c.scheme.fits(system_) || !names_.insert(c.name).second) return;

@@ -73,7 +73,8 @@ private slots:
             for (const Subject& s : everySubject(kind)) known.insert(s.system.id);
         for (const ModelEntry& model : modelCatalog()) {
             if (known.contains(model.item.id)) continue;
-            // Problems without motion (laws.claims_elliptic), and fields, whose folders measure their claims.
+            // Problems without motion (laws.claims_elliptic), and fields (laws.claims_fields), whose orders
+            // are those of the mesh and the step together.
             bool isElsewhere = false;
             for (const Preset* preset : onePerModel()) {
                 const Scene scene = readScene(preset->json).scene;

@@ -149,8 +149,7 @@ std::vector<Subject> everySubject(SubjectKind kind) {
     for (const Preset* preset : onePerModel()) {
         const Scene scene = readScene(preset->json).scene;
         const System system = makeSystem(scene);
-        // Fields have no reference of their own yet: their claims are measured in tests/engine/family/field
-        // and asynchronous, against exact solutions.
+        // The orders of fields are those of the mesh and the step together: laws.claims_fields.
         if (kindOfSubject(system) != kind || kindOf<BoundaryProblem>(system) || isField(system)) continue;
         double longest = 0;
         for (const SchemeSpec& scheme : scene.schemes) longest = std::max(longest, 40 * scheme.step.value);

@@ -105,12 +105,31 @@ std::string uniqueLabel(const Scene& scene, const std::string& wish) {
     return label;
 }
 
+/// The step, or nine tenths of the largest that is stable on the mesh of the scheme.
+double stableStep(const Scene& scene, const Settings& space, const Settings& quadrature, double step) {
+    const Family* const family = familyOf(space);
+    if (!family || !family->largestStep) return step;
+    try {
+        ResolvedScheme scheme;
+        scheme.family = family;
+        scheme.discretization = {space, quadrature, {}};
+        resolveSystem(scheme, scene);
+        const System system = scheme.ownSystem ? *scheme.ownSystem : makeSystem(scene);
+        const State start = scheme.ownSystem ? scheme.ownInitial : initialState(scene, system);
+        const double largest = family->largestStep(system, scheme.discretization, start);
+        return largest > 0 && step > 0.9 * largest ? roundStep(0.9 * largest) : step;
+    } catch (const InvalidScene&) {
+        return step;  // what is wrong with the scene is said elsewhere
+    }
+}
+
 Value newPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
     const Properties known = describe(space, quadrature);
     Value scheme{Value::Object{}};
     scheme.set("label", uniqueLabel(scene, pairLabel(space, quadrature)));
     if (!hasImpliedStep(space))
-        scheme.set("step", sensibleStep(scene, known.claims.order, known.stabilityLimit));
+        scheme.set("step", stableStep(scene, space, quadrature,
+                                      sensibleStep(scene, known.claims.order, known.stabilityLimit)));
     scheme.set("space", settingsTree(space));
     // Panels that follow the cells of the space are left to do so when these are edited.
     Settings rule = quadrature;

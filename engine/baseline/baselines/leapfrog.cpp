@@ -1,6 +1,7 @@
 /// Leapfrog. Of fields, u^{l+1} = 2 u^l - u^{l-1} + dt^2 (c^2 delta_x^2 u^l - W'(u^l)): explicit, stable for
 /// c dt <= dx. Of wave functions, psi^{l+1} = psi^{l-1} - (2 i dt/hbar) H psi^l: explicit, stable for |E| dt
-/// <= hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2.
+/// <= hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2; for
+/// fields a one-step method for u and u_t.
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/baseline/field_method.hpp"
@@ -21,6 +22,11 @@ BaselineEntry leapfrog() {
         Claims{2, true, true, {"bilinear form"}, false},
         "a wave function or a field"};
     e.applies = [](const System& system) { return isWave(system) || isField(system); };
+    e.claimsOn = [](const System& system) {
+        if (isField(system)) return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
+        return Claims{2, true, true, {"bilinear form"}, false};
+    };
+    e.orderInSpace = 2;
     e.stabilityLimit = 1;
     e.check = [](const SchemeCase& scheme, Findings& findings) {
         if (isField(scheme.system))

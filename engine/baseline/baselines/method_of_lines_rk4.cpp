@@ -53,9 +53,10 @@ BaselineEntry method_of_lines_rk4() {
     e.item = {
         "method-of-lines-rk4",
         "method of lines, RK4",
-        "Fields: second differences in space, the classical Runge-Kutta method in time; energy is lost.",
+        "Fields: second differences in space, the classical Runge-Kutta method of order 4 in time; energy is "
+        "lost.",
         {},
-        Claims{4, false, false, {"momentum"}},
+        Claims{2, false, false, {"momentum"}},
         "a field"};
     e.applies = isField;
     e.stabilityLimit = limit;

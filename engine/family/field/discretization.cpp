@@ -45,7 +45,10 @@ TimeTable timeTable(const Discretization& d) {
     return {degree, ruleIn(d.quadrature, "time", degree)};
 }
 
-double leastMass(int degree, const Rule<double>& rule) {
+namespace {
+
+/// The mass of an element of length 1.
+dense::SymmetricEigen<double> massModes(int degree, const Rule<double>& rule) {
     const int n = degree + 1;
     const LobattoBasis basis(degree);
     dense::Matrix<double> M = dense::Matrix<double>::Zero(n, n);
@@ -57,9 +60,31 @@ double leastMass(int degree, const Rule<double>& rule) {
                 M(a, b) += rule.b[static_cast<std::size_t>(q)] * value[static_cast<std::size_t>(a)] *
                            value[static_cast<std::size_t>(b)];
     }
-    const auto eigen = dense::symmetricEigen<double>(M);
-    const double ratio = eigen.values(0) / eigen.values(n - 1);
-    return ratio > 1e-12 ? ratio : 0;
+    return dense::symmetricEigen<double>(M);
+}
+
+constexpr double noMass = 1e-12;  ///< relative to the largest
+
+}  // namespace
+
+double leastMass(int degree, const Rule<double>& rule) {
+    const auto modes = massModes(degree, rule);
+    const double ratio = modes.values(0) / modes.values(degree);
+    return ratio > noMass ? ratio : 0;
+}
+
+bool hasMasslessWave(const FieldProblem& problem, const Rule<double>& rule) {
+    const int r = problem.nodes.degree, N = problem.mesh.elements();
+    const auto modes = massModes(r, rule);
+    const auto isMassless = [&](int k) { return !(modes.values(k) > noMass * modes.values(r)); };
+    if (!isMassless(0)) return false;
+    if (r > 0 && isMassless(1)) return true;  // one of the combinations is 0 at an end
+    // From element to element it goes on by the factor of its values at both ends.
+    const double left = modes.vectors(0, 0), right = modes.vectors(r, 0);
+    if (std::abs(left) < noMass && std::abs(right) < noMass) return true;
+    if (problem.mesh.boundary == Boundary::neumann) return true;
+    if (problem.mesh.boundary == Boundary::dirichlet) return false;
+    return std::abs(std::pow(right / left, N) - 1) < 1e-6;
 }
 
 }  // namespace extremal

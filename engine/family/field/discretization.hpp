@@ -32,4 +32,9 @@ TimeTable timeTable(const Discretization& d);
 /// an element, relative to the largest. 0: the rule does not see the mass of a wave.
 double leastMass(int degree, const Rule<double>& rule);
 
+/// Whether the mesh carries a wave that the rule in space gives no mass, such as the wave that alternates
+/// from node to node with the midpoint rule, on an even number of cells around a circle or between free ends.
+/// Its velocity does not follow from its momentum, which is 0.
+bool hasMasslessWave(const FieldProblem& problem, const Rule<double>& rule);
+
 }  // namespace extremal

@@ -112,6 +112,7 @@ Properties describeTent(const Discretization& d) {
         }
     const Rule<double> rule = ruleIn(d.quadrature, "space", degrees.space);
     p.claims.order = std::min(space.claims.order, time.claims.order);
+    p.orderInSpace = space.claims.order;
     p.claims.isSymmetric = time.claims.isSymmetric;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"multisymplectic form", "momentum"};
@@ -177,6 +178,13 @@ std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
     return own;
 }
 
+Settings refined(const Settings& model, int factor) {
+    Settings finer = model;
+    for (auto& [key, value] : finer.keys)
+        if (key == "cells") value = value.asNumber() * factor;
+    return finer;
+}
+
 std::shared_ptr<const FieldProblem> problemFor(const System& system, const Discretization& d) {
     const auto& problem = std::get<ScalarField>(system.kind).problem;
     if (problem->nodes.degree != tentDegrees(d.space).space)
@@ -188,8 +196,43 @@ std::shared_ptr<const FieldProblem> problemFor(const System& system, const Discr
 void checkTent(const SchemeCase& scheme, Findings& findings) {
     const Discretization& d = scheme.discretization;
     if (describe(d).stabilityLimit <= 0) return;  // said already
+    const auto problem = problemFor(scheme.system, d);
+    // The midpoint rule in time takes the velocity from the velocity, all others from the momentum.
+    if (!scheme.allowsUnstable && !timeTable(d).isBalanced() &&
+        hasMasslessWave(*problem, ruleIn(d.quadrature, "space", problem->nodes.degree)))
+        findings.error("/quadrature",
+                       "with the rule " + ruleName(d.quadrature, "space") + " in space on this mesh of " +
+                           std::to_string(problem->mesh.elements()) +
+                           " cells the wave that alternates from node to node has no mass, so that its "
+                           "velocity does not follow from its momentum",
+                       problem->mesh.isPeriodic()
+                           ? "an odd number of cells, another rule in space, midpoint in time and degree 1 "
+                             "there, or \"allow_unstable\": true"
+                           : "another rule in space, midpoint in time and degree 1 there, or "
+                             "\"allow_unstable\": true");
     checkFieldStep(*spatialForm(d, problemFor(scheme.system, d)), timeLimit(timeTable(d)), scheme,
                    describe(d).knownAs, findings);
+}
+
+/// Degree 3 in space and time. Steps divide those of the schemes, whose nodes are then among its own.
+ReferenceMesh referenceMesh(const Settings& model, double step, int refinement) {
+    const int factor = 1 << refinement;
+    const Settings space{"tent",
+                         {{"degree", Value(Value::Object{{"space", 3}, {"time", 3}})},
+                          {"cells", static_cast<double>(model.integer("cells") * factor)}},
+                         {}};
+    return {"elements of degree 3 on " + std::to_string(model.integer("cells") * factor) +
+                " cells, h = " + formatNumber(step / factor, 3),
+            {space, completeTent(space, {}), {}},
+            step / factor,
+            static_cast<double>(model.integer("cells") * factor)};
+}
+
+double largestStep(const System& system, const Discretization& d, const State& start) {
+    if (describe(d).stabilityLimit <= 0) return 0;
+    const double limit = timeLimit(timeTable(d));
+    if (std::isinf(limit)) return limit;
+    return limit / std::sqrt(spatialForm(d, problemFor(system, d))->largestEigenvalue(start.x.data()));
 }
 
 /// A complete rule of one direction, as an object.
@@ -349,6 +392,9 @@ Family field() {
     f.hasDenseOutput = false;
     f.applies = isField;
     f.model = modelOf;
+    f.referenceMesh = referenceMesh;
+    f.refined = refined;
+    f.largestStep = largestStep;
     f.startThrough = startThrough;
     f.completeRule = completeTent;
     f.describe = describeTent;

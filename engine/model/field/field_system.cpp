@@ -21,6 +21,45 @@ FieldSampling samplingOf(const Shared& problem) {
     return f;
 }
 
+/// The L2 norm of u_h - u, by the Gauss rule of 4 nodes on each element.
+class FunctionError {
+public:
+    explicit FunctionError(Shared problem) : problem_(std::move(problem)), rule_(gauss<double>(points)) {
+        for (int e = 0; e < problem_->mesh.elements(); ++e)
+            for (const double c : rule_.c)
+                places_.push_back(problem_->mesh.x[static_cast<std::size_t>(e)] + problem_->mesh.size(e) * c);
+        const auto width = static_cast<std::size_t>(problem_->nodes.degree) + 1;
+        value_.resize(points * width);
+        std::vector<double> slope(width);
+        for (std::size_t q = 0; q < points; ++q)
+            problem_->nodes.basis.at(rule_.c[q], &value_[q * width], slope.data());
+    }
+
+    double operator()(double t, const double* x, const ExactSolution& exact) const {
+        std::vector<double> u(2 * places_.size());
+        exact.atPlaces()(t, places_, u.data());
+        const FieldNodes& nodes = problem_->nodes;
+        double sum = 0;
+        const double* place = u.data();
+        for (int e = 0; e < nodes.elements; ++e)
+            for (std::size_t q = 0; q < points; ++q) {
+                double difference = -*place++;
+                for (int a = 0; a <= nodes.degree; ++a)
+                    difference +=
+                        value_[q * static_cast<std::size_t>(nodes.degree + 1) + static_cast<std::size_t>(a)] *
+                        x[nodes.node(e, a)];
+                sum += rule_.b[q] * problem_->mesh.size(e) * difference * difference;
+            }
+        return std::sqrt(sum);
+    }
+
+private:
+    static constexpr int points = 4;
+    Shared problem_;
+    Rule<double> rule_;
+    std::vector<double> places_, value_;
+};
+
 ErrorMeasure errorOf(const Shared& problem) {
     ErrorMeasure m;
     m.columns = {{"error", "", "‖u - u ref‖", ""}};
@@ -30,6 +69,9 @@ ErrorMeasure errorOf(const Shared& problem) {
         for (std::size_t i = 0; i < weights.size(); ++i)
             sum += weights[i] * (x[i] - reference[i]) * (x[i] - reference[i]);
         values[0] = std::sqrt(sum);
+    };
+    m.ofFunction = [f = FunctionError(problem)](double t, const double* x, const ExactSolution& u) {
+        return f(t, x, u);
     };
     return m;
 }
@@ -57,6 +99,40 @@ Measure translationMeasure(const Shared& problem) {
                     values[1] = values[0] - start;
                 };
             }};
+}
+
+/// Values at places in ascending order, by the polynomial through the nodes of the element and of its two
+/// neighbours: between nodes it is as good as the nodes of elements of degree 3, whose own polynomials are
+/// not.
+void evaluateAt(const FieldProblem& problem, const double* x, std::span<const double> places,
+                double* values) {
+    constexpr int most = 3 * FieldNodes::mostDegree + 1;
+    const FieldNodes& nodes = problem.nodes;
+    const int n = nodes.size(), points = std::min(3 * nodes.degree + 1, n);
+    double place[most], weight[most];
+    std::size_t index[most];
+    int e = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        while (e + 1 < nodes.elements && problem.mesh.x[static_cast<std::size_t>(e) + 1] < places[i]) ++e;
+        int first = (e - 1) * nodes.degree;
+        if (!nodes.isPeriodic) first = std::clamp(first, 0, n - points);
+        for (int j = 0; j < points; ++j) {
+            const int node = first + j, turns = node < 0 ? -1 : node / n;
+            index[j] = static_cast<std::size_t>(node - turns * n);
+            place[j] = nodes.x[index[j]] + turns * problem.mesh.length();
+        }
+        for (int j = 0; j < points; ++j) {
+            weight[j] = 1;
+            for (int k = 0; k < points; ++k)
+                if (k != j) weight[j] *= (places[i] - place[k]) / (place[j] - place[k]);
+        }
+        for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
+            const double* from = x + part * nodes.x.size();
+            double sum = 0;
+            for (int j = 0; j < points; ++j) sum += weight[j] * from[index[j]];
+            values[part * places.size() + i] = sum;
+        }
+    }
 }
 
 /// u over x as a curtain above 0; `unit`: how high 1 stands.
@@ -132,6 +208,9 @@ System makeFieldSystem(Shared problem, double amplitude) {
     };
     s.error = errorOf(problem);
     s.field = samplingOf(problem);
+    s.at = [problem](const double* x, std::span<const double> places, double* values) {
+        evaluateAt(*problem, x, places, values);
+    };
     s.measures = {translationMeasure(problem)};
     if (problem->potential.kind() == FieldPotential::Kind::none &&
         problem->mesh.boundary != Boundary::dirichlet)
@@ -142,10 +221,15 @@ System makeFieldSystem(Shared problem, double amplitude) {
     s.exactFrom = [problem](const Settings& initial, const State& start) -> ExactSolution {
         const FieldProfile profile = fieldProfile(initial, *problem, start.t);
         if (!profile.isExact) return {};
-        return [problem, profile](double t, std::span<double> x) {
+        ExactSolution exact = [problem, profile](double t, std::span<double> x) {
             const std::size_t n = problem->nodes.x.size();
             for (std::size_t i = 0; i < n; ++i) profile.at(problem->nodes.x[i], t, &x[i], &x[n + i]);
         };
+        exact.setAtPlaces([at = profile.at](double t, std::span<const double> places, double* values) {
+            for (std::size_t i = 0; i < places.size(); ++i)
+                at(places[i], t, &values[i], &values[places.size() + i]);
+        });
+        return exact;
     };
     s.givesLevels = [problem](const Settings& initial) { return initial.find("exact") != nullptr; };
     const double unit = 0.25 * problem->mesh.length() / amplitude;
