@@ -5,9 +5,11 @@
 /// at its own frequency, and the kicks of many elements add up.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "engine/mesh/mesh.hpp"
+#include "engine/mesh/triangles.hpp"
 
 namespace extremal {
 
@@ -23,6 +25,9 @@ struct Levels {
     double largest() const { return smallest * static_cast<double>(1LL << highest); }
 };
 
+/// Of a mesh of an interval with steps of at most `courant` times size over speed.
 Levels dyadicLevels(const Mesh& mesh, double courant, double speed, bool isBalanced);
+/// Of triangles that allow these steps; neighbours share a node.
+Levels dyadicLevels(const TriangleMesh& mesh, std::span<const double> steps, bool isBalanced);
 
 }  // namespace extremal

@@ -150,7 +150,10 @@ std::vector<Subject> everySubject(SubjectKind kind) {
         const Scene scene = readScene(preset->json).scene;
         const System system = makeSystem(scene);
         // The orders of fields are those of the mesh and the step together: laws.claims_fields.
-        if (kindOfSubject(system) != kind || kindOf<BoundaryProblem>(system) || isField(system)) continue;
+        // Membranes: tests/engine/family/asynchronous.
+        if (kindOfSubject(system) != kind || kindOf<BoundaryProblem>(system) || isField(system) ||
+            kindOf<Membrane>(system))
+            continue;
         double longest = 0;
         for (const SchemeSpec& scheme : scene.schemes) longest = std::max(longest, 40 * scheme.step.value);
         subjects.push_back(

@@ -1,26 +1,32 @@
-/// The elements of a bar with lumped masses, for schemes that take them one by one.
+/// The elements of a bar or a membrane with masses at the nodes, for schemes that take them one by one.
+///
+/// Both have the same members: elements(), nodes(), nodesOf(e), the nodes that element e kicks, kick(e, h, u,
+/// v): v += h M^{-1} (-dV_e/du) at values u, and criticalStep(e), the longest stable step of the element
+/// alone, at rest.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
+#include "engine/mesh/levels.hpp"
 #include "engine/model/field/problem.hpp"
+#include "engine/model/membrane/problem.hpp"
 
 namespace extremal {
 
-class ElementForces {
+class BarForces {
 public:
-    explicit ElementForces(std::shared_ptr<const FieldProblem> problem);
+    explicit BarForces(std::shared_ptr<const FieldProblem> problem);
 
-    const FieldProblem& problem() const { return *problem_; }
     int elements() const { return static_cast<int>(size_.size()); }
     int nodes() const { return static_cast<int>(inverse_.size()); }
-    int right(int e) const { return e + 1 == nodes() ? 0 : e + 1; }  ///< the left node of e is e
-    double size(int e) const { return size_[static_cast<std::size_t>(e)]; }
+    std::array<int, 2> nodesOf(int e) const { return {e, e + 1 == nodes() ? 0 : e + 1}; }
+    double criticalStep(int e) const { return size_[static_cast<std::size_t>(e)] / problem_->speed(); }
 
-    /// v += h M^{-1} (-dV_K/du) of element e, at values u.
     void kick(int e, double h, const double* u, double* v) const {
-        const auto a = static_cast<std::size_t>(e), b = static_cast<std::size_t>(right(e));
+        const auto a = static_cast<std::size_t>(e), b = static_cast<std::size_t>(nodesOf(e)[1]);
         const double L = size_[a];
         const double stress = h * problem_->elastic.stress((u[b] - u[a]) / L);
         v[a] += stress * inverse_[a];
@@ -37,6 +43,33 @@ private:
     std::shared_ptr<const FieldProblem> problem_;
     bool hasPotential_;
     std::vector<double> size_, inverse_;  ///< 1 / m_a; 0 of fixed nodes
+};
+
+class MembraneForces {
+public:
+    explicit MembraneForces(std::shared_ptr<const MembraneProblem> problem);
+
+    int elements() const { return static_cast<int>(problem_->elements.size()); }
+    int nodes() const { return static_cast<int>(inverse_.size()); }
+    const std::array<int, 3>& nodesOf(int e) const { return element(e).nodes; }
+    double criticalStep(int e) const { return problem_->criticalStep(element(e)); }
+
+    void kick(int e, double h, const double* u, double* v) const {
+        const MembraneProblem::Element& K = element(e);
+        const auto g = MembraneProblem::slope(K, u);
+        const double force = -h * K.area * problem_->tension(g[0] * g[0] + g[1] * g[1]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto a = static_cast<std::size_t>(K.nodes[i]);
+            v[a] += force * inverse_[a] * (K.gradients[i][0] * g[0] + K.gradients[i][1] * g[1]);
+        }
+    }
+
+private:
+    const MembraneProblem::Element& element(int e) const {
+        return problem_->elements[static_cast<std::size_t>(e)];
+    }
+    std::shared_ptr<const MembraneProblem> problem_;
+    std::vector<double> inverse_;
 };
 
 }  // namespace extremal

@@ -1,15 +1,16 @@
-/// Asynchronous variational integrators: each element of a bar has its own step (Leok 2004, sec. 2.1).
+/// Asynchronous variational integrators: each element of a bar or a membrane has its own step (Leok 2004,
+/// sec. 2.1).
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
-#include "engine/family/asynchronous/bar.hpp"
-#include "engine/family/asynchronous/element_forces.hpp"
+#include "engine/family/asynchronous/steps.hpp"
 #include "engine/family/family.hpp"
 
 namespace extremal::family {
@@ -26,23 +27,41 @@ SpaceEntry asynchronousSpace() {
         "asynchronous",
         "asynchronous",
         "Linear elements with steps of their own, by dyadic levels or real numbers.",
-        {choiceField("levels", "levels", {"dyadic", "real"},
+        {choiceField("levels", "levels", {"dyadic", "real", "synchronous"},
                      "dyadic: steps are a power of two times the smallest; real: proportional to the size "
-                     "of the element, which resonates."),
+                     "of the element, which resonates; synchronous: the smallest for all."),
          courant, flagField("balance", true, "No element has more than twice the step of a neighbour.")},
         {},
-        "an elastic bar"};
+        "an elastic bar or a membrane"};
     return e;
 }
 
 bool isReal(const Settings& space) { return space.text("levels") == "real"; }
+bool isSynchronous(const Settings& space) { return space.text("levels") == "synchronous"; }
 
-Levels levelsOf(const FieldProblem& problem, const Settings& space) {
-    return dyadicLevels(problem.mesh, space.number("courant"), problem.speed(), space.flag("balance"));
-}
-
-const std::shared_ptr<const FieldProblem>& problemOf(const System& system) {
+const std::shared_ptr<const FieldProblem>& barOf(const System& system) {
     return std::get<ScalarField>(system.kind).problem;
+}
+const std::shared_ptr<const MembraneProblem>& membraneOf(const System& system) {
+    return std::get<Membrane>(system.kind).problem;
+}
+bool isMembrane(const System& system) { return kindOf<Membrane>(system) != nullptr; }
+
+Levels levelsOf(const System& system, const Settings& space) {
+    const double C = space.number("courant");
+    const bool isBalanced = space.flag("balance");
+    Levels levels;
+    if (isMembrane(system)) {
+        const MembraneProblem& problem = *membraneOf(system);
+        std::vector<double> steps;
+        for (const auto& element : problem.elements) steps.push_back(C * problem.criticalStep(element));
+        levels = dyadicLevels(problem.mesh, steps, isBalanced);
+    } else {
+        levels = dyadicLevels(barOf(system)->mesh, C, barOf(system)->speed(), isBalanced);
+    }
+    // States are as far from each other as those of dyadic levels.
+    if (isSynchronous(space)) std::fill(levels.level.begin(), levels.level.end(), 0);
+    return levels;
 }
 
 Properties describeAsynchronous(const Discretization& d) {
@@ -51,14 +70,17 @@ Properties describeAsynchronous(const Discretization& d) {
     p.space = "linear elements with steps of their own";
     p.claims = {2, !real, true, {"momentum"}, !real};
     p.curveOrder = 2;
-    p.shortName = real ? "real" : "2:1";
+    p.shortName = real ? "real" : isSynchronous(d.space) ? "LF" : "2:1";
     p.knownAs = std::string("asynchronous, ") + (real                      ? "real steps"
                                                  : d.space.flag("balance") ? "dyadic 2:1"
                                                                            : "dyadic");
+    if (isSynchronous(d.space)) p.knownAs = "leapfrog";
     p.stabilityLimit = std::numeric_limits<double>::infinity();
     if (real)
         p.caution = "has real-valued steps, which resonate with each other: its energy grows over long times";
-    p.remark = real ? "steps beat with each other; a warning example" : "order 2, steps by powers of two";
+    p.remark = real                     ? "steps beat with each other; a warning example"
+               : isSynchronous(d.space) ? "order 2, the smallest step for all elements"
+                                        : "order 2, steps by powers of two";
     return p;
 }
 
@@ -68,8 +90,8 @@ std::optional<ImpliedStep> impliedStep(const Settings& space, const Settings& mo
     const ModelEntry* entry = findModel(model.type);
     if (!entry) return {};
     const System system = entry->make(model);
-    if (!isField(system)) return {};
-    return ImpliedStep{levelsOf(system.fieldProblem(), space).largest(), {}, !isReal(space)};
+    if (!isField(system) && !isMembrane(system)) return {};
+    return ImpliedStep{levelsOf(system, space).largest(), {}, !isReal(space)};
 }
 
 /// The largest local wave speed at the start, relative to that at rest.
@@ -84,8 +106,9 @@ double stiffening(const FieldProblem& problem, const double* u) {
 }
 
 void checkAsynchronous(const SchemeCase& scheme, Findings& findings) {
+    if (isMembrane(scheme.system)) return;  // none becomes stiffer than at rest
     const double courant = scheme.discretization.space.number("courant"),
-                 most = stiffening(*problemOf(scheme.system), scheme.initial.x.data());
+                 most = stiffening(*barOf(scheme.system), scheme.initial.x.data());
     if (!scheme.allowsUnstable && courant * most > 1 + 1e-12)
         findings.error("/space/courant",
                        formatNumber(courant) +
@@ -97,22 +120,41 @@ void checkAsynchronous(const SchemeCase& scheme, Findings& findings) {
 
 ElementClocks elementsOf(const System& system, const Discretization& d, double, double duration,
                          const double* x) {
-    const FieldProblem& problem = *problemOf(system);
-    const Levels levels = levelsOf(problem, d.space);
+    const Levels levels = levelsOf(system, d.space);
     const double C = d.space.number("courant");
     ElementClocks clocks;
+    const auto add = [&](int e, double place, double critical, double energy) {
+        const double h = isReal(d.space) ? C * critical : levels.step(e);
+        clocks.x.push_back(place);
+        clocks.step.push_back(h);
+        clocks.updates.push_back(std::floor(duration / h * (1 + 1e-12) + 0.5));
+        clocks.energy.push_back(energy);
+    };
+    if (isMembrane(system)) {
+        const MembraneProblem& problem = *membraneOf(system);
+        const double* v = x + problem.size();
+        for (int e = 0; e < problem.mesh.elements(); ++e) {
+            const auto& element = problem.elements[static_cast<std::size_t>(e)];
+            double energy = problem.elementEnergy(element, x), middle[2] = {0, 0};
+            for (const int node : element.nodes) {
+                const auto a = static_cast<std::size_t>(node);
+                energy += element.area / 6 * v[a] * v[a];
+                for (int k = 0; k < 2; ++k)
+                    middle[k] += problem.mesh.nodes[a][static_cast<std::size_t>(k)] / 3;
+            }
+            add(e, std::hypot(middle[0], middle[1]), problem.criticalStep(element), energy);
+        }
+        return clocks;
+    }
+    const FieldProblem& problem = *barOf(system);
     const int n = problem.size();
     for (int e = 0; e < problem.mesh.elements(); ++e) {
         const double L = problem.mesh.size(e);
         const auto a = static_cast<std::size_t>(e), b = static_cast<std::size_t>((e + 1) % n);
-        const double h = isReal(d.space) ? C * L / problem.speed() : levels.step(e);
-        clocks.x.push_back(problem.mesh.x[a] + L / 2);
-        clocks.step.push_back(h);
-        clocks.updates.push_back(std::floor(duration / h * (1 + 1e-12) + 0.5));
         const double va = x[n + e], vb = x[static_cast<std::size_t>(n) + b];
-        clocks.energy.push_back(L * problem.elastic.at((x[b] - x[a]) / L).energy +
-                                L / 2 * (problem.potential(x[a]) + problem.potential(x[b])) +
-                                L / 4 * (va * va + vb * vb));
+        add(e, problem.mesh.x[a] + L / 2, L / problem.speed(),
+            L * problem.elastic.at((x[b] - x[a]) / L).energy +
+                L / 2 * (problem.potential(x[a]) + problem.potential(x[b])) + L / 4 * (va * va + vb * vb));
     }
     return clocks;
 }
@@ -121,7 +163,7 @@ ChoiceGrid choices(const System&) {
     ChoiceGrid grid;
     grid.subtitle = "levels × Courant number";
     for (const char* C : {"0.2", "0.4", "0.5", "0.8"}) grid.columns.push_back({std::string("C ") + C, {}});
-    for (const char* levels : {"dyadic", "real"}) {
+    for (const char* levels : {"dyadic", "real", "synchronous"}) {
         grid.rows.push_back({levels, {}});
         for (const double C : {0.2, 0.4, 0.5, 0.8}) {
             ChoiceGrid::Cell cell;
@@ -138,22 +180,34 @@ ChoiceGrid choices(const System&) {
 }
 
 std::unique_ptr<Integrator> makeAsynchronous(const System& system, const Discretization& d, double step) {
-    const auto& problem = problemOf(system);
+    const double C = d.space.number("courant");
+    if (isMembrane(system)) {
+        if (isReal(d.space)) return makeRealSteps(MembraneForces(membraneOf(system)), C, step);
+        return makeDyadicSteps(MembraneForces(membraneOf(system)), levelsOf(system, d.space), step);
+    }
+    const auto& problem = barOf(system);
     if (problem->nodes.degree != 1)
         throw InvalidScene("/space", "asynchronous elements are linear", "elements of degree 1");
-    if (isReal(d.space)) return makeRealStepBar(problem, d.space.number("courant"), step);
-    return makeDyadicBar(problem, levelsOf(*problem, d.space), step);
+    if (isReal(d.space)) return makeRealSteps(BarForces(problem), C, step);
+    return makeDyadicSteps(BarForces(problem), levelsOf(system, d.space), step);
 }
 
 }  // namespace
 
 Family asynchronous() {
     Family f;
-    f.item = {"asynchronous", "asynchronous", "Elements with steps of their own.", {}, {}, "an elastic bar"};
+    f.item = {"asynchronous",
+              "asynchronous",
+              "Elements with steps of their own.",
+              {},
+              {},
+              "an elastic bar or a membrane"};
     f.source = "Leok 2004, sec. 2.1";
     f.spaces = {asynchronousSpace()};
     f.hasDenseOutput = false;
-    f.applies = [](const System& system) { return isField(system) && system.fieldProblem().isBody; };
+    f.applies = [](const System& system) {
+        return isMembrane(system) || (isField(system) && system.fieldProblem().isBody);
+    };
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // one node in time for each element
     };

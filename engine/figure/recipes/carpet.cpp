@@ -49,7 +49,7 @@ std::vector<double> atRows(const FieldSampling& field, const std::vector<double>
 
 HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, double end) {
     const FieldSampling& field = system.field;
-    const bool isScalar = isField(system);
+    const bool isScalar = isField(system) || kindOf<Membrane>(system);
     const std::vector<Frame>& frames = *framesOf(scheme);
     const bool isUneven = isWave(system) && !system.hamiltonian()->isPeriodic();
     const std::size_t n = isUneven ? interpolatedRows : field.x.size();
@@ -110,7 +110,7 @@ Figure makeCarpet(const FigureContext& context) {
         figure.y.range = {figure.heat()->bottom, figure.heat()->top};
         const std::string most = " · at most " + shortNumber(figure.heat()->high);
         if (!figure.heat()->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase" + most;
-        if (isField(*context.system)) figure.subtitle = "u" + most;
+        if (isField(*context.system) || kindOf<Membrane>(*context.system)) figure.subtitle = "u" + most;
         if (!context.system->field.y.empty()) figure.subtitle = "√∫|ψ|² dy" + most;
     } else if (context.system && !context.system->field) {
         figure.message = "The model is no field";

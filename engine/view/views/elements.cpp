@@ -23,7 +23,7 @@ ViewEntry elements() {
             .scales = {true, false, true, Across::place},
             .products = {Product::elementClocks},
             .missing = [](const View&, const System& system) {
-                return std::string(hasElementClocks(system) ? "" : "an elastic bar");
+                return std::string(hasElementClocks(system) ? "" : "an elastic bar or a membrane");
             }};
 }
 

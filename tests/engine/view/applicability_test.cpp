@@ -36,6 +36,7 @@ ReadScene exampleOf(const ModelEntry& entry, const Value::Array& views, const st
 std::string schemeFor(const System& system) {
     if (kindOf<BoundaryProblem>(system)) return "elliptic-multiscale";
     if (isWave(system)) return "schrodinger-gauss-1";
+    if (kindOf<Membrane>(system)) return "asynchronous-dyadic";
     if (isField(system)) return system.fieldProblem().isBody ? "asynchronous-dyadic" : "multisymplectic-1";
     return isBody(system) ? "lie-2" : "galerkin-gauss-2";
 }

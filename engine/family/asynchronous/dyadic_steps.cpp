@@ -2,16 +2,16 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/family/asynchronous/bar.hpp"
-#include "engine/family/asynchronous/element_forces.hpp"
+#include "engine/family/asynchronous/steps.hpp"
 
 namespace extremal {
 namespace {
 
-class DyadicBar final : public Integrator {
+template <class Forces>
+class DyadicSteps final : public Integrator {
 public:
-    DyadicBar(std::shared_ptr<const FieldProblem> problem, const Levels& levels, double step)
-        : forces_(std::move(problem)),
+    DyadicSteps(Forces forces, const Levels& levels, double step)
+        : forces_(std::move(forces)),
           ticks_(2LL << levels.highest),
           byLevel_(static_cast<std::size_t>(levels.highest) + 1),
           h_(step),
@@ -43,8 +43,7 @@ public:
             const int level = __builtin_ctzll(static_cast<unsigned long long>(tau));
             const double step = tick * static_cast<double>(2LL << level);
             for (const int e : byLevel_[static_cast<std::size_t>(level)]) {
-                drift(static_cast<std::size_t>(e), tau);
-                drift(static_cast<std::size_t>(forces_.right(e)), tau);
+                for (const int a : forces_.nodesOf(e)) drift(static_cast<std::size_t>(a), tau);
                 forces_.kick(e, step, u, v);
             }
             if ((tau & 0xfff) == 0 && stop().stop_requested()) {
@@ -69,16 +68,16 @@ public:
         State state;
         state.x = x_;  // the state before
         if (tau > 0) {
-            DyadicBar shorter = *this;
+            DyadicSteps shorter = *this;
             shorter.setStep(tau * h_);
             (void)shorter.advance(state, 0);
         }
         std::copy(state.x.begin(), state.x.end(), x.begin());
     }
-    std::unique_ptr<Integrator> clone() const override { return std::make_unique<DyadicBar>(*this); }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<DyadicSteps>(*this); }
 
 private:
-    ElementForces forces_;
+    Forces forces_;
     long long ticks_;  ///< of half the smallest step, in one step of the highest level
     std::vector<std::vector<int>> byLevel_;
     double h_;
@@ -89,9 +88,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeDyadicBar(std::shared_ptr<const FieldProblem> problem, const Levels& levels,
-                                          double step) {
-    return std::make_unique<DyadicBar>(std::move(problem), levels, step);
+template <class Forces>
+std::unique_ptr<Integrator> makeDyadicSteps(Forces forces, const Levels& levels, double step) {
+    return std::make_unique<DyadicSteps<Forces>>(std::move(forces), levels, step);
 }
+template std::unique_ptr<Integrator> makeDyadicSteps(BarForces, const Levels&, double);
+template std::unique_ptr<Integrator> makeDyadicSteps(MembraneForces, const Levels&, double);
 
 }  // namespace extremal

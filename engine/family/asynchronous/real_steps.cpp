@@ -2,20 +2,18 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/family/asynchronous/bar.hpp"
-#include "engine/family/asynchronous/element_forces.hpp"
+#include "engine/family/asynchronous/steps.hpp"
 
 namespace extremal {
 namespace {
 
 /// memory: positions and velocities of the nodes at their own times, these times, and the next time of each
 /// element.
-class RealStepBar final : public Integrator {
+template <class Forces>
+class RealSteps final : public Integrator {
 public:
-    RealStepBar(std::shared_ptr<const FieldProblem> problem, double courant, double step)
-        : forces_(std::move(problem)), h_(step) {
-        for (int e = 0; e < forces_.elements(); ++e)
-            step_.push_back(courant * forces_.size(e) / forces_.problem().speed());
+    RealSteps(Forces forces, double courant, double step) : forces_(std::move(forces)), h_(step) {
+        for (int e = 0; e < forces_.elements(); ++e) step_.push_back(courant * forces_.criticalStep(e));
         queue_.reserve(step_.size());
     }
 
@@ -53,8 +51,7 @@ public:
             std::pop_heap(queue_.begin(), queue_.end());
             auto& [time, e] = queue_.back();
             const double h = step_[static_cast<std::size_t>(e)];
-            drift(e, time);
-            drift(forces_.right(e), time);
+            for (const int a : forces_.nodesOf(e)) drift(a, time);
             forces_.kick(e, h, u, v);
             time = next[e] = time + h;
             std::push_heap(queue_.begin(), queue_.end());
@@ -78,11 +75,11 @@ public:
     }
     void denseOutput(double tau, std::span<double> x) const override {
         State state = before_;
-        RealStepBar shorter = *this;
+        RealSteps shorter = *this;
         if (tau > 0) (void)shorter.advance(state, before_.t + tau * h_);
         std::copy(state.x.begin(), state.x.end(), x.begin());
     }
-    std::unique_ptr<Integrator> clone() const override { return std::make_unique<RealStepBar>(*this); }
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<RealSteps>(*this); }
 
 private:
     struct Event {
@@ -105,7 +102,7 @@ private:
             forces_.kick(e, now - (next[e] - step_[static_cast<std::size_t>(e)] / 2), x, x + n);
     }
 
-    ElementForces forces_;
+    Forces forces_;
     double h_;
     std::vector<double> step_;
     std::vector<Event> queue_;
@@ -114,9 +111,11 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Integrator> makeRealStepBar(std::shared_ptr<const FieldProblem> problem, double courant,
-                                            double step) {
-    return std::make_unique<RealStepBar>(std::move(problem), courant, step);
+template <class Forces>
+std::unique_ptr<Integrator> makeRealSteps(Forces forces, double courant, double step) {
+    return std::make_unique<RealSteps<Forces>>(std::move(forces), courant, step);
 }
+template std::unique_ptr<Integrator> makeRealSteps(BarForces, double, double);
+template std::unique_ptr<Integrator> makeRealSteps(MembraneForces, double, double);
 
 }  // namespace extremal
