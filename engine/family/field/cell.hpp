@@ -31,7 +31,9 @@ private:
     const FieldProblem* problem_;
     int spaceDegree_, timeDegree_;
     Rule<double> space_, time_;
-    std::vector<double> value_, slopeX_, slopeT_;  ///< of unknown k at point p = i J + j: p unknowns() + k
+    /// Of unknown k at point p = i J + j: p unknowns() + k; elements with functions of their own one after
+    /// the other.
+    std::vector<double> value_, slopeX_, slopeT_;
 };
 
 }  // namespace extremal

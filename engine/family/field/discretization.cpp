@@ -20,6 +20,10 @@ TentDegrees tentDegrees(const Settings& space) {
     return {whole(degree->find("space")), whole(degree->find("time"))};
 }
 
+bool hasOwnFunctions(const Settings& space) {
+    return space.find("functions") && space.text("functions") != "lagrange";
+}
+
 Settings ruleSettingsIn(const Settings& quadrature, const char* direction) {
     return isTensorRule(quadrature) ? tensorPart(quadrature, direction) : quadrature;
 }

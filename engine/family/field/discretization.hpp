@@ -18,6 +18,9 @@ struct TentDegrees {
 /// Of the space's key `degree`: one number for both directions, or one for each.
 TentDegrees tentDegrees(const Settings& space);
 
+/// Whether the elements have functions of their own in place of linear ones: "cell-problem" or "snapshots".
+bool hasOwnFunctions(const Settings& space);
+
 /// The settings of a rule in "space" or "time"; one rule is that of both.
 Settings ruleSettingsIn(const Settings& quadrature, const char* direction);
 /// The rule itself; `exact` is Gauss with degree + 1 nodes, exact for the quadratic part of the action.

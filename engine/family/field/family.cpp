@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "engine/action/table.hpp"
@@ -42,11 +43,20 @@ SpaceEntry tent() {
     FieldInfo cells = integerField("cells", "N", 2, 4e6, nullptr,
                                    "Number of elements in space; default: that of the model.");
     cells.isOptional = true;
+    FieldInfo parts =
+        integerField("parts", "parts", 1, 512, nullptr,
+                     "Of an element, in which functions of its own are linear; default: 32 for each period "
+                     "of the medium.");
+    parts.isOptional = true;
+    const FieldInfo functions = choiceField(
+        "functions", "functions", {"lagrange", "cell-problem", "snapshots"},
+        "lagrange: Lagrange polynomials. In a medium a(x/epsilon), of elements with degree 1 in space: "
+        "with a constant flux a u_x (cell-problem), or from snapshots of a short resolved run.");
     e.item = {
         "tent",
         "hat functions",
         "Continuous functions of space and time that are polynomials on each cell of a rectangular mesh.",
-        {degree, cells},
+        {degree, cells, functions, parts},
         {},
         "a field"};
     return e;
@@ -102,6 +112,15 @@ Properties describeTent(const Discretization& d) {
         p.hint = "\"degree\": {\"space\": 1, \"time\": 1}";
         return p;
     }
+    if (hasOwnFunctions(d.space) && degrees.space != 1) {
+        p.refusal = "elements with functions of their own have degree 1 in space";
+        p.hint = "\"degree\": {\"space\": 1, \"time\": " + std::to_string(degrees.time) + "}";
+        return p;
+    }
+    if (hasOwnFunctions(d.space))
+        p.space = (d.space.text("functions") == "snapshots" ? "functions from snapshots in space, "
+                                                            : "functions of a cell problem in space, ") +
+                  text("time", degrees.time);
     const Properties space = inDirection(d.quadrature, "space", degrees.space),
                      time = inDirection(d.quadrature, "time", degrees.time);
     for (const auto& [own, where] : {std::pair{&space, " in space"}, std::pair{&time, " in time"}})
@@ -122,7 +141,8 @@ Properties describeTent(const Discretization& d) {
     const TimeTable table = timeTable(d);
     const double limit = timeLimit(table);
     p.stabilityLimit = limit;
-    const bool isLumped = rule.size() == degrees.space + 1 && rule.c.front() == 0 && rule.c.back() == 1;
+    const bool isLumped = !hasOwnFunctions(d.space) && rule.size() == degrees.space + 1 &&
+                          rule.c.front() == 0 && rule.c.back() == 1;
     p.isExplicit = table.isTrapezoid() && isLumped;
     const std::string spaceRule = ruleName(d.quadrature, "space"), timeRule = ruleName(d.quadrature, "time");
     if (degrees.space == 1 && degrees.time == 1) {
@@ -131,7 +151,7 @@ Properties describeTent(const Discretization& d) {
     }
     if (std::isinf(limit)) {
         p.remark = "order " + std::to_string(p.claims.order) + ", stable at every step";
-    } else if (leastMass(degrees.space, rule) == 0) {
+    } else if (!hasOwnFunctions(d.space) && leastMass(degrees.space, rule) == 0) {
         p.stabilityLimit = 0;
         p.instability =
             "the rule " + spaceRule +
@@ -140,10 +160,15 @@ Properties describeTent(const Discretization& d) {
             timeRule + " in time is stable up to a finite one alone";
         p.hint = "midpoint in time, or another rule in space";
         p.remark = "unstable for every step";
+    } else if (hasOwnFunctions(d.space)) {
+        p.remark = "order " + std::to_string(p.claims.order) + " down to the period of the medium";
     } else {
         p.remark = "order " + std::to_string(p.claims.order) + ", stable for c dt/dx up to " +
                    formatNumber(courantLimit(degrees.space, rule, limit), 3);
     }
+    if (hasOwnFunctions(d.space))
+        p.knownAs =
+            (d.space.text("functions") == "snapshots" ? "snapshots × " : "cell problem × ") + timeRule;
     if (p.knownAs.empty()) p.knownAs = spaceRule + " × " + timeRule;
     return p;
 }
@@ -161,20 +186,25 @@ Settings completeTent(const Settings& space, const Settings& quadrature) {
         return rule;
     };
     const bool isExplicit = degrees.time == 1;
-    const Value alongX = degrees.space == 1 && isExplicit ? part("trapezoid", 0)
-                         : isExplicit                     ? part("lobatto", degrees.space + 1)
-                                                          : part("gauss", degrees.space + 1),
+    const Value alongX = hasOwnFunctions(space)             ? part("gauss", 2)
+                         : degrees.space == 1 && isExplicit ? part("trapezoid", 0)
+                         : isExplicit                       ? part("lobatto", degrees.space + 1)
+                                                            : part("gauss", degrees.space + 1),
                 alongT = isExplicit ? part("trapezoid", 0) : part("gauss", degrees.time);
     return {"product", {{tensorParts[0], alongX}, {tensorParts[1], alongT}}, {}};
 }
 
 std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
     const int degree = tentDegrees(space).space, cells = space.integer("cells");
-    if (degree == 1 && (cells == 0 || cells == model.integer("cells"))) return {};
+    if (degree == 1 && !hasOwnFunctions(space) && (cells == 0 || cells == model.integer("cells"))) return {};
     Settings own = model;
     for (auto& [key, value] : own.keys)
         if (key == "cells" && cells > 0) value = static_cast<double>(cells);
     own.keys.emplace_back(elementDegreeKey, static_cast<double>(degree));
+    if (hasOwnFunctions(space)) {
+        own.keys.emplace_back(elementFunctionsKey, space.text("functions"));
+        own.keys.emplace_back(elementPartsKey, static_cast<double>(space.integer("parts")));
+    }
     return own;
 }
 
@@ -187,6 +217,9 @@ Settings refined(const Settings& model, int factor) {
 
 std::shared_ptr<const FieldProblem> problemFor(const System& system, const Discretization& d) {
     const auto& problem = std::get<ScalarField>(system.kind).problem;
+    if (hasOwnFunctions(d.space) && !problem->functions)
+        throw InvalidScene("/space/functions", "functions of their own are for elements of a scalar field",
+                           "\"lagrange\"");
     if (problem->nodes.degree != tentDegrees(d.space).space)
         throw InvalidScene("/space/degree",
                            "the field has elements of degree " + std::to_string(problem->nodes.degree));
@@ -198,7 +231,7 @@ void checkTent(const SchemeCase& scheme, Findings& findings) {
     if (describe(d).stabilityLimit <= 0) return;  // said already
     const auto problem = problemFor(scheme.system, d);
     // The midpoint rule in time takes the velocity from the velocity, all others from the momentum.
-    if (!scheme.allowsUnstable && !timeTable(d).isBalanced() &&
+    if (!scheme.allowsUnstable && !timeTable(d).isBalanced() && !problem->functions &&
         hasMasslessWave(*problem, ruleIn(d.quadrature, "space", problem->nodes.degree)))
         findings.error("/quadrature",
                        "with the rule " + ruleName(d.quadrature, "space") + " in space on this mesh of " +
@@ -216,16 +249,25 @@ void checkTent(const SchemeCase& scheme, Findings& findings) {
 
 /// Degree 3 in space and time. Steps divide those of the schemes, whose nodes are then among its own.
 ReferenceMesh referenceMesh(const Settings& model, double step, int refinement) {
+    int cells = model.integer("cells");
+    // A medium is resolved by 4 elements in each period.
+    if (const Value* a = model.find("a"); a && *a != Value("1")) {
+        const std::vector<double> ends = model.numbers("domain");
+        cells =
+            std::max(cells, static_cast<int>(std::ceil(4 * (ends[1] - ends[0]) / model.number("epsilon"))));
+    }
     const int factor = 1 << refinement;
+    cells *= factor;
     const Settings space{"tent",
                          {{"degree", Value(Value::Object{{"space", 3}, {"time", 3}})},
-                          {"cells", static_cast<double>(model.integer("cells") * factor)}},
+                          {"cells", static_cast<double>(cells)},
+                          {"functions", "lagrange"}},
                          {}};
-    return {"elements of degree 3 on " + std::to_string(model.integer("cells") * factor) +
-                " cells, h = " + formatNumber(step / factor, 3),
-            {space, completeTent(space, {}), {}},
-            step / factor,
-            static_cast<double>(model.integer("cells") * factor)};
+    return {
+        "elements of degree 3 on " + std::to_string(cells) + " cells, h = " + formatNumber(step / factor, 3),
+        {space, completeTent(space, {}), {}},
+        step / factor,
+        static_cast<double>(cells)};
 }
 
 double largestStep(const System& system, const Discretization& d, const State& start) {
@@ -243,19 +285,23 @@ Value completePart(const char* type, int degree, std::optional<int> nodes = {}) 
     return value;
 }
 
-ChoiceGrid choices(const System&) {
+ChoiceGrid choices(const System& system) {
     struct Direction {
         const char* heading;
         const char* description;
         int degree;
         const char* rule;
         int nodes;
+        const char* functions = "lagrange";
     };
-    static constexpr Direction rows[] = {{"trap", "linear in space, trapezoidal rule", 1, "trapezoid", 0},
-                                         {"exact", "linear in space, exact", 1, "exact", 0},
-                                         {"mid", "linear in space, midpoint rule", 1, "midpoint", 0},
-                                         {"G 3", "quadratic in space, Gauss 3", 2, "gauss", 3},
-                                         {"G 4", "cubic in space, Gauss 4", 3, "gauss", 4}};
+    static constexpr Direction rows[] = {
+        {"trap", "linear in space, trapezoidal rule", 1, "trapezoid", 0},
+        {"exact", "linear in space, exact", 1, "exact", 0},
+        {"mid", "linear in space, midpoint rule", 1, "midpoint", 0},
+        {"G 3", "quadratic in space, Gauss 3", 2, "gauss", 3},
+        {"G 4", "cubic in space, Gauss 4", 3, "gauss", 4},
+        {"cell", "functions of a cell problem in space", 1, "gauss", 2, "cell-problem"},
+        {"POD", "functions from snapshots in space", 1, "gauss", 2, "snapshots"}};
     static constexpr Direction columns[] = {{"trap", "linear in time, trapezoidal rule", 1, "trapezoid", 0},
                                             {"exact", "linear in time, exact", 1, "exact", 0},
                                             {"mid", "linear in time, midpoint rule", 1, "midpoint", 0},
@@ -265,6 +311,8 @@ ChoiceGrid choices(const System&) {
     grid.subtitle = "space × time";
     for (const Direction& c : columns) grid.columns.push_back({c.heading, c.description});
     for (const Direction& r : rows) {
+        const bool isPolynomial = std::string_view(r.functions) == "lagrange";
+        if (!isPolynomial && !system.fieldProblem().coefficient) continue;  // they would be linear
         grid.rows.push_back({r.heading, r.description});
         for (const Direction& c : columns) {
             ChoiceGrid::Cell cell;
@@ -276,11 +324,12 @@ ChoiceGrid choices(const System&) {
                                      ? Value(1.0)
                                      : Value(Value::Object{{"space", r.degree}, {"time", c.degree}});
             cell.discretization = {
-                {"tent", {{"degree", degree}}, {}},
+                {"tent", {{"degree", degree}, {"functions", r.functions}}, {}},
                 {"product", {{tensorParts[0], partOf(r)}, {tensorParts[1], partOf(c)}}, {}},
                 {}};
             const Properties known = describe(cell.discretization);
-            cell.id = std::to_string(r.degree) + r.rule + "." + std::to_string(c.degree) + c.rule;
+            cell.id = (isPolynomial ? std::to_string(r.degree) + r.rule : std::string(r.functions)) + "." +
+                      std::to_string(c.degree) + c.rule;
             cell.text = known.stabilityLimit <= 0 ? "–" : std::isinf(known.stabilityLimit) ? "∞" : "ν";
             cell.superscript = std::to_string(known.claims.order);
             cell.title = std::string(r.description) + " × " + c.description;

@@ -120,13 +120,12 @@ private:
     bool factorise(const double* u) {
         const int s = time_.degree(), width = form().width();
         const FieldNodes& nodes = form().problem().nodes;
-        const std::vector<double>& mass = form().elementMass();
         lu_.clear();
         const auto row = [&](int node, int l) {
             return order_.place[static_cast<std::size_t>(node)] * s + l;
         };
         forEachPair(nodes, [&](int i, int j, int a, int b, int e) {
-            const double m = form().elementSize(e) * mass[static_cast<std::size_t>(a * width + b)];
+            const double m = form().elementSize(e) * form().elementMass(e)[a * width + b];
             for (int l = 0; l < s; ++l)
                 for (int k = 1; k <= s; ++k) lu_.add(row(i, l), row(j, k - 1), time_.mass(l, k) / h() * m);
         });

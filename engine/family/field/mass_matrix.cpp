@@ -18,10 +18,9 @@ MassMatrix::MassMatrix(const SpatialForm& form) : order_(form.problem().nodes) {
     }
     const auto place = [&](int i) { return order_.place[static_cast<std::size_t>(i)]; };
     lu_ = BandLu(n, order_.reach);
-    const std::vector<double>& mass = form.elementMass();
     const int width = form.width();
     forEachPair(problem.nodes, [&](int i, int j, int a, int b, int e) {
-        lu_.add(place(i), place(j), form.elementSize(e) * mass[static_cast<std::size_t>(a * width + b)]);
+        lu_.add(place(i), place(j), form.elementSize(e) * form.elementMass(e)[a * width + b]);
     });
     for (int i = 0; i < n; ++i) {
         isFixed_.push_back(problem.isFixed(i));

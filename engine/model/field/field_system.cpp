@@ -6,6 +6,7 @@
 
 #include "engine/model/field/profile.hpp"
 #include "engine/model/field/spatial_form.hpp"
+#include "engine/quadrature/rule.hpp"
 
 namespace extremal {
 namespace {
@@ -21,6 +22,17 @@ FieldSampling samplingOf(const Shared& problem) {
     return f;
 }
 
+/// Of element e at xi, degree + 1 of them.
+void functionsAt(const FieldProblem& problem, int e, double xi, double* value) {
+    if (problem.functions) {
+        value[1] = problem.functions->value(e, xi);
+        value[0] = 1 - value[1];
+        return;
+    }
+    double slope[FieldNodes::mostDegree + 1];
+    problem.nodes.basis.at(xi, value, slope);
+}
+
 /// The L2 norm of u_h - u, by the Gauss rule of 4 nodes on each element.
 class FunctionError {
 public:
@@ -28,26 +40,19 @@ public:
         for (int e = 0; e < problem_->mesh.elements(); ++e)
             for (const double c : rule_.c)
                 places_.push_back(problem_->mesh.x[static_cast<std::size_t>(e)] + problem_->mesh.size(e) * c);
-        const auto width = static_cast<std::size_t>(problem_->nodes.degree) + 1;
-        value_.resize(points * width);
-        std::vector<double> slope(width);
-        for (std::size_t q = 0; q < points; ++q)
-            problem_->nodes.basis.at(rule_.c[q], &value_[q * width], slope.data());
     }
 
     double operator()(double t, const double* x, const ExactSolution& exact) const {
         std::vector<double> u(2 * places_.size());
         exact.atPlaces()(t, places_, u.data());
         const FieldNodes& nodes = problem_->nodes;
-        double sum = 0;
+        double sum = 0, value[FieldNodes::mostDegree + 1];
         const double* place = u.data();
         for (int e = 0; e < nodes.elements; ++e)
             for (std::size_t q = 0; q < points; ++q) {
+                functionsAt(*problem_, e, rule_.c[q], value);
                 double difference = -*place++;
-                for (int a = 0; a <= nodes.degree; ++a)
-                    difference +=
-                        value_[q * static_cast<std::size_t>(nodes.degree + 1) + static_cast<std::size_t>(a)] *
-                        x[nodes.node(e, a)];
+                for (int a = 0; a <= nodes.degree; ++a) difference += value[a] * x[nodes.node(e, a)];
                 sum += rule_.b[q] * problem_->mesh.size(e) * difference * difference;
             }
         return std::sqrt(sum);
@@ -57,7 +62,7 @@ private:
     static constexpr int points = 4;
     Shared problem_;
     Rule<double> rule_;
-    std::vector<double> places_, value_;
+    std::vector<double> places_;
 };
 
 ErrorMeasure errorOf(const Shared& problem) {
@@ -135,6 +140,13 @@ void evaluateAt(const FieldProblem& problem, const double* x, std::span<const do
     }
 }
 
+/// The Lobatto rule of the nodes; in a medium that elements may not resolve, many more.
+Rule<double> energyRule(const FieldProblem& problem) {
+    if (problem.coefficient && !problem.functions)
+        return makeRule<double>({"gauss", {{"nodes", 2.0}, {"panels", 32.0}}, {}});
+    return lobatto<double>(problem.nodes.degree + 1);
+}
+
 /// u over x as a curtain above 0; `unit`: how high 1 stands.
 void drawField(const FieldProblem& problem, double unit, const double* u, Drawing& drawing) {
     constexpr std::size_t mostPoints = 1000;
@@ -201,8 +213,7 @@ double translationMomentum(const FieldProblem& problem, const double* x) {
 System makeFieldSystem(Shared problem, double amplitude) {
     System s;
     s.kind = ScalarField{problem};
-    const auto form =
-        std::make_shared<const SpatialForm>(problem, lobatto<double>(problem->nodes.degree + 1));
+    const auto form = std::make_shared<const SpatialForm>(problem, energyRule(*problem));
     s.energy = [form](double, const double* x) {
         return form->kineticEnergy(x + form->size()) + form->energy(x);
     };
@@ -211,7 +222,7 @@ System makeFieldSystem(Shared problem, double amplitude) {
     s.at = [problem](const double* x, std::span<const double> places, double* values) {
         evaluateAt(*problem, x, places, values);
     };
-    s.measures = {translationMeasure(problem)};
+    if (!problem->coefficient) s.measures = {translationMeasure(problem)};
     if (problem->potential.kind() == FieldPotential::Kind::none &&
         problem->mesh.boundary != Boundary::dirichlet)
         s.momenta = {fieldMomentum(problem)};

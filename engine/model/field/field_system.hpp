@@ -11,10 +11,13 @@ namespace extremal {
 /// A key of the settings of such a model that no scene has: the degree of the elements, where a scheme has
 /// its own (Family::model).
 inline constexpr const char* elementDegreeKey = "element_degree";
+/// The same of functions of the elements: "cell-problem" or "snapshots", and in how many parts; 0: by itself.
+inline constexpr const char* elementFunctionsKey = "element_functions";
+inline constexpr const char* elementPartsKey = "element_parts";
 
 /// Energy, momenta, error, sampling, drawing, start and exact solution of a field. Energy is that of the
-/// values at the nodes, by the Lobatto rule of the nodes of each element: the same for all schemes.
-/// `amplitude`: a usual size of u, which the drawing is scaled by.
+/// values at the nodes, by the Lobatto rule of the nodes of each element (in a medium by a finer one): the
+/// same for all schemes. `amplitude`: a usual size of u, which the drawing is scaled by.
 System makeFieldSystem(std::shared_ptr<const FieldProblem> problem, double amplitude);
 
 /// sum_i dx_i e_i^2 uses the whole dx at every node of a uniform mesh, ends included, else half of both

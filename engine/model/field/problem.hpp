@@ -7,10 +7,10 @@
 #pragma once
 
 #include <cmath>
-#include <functional>
 #include <memory>
 
 #include "engine/mesh/mesh.hpp"
+#include "engine/model/field/element_functions.hpp"
 #include "engine/model/field/elasticity.hpp"
 #include "engine/model/field/nodes.hpp"
 #include "engine/model/field/potential.hpp"
@@ -22,7 +22,9 @@ struct FieldProblem {
     FieldNodes nodes;
     Elasticity elastic;
     FieldPotential potential;
-    std::function<double(double x)> coefficient;  ///< a(x); empty: 1
+    MediumCoefficient coefficient;  ///< a(x); empty: 1
+    /// Of the elements, in place of linear functions; null: polynomials.
+    std::shared_ptr<const ElementFunctions> functions;
 
     bool isBody = false;  ///< u displaces the points of a body: elements have a strain of their own
 

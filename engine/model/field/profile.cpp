@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -286,29 +287,74 @@ FieldProfile fromExact(const Settings& initial, const FieldProblem& problem) {
     return profile;
 }
 
+/// The numbers of a key of `values`; none where it may be absent and is.
+std::vector<double> numbersOf(const Value& values, const char* key, std::size_t n, const char* reason) {
+    const Value* const numbers = values.find(key);
+    if (!numbers && std::string_view(key) == "u_t") return std::vector<double>(n, 0);
+    const std::string place = std::string("/values/") + key;
+    if (!numbers || !numbers->isArray() || (n > 0 && numbers->asArray().size() != n))
+        throw InvalidScene(
+            place, n > 0 ? "must have " + std::to_string(n) + " numbers, one per node" : "must have numbers",
+            reason);
+    std::vector<double> all;
+    for (std::size_t i = 0; i < numbers->asArray().size(); ++i) {
+        const Value& v = numbers->asArray()[i];
+        if (!v.isNumber() || !std::isfinite(v.asNumber()))
+            throw InvalidScene(place + "/" + std::to_string(i), "must be a finite number");
+        all.push_back(v.asNumber());
+    }
+    return all;
+}
+
+/// Through values at places: a cubic on each interval, with the slopes of the parabolas through three
+/// neighbours; beyond the first and the last place constant.
+class SmoothCurve {
+public:
+    SmoothCurve(std::vector<double> x, std::vector<double> y)
+        : x_(std::move(x)), y_(std::move(y)), slope_(x_.size()) {
+        const std::size_t last = x_.size() - 1;
+        const auto secant = [&](std::size_t i) { return (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i]); };
+        for (std::size_t i = 1; i < last; ++i) {
+            const double left = x_[i] - x_[i - 1], right = x_[i + 1] - x_[i];
+            slope_[i] = (right * secant(i - 1) + left * secant(i)) / (left + right);
+        }
+        slope_[0] = secant(0);
+        slope_[last] = secant(last - 1);
+    }
+    double operator()(double x) const {
+        if (!(x > x_.front())) return y_.front();
+        if (!(x < x_.back())) return y_.back();
+        const auto i = static_cast<std::size_t>(std::upper_bound(x_.begin(), x_.end(), x) - x_.begin()) - 1;
+        const double h = x_[i + 1] - x_[i], s = (x - x_[i]) / h, r = 1 - s;
+        return (1 + 2 * s) * r * r * y_[i] + s * r * r * h * slope_[i] + s * s * (3 - 2 * s) * y_[i + 1] -
+               s * s * r * h * slope_[i + 1];
+    }
+
+private:
+    std::vector<double> x_, y_, slope_;
+};
+
 FieldProfile fromValues(const Settings& initial, const FieldProblem& problem) {
     allowKeys(initial, {"values"}, "values at the nodes");
     const Value& values = *initial.find("values");
-    const auto n = static_cast<std::size_t>(problem.size());
     FieldProfile profile;
-    for (const char* key : {"u", "u_t"}) {
-        std::vector<double>& target = std::string_view(key) == "u" ? profile.u : profile.v;
-        const Value* numbers = values.find(key);
-        if (!numbers && std::string_view(key) == "u_t") {
-            target.assign(n, 0);
-            continue;
-        }
-        const std::string place = std::string("/values/") + key;
-        if (!numbers || !numbers->isArray() || numbers->asArray().size() != n)
-            throw InvalidScene(place, "must have " + std::to_string(n) + " numbers, one per node",
-                               "a periodic field has as many nodes as cells, others one more");
-        for (std::size_t i = 0; i < n; ++i) {
-            const Value& v = numbers->asArray()[i];
-            if (!v.isNumber() || !std::isfinite(v.asNumber()))
-                throw InvalidScene(place + "/" + std::to_string(i), "must be a finite number");
-            target.push_back(v.asNumber());
-        }
+    if (!values.find("x")) {
+        const auto n = static_cast<std::size_t>(problem.size());
+        const char* const reason = "a periodic field has as many nodes as cells, others one more";
+        profile.u = numbersOf(values, "u", n, reason);
+        profile.v = numbersOf(values, "u_t", n, reason);
+        return profile;
     }
+    const std::vector<double> x = numbersOf(values, "x", 0, "places in ascending order");
+    if (x.size() < 2 || !std::is_sorted(x.begin(), x.end(), std::less_equal<>()))
+        throw InvalidScene("/values/x", "must be two places or more, in ascending order");
+    const char* const reason = "one number for each place of \"x\"";
+    const SmoothCurve u(x, numbersOf(values, "u", x.size(), reason)),
+        v(x, numbersOf(values, "u_t", x.size(), reason));
+    profile.at = [u, v](double place, double, double* value, double* rate) {
+        *value = u(place);
+        *rate = v(place);
+    };
     return profile;
 }
 
@@ -341,7 +387,9 @@ std::vector<FieldInfo> fieldStartFields() {
             optionalJson("u", "u", "u at the start, an expression in x."),
             optionalJson("u_t", "u_t", "u_t at the start, an expression in x; default 0."),
             optionalJson("exact", "exact solution", "The exact solution, an expression in x and t."),
-            optionalJson("values", "values", "u and u_t at the nodes, two arrays.")};
+            optionalJson("values", "values",
+                         "u and u_t at the nodes, two arrays; with the array x at these places, and smooth "
+                         "between them.")};
 }
 
 FieldProfile fieldProfile(const Settings& initial, const FieldProblem& problem, double start) {

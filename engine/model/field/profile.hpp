@@ -13,6 +13,7 @@
 ///     u, u_t                       expressions in x; of the wave equation with u_t = 0 d'Alembert's solution
 ///     exact                        an expression in x and t
 ///     values {u, u_t}              at the nodes
+///     values {x, u, u_t}           at places, smooth between them: on any mesh
 /// With a wave speed c lengths and speeds of the first four count in units of c. Collisions are about the
 /// middle of the domain. Exact solutions of kinks and breathers are those of the whole line.
 #pragma once

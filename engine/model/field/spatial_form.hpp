@@ -2,7 +2,8 @@
 ///
 ///     L_h(u, v) = v^T M v / 2 - U(u),
 ///     M_ij = sum_e h_e sum_a w_a phi_i phi_j,   U = sum_e h_e sum_a w_a (a phi(u_x) + W(u)) at (e, a),
-/// for u that is a polynomial of degree r on each element. What every scheme in time needs of space: M, the
+/// for u that is a polynomial of degree r on each element, or made of functions of its own
+/// (element_functions.hpp). What every scheme in time needs of space: M, the
 /// force -dU/du, U itself, and its Hessian by elements. Nothing here knows of a boundary: the entries of
 /// fixed nodes are those of free ones.
 ///
@@ -28,8 +29,10 @@ public:
     int width() const { return width_; }
 
     double elementSize(int e) const { return size_[static_cast<std::size_t>(e)]; }
-    /// M of an element of length 1: entry (a, b) at a width() + b.
-    const std::vector<double>& elementMass() const { return mass_; }
+    /// M of element e over its length: entry (a, b) at a width() + b.
+    const double* elementMass(int e) const {
+        return mass_.data() + (hasOwnTables() ? e * width_ * width_ : 0);
+    }
     /// M is diagonal: sums of entries are at the nodes of the rule.
     bool isLumped() const { return isLumped_; }
     /// Of a lumped M.
@@ -64,6 +67,16 @@ private:
     void addForceOf(const double* u, double scale, double* f) const;
     template <int A>
     void hessiansOf(const double* u, double* H) const;
+    void usePolynomials(const Rule<double>& rule);
+    void useFunctions(const ElementFunctions& functions, const Rule<double>& rule);
+    int points() const { return static_cast<int>(weight_.size()); }
+    bool hasOwnTables() const { return problem_->functions != nullptr; }
+    const double* valueOf(int e) const {
+        return value_.data() + (hasOwnTables() ? e * points() * width_ : 0);
+    }
+    const double* slopeOf(int e) const {
+        return slope_.data() + (hasOwnTables() ? e * points() * width_ : 0);
+    }
     double coefficient(int element, std::size_t q) const {
         return coefficient_.empty() ? 1
                                     : coefficient_[static_cast<std::size_t>(element) * weight_.size() + q];
@@ -71,10 +84,11 @@ private:
 
     std::shared_ptr<const FieldProblem> problem_;
     int width_;
-    std::vector<double> weight_;         ///< of the rule
-    std::vector<double> value_, slope_;  ///< of function a at point q: q width + a
-    std::vector<double> size_;           ///< of the elements
-    std::vector<double> coefficient_;    ///< at (element, point); empty: 1
+    std::vector<double> weight_;  ///< of the rule, on an element
+    /// Of function a at point q: q width + a; of each element its own where it has functions of its own.
+    std::vector<double> value_, slope_;
+    std::vector<double> size_;         ///< of the elements
+    std::vector<double> coefficient_;  ///< at (element, point); empty: 1
     std::vector<double> mass_;
     bool isLumped_ = false;
 };

@@ -1,5 +1,7 @@
-/// A scalar field in one dimension, u_tt = c^2 u_xx - W'(u): wave, Klein-Gordon, sine-Gordon, phi-4 equation,
-/// or a typed potential, on a periodic domain, between fixed values, or with free ends.
+/// A scalar field in one dimension, u_tt = c^2 (a(x/epsilon) u_x)_x - W'(u): wave, Klein-Gordon, sine-Gordon,
+/// phi-4 equation, or a typed potential, on a periodic domain, between fixed values, or with free ends.
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "engine/core/text.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/model/field/profile.hpp"
+#include "engine/model/typed/typed_function.hpp"
 
 namespace extremal::systems {
 namespace {
@@ -16,7 +19,11 @@ std::vector<FieldInfo> fieldParameters() {
     FieldInfo domain = numbers("domain", "domain", "", {"left", "right"}, Value::Array{-20.0, 20.0},
                                "Ends of the interval.");
     return {
-        positive("wave_speed", "wave speed", "", 1, "c of u_tt = c² u_xx - W'(u)."),
+        positive("wave_speed", "wave speed", "", 1, "c of u_tt = c² (a u_x)_x - W'(u)."),
+        textField("a", "a", Value("1"),
+                  "a(s) > 0 of a medium, an expression in s = x/epsilon, and its period 1; of a homogeneous "
+                  "one 1."),
+        positive("epsilon", "epsilon", "", 0.05, "Period of the medium in x."),
         textField("potential", "W", Value("none"),
                   "W(u): none, klein-gordon (mass² u²/2), sine-gordon (1 - cos u), phi4 ((u² - 1)²/4), or "
                   "an expression in u and mass."),
@@ -26,6 +33,42 @@ std::vector<FieldInfo> fieldParameters() {
                     "What holds at the ends: periodic, dirichlet: the values stay as they are at the "
                     "start, neumann: nothing acts on them."),
         integerField("cells", "N", 2, 4e6, 200, "Number of elements of schemes that do not say theirs.")};
+}
+
+/// a(x/epsilon); empty: 1. Throws where it is not positive.
+MediumCoefficient mediumOf(const Settings& settings) {
+    const std::string text = settings.find("a") ? settings.text("a") : "1";
+    if (text == "1") return {};
+    const auto a = std::make_shared<const typed::TypedFunction>(
+        text, "/a", std::vector<std::string>{"s"}, std::vector<std::pair<std::string, double>>{});
+    constexpr int samples = 1000;
+    for (int i = 0; i < samples; ++i) {
+        const double s = static_cast<double>(i) / samples;
+        if (const double value = (*a)(&s); !(value > 0) || !std::isfinite(value))
+            throw InvalidScene(
+                "/a", "must be positive, and is " + formatNumber(value, 3) + " at s = " + formatNumber(s),
+                "1 + 0.5*sin(2*pi*s)");
+    }
+    return [a, epsilon = settings.number("epsilon")](double x) {
+        const double s = x / epsilon;
+        return (*a)(&s);
+    };
+}
+
+/// The functions that the elements of a scheme have in place of linear ones, or null.
+std::shared_ptr<const ElementFunctions> functionsOf(const Settings& settings, const FieldProblem& problem) {
+    constexpr int perPeriod = 32, mostParts = 512;
+    if (!settings.find(elementFunctionsKey)) return {};
+    const MediumCoefficient a = problem.coefficient ? problem.coefficient : [](double) { return 1.0; };
+    int parts = settings.integer(elementPartsKey);
+    if (parts == 0)
+        parts = std::min(mostParts,
+                         static_cast<int>(std::ceil(
+                             perPeriod * std::max(1.0, problem.mesh.size(0) / settings.number("epsilon")))));
+    return std::make_shared<const ElementFunctions>(
+        settings.text(elementFunctionsKey) == "snapshots"
+            ? snapshotFunctions(problem.mesh, a, problem.speed(), parts)
+            : cellFunctions(problem.mesh, a, parts));
 }
 
 double amplitudeOf(const FieldPotential& potential) {
@@ -46,6 +89,8 @@ System makeField(const Settings& settings) {
     problem->nodes = FieldNodes(problem->mesh, std::max(1, settings.integer(elementDegreeKey)));
     const double c = settings.number("wave_speed");
     problem->elastic.k = c * c;
+    problem->coefficient = mediumOf(settings);
+    problem->functions = functionsOf(settings, *problem);
     problem->potential = FieldPotential(settings.text("potential"), settings.number("mass"), "/potential");
     System s = makeFieldSystem(problem, amplitudeOf(problem->potential));
     s.id = "field";

@@ -6,7 +6,9 @@ namespace extremal::views {
 namespace {
 
 /// On a mesh of equal elements.
-bool hasWaves(const System& system) { return isField(system) && !system.fieldProblem().isBody; }
+bool hasWaves(const System& system) {
+    return isField(system) && !system.fieldProblem().isBody && !system.fieldProblem().coefficient;
+}
 
 }  // namespace
 
