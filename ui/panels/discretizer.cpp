@@ -19,7 +19,8 @@ namespace extremal {
 DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent)
     : QAbstractButton(parent), choice_(std::move(choice)) {
     const Properties known = describe(choice_.discretization);
-    setEnabled(known.refusal.empty());
+    const bool isPossible = known.refusal.empty() && known.instability.empty();
+    setEnabled(isPossible);
     setObjectName("cell." + QString::fromStdString(choice_.id));
     const QString title = QString::fromStdString(choice_.title);
     setAccessibleName(title.at(0).toUpper() + title.mid(1));
@@ -27,7 +28,7 @@ DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent)
     setAccessibleDescription(toolTip().remove(QRegularExpression("<[^>]*>")));
     setFocusPolicy(Qt::TabFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-    setCursor(known.refusal.empty() ? Qt::PointingHandCursor : Qt::ArrowCursor);
+    setCursor(isPossible ? Qt::PointingHandCursor : Qt::ArrowCursor);
 }
 
 QString DiscretizerCell::tooltip(const Properties& known) const {
@@ -35,6 +36,9 @@ QString DiscretizerCell::tooltip(const Properties& known) const {
     if (!known.refusal.empty())
         return tr("<b>%1</b><br>No scheme: %2")
             .arg(discretization, QString::fromStdString(known.refusal).toHtmlEscaped());
+    if (!known.instability.empty())
+        return tr("<b>%1</b><br>Unstable for every step: %2")
+            .arg(discretization, QString::fromStdString(known.instability).toHtmlEscaped());
     if (!known.remark.empty())
         return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + discretization + "<br>" +
                QString::fromStdString(known.remark) + "<br><i>" + tr("Click to add it to the comparison.") +

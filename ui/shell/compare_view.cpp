@@ -66,6 +66,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     stageCard_->body()->addWidget(stage_, 1);
     stageCard_->menu()->addAction(tr("Fit"), stage_, &StageWidget::fit);
     makeMaximizable(*stageCard_);
+    connectDrawing();
 
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         for (const auto& s : slots_) delete s->card;
@@ -100,6 +101,33 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
 }
 
 CompareView::~CompareView() = default;
+
+void CompareView::connectDrawing() {
+    draw_ = stageCard_->menu()->addAction(tr("Draw the initial profile"));
+    draw_->setCheckable(true);
+    draw_->setToolTip(
+        tr("Dragging on the stage changes u at the start; so does dragging with Ctrl at any time"));
+    connect(draw_, &QAction::toggled, stage_, &StageWidget::setDrawing);
+    connect(stageCard_->menu(), &QMenu::aboutToShow, this,
+            [this] { draw_->setVisible(ProfileDrawing::of(workspace_.scene()).has_value()); });
+    connect(stage_, &StageWidget::strokeStarted, this, [this] {
+        drawing_ = workspace_.hasScene() ? ProfileDrawing::of(workspace_.scene()) : std::nullopt;
+        if (!drawing_) return;
+        playback_.setPlaying(false);
+        playback_.setTime(workspace_.scene().start.value);
+    });
+    connect(stage_, &StageWidget::stroke, this, [this](const Point& from, const Point& to) {
+        if (!drawing_) return;
+        drawing_->stroke(from, to);
+        stage_->setSketch(drawing_->line());
+    });
+    // One edit per stroke: the run starts anew when the mouse is let go.
+    connect(stage_, &StageWidget::strokeEnded, this, [this] {
+        stage_->setSketch({});
+        if (drawing_) workspace_.edit(drawing_->edits(), tr("the initial profile"));
+        drawing_.reset();
+    });
+}
 
 void CompareView::setTheme(const Theme& theme) {
     theme_ = &theme;

@@ -5,12 +5,15 @@
 #include <QWidget>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
 #include "ui/shell/figure_job.hpp"
+#include "ui/shell/profile_drawing.hpp"
 
+class QAction;
 class QGridLayout;
 class QMenu;
 
@@ -76,6 +79,7 @@ private:
     void take(FigureSet made);
     void alignMargins();
     void loadCase(const View& view, double value, double step);
+    void connectDrawing();  ///< of initial profiles, on the stage
 
     Workspace& workspace_;
     RunControl& run_;
@@ -85,6 +89,8 @@ private:
     QWidget* inside_;
     QGridLayout* grid_;
     Card *stageCard_, *maximized_ = nullptr;
+    QAction* draw_ = nullptr;
+    std::optional<ProfileDrawing> drawing_;  ///< of the stroke that is being made
     StageWidget* stage_;
     std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
     std::vector<std::unique_ptr<Slot>> slots_;

@@ -145,6 +145,7 @@ void StagePlayer::prepare() {
             bounds_.add(e.bounds);
             seen_.add(e.seen);
         }
+    makeRoomForClocks();
     trace_.size = bounds_.diagonal();
     trace_.span = findTrailSpan(trace_, 1.3);
     prepareInset();
@@ -459,6 +460,7 @@ StageFrame StagePlayer::frame(double t, const StageStyle& style) const {
             else if (isFirst)
                 frame.scenery.push_back(shape);
         }
+        addClocks(track, t, layer);
         layer.trail = trail(track, trace_, t);
         layer.marks = marks(track, t);
         if (const std::string note = eventNote(track, layer.label, t); !note.empty())

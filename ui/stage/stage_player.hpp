@@ -75,6 +75,8 @@ private:
     bool isResolved(const Track& track, std::size_t row, const Trace& trace, double& bend) const;
     Point tracer(const std::vector<double>& x, bool isInset) const;
     void addExact(double t, StageFrame& frame) const;
+    void makeRoomForClocks();
+    void addClocks(const Track& track, double t, StageLayer& layer) const;
     void stateAt(const Track& track, double t, std::vector<double>& x) const;
     std::vector<TrailPoint> trail(const Track& track, const Trace& trace, double t) const;
     std::vector<TrailPoint> marks(const Track& track, double t) const;
@@ -85,6 +87,7 @@ private:
     System system_;
     std::vector<Track> tracks_;
     Bounds bounds_, seen_;
+    double clockGround_ = 0, clockTop_ = 0;  ///< of the band of the element clocks; equal: there is none
     ExactSolution exact_;  ///< of a field, drawn behind the schemes
     std::size_t exactWidth_ = 0;
     Trace trace_, insetTrace_{true, 0, 0};

@@ -9,6 +9,7 @@
 #include <functional>
 #include <future>
 #include <optional>
+#include <utility>
 
 #include "ui/shell/theme.hpp"
 #include "ui/stage/stage_canvas.hpp"
@@ -52,7 +53,8 @@ struct StageWidget::Impl {
     double t = 0;
     std::optional<Camera> chosen;  ///< the user's view; empty: everything is shown
     QPointF dragged;
-    bool isDragging = false;
+    bool isDragging = false, isStroke = false, isDrawing = false;
+    std::vector<Point> sketch;
     OverlayOptions overlay;
     bool hasGrid = false;
 
@@ -73,12 +75,29 @@ struct StageWidget::Impl {
         if (!failure.isEmpty()) {
             painter.fillRect(area, theme.panel);
             paintMessage(painter, failure);
-        } else if (player.hasStage())
+        } else if (player.hasStage()) {
             paintOverlay(painter, area, currentFrame(), player, theme, {overlay.hasLegend, camera()});
-        else
+            paintSketch(painter);
+        } else
             paintMessage(painter, player.comparison() && !player.comparison()->schemes.empty()
                                       ? QStringLiteral("Waiting for the first step")
                                       : QStringLiteral("Nothing to show yet"));
+    }
+    void paintSketch(QPainter& painter) const {
+        if (sketch.empty()) return;
+        const Camera seen = camera();
+        QPolygonF line;
+        for (const Point& p : sketch) {
+            const Point at = seen.project(p);
+            line << QPointF(self->width() / 2.0 + at[0], self->height() / 2.0 - at[1]);
+        }
+        painter.setRenderHint(QPainter::Antialiasing);
+        painter.setPen(QPen(theme.accent, 2, Qt::DashLine));
+        painter.drawPolyline(line);
+    }
+    /// The point of the model under a place of the widget.
+    Point under(QPointF place) const {
+        return camera().unproject(place.x() - self->width() / 2.0, self->height() / 2.0 - place.y());
     }
     void paintMessage(QPainter& painter, const QString& text) const {
         painter.setFont(theme.body());
@@ -168,6 +187,13 @@ void StageWidget::setGridShown(bool isShown) {
     impl_->changed();
 }
 
+void StageWidget::setDrawing(bool isOn) { impl_->isDrawing = isOn; }
+bool StageWidget::isDrawing() const { return impl_->isDrawing; }
+void StageWidget::setSketch(std::vector<Point> points) {
+    impl_->sketch = std::move(points);
+    impl_->words->update();
+}
+
 void StageWidget::fit() { impl_->choose(std::nullopt); }
 void StageWidget::zoom(double factor) { impl_->zoomAt(factor, QRectF(rect()).center()); }
 bool StageWidget::isFitted() const { return !impl_->chosen; }
@@ -199,14 +225,23 @@ void StageWidget::mousePressEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton) return QWidget::mousePressEvent(event);
     impl_->isDragging = true;
     impl_->dragged = event->position();
-    setCursor(Qt::ClosedHandCursor);
+    const bool draws = impl_->isDrawing || (event->modifiers() & Qt::ControlModifier);
+    impl_->isStroke = draws && impl_->player.hasStage() && !impl_->player.isSpatial();
+    if (!impl_->isStroke) return setCursor(Qt::ClosedHandCursor);
+    setCursor(Qt::CrossCursor);
+    emit strokeStarted();
+    emit stroke(impl_->under(event->position()), impl_->under(event->position()));
 }
 
 void StageWidget::mouseMoveEvent(QMouseEvent* event) {
     if (!impl_->isDragging) return QWidget::mouseMoveEvent(event);
     const QPointF by = event->position() - impl_->dragged;
     if (by.manhattanLength() < 1) return;
-    impl_->dragged = event->position();
+    const QPointF before = std::exchange(impl_->dragged, event->position());
+    if (impl_->isStroke) {
+        emit stroke(impl_->under(before), impl_->under(event->position()));
+        return;
+    }
     Camera next = impl_->camera();
     const bool turns = impl_->player.isSpatial() && !(event->modifiers() & Qt::ShiftModifier);
     if (turns) {
@@ -222,6 +257,7 @@ void StageWidget::mouseMoveEvent(QMouseEvent* event) {
 void StageWidget::mouseReleaseEvent(QMouseEvent*) {
     impl_->isDragging = false;
     unsetCursor();
+    if (std::exchange(impl_->isStroke, false)) emit strokeEnded();
 }
 
 void StageWidget::mouseDoubleClickEvent(QMouseEvent*) {

@@ -5,7 +5,8 @@
 ///     stage->setComparison(comparison);   // again whenever there are new rows: the view stays where the
 ///     user put it stage->setTime(6.2);
 ///
-/// The wheel zooms at the pointer, dragging pans, a double click (or fit()) shows everything again. The
+/// The wheel zooms at the pointer, dragging pans, a double click (or fit()) shows everything again. While
+/// drawing is on, and with Ctrl, dragging makes strokes in place of panning, where the picture is flat. The
 /// picture comes from the graphics card, or through OSMesa where there is no real OpenGL (a remote or virtual
 /// display, the offscreen platform); where neither is to be had the widget says what to install.
 #pragma once
@@ -13,7 +14,9 @@
 #include <QWidget>
 
 #include <memory>
+#include <vector>
 
+#include "engine/model/drawing.hpp"
 #include "engine/run/comparison.hpp"
 
 namespace extremal {
@@ -41,6 +44,10 @@ public:
     void zoom(double factor);  ///< about the middle
     bool isFitted() const;     ///< false once the user has zoomed or panned
     bool usesGraphicsCard() const;
+    void setDrawing(bool isOn);
+    bool isDrawing() const;
+    /// A line above the picture, in the model's coordinates: what is being drawn. Empty: none.
+    void setSketch(std::vector<Point> points);
 
     /// The stage as shown, words included, with this many device pixels per logical one: for copying and
     /// saving.
@@ -51,6 +58,9 @@ public:
 
 signals:
     void fittedChanged(bool isFitted);
+    void strokeStarted();
+    void stroke(const Point& from, const Point& to);  ///< in the model's coordinates
+    void strokeEnded();
 
 protected:
     void resizeEvent(QResizeEvent*) override;

@@ -7,7 +7,7 @@ ViewEntry stage() {
     return {.item = viewItem("stage", "Stage", "the moving picture of all schemes at one time"),
             .recipe = NoPlot{},
             .scales = noScales,
-            .products = {Product::denseOutput, Product::frames},
+            .products = {Product::denseOutput, Product::frames, Product::elementClocks},
             .missing = [](const View&, const System& system) {
                 return std::string(
                     system.draw && !kindOf<BoundaryProblem>(system) ? "" : "a motion with a picture");
