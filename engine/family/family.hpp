@@ -101,6 +101,10 @@ struct Family {
     /// The largest step that is stable, for what the window adds; infinity: none is not. Null: that of the
     /// harmonic oscillator at the highest frequency.
     double (*largestStep)(const System&, const Discretization&, const State& start) = nullptr;
+    /// The state at the start, from the keys of /initial, of a space whose nodes are not those of the system;
+    /// what follows from the initial data besides is decided in the discretization. Throws InvalidScene,
+    /// pointers relative to the space. Null: System::start.
+    State (*start)(const System&, Discretization&, const Settings& initial, double t) = nullptr;
     /// The state from which steps pass through the values of two levels, `step` apart, where the scheme can
     /// start so. Null: it starts from the state.
     State (*startThrough)(const System&, const Discretization&, double step, const State& first,

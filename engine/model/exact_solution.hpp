@@ -4,7 +4,7 @@
 /// callable
 /// `(std::span<const double> t, double* x)` with the state of time i at x + i * width. It may keep a warm
 /// start between calls, so each thread makes its own. Empty where there is none. The solution of a field may
-/// be known at all places besides.
+/// be known at all places besides: states whose nodes are elsewhere at every time are compared with that.
 #pragma once
 
 #include <concepts>

@@ -56,6 +56,10 @@ struct ErrorMeasure {
     /// Of a field, the L2 norm of the distance of the function with the values x from the solution, which is
     /// known at all places. May be empty.
     std::function<double(double t, const double* x, const ExactSolution& reference)> ofFunction = {};
+    /// The same as evaluate() for a state whose nodes move: against a field that is known at all places.
+    /// Takes the place of evaluate() where it is; may be empty.
+    std::function<void(double t, const double* x, const ExactSolution& reference, double* values)>
+        evaluateField = {};
 };
 
 /// The energy at (t, x).
@@ -69,10 +73,18 @@ struct FieldSampling {
     std::vector<std::string> components;  ///< "re", "im"
     std::size_t places() const { return x.size() * (y.empty() ? 1 : y.size()); }
     double period = 0;        ///< along x: the first node is met again after it; 0: not periodic
-    std::size_t further = 0;  ///< values of a sample behind those of the places, for the drawing alone
+    std::size_t further = 0;  ///< values of a sample behind those of the places: for the drawing alone
     std::size_t size() const { return places() * components.size() + further; }
+    /// The nodes move: x is where they are before any state is known, and a sample ends with their places
+    /// (`further`).
+    bool hasMovingNodes = false;
     /// Component after component, each at all places, along x first.
     std::function<void(const double* state, double* values)> sample;
+    /// The nodes of a sample.
+    std::span<const double> nodesOf(const std::vector<double>& values) const {
+        if (!hasMovingNodes) return x;
+        return std::span<const double>(values).last(x.size());
+    }
     explicit operator bool() const { return static_cast<bool>(sample); }
 };
 

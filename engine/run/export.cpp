@@ -88,8 +88,9 @@ void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, S
         if (i % stride != 0 && i + 1 < frames.size()) continue;
         const Frame& frame = frames[i];
         const std::string t = formatNumber(frame.t);
+        const std::span<const double> nodes = field.nodesOf(*frame.values);
         for (std::size_t j = 0; j < n; ++j) {
-            block.append(t).append(",").append(formatNumber(field.x[j % columns]));
+            block.append(t).append(",").append(formatNumber(nodes[j % columns]));
             if (!field.y.empty()) block.append(",").append(formatNumber(field.y[j / columns]));
             for (std::size_t c = 0; c < field.components.size(); ++c) {
                 const double value = (*frame.values)[c * n + j];
@@ -102,6 +103,26 @@ void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, S
                 block.clear();
             }
         }
+    }
+    sink(block);
+}
+
+/// t, node and x of every node of every frame, where nodes move.
+template <class Sink>
+void writeNodes(const FieldSampling& field, const std::vector<Frame>& frames, Sink&& sink) {
+    std::string block = "t,node,x\n";
+    for (const Frame& frame : frames) {
+        const std::string t = formatNumber(frame.t);
+        const std::span<const double> nodes = field.nodesOf(*frame.values);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+            block.append(t)
+                .append(",")
+                .append(std::to_string(i))
+                .append(",")
+                .append(formatNumber(nodes[i]) + '\n');
+        if (block.size() < 1 << 16) continue;
+        sink(block);
+        block.clear();
     }
     sink(block);
 }
@@ -202,11 +223,17 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
                  const std::shared_ptr<const System>& ofScene) {
     const auto system = scheme.scheme && scheme.scheme->ownSystem ? scheme.scheme->ownSystem : ofScene;
     if (const FieldFrames* frames = scheme.products.find<FieldFrames>();
-        frames && !frames->all.empty() && system)
+        frames && !frames->all.empty() && system) {
         files.push_back({slug + ".field.csv", [frames, system](FileBatch& batch) {
                              writeFrames(system->field, frames->all,
                                          [&](const std::string& block) { batch.append(block); });
                          }});
+        if (system->field.hasMovingNodes)
+            files.push_back({slug + ".mesh.csv", [frames, system](FileBatch& batch) {
+                                 writeNodes(system->field, frames->all,
+                                            [&](const std::string& block) { batch.append(block); });
+                             }});
+    }
     if (const StepRecords* steps = scheme.products.find<StepRecords>())
         files.push_back({slug + ".steps.csv", [steps](FileBatch& batch) {
                              writeSteps(*steps, [&](const std::string& block) { batch.append(block); });

@@ -1,6 +1,6 @@
 /// The files of a finished comparison: scene.json, one <slug>.csv per scheme and its products by their
 /// suffixes
-/// (<slug>.field.csv, .steps.csv, .section.csv, .kkt.csv, .action-defect.csv), parameter-map.csv,
+/// (<slug>.field.csv, .mesh.csv, .steps.csv, .section.csv, .kkt.csv, .action-defect.csv), parameter-map.csv,
 /// summary.csv, summary.json.
 ///
 /// CSV: comma, header row, quoting as in RFC 4180, LF, UTF-8; the shortest numbers that read back the same;

@@ -91,7 +91,10 @@ void resolveSystem(ResolvedScheme& scheme, const Scene& scene) {
     const auto model = scheme.family->model(scheme.discretization.space, scene.model);
     if (!model) return;
     scheme.ownSystem = std::make_shared<const System>(findModel(scene.model.type)->make(*model));
-    scheme.ownInitial = initialState(scene, *scheme.ownSystem);
+    scheme.ownInitial = scheme.family->start && scheme.fits(*scheme.ownSystem)
+                            ? scheme.family->start(*scheme.ownSystem, scheme.discretization,
+                                                   scene.initial.given, scene.start.value)
+                            : initialState(scene, *scheme.ownSystem);
 }
 
 ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& resolved, int factor) {

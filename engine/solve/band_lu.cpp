@@ -41,6 +41,15 @@ bool BandLu::factorise() {
     return true;
 }
 
+double BandLu::pivotRatio() const {
+    double least = std::abs(entry(0, 0)), most = least;
+    for (int k = 1; k < n_; ++k) {
+        least = std::min(least, std::abs(entry(k, k)));
+        most = std::max(most, std::abs(entry(k, k)));
+    }
+    return least / most;
+}
+
 void BandLu::solve(double* b) const {
     for (int k = 0; k < n_; ++k) {
         const int best = pivot_[static_cast<std::size_t>(k)];

@@ -23,6 +23,8 @@ public:
     void fix(int i);
     /// Factorises; false where a pivot is 0 or not finite.
     bool factorise();
+    /// Of the factors, the smallest pivot over the largest.
+    double pivotRatio() const;
     /// b <- A^{-1} b.
     void solve(double* b) const;
 

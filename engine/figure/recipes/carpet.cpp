@@ -1,5 +1,5 @@
 /// A field over time and space as a heat map; wave functions with their phase as the colour, those over a
-/// rectangle as their density along x.
+/// rectangle as their density along x. Over that of a moving mesh the paths of its nodes.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,16 +32,17 @@ std::vector<double> marginal(const wave::Grid& grid, const std::vector<double>& 
 /// A field at the middles of equal rows, linear between its nodes, which may be anywhere.
 std::vector<double> atRows(const FieldSampling& field, const std::vector<double>& values, double bottom,
                            double top, int rows) {
-    const std::size_t n = field.x.size();
+    const std::span<const double> nodes = field.nodesOf(values);
+    const std::size_t n = nodes.size();
     std::vector<double> at;
     std::size_t j = 0;
     for (int row = 0; row < rows; ++row) {
         const double x = bottom + (top - bottom) * (row + 0.5) / rows;
-        while (j + 1 < n && field.x[j + 1] <= x) ++j;
+        while (j + 1 < n && nodes[j + 1] <= x) ++j;
         const bool isLast = j + 1 == n;  // of a periodic field; else the last node is the end
-        const double right = isLast ? field.x[0] + field.period : field.x[j + 1],
+        const double right = isLast ? nodes[0] + field.period : nodes[j + 1],
                      next = isLast ? values[0] : values[j + 1];
-        const double part = right > field.x[j] ? (x - field.x[j]) / (right - field.x[j]) : 0;
+        const double part = right > nodes[j] ? (x - nodes[j]) / (right - nodes[j]) : 0;
         at.push_back(values[j] + part * (next - values[j]));
     }
     return at;
@@ -97,6 +98,23 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
     return heat;
 }
 
+/// The paths of the nodes, of many every m-th.
+Guide pathsOf(const FieldSampling& field, const std::vector<Frame>& frames) {
+    constexpr std::size_t mostPaths = 64;
+    const std::size_t n = field.x.size(), stride = (n + mostPaths - 1) / mostPaths;
+    Guide guide;
+    guide.isStrong = true;
+    for (std::size_t i = 0; i < n; i += stride) {
+        for (const Frame& frame : frames) {
+            guide.x.push_back(frame.t);
+            guide.y.push_back(field.nodesOf(*frame.values)[i]);
+        }
+        guide.x.push_back(Summary::unknown);
+        guide.y.push_back(Summary::unknown);
+    }
+    return guide;
+}
+
 Figure makeCarpet(const FigureContext& context) {
     Figure figure = startFigure(context, context.entry.item.title);
     figure.x = timeAxis(context);
@@ -108,6 +126,8 @@ Figure makeCarpet(const FigureContext& context) {
         figure.title = "Carpet of " + scheme->spec.label;
         figure.add(heatOf(systemOf(context, *scheme), *scheme, time.start.value, time.end.value));
         figure.y.range = {figure.heat()->bottom, figure.heat()->top};
+        const FieldSampling& own = systemOf(context, *scheme).field;
+        if (own.hasMovingNodes) figure.add(pathsOf(own, *framesOf(*scheme)));
         const std::string most = " · at most " + shortNumber(figure.heat()->high);
         if (!figure.heat()->hues.empty()) figure.subtitle = "|ψ|, the colour is its phase" + most;
         if (isField(*context.system) || kindOf<Membrane>(*context.system)) figure.subtitle = "u" + most;

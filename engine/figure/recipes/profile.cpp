@@ -32,11 +32,13 @@ double valueOf(Part part, double re, double im) {
     return part == Part::real ? re : part == Part::imaginary ? im : std::hypot(re, im);
 }
 
-Series startOf(const SchemeResult& scheme, const FieldSampling& field) {
+Series startOf(const SchemeResult& scheme, const FieldSampling& field, const std::vector<double>& values) {
     Series s;
     s.label = scheme.spec.label;
     s.style = scheme.style;
-    s.x = field.x;
+    const std::span<const double> nodes = field.nodesOf(values);
+    s.x.assign(nodes.begin(), nodes.end());
+    if (field.hasMovingNodes) s.kind = SeriesKind::markedLine;
     return s;
 }
 
@@ -136,7 +138,7 @@ Figure makeProfile(const FigureContext& context) {
         const double* const re = isUneven ? even.re.data() : values.data();
         const double* const im = isUneven ? even.im.data() : values.data() + n;
         for (const Shown& shown : parts) {
-            Series s = startOf(*scheme, field);
+            Series s = startOf(*scheme, field, values);
             if (isUneven) s.x = even.x;
             if (parts.size() > 1) s.part = shown.symbol;
             if (&shown != &parts.front()) s.tone = Tone::pale;

@@ -67,7 +67,7 @@ private:
 
 ErrorMeasure errorOf(const Shared& problem) {
     ErrorMeasure m;
-    m.columns = {{"error", "", "‖u - u ref‖", ""}};
+    m.columns = fieldErrorColumns();
     m.evaluate = [weights = errorWeights(*problem)](const double* x, const double* reference,
                                                     double* values) {
         double sum = 0;
@@ -93,11 +93,7 @@ MomentumMap fieldMomentum(const Shared& problem) {
 }
 
 Measure translationMeasure(const Shared& problem) {
-    return {"translation-momentum",
-            {{"translation_momentum", "", "-∫u_t u_x", ""},
-             {"translation_momentum_error", "", "change of -∫u_t u_x", ""}},
-            1,
-            [problem](const State& initial) {
+    return {"translation-momentum", translationColumns(), 1, [problem](const State& initial) {
                 const double start = translationMomentum(*problem, initial.x.data());
                 return [problem, start](double, const double* x, double* values) {
                     values[0] = translationMomentum(*problem, x);
@@ -147,15 +143,23 @@ Rule<double> energyRule(const FieldProblem& problem) {
     return lobatto<double>(problem.nodes.degree + 1);
 }
 
-/// u over x as a curtain above 0; `unit`: how high 1 stands.
-void drawField(const FieldProblem& problem, double unit, const double* u, Drawing& drawing) {
+/// The smallest element: the same at all times.
+Measure smallestElementMeasure(const Shared& problem) {
+    return {"h-min", {{"h_min", "", "min h", ""}}, -1, [least = problem->mesh.smallest()](const State&) {
+                return [least](double, const double*, double* values) { values[0] = least; };
+            }};
+}
+
+}  // namespace
+
+void drawField(const FieldProblem& problem, std::span<const double> x, double unit, const double* u,
+               Drawing& drawing) {
     constexpr std::size_t mostPoints = 1000;
     const double left = problem.mesh.left(), right = left + problem.mesh.length();
     drawing.tracer = {left + problem.mesh.length() / 2, 0, 0};
     if (drawing.isTracerOnly) return;
     drawing.shapes.push_back(Segment{{left, 0, 0}, {right, 0, 0}, 1.2, ShapeRole::scenery});
     Curtain curtain;
-    const std::vector<double>& x = problem.nodes.x;
     // Of many nodes the extremes of each group, so that no narrow wave is missed.
     const std::size_t group = (x.size() + mostPoints - 1) / mostPoints;
     for (std::size_t first = 0; first < x.size(); first += group) {
@@ -171,7 +175,12 @@ void drawField(const FieldProblem& problem, double unit, const double* u, Drawin
     drawing.shapes.push_back(std::move(curtain));
 }
 
-}  // namespace
+std::vector<Quantity> translationColumns() {
+    return {{"translation_momentum", "", "-∫u_t u_x", ""},
+            {"translation_momentum_error", "", "change of -∫u_t u_x", ""}};
+}
+
+std::vector<Quantity> fieldErrorColumns() { return {{"error", "", "‖u - u ref‖", ""}}; }
 
 std::vector<double> errorWeights(const FieldProblem& problem) {
     const std::vector<double>& x = problem.nodes.x;
@@ -222,7 +231,8 @@ System makeFieldSystem(Shared problem, double amplitude) {
     s.at = [problem](const double* x, std::span<const double> places, double* values) {
         evaluateAt(*problem, x, places, values);
     };
-    if (!problem->coefficient) s.measures = {translationMeasure(problem)};
+    s.measures = {smallestElementMeasure(problem)};
+    if (!problem->coefficient) s.measures.push_back(translationMeasure(problem));
     if (problem->potential.kind() == FieldPotential::Kind::none &&
         problem->mesh.boundary != Boundary::dirichlet)
         s.momenta = {fieldMomentum(problem)};
@@ -236,16 +246,13 @@ System makeFieldSystem(Shared problem, double amplitude) {
             const std::size_t n = problem->nodes.x.size();
             for (std::size_t i = 0; i < n; ++i) profile.at(problem->nodes.x[i], t, &x[i], &x[n + i]);
         };
-        exact.setAtPlaces([at = profile.at](double t, std::span<const double> places, double* values) {
-            for (std::size_t i = 0; i < places.size(); ++i)
-                at(places[i], t, &values[i], &values[places.size() + i]);
-        });
+        exact.setAtPlaces(atPlacesOf(profile));
         return exact;
     };
     s.givesLevels = [problem](const Settings& initial) { return initial.find("exact") != nullptr; };
     const double unit = 0.25 * problem->mesh.length() / amplitude;
     s.draw = [problem, unit](const double* values, Drawing& drawing) {
-        drawField(*problem, unit, values, drawing);
+        drawField(*problem, problem->nodes.x, unit, values, drawing);
     };
     return s;
 }

@@ -26,6 +26,9 @@ struct FieldProblem {
     /// Of the elements, in place of linear functions; null: polynomials.
     std::shared_ptr<const ElementFunctions> functions;
 
+    /// The nodes are unknowns: x = (y, y', X, X') of all of them, y' along the path of the node, and `mesh`
+    /// says where they are before a scheme places them (moving_field.hpp).
+    bool hasMovingNodes = false;
     bool isBody = false;  ///< u displaces the points of a body: elements have a strain of their own
 
     int size() const { return nodes.size(); }

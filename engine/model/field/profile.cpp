@@ -404,6 +404,13 @@ FieldProfile fieldProfile(const Settings& initial, const FieldProblem& problem, 
     return ways[0] == "values" ? fromValues(initial, problem) : fromExpressions(initial, problem, start);
 }
 
+ExactSolution::AtPlaces atPlacesOf(const FieldProfile& profile) {
+    return [at = profile.at](double t, std::span<const double> places, double* values) {
+        for (std::size_t i = 0; i < places.size(); ++i)
+            at(places[i], t, &values[i], &values[places.size() + i]);
+    };
+}
+
 std::vector<double> fieldState(const FieldProfile& profile, const FieldProblem& problem, double t) {
     const auto n = static_cast<std::size_t>(problem.size());
     std::vector<double> x(2 * n);

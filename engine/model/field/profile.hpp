@@ -24,6 +24,7 @@
 
 #include "engine/core/field.hpp"
 #include "engine/core/settings.hpp"
+#include "engine/model/exact_solution.hpp"
 #include "engine/model/field/problem.hpp"
 
 namespace extremal {
@@ -43,6 +44,9 @@ std::vector<FieldInfo> fieldStartFields();
 /// `start`: the time of expressions in x alone; profiles by name have their own. Throws InvalidScene with
 /// pointers relative to /initial, also where a profile solves another problem.
 FieldProfile fieldProfile(const Settings& initial, const FieldProblem& problem, double start);
+
+/// An exact profile as a solution at all places.
+ExactSolution::AtPlaces atPlacesOf(const FieldProfile& profile);
 
 /// The state of the profile at time t (FieldProblem): values at the nodes, v = 0 where they are fixed.
 std::vector<double> fieldState(const FieldProfile& profile, const FieldProblem& problem, double t);

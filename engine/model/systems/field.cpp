@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/field/field_system.hpp"
+#include "engine/model/field/moving_field.hpp"
 #include "engine/model/field/profile.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
@@ -83,8 +84,11 @@ System makeField(const Settings& settings) {
         throw InvalidScene("/domain", "must go from left to right, got " + formatNumber(ends[0]) + " to " +
                                           formatNumber(ends[1]));
     auto problem = std::make_shared<FieldProblem>();
-    problem->mesh = uniformMesh(ends[0], ends[1] - ends[0], settings.integer("cells"),
-                                boundaryNamed(settings.text("boundary")));
+    const int movingNodes = settings.integer(movingNodesKey);
+    problem->hasMovingNodes = movingNodes > 0;
+    problem->mesh =
+        uniformMesh(ends[0], ends[1] - ends[0], movingNodes > 0 ? movingNodes + 1 : settings.integer("cells"),
+                    boundaryNamed(settings.text("boundary")));
     // Schemes with higher elements ask for their own nodes.
     problem->nodes = FieldNodes(problem->mesh, std::max(1, settings.integer(elementDegreeKey)));
     const double c = settings.number("wave_speed");
@@ -92,7 +96,9 @@ System makeField(const Settings& settings) {
     problem->coefficient = mediumOf(settings);
     problem->functions = functionsOf(settings, *problem);
     problem->potential = FieldPotential(settings.text("potential"), settings.number("mass"), "/potential");
-    System s = makeFieldSystem(problem, amplitudeOf(problem->potential));
+    const double amplitude = amplitudeOf(problem->potential);
+    System s =
+        problem->hasMovingNodes ? makeMovingField(problem, amplitude) : makeFieldSystem(problem, amplitude);
     s.id = "field";
     return s;
 }

@@ -29,6 +29,14 @@ ObservableEntry error() {
                 values[0] = ofFunction(t, x, reference);
             };
         }
+        if (measure.evaluateField && context.reference.atPlaces()) {
+            o.evaluate = [reference = context.reference, evaluate = measure.evaluateField](
+                             const NodeBlock& nodes, double* values, std::size_t stride) {
+                for (std::size_t i = 0; i < nodes.size(); ++i, values += stride)
+                    evaluate(nodes.t(i), nodes.x(i), reference, values);
+            };
+            return o;
+        }
         o.evaluate = [reference = context.reference, evaluate = measure.evaluate, isUsual,
                       d = context.system.coordinates.size(), width = context.initial.x.size(),
                       exact = std::vector<double>()](const NodeBlock& nodes, double* values,

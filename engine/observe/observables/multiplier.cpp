@@ -4,6 +4,9 @@
 /// From (q_k, p_k) one step of the discretization gives q_{k+1}; the system is then solved between q_k and
 /// q_{k+1}, without p_k, and its first multiplier is -D_1 L_d(q_k, q_{k+1}). That it equals the momentum is
 /// what `multiplier_error` shows.
+///
+/// Of a field on a moving mesh the largest multiplier of equidistribution, which would be 0 if the action
+/// were stationary in the places of the nodes as well.
 #include <Eigen/Core>
 
 #include <cmath>
@@ -12,7 +15,7 @@
 
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_of.hpp"
-#include "engine/observe/catalog.hpp"
+#include "engine/observe/quantity_observable.hpp"
 #include "engine/solve/multipliers.hpp"
 
 namespace extremal::observables {
@@ -59,13 +62,14 @@ ObservableEntry multiplier() {
     e.item = {"multiplier",
               "multiplier",
               "Multiplier of continuity from the full saddle-point system of a discretization, and its "
-              "distance from "
-              "the momentum.",
+              "distance from the momentum; of moving meshes the largest multiplier of equidistribution in "
+              "the step that ended at each row.",
               {},
               {},
-              "coordinates"};
-    e.applies = [](const System& system) { return isMechanical(system); };
+              "coordinates, or a field"};
+    e.applies = [](const System& system) { return isMechanical(system) || isField(system); };
     e.bind = [](const ObserveContext& context) {
+        if (isField(context.system)) return observeQuantity(context, {"multiplier", "max |λ|", "", {}, {}});
         Observer o;
         const auto& coordinates = context.system.coordinates;
         const std::string unit = coordinates.size() == 1 ? coordinates.front().momentumUnit : "";

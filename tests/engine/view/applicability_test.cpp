@@ -122,7 +122,8 @@ private slots:
         };
         const std::string has =
             "; kepler has curve-error, discrete-energy, discrete-lagrangian, energy, error, mesh, momentum, "
-            "monitor, parameter-map, phase, section, solvability, sparsity, stage, step, trajectory and "
+            "monitor, multiplier, parameter-map, phase, section, solvability, sparsity, stage, step, "
+            "trajectory and "
             "work-precision";
         QCOMPARE(hint("carpet"), "it needs a field or a wave function" + has);
         QCOMPARE(hint("norm"), "it needs a wave function" + has);

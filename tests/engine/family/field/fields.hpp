@@ -86,9 +86,9 @@ inline bool go(Integrator& integrator, State& state, long long steps) {
 inline double errorOf(const System& system, const State& state, const ExactSolution& exact) {
     std::vector<double> reference(state.x.size());
     exact(state.t, reference);
-    double error = 0;
-    system.error.evaluate(state.x.data(), reference.data(), &error);
-    return error;
+    double error[2];
+    system.error.evaluate(state.x.data(), reference.data(), error);
+    return error[0];
 }
 
 /// Nodal L2 error at time start + duration, in equal steps with c dt/dx = nu or a little less.

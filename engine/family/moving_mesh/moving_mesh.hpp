@@ -1,0 +1,36 @@
+/// Fields whose nodes move (Leok 2004, sec. 6): the integrator of all methods.
+///
+/// multiplier: equidistribution is imposed on the action in values and places (multiplier_step.hpp).
+/// explicit: the mesh follows a monitor with a lag, and the action is stationary in the values alone
+/// (explicit_step.hpp).
+/// free: an experiment without any of this, which is singular, or tangles.
+///
+/// With a fallback a multiplier step that does not converge, or whose nodes would be faster than 1.5 times
+/// the waves, is taken explicitly: the event meshFallback. A mesh that is off its constraint, as it is from
+/// then on, stays with the explicit method: the state says which method goes on, and nothing else is
+/// remembered. Without a fallback the run ends with the outcome of the step.
+#pragma once
+
+#include <memory>
+
+#include "engine/family/moving_mesh/monitor.hpp"
+#include "engine/integrator/integrator.hpp"
+#include "engine/model/field/problem.hpp"
+
+namespace extremal {
+
+struct MovingMeshOptions {
+    bool isExplicit = false, hasFallback = true;
+    bool isFree = false;  ///< no constraint: an experiment
+    double meshMass = 0;  ///< of each free node
+    Monitor monitor;
+    double relaxation = 0.1;  ///< time in which the mesh of the explicit method follows its monitor
+    double speedLimit = 1;    ///< of its nodes, in wave speeds
+    double tolerance = 0;     ///< of Newton's method; 0: round-off
+    int maxIterations = 50;
+};
+
+std::unique_ptr<Integrator> makeMovingMesh(std::shared_ptr<const FieldProblem> problem,
+                                           const MovingMeshOptions& options, double step);
+
+}  // namespace extremal
