@@ -145,9 +145,24 @@ Outcome ExplicitStep::solve(const std::vector<double>& z0, double h, StepReport&
 
 Outcome ExplicitStep::advance(std::vector<double>& z, std::vector<double>& v, double h, StepReport& report,
                               const std::stop_token& stop) {
+    moveMesh(z, v, h);
+    return advanceValues(z, v, h, report, stop);
+}
+
+Outcome ExplicitStep::advanceAtRest(std::vector<double>& z, std::vector<double>& v, double h,
+                                    StepReport& report, const std::stop_token& stop) {
+    for (std::size_t i = 0; i < space_.n; ++i) {
+        z1_[2 * i + 1] = z[2 * i + 1];
+        v1_[2 * i + 1] = 0;
+    }
+    return advanceValues(z, v, h, report, stop);
+}
+
+/// Of values, where the new places and their rates are known.
+Outcome ExplicitStep::advanceValues(std::vector<double>& z, std::vector<double>& v, double h,
+                                    StepReport& report, const std::stop_token& stop) {
     const std::size_t n = space_.n;
     space_.momentum(z.data(), v.data(), p0_);
-    moveMesh(z, v, h);
     guess(z, v, h);
     const Outcome outcome = solve(z, h, report, stop);
     if (outcome != Outcome::converged) return outcome;

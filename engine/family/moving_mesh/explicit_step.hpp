@@ -25,9 +25,14 @@ public:
     /// As MultiplierStep::advance.
     Outcome advance(std::vector<double>& z, std::vector<double>& v, double h, StepReport& report,
                     const std::stop_token& stop);
+    /// The same with the nodes where they are.
+    Outcome advanceAtRest(std::vector<double>& z, std::vector<double>& v, double h, StepReport& report,
+                          const std::stop_token& stop);
     double slabEnergy() const { return slabEnergy_; }
 
 private:
+    Outcome advanceValues(std::vector<double>& z, std::vector<double>& v, double h, StepReport& report,
+                          const std::stop_token& stop);
     void moveMesh(const std::vector<double>& z, const std::vector<double>& v, double h);
     void guess(const std::vector<double>& z, const std::vector<double>& v, double h);
     Outcome solve(const std::vector<double>& z0, double h, StepReport& report, const std::stop_token& stop);

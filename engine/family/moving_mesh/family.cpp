@@ -46,10 +46,10 @@ SpaceEntry movingMeshSpace() {
                choiceField("monitor", "monitor", {"arclength", "curvature", "action-error"},
                            "Density of the nodes, of which all elements have the same share."),
                alpha,
-               choiceField("method", "method", {"multiplier", "explicit", "free"},
+               choiceField("method", "method", {"multiplier", "explicit", "hierarchical", "free"},
                            "multiplier: equidistribution as a constraint, by multipliers; explicit: the mesh "
-                           "follows the monitor with a lag, and is given in each step; free: nodes without a "
-                           "constraint, an experiment."),
+                           "follows the monitor with a lag; hierarchical: dyadic elements, refined and "
+                           "coarsened between steps; free: nodes without a constraint, an experiment."),
                beta, relaxation, speedLimit,
                flagField("fallback", true,
                          "A multiplier step without a solution, or with nodes faster than 1.5 waves, is "
@@ -64,6 +64,7 @@ SpaceEntry movingMeshSpace() {
 
 bool isExplicit(const Settings& space) { return space.text("method") == "explicit"; }
 bool isFree(const Settings& space) { return space.text("method") == "free"; }
+bool isHierarchical(const Settings& space) { return space.text("method") == "hierarchical"; }
 
 bool isMovable(const System& system) {
     if (!isField(system)) return false;
@@ -102,8 +103,9 @@ State startOf(const System& system, Discretization& d, const Settings& initial, 
             value = monitor.alpha = automaticAlpha(monitor, table.x, table.u);
     State state;
     state.t = t;
-    state.x = isExplicit(d.space) ? startAtRest(space, monitor, profile, table, t)
-                                  : startOnConstraint(space, monitor, profile, table, t);
+    state.x = isHierarchical(d.space) ? startOnDyadicMesh(space, monitor, profile, table, t)
+              : isExplicit(d.space)   ? startAtRest(space, monitor, profile, table, t)
+                                      : startOnConstraint(space, monitor, profile, table, t);
     for (const double value : state.x)
         if (!std::isfinite(value)) throw InvalidScene("", "the initial data are not finite everywhere");
     return state;
@@ -111,7 +113,7 @@ State startOf(const System& system, Discretization& d, const Settings& initial, 
 
 Properties describeMovingMesh(const Discretization& d) {
     Properties p;
-    const bool isGiven = isExplicit(d.space);
+    const bool isGiven = isExplicit(d.space) || isHierarchical(d.space);
     p.space = "linear elements with moving nodes";
     const Value* alpha = d.space.find("alpha");
     if (alpha && !(alpha->isNumber() && alpha->asNumber() > 0) &&
@@ -128,10 +130,10 @@ Properties describeMovingMesh(const Discretization& d) {
                         : "is an experiment: the equations of free nodes are singular";
     p.claims.isSymplectic = p.claims.isSymmetric;
     p.curveOrder = 2;
-    p.shortName = isGiven ? "expl" : isFree(d.space) ? "free" : "mult";
+    p.shortName = isHierarchical(d.space) ? "hier" : isGiven ? "expl" : isFree(d.space) ? "free" : "mult";
     p.knownAs = std::string("moving mesh, ") + d.space.text("method");
     p.stabilityLimit = std::numeric_limits<double>::infinity();
-    p.remark = isGiven ? "order 1 in time, no energy to rely on, never tangles"
+    p.remark = isGiven ? "order 1 in time, does not keep energy, never tangles"
                        : "order 2 in time, symplectic while it needs no fallback";
     return p;
 }
@@ -143,8 +145,11 @@ std::unique_ptr<Integrator> makeIt(const System& system, const Discretization& d
     if (!problem->hasMovingNodes)
         throw InvalidScene("/space", "the nodes of this field do not move", "a scheme on a mesh of its own");
     MovingMeshOptions options;
-    options.isExplicit = isExplicit(d.space);
-    options.isFree = isFree(d.space);
+    using Method = MovingMeshOptions::Method;
+    options.method = isExplicit(d.space)       ? Method::explicitMesh
+                     : isHierarchical(d.space) ? Method::hierarchical
+                     : isFree(d.space)         ? Method::free
+                                               : Method::multiplier;
     options.meshMass = d.space.number("mesh_mass");
     options.hasFallback = d.space.flag("fallback");
     options.monitor = monitorOf(d.space, problem->elastic.k);

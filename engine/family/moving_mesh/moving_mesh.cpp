@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/family/moving_mesh/explicit_step.hpp"
+#include "engine/family/moving_mesh/hierarchical_step.hpp"
 #include "engine/family/moving_mesh/multiplier_step.hpp"
 
 namespace extremal {
@@ -19,6 +20,8 @@ constexpr double onConstraint = 1e-8;
 constexpr double fastestNodes = 1.5;
 
 class MovingMesh final : public Integrator {
+    using Method = MovingMeshOptions::Method;
+
 public:
     MovingMesh(std::shared_ptr<const FieldProblem> problem, const MovingMeshOptions& options, double step)
         : space_(std::move(problem)),
@@ -27,11 +30,10 @@ public:
           multiplier_(space_, options.monitor, options.tolerance, options.maxIterations),
           explicit_(space_, options.monitor, options.relaxation, options.speedLimit * std::sqrt(space_.c2),
                     options.tolerance, options.maxIterations),
+          hierarchical_(space_, options.monitor, options.tolerance, options.maxIterations),
           constraint_(options.monitor, space_.n) {
-        if (options.isFree) {
-            multiplier_.setFree(options.meshMass);
-            options_.hasFallback = false;
-        }
+        if (options.method == Method::free) multiplier_.setFree(options.meshMass);
+        options_.hasFallback = options.hasFallback && options.method == Method::multiplier;
         for (auto* each : {&z_, &v_, &zBefore_, &vBefore_}) each->assign(2 * space_.n, 0);
     }
 
@@ -58,8 +60,10 @@ public:
         return all;
     }
     void measure(const State&, double* values) const override {
-        values[0] = isExplicitStep_ ? explicit_.slabEnergy() : multiplier_.slabEnergy();
-        values[1] = isExplicitStep_ ? std::nan("") : multiplier_.largestMultiplier();
+        values[0] = last_ == Method::explicitMesh   ? explicit_.slabEnergy()
+                    : last_ == Method::hierarchical ? hierarchical_.slabEnergy()
+                                                    : multiplier_.slabEnergy();
+        values[1] = last_ == Method::multiplier ? multiplier_.largestMultiplier() : std::nan("");
         values[2] = constraint_.residual(z_.data());
     }
 
@@ -102,8 +106,9 @@ private:
     Outcome step(StepReport& report) {
         zBefore_ = z_;
         vBefore_ = v_;
-        isExplicitStep_ = options_.isExplicit;
-        if (isExplicitStep_) return checked(explicit_.advance(z_, v_, h_, report, stop()));
+        last_ = options_.method;
+        if (last_ == Method::explicitMesh) return checked(explicit_.advance(z_, v_, h_, report, stop()));
+        if (last_ == Method::hierarchical) return checked(hierarchical_.advance(z_, v_, h_, report, stop()));
         const bool isOff = options_.hasFallback && constraint_.residual(z_.data()) > onConstraint;
         Outcome outcome = Outcome::diverged;
         if (!isOff) {
@@ -114,7 +119,7 @@ private:
         }
         z_ = zBefore_;
         v_ = vBefore_;
-        isExplicitStep_ = true;
+        last_ = Method::explicitMesh;
         report.event = StepEvent::meshFallback;
         return checked(explicit_.advance(z_, v_, h_, report, stop()));
     }
@@ -138,8 +143,9 @@ private:
     double h_;
     MultiplierStep multiplier_;
     ExplicitStep explicit_;
+    HierarchicalStep hierarchical_;
     mutable MeshConstraint constraint_;  ///< for what is measured: it has buffers
-    bool isExplicitStep_ = false;        ///< of the last step
+    Method last_ = Method::multiplier;   ///< of the last step
     std::vector<double> z_, v_, zBefore_, vBefore_;
 };
 

@@ -3,7 +3,8 @@
 /// multiplier: equidistribution is imposed on the action in values and places (multiplier_step.hpp).
 /// explicit: the mesh follows a monitor with a lag, and the action is stationary in the values alone
 /// (explicit_step.hpp).
-/// free: an experiment without any of this, which is singular, or tangles.
+/// hierarchical: the mesh is refined and coarsened between steps, and at rest in each
+/// (hierarchical_step.hpp). free: an experiment without any of this, which is singular, or tangles.
 ///
 /// With a fallback a multiplier step that does not converge, or whose nodes would be faster than 1.5 times
 /// the waves, is taken explicitly: the event meshFallback. A mesh that is off its constraint, as it is from
@@ -20,9 +21,10 @@
 namespace extremal {
 
 struct MovingMeshOptions {
-    bool isExplicit = false, hasFallback = true;
-    bool isFree = false;  ///< no constraint: an experiment
-    double meshMass = 0;  ///< of each free node
+    enum class Method { multiplier, explicitMesh, free, hierarchical };
+    Method method = Method::multiplier;
+    bool hasFallback = true;  ///< of the method multiplier
+    double meshMass = 0;      ///< of each free node
     Monitor monitor;
     double relaxation = 0.1;  ///< time in which the mesh of the explicit method follows its monitor
     double speedLimit = 1;    ///< of its nodes, in wave speeds

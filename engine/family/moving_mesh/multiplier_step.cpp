@@ -12,12 +12,14 @@ namespace {
 /// Starting values from an eighth of the step at the least.
 constexpr int mostHalvings = 3;
 
-/// A new Jacobian in every iteration. What is ill-conditioned, where u is nearly linear across a node and
-/// only the constraint says where it stands, leaves corrections above round-off.
+/// The Jacobian of the first iteration is kept while it contracts. What is ill-conditioned, where u is nearly
+/// linear across a node and only the constraint says where it stands, leaves corrections above round-off.
 NewtonLimits<double> limitsOf(double tolerance) {
     NewtonLimits<double> l = NewtonLimits<double>::elementStep(tolerance);
     l.illConditioned = 1e-9;
     l.mostGrowing = 6;
+    l.refreshAbove = 0.05;
+    l.patience = 1;
     return l;
 }
 
@@ -43,16 +45,12 @@ MultiplierStep::MultiplierStep(const NodeSpace& space, const Monitor& monitor, d
 }
 
 void MultiplierStep::fixEnds(BandLu& lu, std::vector<double>& right) const {
-    for (const std::size_t i : {std::size_t{0}, space_.n - 1})
-        for (std::size_t part = 0; part < 3; ++part)
-            if (part > 0 || space_.holdsValue(i)) {
-                lu.fix(static_cast<int>(row(i, part)));
-                right[row(i, part)] = 0;
-            }
-    for (std::size_t i = 1; i + 1 < space_.n && isFree_; ++i) {  // no multipliers
-        lu.fix(static_cast<int>(row(i, 2)));
-        right[row(i, 2)] = 0;
-    }
+    forEachHeld([&](std::size_t k) { lu.fix(static_cast<int>(k)); });
+    fixEnds(right);
+}
+
+void MultiplierStep::fixEnds(std::vector<double>& right) const {
+    forEachHeld([&](std::size_t k) { right[k] = 0; });
 }
 
 /// Free nodes have no equation of their own where u is linear across them.
@@ -156,21 +154,30 @@ double MultiplierStep::correct(const std::vector<double>& z0) {
 Outcome MultiplierStep::solve(const std::vector<double>& z0, double h, StepReport& report,
                               const std::stop_token& stop) {
     NewtonPolicy<double> policy(limitsOf(std::max(tolerance_, std::numeric_limits<double>::epsilon())));
+    bool hasJacobian = false;
     for (int iteration = 0; iteration < maxIterations_; ++iteration) {
         if (stop.stop_requested()) return Outcome::stopped;
-        evaluate(z0, h, true, report.cost);
-        fixEnds(lu_, residual_);
-        if (!lu_.factorise() || !isRegular(lu_)) return Outcome::singular;
-        policy.jacobianIsNew();
+        evaluate(z0, h, !hasJacobian, report.cost);
+        if (!hasJacobian) {
+            fixEnds(lu_, residual_);
+            if (!lu_.factorise() || !isRegular(lu_)) return Outcome::singular;
+            policy.jacobianIsNew();
+            ++report.cost.linearSolves;
+            hasJacobian = true;
+        } else {
+            fixEnds(residual_);
+        }
         const double size = correct(z0);
         ++report.cost.iterations;
-        report.cost.linearSolves += 2;
+        ++report.cost.linearSolves;
         report.residual = size;
         switch (policy.judge(size)) {
             case NewtonPolicy<double>::Verdict::converged:
                 return space_.isOrdered(z1_.data()) ? Outcome::converged : Outcome::lost;
             case NewtonPolicy<double>::Verdict::proceed:
+                break;
             case NewtonPolicy<double>::Verdict::slow:
+                hasJacobian = false;
                 break;
             case NewtonPolicy<double>::Verdict::diverged:
                 return Outcome::diverged;

@@ -55,7 +55,16 @@ private:
     Outcome tangent(const std::vector<double>& z, const std::vector<double>& p, std::vector<double>& v,
                     Cost& cost);
     std::size_t row(std::size_t i, std::size_t part) const { return 3 * i + part; }
+    /// The rows of what does not change: places of the ends, values that are held, multipliers of free nodes.
+    template <class Use>
+    void forEachHeld(Use&& use) const {
+        for (const std::size_t i : {std::size_t{0}, space_.n - 1})
+            for (std::size_t part = 0; part < 3; ++part)
+                if (part > 0 || space_.holdsValue(i)) use(row(i, part));
+        for (std::size_t i = 1; i + 1 < space_.n && isFree_; ++i) use(row(i, 2));
+    }
     void fixEnds(BandLu& lu, std::vector<double>& right) const;
+    void fixEnds(std::vector<double>& right) const;
     bool isRegular(const BandLu& lu) const;
     void addConstraint(BandLu& lu, const std::vector<MeshConstraint::Row>& columns) const;
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "engine/family/moving_mesh/constraint.hpp"
+#include "engine/family/moving_mesh/dyadic_mesh.hpp"
 #include "engine/solve/band_lu.hpp"
 
 namespace extremal {
@@ -82,14 +83,18 @@ bool improve(const NodeSpace& space, const Monitor& monitor, const FieldProfile&
     return false;
 }
 
-std::vector<double> placeNodes(const NodeSpace& space, const Monitor& monitor, const ProfileTable& table) {
+std::vector<double> densityOf(const Monitor& monitor, const ProfileTable& table) {
     std::vector<double> u_xx, M;
     curvatures(table.x.data(), table.u.data(), table.x.size(), u_xx);
     for (std::size_t e = 0; e + 1 < table.x.size(); ++e)
         M.push_back(monitor((table.u[e + 1] - table.u[e]) / (table.x[e + 1] - table.x[e]),
                             (u_xx[e] + u_xx[e + 1]) / 2, (table.u_t[e] + table.u_t[e + 1]) / 2, 0));
+    return M;
+}
+
+std::vector<double> placeNodes(const NodeSpace& space, const Monitor& monitor, const ProfileTable& table) {
     std::vector<double> X(space.n);
-    equidistribute(table.x, M, X);
+    equidistribute(table.x, densityOf(monitor, table), X);
     return X;
 }
 
@@ -121,6 +126,14 @@ ProfileTable::ProfileTable(const FieldProfile& profile, const Mesh& mesh, double
 std::vector<double> startAtRest(const NodeSpace& space, const Monitor& monitor, const FieldProfile& profile,
                                 const ProfileTable& table, double t) {
     const std::vector<double> X = placeNodes(space, monitor, table);
+    return stateAt(space, profile, t, X, std::vector<double>(space.n, 0), std::vector<double>(space.n, 0));
+}
+
+std::vector<double> startOnDyadicMesh(const NodeSpace& space, const Monitor& monitor,
+                                      const FieldProfile& profile, const ProfileTable& table, double t) {
+    const Mesh& whole = space.problem->mesh;
+    std::vector<double> X;
+    DyadicMesh(whole.left(), whole.length(), space.elements()).choose(table.x, densityOf(monitor, table), X);
     return stateAt(space, profile, t, X, std::vector<double>(space.n, 0), std::vector<double>(space.n, 0));
 }
 

@@ -20,8 +20,12 @@ struct ProfileTable {
 std::vector<double> startAtRest(const NodeSpace& space, const Monitor& monitor, const FieldProfile& profile,
                                 const ProfileTable& table, double t);
 
-/// The same with g(z) = 0 to round-off, where Newton's method gets there, and with rates of the nodes that
-/// keep it: y' = u_t + u_x X', Dg (y', X') = 0.
+/// The same on a mesh of dyadic elements (dyadic_mesh.hpp).
+std::vector<double> startOnDyadicMesh(const NodeSpace& space, const Monitor& monitor,
+                                      const FieldProfile& profile, const ProfileTable& table, double t);
+
+/// The same as the first with g(z) = 0 to round-off, where Newton's method gets there, and with rates of the
+/// nodes that keep it: y' = u_t + u_x X', Dg (y', X') = 0.
 std::vector<double> startOnConstraint(const NodeSpace& space, const Monitor& monitor,
                                       const FieldProfile& profile, const ProfileTable& table, double t);
 
