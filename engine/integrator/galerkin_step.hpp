@@ -18,6 +18,10 @@
 /// (node_iteration.hpp). Both go on to round-off, so that symplecticity and momentum maps hold to round-off.
 /// Newton's starting guess: the previous curve continued, and where that fails or is missing a Taylor step.
 ///
+/// A root that was not near its starting value is accepted only if its curve follows the forces
+/// (force_defect.hpp). If not, Newton's method starts again, from a Taylor step and from the motion itself in
+/// small explicit steps; if no root follows the forces, the step is refused as lost.
+///
 /// What q and p lose to rounding when a step is added is carried on to the next (compensated summation), so
 /// that over millions of steps the energy error grows like a random walk of the round-off of the increments
 /// only.
@@ -41,6 +45,7 @@
 
 #include "engine/action/table.hpp"
 #include "engine/core/outcome.hpp"
+#include "engine/integrator/force_defect.hpp"
 #include "engine/integrator/node_iteration.hpp"
 #include "engine/integrator/small_product.hpp"
 #include "engine/model/mechanics.hpp"
@@ -84,7 +89,7 @@ private:
 
     using Accumulator = std::conditional_t<std::is_same_v<T, double>, long double, T>;
 
-    enum class Attempt { solved, failed, notFinite, singular, stopped };
+    enum class Attempt { solved, failed, notFinite, singular, lost, stopped };
 
     /// The functions of a table, node by node and function by function. The equations are the gradient of one
     /// sum of numbers, S = sum_i w_i L(q_0 + sum_a phi_a(c_i) Y_a, sum_a phi_a'(c_i) Y_a): test and trial
@@ -123,9 +128,13 @@ private:
     bool assembleJacobian(const T& t);
     bool startFrom(const T& t, StartingValue start);
     bool startVelocity(const T& t);
+    bool startFromMotion(const T& t);
+    bool followsForces(const T& t);
     T correction();
     Attempt iterate(const T& t, StartingValue start, const std::stop_token& stop);
-    Attempt newton(const T& t, const std::stop_token& stop);
+    Attempt newton(const T& t, StartingValue start, const std::stop_token& stop);
+    Attempt fromElsewhere(const T& t, const std::stop_token& stop);
+    Attempt anyRoot(const T& t, const std::stop_token& stop);
     Attempt fixedPoint(const T& t, const std::stop_token& stop);
     Attempt solve(const T& t, const std::stop_token& stop);
     void resume(const T* q, const T* p);
@@ -160,6 +169,9 @@ private:
     bool hasPrevious_ = false;                          ///< Y_ of Newton's last step can be extrapolated
     std::optional<NodeIteration<T>> fixedPointSolver_;  ///< separable Lagrangians
     bool isSolvedByFixedPoint_ = false;                 ///< it solved the last step
+    std::optional<ForceDefect<T>> defect_;              ///< not of oscillatory functions
+    T nearness_ = T(0);                                 ///< first correction of the last iteration
+    Flat motion_;                                       ///< states and rates of the explicit steps
     StartingLadder ladder_;
     int newtonSteps_ = 0;  ///< steps for which Newton is preferred after the fixed point was slow
     StepReport report_;

@@ -65,6 +65,8 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     lu_ = Eigen::PartialPivLU<Square>(size);
     if (mechanics_.isSeparable && tables_.size() == 1 && tables_.front().frequency == T(0))
         fixedPointSolver_.emplace(mechanics_, tables_.front(), h_, tolerance_);
+    if (tables_.front().frequency == T(0)) defect_.emplace(mechanics_, tables_);
+    motion_ = Flat::Zero(8 * d());
 }
 
 /// Slopes by time and weights by h.
@@ -157,6 +159,9 @@ StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_t
             break;
         case Attempt::singular:
             report_.outcome = Outcome::singular;
+            break;
+        case Attempt::lost:
+            report_.outcome = Outcome::lost;
             break;
         case Attempt::stopped:
             report_.outcome = Outcome::stopped;

@@ -74,6 +74,49 @@ bool GalerkinStep<T, D>::startFrom(const T& t, StartingValue start) {
     return true;
 }
 
+/// Sets Y to the motion from (q_0, p_0) in explicit steps, fitted at the nodes.
+template <class T, int D>
+bool GalerkinStep<T, D>::startFromMotion(const T& t) {
+    constexpr int pieces = 64;
+    if (!mechanics_.flow) return false;
+    const int dim = d(), width = 2 * dim;
+    auto x = motion_.segment(0, width), at = motion_.segment(width, width),
+         k = motion_.segment(2 * width, width), all = motion_.segment(3 * width, width);
+    x << q0_, p0_;
+    const T part = h_ / T(pieces);
+    Columns places(n(), dim);
+    int next = 0;
+    const auto rate = [&](const T& time) {
+        ++report_.cost.evaluations;
+        return mechanics_.flow(mechanics_.model.get(), time, at.data(), at.data() + dim, k.data(),
+                               k.data() + dim);
+    };
+    // Nodes are in order; each takes the place at the end of the piece that it is in, moved back linearly.
+    for (int piece = 0; piece < pieces; ++piece) {
+        const T begin = t + part * T(piece);
+        all.setZero();
+        at = x;
+        for (int stage = 0; stage < 4; ++stage) {
+            const T ahead = stage == 0 ? T(0) : stage == 3 ? T(1) : T(0.5);
+            if (stage > 0) at = x + part * ahead * k;
+            if (!rate(begin + part * ahead)) return false;
+            all += (stage == 1 || stage == 2 ? T(2) : T(1)) * k / T(6);
+        }
+        for (; next < n() && tables_.front().node(next) * T(pieces) <= T(piece + 1); ++next) {
+            const T inside = tables_.front().node(next) * T(pieces) - T(piece);
+            places.row(next) = (x.head(dim) + part * inside * all.head(dim) - q0_).transpose();
+        }
+        x += part * all;
+    }
+    if (!x.allFinite() || next < n()) return false;
+    for (int c = 0; c < dim; ++c) {
+        const Square value = functions(c).value.topRows(n());
+        Y_.segment(offset(c), m(c)) =
+            Square(value.transpose() * value).partialPivLu().solve(Flat(value.transpose() * places.col(c)));
+    }
+    return Y_.allFinite();
+}
+
 /// Solves J delta = R, Newton's correction being -delta; returns its size relative to the unknowns.
 template <class T, int D>
 T GalerkinStep<T, D>::correction() {
@@ -103,6 +146,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Sta
         const T size = correction();
         ++report_.cost.iterations;
         report_.residual = static_cast<double>(size);
+        if (iteration == 0) nearness_ = size;
         const Verdict verdict = policy.judge(size);
         if (verdict == Verdict::converged) return Attempt::solved;
         if (verdict == Verdict::notFinite) return Attempt::notFinite;
@@ -118,8 +162,8 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Sta
 
 /// Newton's method down the ladder of starting values.
 template <class T, int D>
-typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, const std::stop_token& stop) {
-    StartingValue start = ladder_.begin(hasPrevious_);
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, StartingValue start,
+                                                                const std::stop_token& stop) {
     for (;;) {
         if (!startFrom(t, start)) return Attempt::singular;
         const Attempt result = iterate(t, start, stop);
@@ -138,6 +182,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, 
                                      policy_.maxIterations, stop, report_)) {
         case Result::solved: {
             fixedPointSolver_->increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
+            nearness_ = fixedPointSolver_->nearness();
             return dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
         }
         case Result::stopped:
@@ -152,6 +197,41 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, 
 
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const std::stop_token& stop) {
+    /// A root this far from its starting value, against the increments of the step, may be another one than
+    /// that of the motion.
+    constexpr double far = 0.25;
+    const Attempt result = anyRoot(t, stop);
+    if (result != Attempt::solved || !defect_ || !(nearness_ > T(far)) || followsForces(t)) return result;
+    return fromElsewhere(t, stop);
+}
+
+/// Whether the curve at hand, of the last attempt, is one of the motion.
+template <class T, int D>
+bool GalerkinStep<T, D>::followsForces(const T& t) {
+    coefficients(delta_.data());
+    return defect_->isFollowing(t, h_, q0_.data(), p0_.data(), delta_.data());
+}
+
+/// Newton's method from starting values that do not continue the last step.
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fromElsewhere(const T& t,
+                                                                       const std::stop_token& stop) {
+    isSolvedByFixedPoint_ = false;
+    if (fixedPointSolver_) fixedPointSolver_->forget();
+    carryQ_.setZero();
+    carryP_.setZero();
+    newtonSteps_ = stepsWithNewton;
+    Attempt result = newton(t, StartingValue::fallback, stop);
+    if (result == Attempt::solved && followsForces(t)) return result;
+    if (result == Attempt::stopped) return result;
+    if (!startFromMotion(t)) return Attempt::lost;
+    result = iterate(t, StartingValue::fallback, stop);
+    if (result == Attempt::stopped || (result == Attempt::solved && followsForces(t))) return result;
+    return Attempt::lost;
+}
+
+template <class T, int D>
+typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::anyRoot(const T& t, const std::stop_token& stop) {
     isSolvedByFixedPoint_ = false;
     if (fixedPointSolver_ && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
         Attempt result = fixedPoint(t, stop);
@@ -167,7 +247,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const
     } else if (newtonSteps_ > 0) {
         --newtonSteps_;
     }
-    return newton(t, stop);
+    return newton(t, ladder_.begin(hasPrevious_), stop);
 }
 
 }  // namespace extremal

@@ -56,6 +56,10 @@ public:
     /// The same step's Y, m x d, and forces at the nodes, n x d.
     void coefficients(Eigen::Ref<Square> Y, Eigen::Ref<Square> forces) const;
 
+    /// Of the step last solved: the first change that a sweep made, relative to the increments; 1 where it
+    /// did not start from the step before.
+    const T& nearness() const { return nearness_; }
+
     /// Forces at the nodes, n x d, of a step solved otherwise: the next one starts from them.
     void remember(const Eigen::Ref<const Square>& forces);
     void forget() { hasForces_ = false; }
@@ -99,6 +103,7 @@ private:
     std::vector<SweepSize<T>> size_;
     void (*sweep_)(const Sweep<T>&) = nullptr;
     bool hasForces_ = false;
+    T nearness_ = T(1);
 };
 
 }  // namespace extremal

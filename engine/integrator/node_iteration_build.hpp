@@ -212,6 +212,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         s.G = N_.data();
         s.weight = weight_.data();
     };
+    const bool isOnward = hasForces_;
     if (!hasForces_) {
         startFromConstantForce(t, q);
         ++report.cost.evaluations;
@@ -226,6 +227,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         ++report.cost.iterations;
         report.cost.evaluations += n_;
         const T size = largestChange(q);
+        if (iteration == 0) nearness_ = isOnward ? size : T(1);
         report.residual = static_cast<double>(size);
         hasForces_ = false;
         const Verdict verdict = policy.judge(size);

@@ -13,8 +13,6 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
     const Family* const family = scheme.family ? scheme.family : familyFor(system);
     if (family && family->advice)
         if (const std::string own = family->advice(outcome); !own.empty()) return own;
-    if (outcome == Outcome::lost)
-        return "The solution could not be followed any further. Try a smaller step, or an earlier end.";
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
                "earlier end.";
@@ -25,6 +23,10 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
     if (w > 0 && std::isfinite(limit) && limit > 0 && step * w > limit)
         return "h ω = " + formatNumber(step * w, 2) + " is beyond its stability limit " +
                formatNumber(limit, 3) + ". Try h ≤ " + formatNumber(limit / w, 2) + ".";
+    if (outcome == Outcome::lost)
+        return "The run has left the motion: its energy grows beyond all bounds, or the equations of the "
+               "step "
+               "have no root that follows the forces. Try a smaller step.";
     if (scheme.spec.tolerance) return "Try a smaller tolerance, or start away from the singularity.";
     if (outcome == Outcome::singular)
         return "The equations of the step are singular here. Try other initial data, or a smaller step.";

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/core/thread_clock.hpp"
+#include "engine/run/judge.hpp"
 
 namespace extremal {
 namespace {
@@ -13,13 +14,14 @@ class March {
 public:
     /// `remembers`: whether the state before a block is needed.
     March(Integrator& integrator, State& state, const MarchGrid& grid, std::span<const MarchSink> sinks,
-          bool remembers)
+          bool remembers, Judge* judge)
         : integrator_(integrator),
           state_(state),
           grid_(grid),
           sinks_(sinks),
           isFixed_(integrator.grid() == TimeGrid::fixed),
-          remembers_(remembers) {}
+          remembers_(remembers),
+          judge_(judge) {}
 
     MarchReport run(NodeBlock& nodes, const std::stop_token& stop) {
         if (state_.memory.empty()) integrator_.begin(state_);
@@ -48,6 +50,7 @@ public:
             report_.outcome = step.outcome;
             if (step.outcome != Outcome::converged) report_.cost += step.cost;
             checkFinite(nodes);
+            checkSound(nodes);
             taken += static_cast<long long>(nodes.size());
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 const StepReport& each = nodes.report(i);
@@ -103,16 +106,29 @@ private:
         const std::size_t finite = nodes.finiteNodes();
         if (finite == nodes.size()) return;
         report_.outcome = Outcome::notFinite;
-        if (finite > 0) {
-            state_.t = nodes.t(finite - 1);
-            state_.node = nodes.node(finite - 1);
-            state_.x.assign(nodes.x(finite - 1), nodes.x(finite - 1) + nodes.width());
+        goBack(nodes, finite);
+    }
+    /// Nodes from the first that is lost on were not reached. Of a wide state, which is not copied, that one
+    /// is.
+    void checkSound(NodeBlock& nodes) {
+        if (!judge_ || nodes.size() == 0) return;
+        const std::size_t sound = judge_->soundNodes(nodes, isDone());
+        if (sound == nodes.size()) return;
+        report_.outcome = Outcome::lost;
+        if (remembers_) goBack(nodes, sound);
+    }
+    /// To the last of the first `count` nodes of a block.
+    void goBack(NodeBlock& nodes, std::size_t count) {
+        if (count > 0) {
+            state_.t = nodes.t(count - 1);
+            state_.node = nodes.node(count - 1);
+            state_.x.assign(nodes.x(count - 1), nodes.x(count - 1) + nodes.width());
         } else {
             state_.t = before_.t;
             state_.node = before_.node;
             state_.x = before_.x;
         }
-        nodes.truncate(finite);
+        nodes.truncate(count);
     }
     bool show(const NodeBlock& nodes, bool isStart) {
         const Stretch stretch{nodes, before_, state_, integrator_, report_, isStart};
@@ -126,6 +142,7 @@ private:
     MarchGrid grid_;
     std::span<const MarchSink> sinks_;
     bool isFixed_, remembers_;
+    Judge* judge_;
     double lastStep_ = 0;  ///< where times are unknowns
     State before_;         ///< where the block at hand began
     MarchReport report_;
@@ -133,8 +150,19 @@ private:
 
 }  // namespace
 
+void warmUp(const Integrator& integrator, const State& state, const MarchGrid& grid,
+            const std::stop_token& stop) {
+    const auto copy = integrator.clone();
+    copy->setStop(stop);
+    State from = state;
+    if (from.memory.empty()) copy->begin(from);
+    const bool isFixed = copy->grid() == TimeGrid::fixed;
+    if (isFixed ? from.node < grid.steps : from.t < grid.end)
+        (void)copy->advance(from, isFixed ? grid.clock.at(from.node + 1) : grid.end);
+}
+
 MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
-                  std::span<const MarchSink> sinks, const std::stop_token& stop) {
+                  std::span<const MarchSink> sinks, const std::stop_token& stop, Judge* judge) {
     constexpr std::size_t numbersOfBlock = 16384, mostNodes = 512;
     integrator.setStop(stop);
     const bool looksInside =
@@ -146,7 +174,7 @@ MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
     const std::size_t capacity =
         looksInside ? 1
                     : std::clamp<std::size_t>(numbersOfBlock / std::max<std::size_t>(1, width), 1, mostNodes);
-    March run(integrator, state, grid, sinks, looksInside || !integrator.checksFinite());
+    March run(integrator, state, grid, sinks, looksInside || !integrator.checksFinite(), judge);
     if (capacity == 1) {
         NodeBlock nodes = NodeBlock::referring(width, quantities);
         return run.run(nodes, stop);

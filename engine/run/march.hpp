@@ -17,6 +17,8 @@
 
 namespace extremal {
 
+class Judge;
+
 /// Where a march goes: on a fixed grid to node `steps` of the clock, on other grids to the time `end`; with
 /// at most `budget` steps.
 struct MarchGrid {
@@ -54,9 +56,17 @@ struct MarchSink {
     bool readsQuantities = false;             ///< NodeBlock::quantities, which are not measured otherwise
 };
 
+/// Takes one step from the state with a copy of the integrator, and forgets it: what is met for the first
+/// time (code, pages of memory, tables made when they are needed) costs more than many a short run, which of
+/// two equal schemes the first would pay.
+void warmUp(const Integrator& integrator, const State& state, const MarchGrid& grid,
+            const std::stop_token& stop);
+
 /// Goes on from `state`, which ends at the last node reached. A state without memory begins a run, one with
 /// memory resumes it.
+/// `judge`: ends the march, with the outcome lost, at the last node that it finds sound; null: it goes on
+/// regardless.
 MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
-                  std::span<const MarchSink> sinks, const std::stop_token& stop);
+                  std::span<const MarchSink> sinks, const std::stop_token& stop, Judge* judge = nullptr);
 
 }  // namespace extremal

@@ -9,11 +9,13 @@
 #include "engine/core/line_fit.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/advice.hpp"
 #include "engine/run/equations.hpp"
 #include "engine/run/error_floor.hpp"
 #include "engine/run/inside_step.hpp"
+#include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/run/reuse.hpp"
 #include "engine/run/row_sampler.hpp"
@@ -104,7 +106,8 @@ struct SchemeRun::Recording {
             Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{},
                                  scheme.plain(), step, integrator->quantities()}),
                     result.trajectory.columns.size(), none, nullptr};
-            if (b.observer.extreme >= 0) {
+            // What is not conserved has no error.
+            if (b.observer.extreme >= 0 && (id != "energy" || conservesEnergy(system))) {
                 b.extreme = summary.extremes.size();
                 summary.extremes.push_back(
                     {id, b.observer.columns[static_cast<std::size_t>(b.observer.extreme)].name});
@@ -264,7 +267,8 @@ struct SchemeRun::Recording {
             }
         }
         const Column* energy = result.trajectory.find("energy_error");
-        if (energy) s.energyDrift = lineThrough(result.trajectory.columns[0].values, energy->values).slope;
+        if (energy && conservesEnergy(system))
+            s.energyDrift = lineThrough(result.trajectory.columns[0].values, energy->values).slope;
     }
 
     /// Integrates to the end or the first trouble; `publish` is called between blocks.
@@ -312,7 +316,9 @@ struct SchemeRun::Recording {
             return true;
         }});
         const MarchGrid grid = marchGrid(scene, scheme, step);
-        const MarchReport report = march(*integrator, state, grid, sinks, stop);
+        warmUp(*integrator, state, grid, stop);
+        Judge judge(system, initialNode, step);
+        const MarchReport report = march(*integrator, state, grid, sinks, stop, &judge);
         if (!isLastNodeRow)
             recordAlone(state, report.last, report.lastQuantities, static_cast<double>(state.node));
         if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);

@@ -14,6 +14,9 @@ double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) 
     integrator->begin(state);
     const bool isFixed = integrator->grid() == TimeGrid::fixed;
     const Clock nodes{state.t, integrator->stepSize()};
+    // A first step meets code and memory for the first time.
+    if (State first = state; state.t < end)
+        (void)integrator->clone()->advance(first, isFixed ? nodes.at(state.node + 1) : end);
     const double begin = threadSeconds();
     double spent = 0;
     // Blocks that double: reading the clock costs as much as a cheap step.

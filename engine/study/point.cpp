@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/scene/two_positions.hpp"
 
@@ -70,7 +71,9 @@ public:
         };
         const MarchSink sink{see, false, measured.readsQuantities()};
         State state = start_;
-        const MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_);
+        warmUp(*integrator, state, grid_, stop_);
+        Judge judge(system_, start_, step_);
+        const MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &judge);
         result.error = measured.value;
         result.steps = state.node;
         result.cost = report.cost;

@@ -251,7 +251,7 @@ private slots:
         QProcess process;
         process.start(QStringLiteral(EXTREMAL_BINARY), {"run", "-", "--out", dir.path()});
         process.write(
-            scene("[{ \"label\": \"short\", \"baseline\": \"rk4\", \"step\": 0.5 },"
+            scene("[{ \"label\": \"short\", \"baseline\": \"rk4\", \"step\": 0.05 },"
                   "{ \"label\": \"long\", \"scheme\": \"midpoint\", \"step\": 1e-7 }]",
                   "\"reference\": \"none\", \"observe\": [\"energy\"], \"time\": { \"end\": 1000 }"));
         process.closeWriteChannel();

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/figure/against.hpp"
+#include "engine/model/conservative.hpp"
 
 namespace extremal::recipes {
 namespace {
@@ -22,10 +23,12 @@ Figure makeEnergy(const FigureContext& context) {
         ++known;
         bounded += scheme->summary.status != RunStatus::failed && isBounded(error, 1e3 * floorOf(figure));
     }
-    const bool isForced =
-        context.system && isMechanical(*context.system) && context.system->mechanics().isTimeDependent;
+    const bool isForced = context.system && !conservesEnergy(*context.system);
     if (known > 0) figure.subtitle = "bounded: " + std::to_string(bounded) + " of " + std::to_string(known);
-    if (known > 0 && isForced) figure.subtitle = "no invariant: the Lagrangian depends on time";
+    if (known > 0 && isForced)
+        figure.subtitle =
+            "no invariant: " + std::string(isWave(*context.system) ? "the potential" : "the Lagrangian") +
+            " depends on time";
     std::vector<std::pair<double, std::string>> largest;
     if (isAgainstSteps(context.view) && scale > 0)
         for (const Series& s : figure.series())

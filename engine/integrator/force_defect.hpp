@@ -1,0 +1,123 @@
+/// How much of the force along the curve of a step its rule has missed: whether a root of the step's
+/// equations is the motion.
+///
+/// The equations of a step see forces at the nodes alone. They may have roots that have nothing to do with
+/// the motion: a curve that jumps over a singularity between two nodes, and sees no force there, is a root to
+/// round-off. For the curve q_d of a root
+///
+///     D = | I - I_h | / ( max(|p_0|, |p_1|) + A ),       I = int_0^h L_q dt,   A = int_0^h |L_q| dt,
+///
+/// the integrals by Simpson's rule at equal times, both ends included; I_h and A_h are what the rule of the
+/// step takes them for. A root is none of the motion where D > 1/2, so that more than half of what acts on
+/// the system is not in the step, and A and A_h differ by more than a factor of 10, so that this is a force
+/// between the nodes and not the error of a rule of low order. Both are far away where a step follows its
+/// forces; and as D = 0 for linear forces (with rules of order 2 at least), however long the step, schemes
+/// may jump over fast linear motion as they are made to. (Kepler's problem with e = 0.9999 at the perihelion,
+/// four Gauss nodes, h = 0.05: the straight line is a root, D = 0.99.)
+///
+/// Norms are those of the largest coordinate. Internal to integrator/.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/action/table.hpp"
+#include "engine/model/mechanics.hpp"
+
+namespace extremal {
+
+template <class T>
+class ForceDefect {
+public:
+    using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+
+    /// Tables without oscillatory functions, one for all coordinates or one for each.
+    ForceDefect(const Mechanics<T>& mechanics, const std::vector<Table<T>>& tables) : mechanics_(mechanics) {
+        const Table<T>& first = tables.front();
+        const int panels = 2 * (first.nodes() + 1), d = mechanics_.dimension;
+        for (int i = 0; i < first.nodes(); ++i) nodes_.push_back({first.node(i), first.weight(i)});
+        for (int j = 0; j <= panels; ++j)
+            times_.push_back({T(j) / T(panels), (j == 0 || j == panels ? T(1)
+                                                 : j % 2 == 1          ? T(4)
+                                                                       : T(2)) /
+                                                    T(3 * panels)});
+        std::vector<T> value, slope;
+        for (const Table<T>& table : tables) {
+            Curve seen{table.value, table.derivative};
+            Curve along{Square(panels + 1, table.unknowns()), Square(panels + 1, table.unknowns())};
+            value.resize(static_cast<std::size_t>(table.space.size));
+            slope.resize(value.size());
+            for (int j = 0; j <= panels; ++j) {
+                table.space.evaluate(times_[static_cast<std::size_t>(j)].tau, value, slope);
+                const Eigen::Map<const Flat> phi(value.data(), table.space.size),
+                    dphi(slope.data(), table.space.size);
+                along.value.row(j) = phi.transpose() * table.change;
+                along.slope.row(j) = dphi.transpose() * table.change;
+            }
+            seen_.push_back(std::move(seen));
+            along_.push_back(std::move(along));
+        }
+        q_ = v_ = impulse_ = missed_ = Flat::Zero(d);
+        gradient_ = Flat::Zero(2 * d);
+    }
+
+    /// Whether the curve Y of a step from (t, q, p), coordinate by coordinate, follows the forces.
+    bool isFollowing(const T& t, const T& h, const T* q, const T* p, const T* Y) {
+        using std::abs;
+        constexpr double most = 0.5, apart = 10;
+        const T A = integrate(along_, times_, t, h, q, Y);
+        if (!(A <= std::numeric_limits<T>::max())) return false;
+        missed_ = impulse_;
+        const T seen = integrate(seen_, nodes_, t, h, q, Y);
+        missed_ -= impulse_;
+        if (!(A > T(apart) * seen) && !(seen > T(apart) * A)) return true;
+        T momentum(0);
+        for (int k = 0; k < mechanics_.dimension; ++k)
+            momentum = std::max({momentum, T(abs(p[k])), T(abs(p[k] + impulse_(k)))});
+        return missed_.template lpNorm<Eigen::Infinity>() <= T(most) * (momentum + A);
+    }
+
+private:
+    using Square = typename Table<T>::Matrix;
+    struct Curve {
+        Square value, slope;  ///< (j, a): the functions of a table at some times, slopes by tau
+    };
+    struct Weight {
+        T tau, weight;
+    };
+
+    /// Into impulse_; returns the integral of its size.
+    T integrate(const std::vector<Curve>& curves, const std::vector<Weight>& times, const T& t, const T& h,
+                const T* q, const T* Y) {
+        using std::abs;
+        const int d = mechanics_.dimension;
+        impulse_.setZero();
+        T all(0);
+        for (std::size_t j = 0; j < times.size(); ++j) {
+            const T* own = Y;
+            for (int k = 0; k < d; ++k) {
+                const Curve& curve = curves[curves.size() == 1 ? 0 : static_cast<std::size_t>(k)];
+                const Eigen::Map<const Flat> y(own, curve.value.cols());
+                const auto row = static_cast<Eigen::Index>(j);
+                q_(k) = q[k] + curve.value.row(row).dot(y);
+                v_(k) = curve.slope.row(row).dot(y) / h;
+                own += y.size();
+            }
+            mechanics_.gradient(mechanics_.model.get(), t + h * times[j].tau, q_.data(), v_.data(),
+                                gradient_.data());
+            const auto force = gradient_.head(d);
+            impulse_ += h * times[j].weight * force;
+            all += abs(h * times[j].weight) * force.template lpNorm<Eigen::Infinity>();
+        }
+        return all;
+    }
+
+    Mechanics<T> mechanics_;
+    std::vector<Weight> nodes_, times_;
+    std::vector<Curve> seen_, along_;
+    Flat q_, v_, impulse_, missed_, gradient_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,57 @@
+/// Whether a run is still the motion that it began: the outcome `lost` of runs that have no other fault.
+///
+/// Steps may go on for ever, finite all the time, while the solution has long left the problem: an explicit
+/// scheme beyond its stability limit, or a step whose equations have another root. What gives it away is the
+/// quantity that the motion cannot change: the energy of a conservative system, the norm of a wave function.
+/// A run is lost at the first node where
+///
+///     |H(t) - H(0)| > 100 S,      S: the size of the energies that the motion has at all.
+///
+/// S is the largest of |H(0)| and of the kinetic energies seen so far, as H alone may be small by the choice
+/// of its zero. Only nodes count whose energy is right within half the kinetic energy: in an unstable run
+/// the kinetic energy grows with the error, and S stays what the motion has. A motion that starts at rest
+/// has at least the kinetic energy that the forces at the start give in one step.
+///
+/// Why 100: the energy of a stable symplectic scheme stays within a band, which is wide close to the limit of
+/// stability. Of Stoermer-Verlet on an oscillator it is at most 1/(1 - (h w/2)^2) times the energy, so that
+/// only steps within half a percent of the limit are taken for lost. Beyond a limit energies grow
+/// exponentially, and a collision that is jumped over shoots a body out at many times its energy: no larger
+/// number is needed to see either.
+///
+/// The energy is computed at one node of each block of steps (march.hpp), every 16th where blocks are of one
+/// node; where it is out of bounds the first such node of the block is looked for.
+#pragma once
+
+#include <functional>
+
+#include "engine/core/node_block.hpp"
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+class Judge {
+public:
+    static constexpr double band = 100;
+
+    /// Keeps what it needs of the system. Finds nothing wrong where nothing is conserved. `step`: 0 where it
+    /// is not known.
+    Judge(const System& system, const State& start, double step);
+
+    /// How many of these nodes, in order, still belong to the motion. `isLast`: the run ends with them.
+    std::size_t soundNodes(const NodeBlock& nodes, bool isLast);
+
+    /// S, as far as it is known; 0 where nothing is conserved.
+    double scale() const { return scale_; }
+
+private:
+    using OfState = std::function<double(double t, const double* x)>;
+
+    bool isOut(double t, const double* x) const;
+    void learn(double t, const double* x);
+    double gainedKineticEnergy(const System& system, const State& start, double step) const;
+
+    OfState conserved_, kinetic_;  ///< empty: nothing is conserved; nothing is known of the parts
+    double start_ = 0, scale_ = 0;
+};
+
+}  // namespace extremal

@@ -1,0 +1,104 @@
+/// Runs judge themselves: what has left the motion is lost, and nothing else is.
+#include <QTest>
+
+#include <cmath>
+
+#include "engine/run/judge.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/codec.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::judge_test {
+namespace {
+
+/// The result of the only scheme.
+SchemeResult resultOf(const std::string& text) {
+    const ReadScene read = readScene(text);
+    for (const Problem& p : read.errors) qWarning("%s: %s", p.pointer.c_str(), p.message.c_str());
+    return *run(read.scene).schemes.front();
+}
+
+std::string oscillator(const std::string& scheme, double end) {
+    return R"({"extremal":1,"model":{"type":"harmonic-oscillator"},"initial":{"q":[1]},"time":{"end":)" +
+           std::to_string(end) +
+           R"(},"reference":"none","observe":["energy"],"schemes":[{"allow_unstable":true,)" + scheme + "}]}";
+}
+
+std::string eccentric(const std::string& scheme, const char* end = "1") {
+    return R"json({"extremal":1,"model":{"type":"kepler"},"initial":{"q":["1-0.9999",0],
+        "p":[0,"sqrt((1+0.9999)/(1-0.9999))"]},"reference":"none","observe":["energy"],"time":{"end":)json" +
+           std::string(end) + R"(},"schemes":[{)" + scheme + "}]}";
+}
+
+const std::string growingWave = R"json({"extremal":1,
+    "model":{"type":"schrodinger","modes":64,"potential":"cos(x)"},
+    "initial":{"psi":{"packet":"gaussian","centre":3,"width":0.3,"wave_number":5}},"time":{"end":20},
+    "reference":"none","observe":["norm"],
+    "schemes":[{"step":0.01,"baseline":"leapfrog","allow_unstable":true}]})json";
+
+const std::string fromRest = R"({"extremal":1,"model":{"type":"pendulum"},
+    "initial":{"q":["pi/2"]},"time":{"end":100},"reference":"none","observe":["energy"],
+    "schemes":[{"step":0.5,"baseline":"stormer-verlet"}]})";
+
+const std::string forced = R"json({"extremal":1,"model":{"type":"lagrangian","coordinates":["x"],
+    "lagrangian":"x_t^2/2-x^2/2+x*cos(2*t)"},"initial":{"q":[1]},"time":{"end":10},"reference":"none",
+    "observe":["energy"],"schemes":[{"step":0.1,"scheme":"midpoint"}]})json";
+
+}  // namespace
+
+class JudgeTest : public QObject {
+    Q_OBJECT
+private slots:
+    void schemesBeyondTheirLimitsAreLost() {
+        for (const char* scheme :
+             {R"("step":2.05,"baseline":"stormer-verlet")", R"("step":3,"baseline":"rk4")",
+              R"("step":100,"baseline":"stormer-verlet")"}) {
+            const Summary s = resultOf(oscillator(scheme, 2000)).summary;
+            QCOMPARE(s.status, RunStatus::failed);
+            QCOMPARE(s.cause, Outcome::lost);
+            QVERIFY(s.failedAt < 500 && s.tEnd == s.failedAt);
+        }
+    }
+    void schemesBelowTheirLimitsAreNot() {
+        // Energies 50 times those of the motion, but for ever: h w = 1.98.
+        const Summary s = resultOf(oscillator(R"("step":1.98,"baseline":"stormer-verlet")", 2e4)).summary;
+        QCOMPARE(s.status, RunStatus::done);
+        QCOMPARE(resultOf(oscillator(R"("step":1000,"scheme":"midpoint")", 1e6)).summary.status,
+                 RunStatus::done);
+    }
+    void theZeroOfTheEnergyDoesNotMatter() {
+        // H(0) = 6e-16, at rest, and a step close to the limit.
+        const Summary s = resultOf(fromRest).summary;
+        QCOMPARE(s.status, RunStatus::done);
+        QVERIFY(s.maxEnergyError > 1);
+    }
+    void aRootThatJumpsOverTheForceIsRefused() {
+        for (const std::string scheme :
+             {"galerkin-gauss-4", "galerkin-gauss-3", "galerkin-lobatto-4", "midpoint"}) {
+            const Summary s = resultOf(eccentric("\"step\":0.05,\"scheme\":\"" + scheme + "\"")).summary;
+            qInfo("%s: %s, failed at %g, energy error %g", scheme.c_str(), name(s.cause).data(), s.failedAt,
+                  s.maxEnergyError);
+            QVERIFY(s.status == RunStatus::failed);
+        }
+        QCOMPARE(resultOf(eccentric(R"("step":0.05,"scheme":"galerkin-gauss-4")")).summary.cause,
+                 Outcome::lost);
+    }
+    void stepsThatResolveTheForceAreTaken() {
+        const Summary s = resultOf(eccentric(R"("step":1e-7,"scheme":"galerkin-gauss-4")", "1e-4")).summary;
+        QCOMPARE(s.status, RunStatus::done);
+        QVERIFY(s.maxEnergyError < 1e-4);  // of energies of 10^4
+    }
+    void wavesAreJudgedByTheirNorm() {
+        const Summary s = resultOf(growingWave).summary;
+        QCOMPARE(s.status, RunStatus::failed);
+        QCOMPARE(s.cause, Outcome::lost);
+    }
+    void whatIsNotConservedHasNoError() {
+        const Summary s = resultOf(forced).summary;
+        QVERIFY(std::isnan(s.maxEnergyError) && std::isnan(s.energyDrift));
+    }
+};
+
+EXTREMAL_TEST(JudgeTest)
+}  // namespace extremal::judge_test
+#include "judge_test.moc"
