@@ -25,7 +25,8 @@ bool waitFor(const Work& work, InterruptWatch& watch, const CommonOptions& optio
 
 bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
     const Work work{[&] { return run.isFinished(); }, [&] { return run.fraction(); },
-                    [] { return std::string("running"); }, [&] { run.stop(); }};
+                    [&] { return std::string(run.isPreparing() ? "computing the reference" : "running"); },
+                    [&] { run.stop(); }};
     const bool isInterrupted = waitFor(work, watch, options);
     run.wait();
     return isInterrupted;

@@ -184,6 +184,20 @@ ReferencePlan referenceBy(std::string description, const System& system, const D
     return plan;
 }
 
+std::vector<ReferencePlan> referencePlans(const System& system, const State& start, double duration) {
+    std::vector<ReferencePlan> all;
+    const Family* const own = familyFor(system);
+    const auto add = [&](const Family& family) {
+        if (!family.reference || !family.applies(system)) return;
+        if (ReferencePlan plan = family.reference(system, start, duration); plan.make)
+            all.push_back(std::move(plan));
+    };
+    for (const Family& family : families())
+        if (!family.choices) add(family);
+    if (own) add(*own);
+    return all;
+}
+
 std::unique_ptr<Integrator> trustedIntegrator(const System& system, const State& start, double step) {
     const Family* const family = familyFor(system);
     if (!family || !family->reference)

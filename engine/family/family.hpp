@@ -54,6 +54,8 @@ struct ReferencePlan {
     std::function<std::unique_ptr<Integrator>(double step)> make;
     /// Its only step, with the error to expect; 0: steps are halved until two of them agree.
     double step = 0, expectedError = 0;
+    /// Where halving begins; 0: at the period of the fastest motion, which it must resolve.
+    double firstStep = 0;
 };
 
 /// References by a discretization, whose steps are halved until two of them agree.
@@ -129,7 +131,8 @@ struct Family {
     double (*slowestStep)(const System&) = nullptr;
     /// What to try after a failure; empty: the usual. Null: the usual.
     std::string (*advice)(Outcome) = nullptr;
-    /// Null where the family provides no reference.
+    /// Null where the family provides no reference; of families that are not the system's own (familyFor),
+    /// `make` is empty where that one's is as good.
     ReferencePlan (*reference)(const System&, const State& start, double duration) = nullptr;
     /// Of systems on meshes, in place of `reference`: `refinement` 0, 1, .. doubles cells and steps. `step`:
     /// the shortest of the scene's schemes. Null: none.
@@ -193,6 +196,9 @@ Discretization withEstimates(const Discretization& discretization, const System&
 /// Makes the integrator of a discretization. Throws InvalidScene.
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,
                                            const Clock& clock);
+
+/// The ways to compute a reference of the system, the cheapest first; the last one is that of its own family.
+std::vector<ReferencePlan> referencePlans(const System& system, const State& start, double duration);
 
 /// The scheme that references of the system are computed with, for a run from a state. Throws InvalidScene
 /// where there is none.

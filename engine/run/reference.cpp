@@ -99,13 +99,12 @@ double distance(const ExactSolution& a, const ExactSolution& b, double step, boo
     return worst;
 }
 
-Reference computed(const Scene& scene, const System& system, const State& initial,
-                   const std::stop_token& stop) {
+/// Steps of a plan in halves, until two solutions agree.
+Reference refined(const ReferencePlan& plan, const Scene& scene, const System& system, const State& initial,
+                  const std::stop_token& stop) {
     constexpr double maxSteps = 2e6;
     const double length = scene.end.value - scene.start.value;
     const Family* const family = familyFor(system);
-    if (!family || !family->reference) return {};
-    const ReferencePlan plan = family->reference(system, initial, length);
     auto solution = [&](double step) {
         return stepped(
             [make = plan.make, step, stop] {
@@ -122,8 +121,11 @@ Reference computed(const Scene& scene, const System& system, const State& initia
         known.make = solution(plan.step);
         return known;
     }
-    const double w = highestFrequency(system, initial);
-    double step = std::min(length / 20, w > 0 ? 2 / w : length / 200);
+    double step = plan.firstStep;
+    if (!(step > 0)) {
+        const double w = highestFrequency(system, initial);
+        step = std::min(length / 20, w > 0 ? 2 / w : length / 200);
+    }
     step = std::max(step, length / maxSteps);
     const ErrorMeasure measure = errorMeasure(system, initial);
 
@@ -227,6 +229,25 @@ Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, co
     }
     reference.make = [fine = reference.onMesh, system = resolved.system] { return fine.on(system); };
     return reference;
+}
+
+/// By the first plan that is good enough, else by the best.
+Reference computed(const Scene& scene, const System& system, const State& initial,
+                   const std::stop_token& stop) {
+    constexpr double goodEnough = 1e-11, mostSteps = 2e5;
+    const double scale = std::max(errorMeasure(system, initial).scale, 1.0);
+    Reference best;
+    for (const ReferencePlan& plan : referencePlans(system, initial, scene.end.value - scene.start.value)) {
+        // To resolve a fast motion takes some seconds at most, where there is something else.
+        const double w = plan.firstStep > 0 ? 0 : highestFrequency(system, initial);
+        if (best.make && w * (scene.end.value - scene.start.value) > 2 * mostSteps) break;
+        Reference next = refined(plan, scene, system, initial, stop);
+        if (stop.stop_requested()) return {};
+        if (next.make && !(best.make && best.info.estimatedError <= next.info.estimatedError))
+            best = std::move(next);
+        if (best.make && best.info.estimatedError <= goodEnough * scale) break;
+    }
+    return best;
 }
 
 Reference fromScheme(const ResolvedScene& resolved, const std::stop_token& stop) {

@@ -1,8 +1,10 @@
 /// The solution that errors are measured against, and how good it is itself.
 ///
 /// exact: the model's own; computed: Gauss collocation of degree 12 at a step refined until two of them
-/// agree, evaluated on its dense output; for fields elements of high degree on a mesh that is finer than that
-/// of the scene; scheme: a scheme of the user's choice; file: rows of a CSV, known only at their times.
+/// agree, evaluated on its dense output; where a run has many fast periods of a frequency that the model
+/// knows, steps over many periods in the same way, if they agree to 1e-11, so that the cost does not grow
+/// with the stiffness; for fields elements of high degree on a mesh that is finer than that of the scene;
+/// scheme: a scheme of the user's choice; file: rows of a CSV, known only at their times.
 #pragma once
 
 #include <functional>

@@ -33,7 +33,7 @@ struct Run::Impl {
     bool needsSchemes = false;  ///< not all results are known
     mutable std::mutex mutex;
     ReferenceInfo reference;  ///< guarded by mutex
-    std::atomic<bool> isFinished{false};
+    std::atomic<bool> isFinished{false}, isPreparing{false};
     std::jthread coordinator;
 
     Impl(ResolvedScene r, const RunOptions& options)
@@ -73,12 +73,14 @@ struct Run::Impl {
     void work(const std::stop_token& stop) {
         Reference ref;
         if (needsSchemes && needsReference()) {
+            isPreparing = true;
             try {
                 ref = makeReference(resolved, stop);
                 shareReference(ref, unknownPart());
             } catch (const InvalidScene& e) {
                 ref.info.problems = e.problems();  // the run goes on without errors
             }
+            isPreparing = false;
         }
         if (needsSchemes) {
             const std::lock_guard lock(mutex);
@@ -128,6 +130,8 @@ Comparison Run::latest() const {
     c.reference = impl_->reference;
     return c;
 }
+
+bool Run::isPreparing() const { return impl_->isPreparing; }
 
 double Run::fraction() const {
     double sum = 0;

@@ -39,7 +39,8 @@ public:
     bool isFinished() const;
     /// What there is so far, at most some 30 ms old while running; cheap, callable from any thread.
     Comparison latest() const;
-    double fraction() const;  ///< of the whole work, 0..1
+    double fraction() const;   ///< of the whole work, 0..1
+    bool isPreparing() const;  ///< the reference is computed; no scheme has begun
 
 private:
     struct Impl;

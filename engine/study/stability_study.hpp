@@ -57,6 +57,7 @@ public:
     std::size_t size() const { return rows_.size() + limits_.size(); }
     bool isComplete() const;
     double fraction() const;
+    bool isPreparing() const { return false; }  ///< it has no reference
 
     void take(std::size_t index, StabilityResult result) { rows_[index].result = std::move(result); }
     void take(std::size_t index, const StabilityLimit& limit);

@@ -24,6 +24,7 @@ constexpr std::size_t noRow = std::numeric_limits<std::size_t>::max();
 
 struct Sweep::Counters {
     std::atomic<std::size_t> done{0}, wanted{0};
+    std::atomic<bool> isPreparing{false};
 };
 
 std::vector<std::size_t> chosenSchemes(const Scene& scene, const std::vector<std::string>& only) {
@@ -117,8 +118,10 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
     MapReference reference;
     Reference scheme;  // what adaptive runs, whose nodes no table has, are compared with
     if (metric_.observable->needsReference) {
+        counters_->isPreparing = true;
         reference = MapReference(scene_, steps_, stop);
         if (scene_.scene.reference.kind == ReferenceSpec::Kind::scheme) scheme = makeReference(scene_, stop);
+        counters_->isPreparing = false;
         reference_ = scheme.make ? scheme.info : reference.info();
         if (stop.stop_requested()) return;
         if (onReference) onReference(reference_);
@@ -146,6 +149,8 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         ++counters_->done;
     });
 }
+
+bool Sweep::isPreparing() const { return counters_->isPreparing; }
 
 double Sweep::fraction() const {
     const std::size_t wanted = counters_->wanted;

@@ -80,8 +80,10 @@ public:
     void run(const std::function<void(const ReferenceInfo&)>& onReference,
              const std::function<void(std::size_t, const PointResult&)>& onPoint,
              const std::stop_token& stop);
-    /// 0..1; callable while it runs.
+    /// 0..1; callable while it runs, as is the next.
     double fraction() const;
+    /// The reference is computed; no point has begun.
+    bool isPreparing() const;
 
 private:
     struct Counters;

@@ -1,5 +1,6 @@
 /// Spaces that contain a fast oscillation: steps of many of its periods (Leok 2004, sec. 7).
 #include <algorithm>
+#include <numbers>
 #include <string>
 
 #include "engine/core/text.hpp"
@@ -105,6 +106,17 @@ void checkResonance(const SchemeCase& scheme, Findings& findings) {
         "the step " + formatNumber(found->near), found->near);
 }
 
+/// Where a run has so many fast periods that to resolve them is dear: steps of many periods, which cost the
+/// same however fast the motion is.
+ReferencePlan overFastMotion(const System& system, const State&, double duration) {
+    constexpr double manyPeriods = 800, firstParts = 20;
+    const double w = system.fast.frequency;
+    if (w * duration < 2 * std::numbers::pi * manyPeriods) return {};
+    ReferencePlan plan = referenceBy("multiscale R3", system, *namedScheme("multiscale-r3"));
+    plan.firstStep = duration / firstParts;
+    return plan;
+}
+
 }  // namespace
 
 Family multiscale() {
@@ -125,6 +137,7 @@ Family multiscale() {
                                   : describeOscillatory(d.space, d.quadrature);
     };
     f.check = checkResonance;
+    f.reference = overFastMotion;
     f.rules = [](const Settings&) {
         return std::vector<std::string>{"auto", "filon-lobatto", "filon-gauss", "gauss", "lobatto"};
     };

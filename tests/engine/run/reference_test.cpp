@@ -219,6 +219,41 @@ private slots:
         // The steps of the formula resolve the motion to 1e-20: half of them change nothing.
         QVERIFY(broken(s, inQuadruple(s.initial, rate, end / samples, isStiff ? 60 : 40), samples) < 1);
     }
+    void stiffSpringsAreNotResolved_data() {
+        QTest::addColumn<QString>("k");
+        QTest::addColumn<bool>("isResolvable");
+        QTest::newRow("1e6") << "1e6" << true;
+        QTest::newRow("1e12") << "1e12" << false;
+    }
+    void stiffSpringsAreNotResolved() {
+        QFETCH(QString, k);
+        QFETCH(bool, isResolvable);
+        const auto spring = [&](const std::string& reference) {
+            const std::string text =
+                R"({"extremal":1,"model":{"type":"spring-pendulum","k":)" + k.toStdString() +
+                R"(},"initial":{"q":["0.05*sqrt(1e4/k) ",1]},"time":{"end":6},)" + R"("reference":)" +
+                reference + R"(,"schemes":[{"step":0.1,"scheme":"multiscale-r3"}]})";
+            return *readScene(text).resolved;
+        };
+        const ResolvedScene s = spring(R"("auto")");
+        const Reference found = makeReference(s, {});
+        qInfo("%s: good to %.2e", found.info.description.c_str(), found.info.estimatedError);
+        QVERIFY(found.info.description.starts_with("multiscale"));
+        QVERIFY(found.info.estimatedError < 1e-10);  // 2e-14 at 1e6, 3e-11 at 1e12
+        if (!isResolvable) return;
+        const Reference resolvedOne = makeReference(
+            spring(R"({"type":"scheme","scheme":{"step":0.0005,"scheme":"galerkin-gauss-8"}})"), {});
+        const ExactSolution a = found.make(), b = resolvedOne.make();
+        std::vector<double> x(4), y(4);
+        double worst = 0;
+        for (int i = 1; i <= 60; ++i) {
+            a(0.1 * i, x);
+            b(0.1 * i, y);
+            worst = std::max({worst, std::abs(x[0] - y[0]), std::abs(x[1] - y[1])});
+        }
+        qInfo("apart: %.2e", worst);
+        QVERIFY(worst < 1e-11);
+    }
     void schemesAsReferencesKeepTheirPromise_data() {
         QTest::addColumn<QString>("scheme");
         for (const char* scheme :
