@@ -65,8 +65,8 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.add_option("KIND", study.kind, "a study, or merge to put shards together")
         ->required()
         ->type_name("");
-    verb.add_option("SCENE", study.folders, std::string(sceneHelp) + "; for merge the folders of the shards")
-        ->required()
+    verb.add_option("SCENE", study.folders,
+                    std::string(sceneHelp) + "; for merge the folders of the shards; none for extremes")
         ->type_name("");
     verb.add_option("--out", study.out, "folder for the files, created if missing")
         ->required()
@@ -101,8 +101,8 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     verb.final_callback([&] {
         if (study.kind == "merge")
             arguments.verb = "study merge";
-        else if (study.folders.size() == 1)
-            arguments.scene = study.folders.front();
+        else if (study.folders.size() <= 1)
+            arguments.scene = study.folders.empty() ? "" : study.folders.front();
         else
             throw CLI::ExtrasError({study.folders.begin() + 1, study.folders.end()});
     });

@@ -102,6 +102,14 @@ StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyOptions& study
     return {scene, options};
 }
 
+LinearStudy linearOf(const ResolvedScene& scene, const StudyOptions& study, const CommonOptions& common) {
+    LinearOptions options;
+    options.only = study.only;
+    if (!study.shard.empty()) options.shard = parseShard(study.shard);
+    options.threads = common.threads;
+    return {scene, options};
+}
+
 template <class Study>
 void writeResults(const StudyEntry& study, const Study& work, const std::vector<StudyTable>& tables,
                   const std::filesystem::path& folder, bool isPlotted) {
@@ -160,6 +168,8 @@ bool isReached(const StudyEntry& study, const Sweep& sweep, const StudyTable& ta
     return false;
 }
 bool isReached(const StudyEntry&, const StabilityStudy&, const StudyTable&) { return true; }
+bool isReached(const StudyEntry&, const LinearStudy&, const StudyTable&) { return true; }
+bool isReached(const StudyEntry&, const ExtremesStudy&, const StudyTable&) { return true; }
 
 /// The files, and what the terminal shows.
 template <class Study>
@@ -197,7 +207,8 @@ bool runAndWait(Study& study, StudyLog& log, InterruptWatch& watch, const Common
         isFinished = true;
     });
     const Work work{[&] { return isFinished.load(); }, [&] { return study.fraction(); },
-                    [] { return std::string("studying"); }, [&] { worker.request_stop(); }};
+                    [&] { return std::string(study.isPreparing() ? "computing the reference" : "studying"); },
+                    [&] { worker.request_stop(); }};
     const bool isInterrupted = waitFor(work, watch, options);
     worker.join();
     if (failure) std::rethrow_exception(failure);
@@ -242,12 +253,17 @@ std::filesystem::path onlyLogIn(const std::string& folder) {
     return logs.front();
 }
 
+/// `scene`: null of a study that has none.
+void writeScene(const Scene* scene, const std::filesystem::path& folder) {
+    prepareFolder(folder);
+    if (scene) writeFile(folder / "scene.json", extremal::writeScene(*scene));
+}
+
 template <class Study>
-int runStudy(const StudyEntry& study, Study work, const ReadScene& read, const StudyOptions& options,
+int runStudy(const StudyEntry& study, Study work, const Scene* scene, const StudyOptions& options,
              const CommonOptions& common) {
     InterruptWatch watch;
-    prepareFolder(options.out);
-    writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));
+    writeScene(scene, options.out);
     const auto file = logOf(options.out, study.item.id);
     const std::string head = headOf(study.item.id, work);
     std::vector<std::string> known;
@@ -259,7 +275,7 @@ int runStudy(const StudyEntry& study, Study work, const ReadScene& read, const S
 
 /// `heads`: the first lines of the logs, all alike.
 template <class Study>
-int mergeLogs(const StudyEntry& study, Study work, const ReadScene& read, const StudyOptions& options,
+int mergeLogs(const StudyEntry& study, Study work, const Scene* scene, const StudyOptions& options,
               const CommonOptions& common) {
     std::vector<int> owners(work.size(), -1);
     for (std::size_t f = 0; f < options.folders.size(); ++f)
@@ -281,8 +297,7 @@ int mergeLogs(const StudyEntry& study, Study work, const ReadScene& read, const 
             "arguments",
             std::to_string(missing) + " of " + std::to_string(work.size()) + " points are missing",
             "every shard, each run to its end");
-    prepareFolder(options.out);
-    writeFile(std::filesystem::path(options.out) / "scene.json", writeScene(read.scene));
+    writeScene(scene, options.out);
     return report(study, work, options, false, common);
 }
 
@@ -292,11 +307,19 @@ int studyVerb(const std::string& scene, const StudyOptions& options, const Commo
     return guarded(sceneName(scene), [&] {
         const StudyEntry& study = knownStudy(options.kind);
         refuseStrangers(study, options);
+        if (study.over == StudyEntry::Over::extremes) {
+            const Shard shard = options.shard.empty() ? Shard{} : parseShard(options.shard);
+            return runStudy(study, ExtremesStudy(shard, common.threads), nullptr, options, common);
+        }
+        if (scene.empty()) throw InvalidScene("arguments", "SCENE is required", "see extremal study --help");
         const ReadScene read = loadScene(scene, common.overrides);
         if (!reportScene(scene, read, common)) return static_cast<int>(unusable);
         if (study.over == StudyEntry::Over::numbers)
-            return runStudy(study, stabilityOf(*read.resolved, options, common), read, options, common);
-        return runStudy(study, sweepOf(*read.resolved, options, common), read, options, common);
+            return runStudy(study, stabilityOf(*read.resolved, options, common), &read.scene, options,
+                            common);
+        if (study.over == StudyEntry::Over::testEquation)
+            return runStudy(study, linearOf(*read.resolved, options, common), &read.scene, options, common);
+        return runStudy(study, sweepOf(*read.resolved, options, common), &read.scene, options, common);
     });
 }
 
@@ -317,6 +340,9 @@ int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
         }
         const std::filesystem::path first = options.folders.front();
         const Value what = parseJson(head);
+        const StudyEntry& study = knownStudy(what.find("study")->asString());
+        if (study.over == StudyEntry::Over::extremes)
+            return mergeLogs(study, ExtremesStudy(), nullptr, options, common);
         const ReadScene read = readScene(textOf(first / "scene.json"), {}, first.string());
         if (!read.resolved) {
             printProblems((first / "scene.json").string(), read.errors);
@@ -325,12 +351,14 @@ int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
         if (!what.find("scene") || fingerprint(writeScene(read.scene)) != what.find("scene")->asString())
             throw InvalidScene("arguments", first.string() + ": scene.json is not the scene of the log",
                                "the folder as extremal study wrote it");
-        const StudyEntry& study = knownStudy(what.find("study")->asString());
         const Value& given = *what.find("options");
         if (study.over == StudyEntry::Over::numbers)
-            return mergeLogs(study, StabilityStudy(*read.resolved, stabilityOptionsOf(given)), read, options,
+            return mergeLogs(study, StabilityStudy(*read.resolved, stabilityOptionsOf(given)), &read.scene,
+                             options, common);
+        if (study.over == StudyEntry::Over::testEquation)
+            return mergeLogs(study, LinearStudy(*read.resolved, linearOptionsOf(given)), &read.scene, options,
                              common);
-        return mergeLogs(study, Sweep(*read.resolved, optionsOf(given)), read, options, common);
+        return mergeLogs(study, Sweep(*read.resolved, optionsOf(given)), &read.scene, options, common);
     });
 }
 

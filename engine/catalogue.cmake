@@ -69,8 +69,8 @@ ${entries}    };
     set(catalogue_sources ${catalogue_sources} ${out} PARENT_SCOPE)
 endfunction()
 
-# extremal_presets(folder): compiles FOLDER/*.json (but not the schema) into `extremal::presets()`.
-function(extremal_presets folder)
+# extremal_presets(name folder): compiles FOLDER/*.json (but not a schema) into `extremal::NAME()`.
+function(extremal_presets name folder)
     file(GLOB files CONFIGURE_DEPENDS ${folder}/*.json)
     set(entries "")
     foreach(file ${files})
@@ -81,12 +81,12 @@ function(extremal_presets folder)
             string(APPEND entries "        {\"${stem}\", R\"~~~(${text})~~~\"},\n")
         endif()
     endforeach()
-    set(out ${CMAKE_CURRENT_BINARY_DIR}/presets.cpp)
+    set(out ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
     file(WRITE ${out}.new
 "#include \"engine/scene/preset.hpp\"
 
 namespace extremal {
-const std::vector<Preset>& presets() {
+const std::vector<Preset>& ${name}() {
     static const std::vector<Preset> all = {
 ${entries}    };
     return all;

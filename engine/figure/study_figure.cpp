@@ -250,4 +250,29 @@ Figure studyFigure(std::string_view study, const StabilityStudy& stability) {
     return figure;
 }
 
+Figure studyFigure(std::string_view study, const LinearStudy& linear) {
+    Figure figure;
+    figure.view = study;
+    figure.title = "Linear stability";
+    figure.subtitle = "amplification of one step; 1 is conserved, above it grows";
+    figure.x.title = axisTitle("h ω", "");
+    figure.y = logAxis(axisTitle("max |r|", ""));
+    for (const LinearStudy::Row& row : linear.rows()) {
+        if (row.result.points.empty()) continue;
+        Series s;
+        s.label = linear.scene().scene.schemes[row.scheme].label + ": " +
+                  (row.result.hasLimit ? "up to " + shortNumber(row.result.low, 5) : "no limit");
+        s.style = static_cast<int>(row.scheme);
+        s.kind = SeriesKind::line;
+        for (const LinearStability::Point& p : row.result.points) {
+            s.x.push_back(p.z);
+            s.y.push_back(p.amplification);
+        }
+        figure.add(std::move(s));
+    }
+    finish(figure, "Amplification of one step over h ω");
+    figure.y.range = {0.5, 4};  // what grows faster is unstable all the same
+    return figure;
+}
+
 }  // namespace extremal

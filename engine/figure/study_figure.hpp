@@ -3,6 +3,8 @@
 #pragma once
 
 #include "engine/figure/figure.hpp"
+#include "engine/study/extremes_study.hpp"
+#include "engine/study/linear_study.hpp"
 #include "engine/study/stability_study.hpp"
 #include "engine/study/sweep.hpp"
 
@@ -18,5 +20,9 @@ Figure workPrecisionFigure(const Sweep& sweep);
 /// The figure of a study by its id: errors against costs unless it has one of its own.
 Figure studyFigure(std::string_view study, const Sweep& sweep);
 Figure studyFigure(std::string_view study, const StabilityStudy& stability);
+/// Amplification over h w, with the limits of stability.
+Figure studyFigure(std::string_view study, const LinearStudy& linear);
+/// It has none.
+inline Figure studyFigure(std::string_view, const ExtremesStudy&) { return {}; }
 
 }  // namespace extremal

@@ -7,6 +7,8 @@
 
 #include "engine/core/catalog.hpp"
 #include "engine/core/value.hpp"
+#include "engine/study/extremes_study.hpp"
+#include "engine/study/linear_study.hpp"
 #include "engine/study/stability_study.hpp"
 #include "engine/study/sweep.hpp"
 
@@ -21,8 +23,9 @@ struct StudyTable {
 
 struct StudyEntry {
     /// What it runs over: steps, the steps that a wanted error needs (SweepOptions::wantedError), or numbers
-    /// of the scene (StabilityOptions).
-    enum class Over { steps, wantedError, numbers };
+    /// of the scene (StabilityOptions), the steps of a test equation in place of the scene's model, or the
+    /// extremes of scenes of its own.
+    enum class Over { steps, wantedError, numbers, testEquation, extremes };
     CatalogItem item;
     Over over = Over::steps;
     std::vector<std::string> columns;  ///< of <id>.csv
@@ -43,6 +46,10 @@ std::vector<StudyTable> tablesOf(const StudyEntry& study, const StabilityStudy& 
 /// What a terminal shows.
 StudyTable summaryOf(const StudyEntry& study, const Sweep& sweep);
 StudyTable summaryOf(const StudyEntry& study, const StabilityStudy& stability);
+std::vector<StudyTable> tablesOf(const StudyEntry& study, const LinearStudy& linear);
+StudyTable summaryOf(const StudyEntry& study, const LinearStudy& linear);
+std::vector<StudyTable> tablesOf(const StudyEntry& study, const ExtremesStudy& extremes);
+StudyTable summaryOf(const StudyEntry& study, const ExtremesStudy& extremes);
 /// A table as CSV, and its rows as an array of objects.
 std::string csvText(const StudyTable& table);
 Value rowsValue(const StudyTable& table);

@@ -36,20 +36,20 @@ std::vector<double> tolerances() {
     return all;
 }
 
-bool hasStepOfItsSpace(const ResolvedScheme& scheme, const Settings& model) {
+}  // namespace
+
+bool hasStepOfItsSpace(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     if (!scheme.family || !scheme.family->impliedStep) return false;
     const auto anyValue = [](std::string_view) { return std::optional(1.0); };
-    const auto implied = scheme.family->impliedStep(scheme.discretization.space, model, anyValue);
+    const auto implied = scheme.family->impliedStep(scheme.discretization.space, scene.scene.model, anyValue);
     return implied && implied->isOfSpace;
 }
-
-}  // namespace
 
 std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,
                              const ResolvedScheme& scheme) {
     const bool isGiven = !spec.steps.empty() || spec.points > 0 || spec.from != 0 || spec.to != 0;
     std::vector<double> all;
-    if (hasStepOfItsSpace(scheme, scene.scene.model)) {
+    if (hasStepOfItsSpace(scene, scheme)) {
         all = {scheme.spec.step.value};
     } else if (scheme.isAdaptive()) {
         all = tolerances();

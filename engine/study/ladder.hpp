@@ -23,6 +23,9 @@ struct LadderSpec {
     bool operator==(const LadderSpec&) const = default;
 };
 
+/// Whether the step of a scheme follows from its space, so that it has no other.
+bool hasStepOfItsSpace(const ResolvedScene& scene, const ResolvedScheme& scheme);
+
 /// From the largest down, each once. Throws InvalidScene (pointers "--steps", "--from", "--points") where the
 /// specification makes no ladder.
 std::vector<double> ladderOf(const LadderSpec& spec, const ResolvedScene& scene,

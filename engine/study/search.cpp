@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/study/ladder.hpp"
+
 namespace extremal {
 namespace {
 
@@ -17,11 +19,17 @@ public:
         : own_(own),
           wanted_(wanted),
           isAdaptive_(scene.schemes[own.scheme].isAdaptive()),
+          isOnly_(hasStepOfItsSpace(scene, scene.schemes[own.scheme])),
           length_(scene.scene.end.value - scene.scene.start.value),
           order_(isAdaptive_ ? 1 : std::max(1, scene.schemes[own.scheme].claims.order)),
           run_(run) {}
 
     PointResult find(int repeat) {
+        if (isOnly_) {
+            PointResult result = run_(own_, repeat);
+            if (result.isDone() && !(result.error <= wanted_)) result.status = RunStatus::failed;
+            return result;
+        }
         double n = isAdaptive_ ? 1 / own_.tolerance : std::max(1.0, std::round(length_ / own_.step));
         for (int runs = 0; runs < mostRuns; ++runs) {
             const PointResult result = run_(at(n), 0);
@@ -90,6 +98,7 @@ private:
     StudyPoint own_;
     double wanted_;
     bool isAdaptive_;
+    bool isOnly_;  ///< the step follows from the space: there is no other
     double length_;
     int order_;
     const std::function<PointResult(const StudyPoint&, int)>& run_;

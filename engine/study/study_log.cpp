@@ -40,11 +40,15 @@ std::string fingerprint(const std::string& text) {
 }
 
 std::string headOf(const std::string& study, const Value& options, const Scene& scene) {
+    return headOf(study, options, writeScene(scene));
+}
+
+std::string headOf(const std::string& study, const Value& options, const std::string& what) {
     Value head;
     head.set("extremal", 1);
     head.set("study", study);
     head.set("options", options);
-    head.set("scene", fingerprint(writeScene(scene)));
+    head.set("scene", fingerprint(what));
     return writeCompactJson(head);
 }
 

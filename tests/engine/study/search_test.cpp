@@ -23,6 +23,11 @@ ResolvedScene scene(const std::string& scheme) {
 const std::string galerkin = R"({"label":"G","step":0.1,"scheme":"galerkin-gauss-2"})";
 const std::string adaptive = R"({"label":"A","tolerance":1e-6,"baseline":"dopri5"})";
 
+const std::string asynchronousBar =
+    R"json({"extremal":1,"model":{"type":"elastic-bar","cells":20},"initial":{"displacement":"0.01*sin(pi*X)"},
+        "time":{"end":1},"reference":"none",
+        "schemes":[{"label":"AVI","space":{"type":"asynchronous","courant":0.5}}]})json";
+
 struct Found {
     PointResult result;
     int runs = 0;
@@ -54,6 +59,15 @@ Found find(const ResolvedScene& resolved, double wanted, ErrorOf&& errorOf) {
 class SearchTest : public QObject {
     Q_OBJECT
 private slots:
+    void aStepThatFollowsFromTheSpaceIsTheOnlyOne() {
+        const ResolvedScene bar = *readScene(asynchronousBar).resolved;
+        for (const double error : {1e-3, 1e-9}) {
+            const Found found = find(bar, 1e-6, [&](double) { return error; });
+            QCOMPARE(found.runs, 1);
+            QCOMPARE(found.result.isDone(), error < 1e-6);
+            QCOMPARE(found.result.step, bar.schemes[0].spec.step.value);
+        }
+    }
     void theAnswerIsWithinThreePercent() {
         const ResolvedScene resolved = scene(galerkin);
         for (const double wanted : {1e-1, 1e-4, 1e-8}) {

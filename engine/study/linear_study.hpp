@@ -1,0 +1,66 @@
+/// The study "linear-stability": every scheme of a scene on the linear test equation
+/// (linear_stability.hpp). Each scheme is one point; its lines in the log:
+///
+///     {"extremal": 1, "study": "linear-stability", "options": {..}, "scene": "<fingerprint>"}
+///     scheme,<index>,<low>,<high>,<z>,<amplification>,<phase error>,<z>,...
+///     refused,<index>,<reason>
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "engine/core/value.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/study/linear_stability.hpp"
+#include "engine/study/sweep.hpp"
+
+namespace extremal {
+
+struct LinearOptions {
+    std::vector<std::string> only = {};
+    Shard shard = {};
+    unsigned threads = 0;
+};
+
+class LinearStudy {
+public:
+    struct Row {
+        std::size_t scheme = 0;
+        bool isKnown = false;
+        LinearStability result = {};
+    };
+
+    /// Throws InvalidScene, with options as pointers.
+    LinearStudy(ResolvedScene scene, LinearOptions options);
+
+    const ResolvedScene& scene() const { return scene_; }
+    const LinearOptions& options() const { return options_; }
+    const std::vector<Row>& rows() const { return rows_; }
+    std::size_t size() const { return rows_.size(); }
+    bool isComplete() const;
+    double fraction() const;
+    bool isPreparing() const { return false; }
+
+    void take(std::size_t index, LinearStability result);
+    void run(const std::function<void(std::size_t)>& onScheme, const std::stop_token& stop);
+
+private:
+    struct Counters;
+    ResolvedScene scene_;
+    LinearOptions options_;
+    std::vector<Row> rows_;
+    std::shared_ptr<Counters> counters_;
+};
+
+Value optionsValue(const LinearOptions& options);
+LinearOptions linearOptionsOf(const Value& value);
+std::string headOf(const std::string& study, const LinearStudy& linear);
+std::optional<std::size_t> takeLine(const std::string& line, LinearStudy& linear);
+void runLines(LinearStudy& linear, const std::function<void(const std::string&)>& onLine,
+              const std::stop_token& stop);
+
+}  // namespace extremal
