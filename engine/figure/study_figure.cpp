@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "engine/figure/build.hpp"
@@ -185,7 +186,15 @@ Figure alongX(const StabilityStudy& study) {
         if (!std::isfinite(limit) || !(high > 0)) continue;
         figure.add(Guide{{limit, limit}, {low / 2, 4 * high}});
     }
+    const std::vector<ResonancePeak> resonances = resonancesOf(study);
+    for (const ResonancePeak& r : resonances) {
+        const double turns = r.phase / std::numbers::pi;
+        const std::string text =
+            std::isfinite(turns) ? "hω = " + shortNumber(turns, 3) + " π" : shortNumber(r.x, 3);
+        figure.add(Label{r.x, std::isfinite(r.energyError) ? r.energyError : high, text});
+    }
     figure.subtitle = "gaps where a run was not bounded";
+    if (!resonances.empty()) figure.subtitle += "; peaks: " + std::to_string(resonances.size());
     finish(figure, "Energy errors against " + study.options().x.pointer);
     return figure;
 }

@@ -10,6 +10,7 @@
 #include "engine/core/text.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/study/cells.hpp"
+#include "engine/study/peaks.hpp"
 #include "engine/study/study_log.hpp"
 
 namespace extremal {
@@ -89,6 +90,38 @@ void StabilityStudy::run(const std::function<void(std::size_t)>& onPoint, const 
         onPoint(i);
         ++counters_->done;
     });
+}
+
+std::vector<ResonancePeak> resonancesOf(const StabilityStudy& stability) {
+    constexpr double least = 10, roundOff = 1e-13;
+    std::vector<ResonancePeak> all;
+    if (stability.options().y) return all;
+    const std::string& pointer = stability.options().x.pointer;
+    const bool isStep = pointer.starts_with("/schemes/") && pointer.ends_with("/step");
+    const double w = isStep ? highestFrequency(*stability.scene().system, stability.scene().initial) : 0;
+    const auto& rows = stability.rows();
+    for (std::size_t first = 0; first < rows.size();) {
+        std::size_t last = first;
+        double largest = 0;
+        for (; last < rows.size() && rows[last].scheme == rows[first].scheme; ++last)
+            if (rows[last].result.isBounded()) largest = std::max(largest, rows[last].result.maxEnergyError);
+        std::vector<double> values;
+        for (std::size_t i = first; i < last; ++i) {
+            const StabilityResult& r = rows[i].result;
+            const bool isKnown = r.kind != StabilityClass::waiting && r.kind != StabilityClass::refused;
+            values.push_back(!isKnown        ? StabilityResult::unknown
+                             : r.isBounded() ? std::max(r.maxEnergyError, roundOff * largest)
+                                             : std::numeric_limits<double>::infinity());
+        }
+        for (const Peak& peak : findPeaks(values, least)) {
+            const double x = (rows[first + peak.first].x + rows[first + peak.last].x) / 2;
+            all.push_back({rows[first].scheme, x, rows[first + peak.first].result.maxEnergyError,
+                           peak.prominence, w > 0 ? w * x : StabilityResult::unknown});
+            if (!std::isfinite(values[peak.first])) all.back().energyError = StabilityResult::unknown;
+        }
+        first = last;
+    }
+    return all;
 }
 
 Value optionsValue(const StabilityOptions& options) {

@@ -75,6 +75,17 @@ private:
     std::shared_ptr<Counters> counters_;
 };
 
+/// Where the energy error stands out along x, ten times as high as on both sides, or a run between bounded
+/// ones is not bounded.
+struct ResonancePeak {
+    std::size_t scheme = 0;
+    double x = 0, energyError = StabilityResult::unknown;  ///< unknown where a run was not bounded
+    double prominence = 0;
+    double phase = StabilityResult::unknown;  ///< h w of the fastest motion, where x is the step
+};
+/// Scheme by scheme, along x; none of a study over two numbers.
+std::vector<ResonancePeak> resonancesOf(const StabilityStudy& stability);
+
 Value optionsValue(const StabilityOptions& options);
 StabilityOptions stabilityOptionsOf(const Value& value);
 std::string headOf(const std::string& study, const StabilityStudy& stability);

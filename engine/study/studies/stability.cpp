@@ -34,7 +34,13 @@ std::vector<StudyTable> tablesOf(const StudyEntry& study, const StabilityStudy& 
                                knownText(name(r.kind)), knownNumber(r.growth), knownNumber(r.maxEnergyError),
                                knownNumber(r.failedAt), knownText(name(r.cause))});
     }
+    StudyTable resonances{
+        "stability-resonances", {"label", "x", "h_omega", "max_energy_error", "prominence"}, {}};
+    for (const ResonancePeak& r : resonancesOf(stability))
+        resonances.rows.push_back({labelOf(stability, r.scheme), r.x, knownNumber(r.phase),
+                                   knownNumber(r.energyError), knownNumber(r.prominence)});
     std::vector<StudyTable> all{std::move(points)};
+    if (!stability.options().y) all.push_back(std::move(resonances));
     if (stability.options().findsLimits) all.push_back(limitsOf(stability));
     return all;
 }
