@@ -23,12 +23,12 @@ Settings model(int cells) {
             {}};
 }
 
-struct Cost {
+struct StepCost {
     double microseconds, iterations;
 };
 
 /// Of one step, after one that is not counted.
-Cost costOf(const System& system, const Discretization& d, State state, double step, int steps) {
+StepCost costOf(const System& system, const Discretization& d, State state, double step, int steps) {
     const auto integrator = makeIntegrator(system, d, {0, step});
     (void)integrator->advance(state, step);
     long long iterations = 0;
@@ -68,7 +68,7 @@ int main() {
             const System system = findModel("field")->make(*family.model(d.space, model(8)));
             const State start = family.start(system, d, initial, 0);
             const bool isFirst = method[0] == 'm';
-            const Cost found = costOf(system, d, start, 0.05, isFirst ? std::min(steps, 150) : steps);
+            const StepCost found = costOf(system, d, start, 0.05, isFirst ? std::min(steps, 150) : steps);
             cost[isFirst ? 0 : 1] = found.microseconds;
             if (isFirst) iterations = found.iterations;
         }

@@ -88,7 +88,7 @@ private:
     std::vector<Track> tracks_;
     Bounds bounds_, seen_;
     double clockGround_ = 0, clockTop_ = 0;  ///< of the band of the element clocks; equal: there is none
-    ExactSolution exact_;  ///< of a field, drawn behind the schemes
+    ExactSolution exact_;                    ///< of a field, drawn behind the schemes
     std::size_t exactWidth_ = 0;
     Trace trace_, insetTrace_{true, 0, 0};
     std::optional<StageInset> inset_;

@@ -91,7 +91,8 @@ std::vector<FieldInfo> barStartFields() {
     };
     return {optionalJson("displacement", "displacement", "u at the start, an expression in X from 0 to 1."),
             optionalJson("velocity", "velocity", "u_t at the start, an expression in X; default 0."),
-            optionalJson("values", "values", "u and u_t at the nodes, two arrays; with the array x at these places.")};
+            optionalJson("values", "values",
+                         "u and u_t at the nodes, two arrays; with the array x at these places.")};
 }
 
 }  // namespace
