@@ -191,7 +191,8 @@ Figure alongX(const StabilityStudy& study) {
         const double turns = r.phase / std::numbers::pi;
         const std::string text =
             std::isfinite(turns) ? "hω = " + shortNumber(turns, 3) + " π" : shortNumber(r.x, 3);
-        figure.add(Label{r.x, std::isfinite(r.energyError) ? r.energyError : high, text});
+        const double top = std::isfinite(r.energyError) ? r.energyError : high;
+        figure.add(Label{r.x, 2 * top, text});  // above the mark
     }
     figure.subtitle = "gaps where a run was not bounded";
     if (!resonances.empty()) figure.subtitle += "; peaks: " + std::to_string(resonances.size());
