@@ -84,7 +84,7 @@ void StudyPage::makeOptions() {
     kind_ = new QComboBox;
     kind_->setAccessibleName(tr("Study"));
     for (const StudyEntry& entry : studyEntries())
-        if (entry.over != StudyEntry::Over::numbers)  // those ask for numbers of the scene: extremal study
+        if (entry.rows)  // others ask for more than steps, or for no scene: extremal study
             kind_->addItem(QString::fromStdString(entry.item.title), QString::fromStdString(entry.item.id));
     kind_->setCurrentIndex(std::max(0, kind_->findData(QStringLiteral("work-precision"))));
     metric_ = new QComboBox;
