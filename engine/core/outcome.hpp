@@ -32,7 +32,7 @@ constexpr std::string_view name(Outcome outcome) {
 enum class StepEvent {
     none,
     energyUnsolvable,  ///< the discrete energy equation had no root: a policy chose the step
-    meshFallback,      ///< the mesh could not follow its equation and stayed as it was
+    meshFallback,      ///< the mesh could not follow its equation: another method moved it, or it stayed
     halved,            ///< the step was refused and taken in two halves
 };
 constexpr int stepEventCount = 4;

@@ -86,7 +86,10 @@ QString schemeText(const SchemeSpec& spec) {
 
 QString stepText(const SchemeSpec& spec) {
     if (spec.tolerance) return QStringLiteral("tol ") + shortNumber(*spec.tolerance);
-    return QStringLiteral("h = ") + numberText(spec.step);
+    // Steps that follow from a mesh have all digits.
+    const Number& step = spec.step;
+    return QStringLiteral("h = ") +
+           (step.expression.empty() ? QString::fromStdString(formatNumber(step.value, 5)) : numberText(step));
 }
 
 QString fieldText(const Value& value) {
