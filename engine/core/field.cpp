@@ -96,4 +96,12 @@ FieldInfo jsonField(std::string key, std::string title, std::string symbol, Valu
                 std::move(description));
 }
 
+FieldInfo optionalJsonField(std::string key, std::string title, std::string description) {
+    std::string symbol = key;
+    FieldInfo f =
+        jsonField(std::move(key), std::move(title), std::move(symbol), nullptr, std::move(description));
+    f.isOptional = true;
+    return f;
+}
+
 }  // namespace extremal

@@ -78,5 +78,7 @@ FieldInfo constantsField(std::string key, std::string description);
 /// (isOptional).
 FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback,
                     std::string description);
+/// The same without a default, which may be omitted; its symbol is the key.
+FieldInfo optionalJsonField(std::string key, std::string title, std::string description);
 
 }  // namespace extremal

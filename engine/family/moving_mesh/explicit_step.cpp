@@ -15,10 +15,10 @@ ExplicitStep::ExplicitStep(const NodeSpace& space, const Monitor& monitor, doubl
       speedLimit_(speedLimit),
       tolerance_(tolerance),
       maxIterations_(maxIterations),
-      potential_(space.problem->potential, space.elements()),
+      action_(space),
       lu_(static_cast<int>(space.n), 1) {
     const std::size_t n = space_.n;
-    for (auto* each : {&z1_, &v1_, &p0_, &middle_, &rate_, &gradientZ_, &gradientV_}) each->assign(2 * n, 0);
+    for (auto* each : {&z1_, &v1_, &p0_}) each->assign(2 * n, 0);
     for (auto* each : {&y_, &residual_, &X_, &equal_}) each->assign(n, 0);
     for (auto* each : {&M_, &smooth_}) each->assign(n - 1, 0);
 }
@@ -70,35 +70,13 @@ void ExplicitStep::guess(const std::vector<double>& z, const std::vector<double>
 }
 
 void ExplicitStep::evaluate(const std::vector<double>& z0, double h, bool withJacobian, Cost& cost) {
-    const std::size_t n = space_.n;
-    for (std::size_t k = 0; k < 2 * n; ++k) {
-        middle_[k] = (z0[k] + z1_[k]) / 2;
-        rate_[k] = (z1_[k] - z0[k]) / h;
-    }
-    for (std::size_t i = 0; i < n; ++i) y_[i] = middle_[2 * i];
-    potential_.evaluate(y_.data(), withJacobian);
-    cost.evaluations += potential_.evaluations();
     if (withJacobian) lu_.clear();
-    std::fill(gradientZ_.begin(), gradientZ_.end(), 0.0);
-    std::fill(gradientV_.begin(), gradientV_.end(), 0.0);
-    ElementDerivatives l;
-    for (std::size_t e = 0; e + 1 < n; ++e) {
-        const double *z = middle_.data() + 2 * e, *v = rate_.data() + 2 * e;
-        if (withJacobian)
-            elementDerivatives(z, v, space_.c2, potential_[e], l);
-        else
-            elementGradient(z, v, space_.c2, potential_[e], l);
-        for (std::size_t a = 0; a < 4; ++a) {
-            gradientZ_[2 * e + a] += l.z[a];
-            gradientV_[2 * e + a] += l.v[a];
-        }
-        for (std::size_t a = 0; a < 4 && withJacobian; a += 2)
-            for (std::size_t b = 0; b < 4; b += 2)
-                lu_.add(static_cast<int>(e + a / 2), static_cast<int>(e + b / 2),
-                        h / 4 * l.zz[a][b] + (l.zv[a][b] - l.zv[b][a]) / 2 - l.vv[a][b] / h);
-    }
-    for (std::size_t i = 0; i < n; ++i)
-        residual_[i] = p0_[2 * i] + h / 2 * gradientZ_[2 * i] - gradientV_[2 * i];
+    action_.evaluate(z0, z1_, h, withJacobian, cost,
+                     [this](std::size_t e, std::size_t a, std::size_t b, double value) {
+                         if (a % 2 == 0 && b % 2 == 0)  // the values alone are unknown
+                             lu_.add(static_cast<int>(e + a / 2), static_cast<int>(e + b / 2), value);
+                     });
+    for (std::size_t i = 0; i < space_.n; ++i) residual_[i] = p0_[2 * i] + action_.atStart(2 * i, h);
 }
 
 Outcome ExplicitStep::solve(const std::vector<double>& z0, double h, StepReport& report,
@@ -167,15 +145,10 @@ Outcome ExplicitStep::advanceValues(std::vector<double>& z, std::vector<double>&
     const Outcome outcome = solve(z, h, report, stop);
     if (outcome != Outcome::converged) return outcome;
     evaluate(z, h, false, report.cost);
-    slabEnergy_ = 0;
-    for (std::size_t e = 0; e + 1 < n; ++e) {
-        const ElementEnergy energy =
-            elementEnergy(middle_.data() + 2 * e, rate_.data() + 2 * e, space_.c2, potential_[e].W);
-        slabEnergy_ += energy.kinetic + energy.potential;
-    }
+    slabEnergy_ = action_.energy();
     // y' from the new p_y = (M v)_y with X' of this step
     lu_.clear();
-    for (std::size_t i = 0; i < n; ++i) residual_[i] = h / 2 * gradientZ_[2 * i] + gradientV_[2 * i];
+    for (std::size_t i = 0; i < n; ++i) residual_[i] = action_.atEnd(2 * i, h);
     ElementDerivatives::Matrix mass;
     for (std::size_t e = 0; e + 1 < n; ++e) {
         elementMass(z1_.data() + 2 * e, mass);

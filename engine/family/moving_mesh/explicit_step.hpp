@@ -12,7 +12,7 @@
 
 #include "engine/core/outcome.hpp"
 #include "engine/family/moving_mesh/monitor.hpp"
-#include "engine/family/moving_mesh/node_space.hpp"
+#include "engine/family/moving_mesh/slab_action.hpp"
 #include "engine/solve/band_lu.hpp"
 
 namespace extremal {
@@ -42,10 +42,10 @@ private:
     Monitor monitor_;
     double relaxation_, speedLimit_, tolerance_;
     int maxIterations_;
-    PotentialMomentsOf potential_;
+    SlabAction action_;
     BandLu lu_;
-    std::vector<double> z1_, v1_, p0_, middle_, rate_, y_, gradientZ_, gradientV_, residual_;
-    std::vector<double> X_, equal_, M_, smooth_, u_xx_;
+    std::vector<double> z1_, v1_, p0_, residual_;
+    std::vector<double> y_, X_, equal_, M_, smooth_, u_xx_;
     double slabEnergy_ = 0;
 };
 

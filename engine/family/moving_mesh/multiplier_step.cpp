@@ -31,15 +31,14 @@ MultiplierStep::MultiplierStep(const NodeSpace& space, const Monitor& monitor, d
       constraint_(monitor, space.n),
       tolerance_(tolerance),
       maxIterations_(maxIterations),
-      potential_(space.problem->potential, space.elements()) {
+      action_(space) {
     const std::size_t n = space_.n;
     const int reach = 3 * static_cast<int>(constraint_.width()) + 2;
     lu_ = BandLu(static_cast<int>(3 * n), reach);
     massLu_ = BandLu(static_cast<int>(3 * n), reach);
-    for (auto* each : {&z1_, &v1_, &p0_, &p1_, &middle_, &rate_, &gradientZ_, &gradientV_})
-        each->assign(2 * n, 0);
+    for (auto* each : {&z1_, &v1_, &p0_, &p1_}) each->assign(2 * n, 0);
     residual_.assign(3 * n, 0);
-    for (auto* each : {&y_, &g_, &lambda_, &mu_}) each->assign(n, 0);
+    for (auto* each : {&g_, &lambda_, &mu_}) each->assign(n, 0);
     Dg0_.resize(n);
     Dg1_.resize(n);
 }
@@ -76,41 +75,18 @@ void MultiplierStep::addConstraint(BandLu& lu, const std::vector<MeshConstraint:
 
 void MultiplierStep::evaluate(const std::vector<double>& z0, double h, bool withJacobian, Cost& cost) {
     const std::size_t n = space_.n;
-    for (std::size_t k = 0; k < 2 * n; ++k) {
-        middle_[k] = (z0[k] + z1_[k]) / 2;
-        rate_[k] = (z1_[k] - z0[k]) / h;
-    }
-    for (std::size_t i = 0; i < n; ++i) y_[i] = middle_[2 * i];
-    potential_.evaluate(y_.data(), withJacobian);
-    cost.evaluations += potential_.evaluations();
     if (withJacobian) lu_.clear();
-    std::fill(gradientZ_.begin(), gradientZ_.end(), 0.0);
-    std::fill(gradientV_.begin(), gradientV_.end(), 0.0);
-    ElementDerivatives l;
-    for (std::size_t e = 0; e + 1 < n; ++e) {
-        const double *z = middle_.data() + 2 * e, *v = rate_.data() + 2 * e;
-        if (withJacobian)
-            elementDerivatives(z, v, space_.c2, potential_[e], l);
-        else
-            elementGradient(z, v, space_.c2, potential_[e], l);
-        for (std::size_t a = 0; a < 4; ++a) {
-            gradientZ_[2 * e + a] += l.z[a];
-            gradientV_[2 * e + a] += l.v[a];
-        }
-        if (!withJacobian) continue;
-        for (std::size_t a = 0; a < 4; ++a)
-            for (std::size_t b = 0; b < 4; ++b)
-                lu_.add(static_cast<int>(row(e + a / 2, a % 2)), static_cast<int>(row(e + b / 2, b % 2)),
-                        h / 4 * l.zz[a][b] + (l.zv[a][b] - l.zv[b][a]) / 2 - l.vv[a][b] / h);
-    }
+    action_.evaluate(
+        z0, z1_, h, withJacobian, cost, [this](std::size_t e, std::size_t a, std::size_t b, double value) {
+            lu_.add(static_cast<int>(row(e + a / 2, a % 2)), static_cast<int>(row(e + b / 2, b % 2)), value);
+        });
+    action_.addNodeMass(meshMass_);
     constraint_.evaluate(z1_.data(), g_, Dg1_);
     // the residual, with the force of the multipliers
     std::vector<double>& force = p1_;
-    for (std::size_t i = 0; i < n; ++i) {
-        gradientV_[2 * i + 1] += meshMass_ * rate_[2 * i + 1];
-        if (withJacobian) lu_.add(static_cast<int>(row(i, 1)), static_cast<int>(row(i, 1)), -meshMass_ / h);
-    }
-    for (std::size_t k = 0; k < 2 * n; ++k) force[k] = p0_[k] + h / 2 * gradientZ_[k] - gradientV_[k];
+    for (std::size_t i = 0; i < n && withJacobian; ++i)
+        lu_.add(static_cast<int>(row(i, 1)), static_cast<int>(row(i, 1)), -meshMass_ / h);
+    for (std::size_t k = 0; k < 2 * n; ++k) force[k] = p0_[k] + action_.atStart(k, h);
     if (!isFree_) constraint_.addTransposed(Dg0_, lambda_, 1, force);
     for (std::size_t i = 0; i < n; ++i) {
         residual_[row(i, 0)] = force[2 * i];
@@ -261,15 +237,10 @@ Outcome MultiplierStep::advance(std::vector<double>& z, std::vector<double>& v, 
     for (std::size_t i = 0; i < n; ++i)
         largestMultiplier_ = std::max(largestMultiplier_, std::abs(lambda_[i] - mu_[i]));
     evaluate(z, h, false, report.cost);
-    for (std::size_t k = 0; k < 2 * n; ++k) p1_[k] = h / 2 * gradientZ_[k] + gradientV_[k];
+    for (std::size_t k = 0; k < 2 * n; ++k) p1_[k] = action_.atEnd(k, h);
     outcome = tangent(z1_, p1_, v1_, report.cost);
     if (outcome != Outcome::converged) return outcome;
-    slabEnergy_ = 0;
-    for (std::size_t e = 0; e + 1 < n; ++e) {
-        const ElementEnergy energy =
-            elementEnergy(middle_.data() + 2 * e, rate_.data() + 2 * e, space_.c2, potential_[e].W);
-        slabEnergy_ += energy.kinetic + energy.potential;
-    }
+    slabEnergy_ = action_.energy();
     z.swap(z1_);
     v.swap(v1_);
     return Outcome::converged;

@@ -17,7 +17,7 @@
 
 #include "engine/core/outcome.hpp"
 #include "engine/family/moving_mesh/constraint.hpp"
-#include "engine/family/moving_mesh/node_space.hpp"
+#include "engine/family/moving_mesh/slab_action.hpp"
 #include "engine/solve/band_lu.hpp"
 
 namespace extremal {
@@ -74,10 +74,9 @@ private:
     int maxIterations_;
     bool isFree_ = false;
     double meshMass_ = 0;
-    PotentialMomentsOf potential_;
+    SlabAction action_;
     BandLu lu_, massLu_;
-    std::vector<double> z1_, v1_, p0_, p1_, middle_, rate_, y_, gradientZ_, gradientV_, residual_, g_;
-    std::vector<double> lambda_, mu_;
+    std::vector<double> z1_, v1_, p0_, p1_, residual_, g_, lambda_, mu_;
     std::vector<MeshConstraint::Row> Dg0_, Dg1_;
     double slabEnergy_ = 0, largestMultiplier_ = 0;
 };

@@ -367,29 +367,25 @@ std::vector<FieldInfo> fieldStartFields() {
         f.isOptional = true;
         return f;
     };
-    const auto optionalJson = [](const char* key, const char* title, const char* text) {
-        FieldInfo f = jsonField(key, title, key, nullptr, text);
-        f.isOptional = true;
-        return f;
-    };
     FieldInfo profile = textField("profile", "", nullptr,
                                   "A profile by name: kink, antikink, kink-kink, kink-antikink, breather, "
                                   "plane-wave or front, with its keys.");
     profile.isOptional = true;
-    return {profile,
-            optionalNumber("v", "speed", "Of kinks, collisions and fronts."),
-            optionalNumber("x0", "place", "Of kinks, breathers and fronts."),
-            optionalNumber("omega", "frequency", "Of breathers, below 1."),
-            optionalNumber("phase", "phase", "Of breathers and plane waves."),
-            optionalNumber("wave_number", "wave number", "Of plane waves: waves in the domain."),
-            optionalNumber("amplitude", "amplitude", "Of plane waves."),
-            optionalNumber("width", "width", "Of fronts."),
-            optionalJson("u", "u", "u at the start, an expression in x."),
-            optionalJson("u_t", "u_t", "u_t at the start, an expression in x; default 0."),
-            optionalJson("exact", "exact solution", "The exact solution, an expression in x and t."),
-            optionalJson("values", "values",
-                         "u and u_t at the nodes, two arrays; with the array x at these places, and smooth "
-                         "between them.")};
+    return {
+        profile,
+        optionalNumber("v", "speed", "Of kinks, collisions and fronts."),
+        optionalNumber("x0", "place", "Of kinks, breathers and fronts."),
+        optionalNumber("omega", "frequency", "Of breathers, below 1."),
+        optionalNumber("phase", "phase", "Of breathers and plane waves."),
+        optionalNumber("wave_number", "wave number", "Of plane waves: waves in the domain."),
+        optionalNumber("amplitude", "amplitude", "Of plane waves."),
+        optionalNumber("width", "width", "Of fronts."),
+        optionalJsonField("u", "u", "u at the start, an expression in x."),
+        optionalJsonField("u_t", "u_t", "u_t at the start, an expression in x; default 0."),
+        optionalJsonField("exact", "exact solution", "The exact solution, an expression in x and t."),
+        optionalJsonField("values", "values",
+                          "u and u_t at the nodes, two arrays; with the array x at these places, and smooth "
+                          "between them.")};
 }
 
 FieldProfile fieldProfile(const Settings& initial, const FieldProblem& problem, double start) {

@@ -180,21 +180,17 @@ System makeMembraneSystem(SharedMembrane problem, double amplitude) {
 }
 
 std::vector<FieldInfo> membraneStartFields() {
-    const auto optionalJson = [](const char* key, const char* title, const char* text) {
-        FieldInfo f = jsonField(key, title, key, nullptr, text);
-        f.isOptional = true;
-        return f;
-    };
     FieldInfo amplitude = numberField("amplitude", "amplitude", "", 0.1, "Of a mode.");
     amplitude.fallback = nullptr;
     amplitude.isOptional = true;
-    return {optionalJson("displacement", "displacement", "u at the start, an expression in x and y."),
-            optionalJson("velocity", "velocity", "u_t at the start, an expression in x and y; default 0."),
-            optionalJson(
-                "mode", "mode",
-                "[m, n] in place of them: the mode with m diameters and n circles at rest, the rim among "
-                "them, of a linear membrane with a fixed rim."),
-            amplitude};
+    return {
+        optionalJsonField("displacement", "displacement", "u at the start, an expression in x and y."),
+        optionalJsonField("velocity", "velocity", "u_t at the start, an expression in x and y; default 0."),
+        optionalJsonField(
+            "mode", "mode",
+            "[m, n] in place of them: the mode with m diameters and n circles at rest, the rim among "
+            "them, of a linear membrane with a fixed rim."),
+        amplitude};
 }
 
 }  // namespace extremal

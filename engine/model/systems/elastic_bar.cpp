@@ -84,15 +84,11 @@ System makeBar(const Settings& settings) {
 }
 
 std::vector<FieldInfo> barStartFields() {
-    const auto optionalJson = [](const char* key, const char* title, const char* text) {
-        FieldInfo f = jsonField(key, title, key, nullptr, text);
-        f.isOptional = true;
-        return f;
-    };
-    return {optionalJson("displacement", "displacement", "u at the start, an expression in X from 0 to 1."),
-            optionalJson("velocity", "velocity", "u_t at the start, an expression in X; default 0."),
-            optionalJson("values", "values",
-                         "u and u_t at the nodes, two arrays; with the array x at these places.")};
+    return {
+        optionalJsonField("displacement", "displacement", "u at the start, an expression in X from 0 to 1."),
+        optionalJsonField("velocity", "velocity", "u_t at the start, an expression in X; default 0."),
+        optionalJsonField("values", "values",
+                          "u and u_t at the nodes, two arrays; with the array x at these places.")};
 }
 
 }  // namespace
