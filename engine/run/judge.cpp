@@ -1,6 +1,7 @@
 #include "engine/run/judge.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -33,6 +34,12 @@ OfState kineticEnergyOf(const System& system) {
     return {};
 }
 
+/// By the number of the node alone, as the sizes of blocks follow the clock.
+bool isLookedAt(long long node) {
+    constexpr long long often = 64;
+    return node % often == 0 || (node < often && std::has_single_bit(static_cast<unsigned long long>(node)));
+}
+
 }  // namespace
 
 Judge::Judge(const System& system, const State& start, double step) {
@@ -60,14 +67,11 @@ Judge::Judge(const System& system, const State& start, double step) {
     if (!std::isfinite(start_) || (!kinetic_ && !(scale_ > 0))) conserved_ = {};
 }
 
-bool Judge::isOut(double t, const double* x) const {
-    return scale_ > 0 && std::abs(conserved_(t, x) - start_) > band * scale_;
-}
-
-void Judge::learn(double t, const double* x) {
-    if (!kinetic_) return;
-    const double size = kinetic_(t, x);
-    if (std::abs(conserved_(t, x) - start_) <= size / 2) scale_ = std::max(scale_, size);
+bool Judge::isSound(double t, const double* x) {
+    const double change = std::abs(conserved_(t, x) - start_);
+    if (kinetic_)
+        if (const double size = kinetic_(t, x); change <= size / 2) scale_ = std::max(scale_, size);
+    return !(scale_ > 0 && change > band * scale_);
 }
 
 /// Of one explicit step from the start; 0 where it is not known.
@@ -80,16 +84,12 @@ double Judge::gainedKineticEnergy(const System& system, const State& start, doub
 }
 
 std::size_t Judge::soundNodes(const NodeBlock& nodes, bool isLast) {
-    constexpr long long often = 16;
-    if (!conserved_ || nodes.size() == 0) return nodes.size();
-    const std::size_t last = nodes.size() - 1;
-    if (nodes.capacity() == 1 && !isLast && nodes.node(last) > often && nodes.node(last) % often != 0)
-        return nodes.size();
-    learn(nodes.t(last), nodes.x(last));
-    if (!isOut(nodes.t(last), nodes.x(last))) return nodes.size();
-    std::size_t sound = 0;
-    while (!isOut(nodes.t(sound), nodes.x(sound))) ++sound;
-    return sound;
+    if (!conserved_) return nodes.size();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const bool isEnd = isLast && i + 1 == nodes.size();
+        if ((isEnd || isLookedAt(nodes.node(i))) && !isSound(nodes.t(i), nodes.x(i))) return i;
+    }
+    return nodes.size();
 }
 
 }  // namespace extremal

@@ -3,7 +3,7 @@
 /// Steps may go on for ever, finite all the time, while the solution has long left the problem: an explicit
 /// scheme beyond its stability limit, or a step whose equations have another root. What gives it away is the
 /// quantity that the motion cannot change: the energy of a conservative system, the norm of a wave function.
-/// A run is lost at the first node where
+/// A run is lost at the first node that is looked at where
 ///
 ///     |H(t) - H(0)| > 100 S,      S: the size of the energies that the motion has at all.
 ///
@@ -18,8 +18,9 @@
 /// exponentially, and a collision that is jumped over shoots a body out at many times its energy: no larger
 /// number is needed to see either.
 ///
-/// The energy is computed at one node of each block of steps (march.hpp), every 16th where blocks are of one
-/// node; where it is out of bounds the first such node of the block is looked for.
+/// The energy is computed at the nodes 1, 2, 4, ..., 64, at every 64th from there on and at the last one,
+/// whatever the blocks of steps (march.hpp), whose sizes follow the clock: a lost run ends at the first of
+/// these that is out of bounds.
 #pragma once
 
 #include <functional>
@@ -46,8 +47,8 @@ public:
 private:
     using OfState = std::function<double(double t, const double* x)>;
 
-    bool isOut(double t, const double* x) const;
-    void learn(double t, const double* x);
+    /// Learns S from a node, and whether its energy is within bounds.
+    bool isSound(double t, const double* x);
     double gainedKineticEnergy(const System& system, const State& start, double step) const;
 
     OfState conserved_, kinetic_;  ///< empty: nothing is conserved; nothing is known of the parts

@@ -174,7 +174,8 @@ MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
     const std::size_t capacity =
         looksInside ? 1
                     : std::clamp<std::size_t>(numbersOfBlock / std::max<std::size_t>(1, width), 1, mostNodes);
-    March run(integrator, state, grid, sinks, looksInside || !integrator.checksFinite(), judge);
+    const bool isCutInside = !integrator.checksFinite() || (judge && capacity > 1);
+    March run(integrator, state, grid, sinks, looksInside || isCutInside, judge);
     if (capacity == 1) {
         NodeBlock nodes = NodeBlock::referring(width, quantities);
         return run.run(nodes, stop);

@@ -49,6 +49,28 @@ const std::string forced = R"json({"extremal":1,"model":{"type":"lagrangian","co
 class JudgeTest : public QObject {
     Q_OBJECT
 private slots:
+    /// Blocks are as long as the clock makes them: the verdict must not depend on that.
+    void blocksDoNotMatter() {
+        const ReadScene read = readScene(oscillator(R"("step":0.1,"baseline":"stormer-verlet")", 30));
+        const System& system = *read.resolved->system;
+        const State start{0, 0, {1, 0}};
+        constexpr int nodes = 300;
+        for (const std::size_t size : {1u, 7u, 50u, 64u, 300u}) {
+            Judge judge(system, start, 0.1);
+            NodeBlock block(2, size);
+            long long sound = -1;
+            for (int k = 1; k <= nodes && sound < 0; ++k) {
+                // A peak between nodes that are looked at, and growth from node 100 on.
+                const double x = k == 70 ? 1e3 : k < 100 ? 1 : std::exp(0.2 * (k - 100));
+                block.push(State{0.1 * k, k, {x, 0}}, {});
+                if (block.size() < size && k < nodes) continue;
+                const std::size_t good = judge.soundNodes(block, k == nodes);
+                if (good < block.size()) sound = block.node(good) - 1;
+                block.clear();
+            }
+            QCOMPARE(sound, 127LL);
+        }
+    }
     void schemesBeyondTheirLimitsAreLost() {
         for (const char* scheme :
              {R"("step":2.05,"baseline":"stormer-verlet")", R"("step":3,"baseline":"rk4")",
