@@ -32,8 +32,8 @@ Eigenstates::Eigenstates(const Hamiltonian& h) : hamiltonian_(h) {
         if (v(largest) < 0) v = -v;
     }
     if (!h.isSplit()) return;
-    // The eigenvalues of the matrix are off by its round-off, which is that of the highest of them. The mean of
-    // the energy is a sum of positive numbers, and the square of what a state is off by.
+    // The eigenvalues of the matrix are off by its round-off, which is that of the highest of them. The mean
+    // of the energy is a sum of positive numbers, and the square of what a state is off by.
     for (int k = 0; k < size(); ++k) {
         double& E = energies_[static_cast<std::size_t>(k)];
         E = h.energy(0, coefficients(k).data());
