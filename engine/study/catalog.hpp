@@ -34,6 +34,8 @@ struct StudyEntry {
     /// What a terminal shows: its titles, and fewer rows.
     std::vector<std::string> summaryColumns = {};
     std::vector<Value::Array> (*summary)(const Sweep&) = nullptr;
+    /// The points of its rows; null where a row is more than one point.
+    std::vector<const SweepRow*> (*summaryPoints)(const Sweep&) = nullptr;
 };
 
 const std::vector<StudyEntry>& studyEntries();

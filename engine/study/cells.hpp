@@ -1,7 +1,9 @@
-/// The cells of a line in the log of a study. Internal to engine/study.
+/// The cells of a line in the log of a study, and the lists in its head. Internal to engine/study.
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 
 #include "engine/core/outcome.hpp"
 #include "engine/core/text.hpp"
+#include "engine/core/value.hpp"
 
 namespace extremal {
 
@@ -16,6 +19,17 @@ namespace extremal {
 inline std::string cellOf(double value) { return std::isfinite(value) ? formatNumber(value) : ""; }
 inline double cellNumber(const std::string& text) {
     return parseNumber(text).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The index of a point; no point has that of a text that is no number.
+inline std::size_t cellIndex(const std::string& text) {
+    return static_cast<std::size_t>(parseNumber(text).value_or(1e18));
+}
+/// ",<value>" for each.
+inline std::string cellsText(std::initializer_list<double> values) {
+    std::string text;
+    for (const double value : values) text += ',' + cellOf(value);
+    return text;
 }
 
 inline std::vector<std::string> cellsOf(std::string_view line) {
@@ -33,6 +47,24 @@ inline Outcome outcomeOf(std::string_view text) {
     for (int k = 0; k <= static_cast<int>(Outcome::stopped); ++k)
         if (name(static_cast<Outcome>(k)) == text) return static_cast<Outcome>(k);
     return Outcome::converged;
+}
+
+/// Texts or numbers as an array, and back.
+template <class Item>
+Value arrayOf(const std::vector<Item>& items) {
+    Value::Array all;
+    for (const Item& item : items) all.emplace_back(item);
+    return all;
+}
+inline std::vector<std::string> textsOf(const Value& array) {
+    std::vector<std::string> all;
+    for (const Value& text : array.asArray()) all.push_back(text.asString());
+    return all;
+}
+inline std::vector<double> numbersOf(const Value& array) {
+    std::vector<double> all;
+    for (const Value& number : array.asArray()) all.push_back(number.asNumber());
+    return all;
 }
 
 }  // namespace extremal

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -13,7 +12,7 @@
 
 #include "engine/core/value.hpp"
 #include "engine/study/extremes.hpp"
-#include "engine/study/sweep.hpp"
+#include "engine/study/progress.hpp"
 
 namespace extremal {
 
@@ -31,18 +30,17 @@ public:
     const std::vector<Row>& rows() const { return rows_; }
     std::size_t size() const { return rows_.size(); }
     bool isComplete() const;
-    double fraction() const;
+    double fraction() const { return progress_.fraction(); }
     bool isPreparing() const { return false; }
 
     void take(std::size_t index, ExtremeResult result) { rows_[index].result = std::move(result); }
     void run(const std::function<void(std::size_t)>& onCase, const std::stop_token& stop);
 
 private:
-    struct Counters;
     Shard shard_;
     unsigned threads_;
     std::vector<Row> rows_;
-    std::shared_ptr<Counters> counters_;
+    StudyProgress progress_;
 };
 
 std::string headOf(const std::string& study, const ExtremesStudy& extremes);

@@ -1,21 +1,14 @@
 #include "engine/study/linear_study.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 
-#include "engine/core/pool.hpp"
 #include "engine/study/cells.hpp"
 #include "engine/study/study_log.hpp"
 
 namespace extremal {
 
-struct LinearStudy::Counters {
-    std::atomic<std::size_t> done{0}, wanted{0};
-};
-
 LinearStudy::LinearStudy(ResolvedScene scene, LinearOptions options)
-    : scene_(std::move(scene)), options_(std::move(options)), counters_(std::make_shared<Counters>()) {
+    : scene_(std::move(scene)), options_(std::move(options)) {
     requireShard(options_.shard);
     for (const std::size_t scheme : chosenSchemes(scene_.scene, options_.only)) rows_.push_back({scheme});
 }
@@ -24,43 +17,30 @@ bool LinearStudy::isComplete() const {
     return std::all_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.isKnown; });
 }
 
-double LinearStudy::fraction() const {
-    const std::size_t wanted = counters_->wanted;
-    return wanted > 0 ? static_cast<double>(counters_->done) / static_cast<double>(wanted) : 0;
-}
-
 void LinearStudy::take(std::size_t index, LinearStability result) {
     rows_[index].result = std::move(result);
     rows_[index].isKnown = true;
 }
 
 void LinearStudy::run(const std::function<void(std::size_t)>& onScheme, const std::stop_token& stop) {
-    std::vector<std::size_t> wanted;
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-        if (options_.shard.has(i) && !rows_[i].isKnown) wanted.push_back(i);
-    counters_->wanted = wanted.size();
-    std::mutex mutex;
-    forEachInPool(wanted, options_.threads, stop, [&](std::size_t i) {
-        LinearStability result = linearStability(scene_.scene, rows_[i].scheme, stop);
-        if (stop.stop_requested()) return;
-        const std::lock_guard lock(mutex);
+    const auto wanted =
+        wantedPoints(rows_.size(), options_.shard, [&](std::size_t i) { return rows_[i].isKnown; });
+    const auto compute = [&](std::size_t i) { return linearStability(scene_.scene, rows_[i].scheme, stop); };
+    progress_.run(wanted, options_.threads, stop, compute, [&](std::size_t i, LinearStability result) {
         take(i, std::move(result));
         onScheme(i);
-        ++counters_->done;
     });
 }
 
 Value optionsValue(const LinearOptions& options) {
     Value value;
-    Value::Array only;
-    for (const std::string& label : options.only) only.emplace_back(label);
-    value.set("only", only);
+    value.set("only", arrayOf(options.only));
     return value;
 }
 
 LinearOptions linearOptionsOf(const Value& value) {
     LinearOptions options;
-    for (const Value& label : value.find("only")->asArray()) options.only.push_back(label.asString());
+    options.only = textsOf(*value.find("only"));
     return options;
 }
 
@@ -71,7 +51,7 @@ std::string headOf(const std::string& study, const LinearStudy& linear) {
 std::optional<std::size_t> takeLine(const std::string& line, LinearStudy& linear) {
     const std::vector<std::string> cells = cellsOf(line);
     if (cells.size() < 3) return {};
-    const auto index = static_cast<std::size_t>(parseNumber(cells[1]).value_or(1e18));
+    const auto index = cellIndex(cells[1]);
     if (index >= linear.size()) return {};
     LinearStability result;
     if (cells.front() == "refused") {
@@ -101,9 +81,9 @@ void runLines(LinearStudy& linear, const std::function<void(const std::string&)>
                 onLine("refused," + std::to_string(i) + ',' + reason);
                 return;
             }
-            std::string line = "scheme," + std::to_string(i) + ',' + cellOf(r.low) + ',' + cellOf(r.high);
+            std::string line = "scheme," + std::to_string(i) + cellsText({r.low, r.high});
             for (const LinearStability::Point& p : r.points)
-                for (const double value : {p.z, p.amplification, p.phaseError}) line += ',' + cellOf(value);
+                line += cellsText({p.z, p.amplification, p.phaseError});
             onLine(line);
         },
         stop);

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -16,7 +15,7 @@
 #include "engine/core/value.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/study/linear_stability.hpp"
-#include "engine/study/sweep.hpp"
+#include "engine/study/progress.hpp"
 
 namespace extremal {
 
@@ -42,18 +41,17 @@ public:
     const std::vector<Row>& rows() const { return rows_; }
     std::size_t size() const { return rows_.size(); }
     bool isComplete() const;
-    double fraction() const;
+    double fraction() const { return progress_.fraction(); }
     bool isPreparing() const { return false; }
 
     void take(std::size_t index, LinearStability result);
     void run(const std::function<void(std::size_t)>& onScheme, const std::stop_token& stop);
 
 private:
-    struct Counters;
     ResolvedScene scene_;
     LinearOptions options_;
     std::vector<Row> rows_;
-    std::shared_ptr<Counters> counters_;
+    StudyProgress progress_;
 };
 
 Value optionsValue(const LinearOptions& options);

@@ -1,11 +1,8 @@
 #include "engine/study/stability_study.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 
-#include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/codec.hpp"
@@ -15,12 +12,8 @@
 
 namespace extremal {
 
-struct StabilityStudy::Counters {
-    std::atomic<std::size_t> done{0}, wanted{0};
-};
-
 StabilityStudy::StabilityStudy(ResolvedScene scene, StabilityOptions options)
-    : scene_(std::move(scene)), options_(std::move(options)), counters_(std::make_shared<Counters>()) {
+    : scene_(std::move(scene)), options_(std::move(options)) {
     requireShard(options_.shard);
     // A pointer that is no number of the scene is an error of the option, and not of every point.
     const auto requireNumber = [&](const VariedNumber& number, const char* option) {
@@ -39,20 +32,24 @@ StabilityStudy::StabilityStudy(ResolvedScene scene, StabilityOptions options)
         }
 }
 
+bool StabilityStudy::isKnown(std::size_t index) const {
+    return index < rows_.size() ? rows_[index].result.kind != StabilityClass::waiting
+                                : limits_[index - rows_.size()].isKnown;
+}
+
 bool StabilityStudy::isComplete() const {
-    return std::all_of(rows_.begin(), rows_.end(),
-                       [](const Row& row) { return row.result.kind != StabilityClass::waiting; }) &&
-           std::all_of(limits_.begin(), limits_.end(), [](const Limit& limit) { return limit.isKnown; });
+    for (std::size_t i = 0; i < size(); ++i)
+        if (!isKnown(i)) return false;
+    return true;
 }
 
-double StabilityStudy::fraction() const {
-    const std::size_t wanted = counters_->wanted;
-    return wanted > 0 ? static_cast<double>(counters_->done) / static_cast<double>(wanted) : 0;
-}
-
-void StabilityStudy::take(std::size_t index, const StabilityLimit& limit) {
-    limits_[index - rows_.size()].limit = limit;
-    limits_[index - rows_.size()].isKnown = true;
+void StabilityStudy::take(std::size_t index, const Result& result) {
+    if (const auto* limit = std::get_if<StabilityLimit>(&result)) {
+        limits_[index - rows_.size()].limit = *limit;
+        limits_[index - rows_.size()].isKnown = true;
+    } else {
+        rows_[index].result = std::get<StabilityResult>(result);
+    }
 }
 
 std::vector<std::pair<std::string, double>> StabilityStudy::changesAt(double y) const {
@@ -61,34 +58,22 @@ std::vector<std::pair<std::string, double>> StabilityStudy::changesAt(double y) 
     return changes;
 }
 
-bool StabilityStudy::runOne(std::size_t index, const std::stop_token& stop) {
-    if (index < rows_.size()) {
-        Row& row = rows_[index];
-        auto changes = changesAt(row.y);
-        changes.emplace_back(options_.x.pointer, row.x);
-        row.result = runStability(scene_.scene, row.scheme, changes, stop);
-    } else {
-        Limit& limit = limits_[index - rows_.size()];
-        limit.limit = findLimit(scene_.scene, limit.scheme, options_.x, changesAt(limit.y), stop);
-        limit.isKnown = !stop.stop_requested();
+StabilityStudy::Result StabilityStudy::resultAt(std::size_t index, const std::stop_token& stop) const {
+    if (index >= rows_.size()) {
+        const Limit& limit = limits_[index - rows_.size()];
+        return findLimit(scene_.scene, limit.scheme, options_.x, changesAt(limit.y), stop);
     }
-    return !stop.stop_requested();
+    auto changes = changesAt(rows_[index].y);
+    changes.emplace_back(options_.x.pointer, rows_[index].x);
+    return runStability(scene_.scene, rows_[index].scheme, changes, stop);
 }
 
 void StabilityStudy::run(const std::function<void(std::size_t)>& onPoint, const std::stop_token& stop) {
-    std::vector<std::size_t> wanted;
-    for (std::size_t i = 0; i < size(); ++i) {
-        const bool isKnown = i < rows_.size() ? rows_[i].result.kind != StabilityClass::waiting
-                                              : limits_[i - rows_.size()].isKnown;
-        if (options_.shard.has(i) && !isKnown) wanted.push_back(i);
-    }
-    counters_->wanted = wanted.size();
-    std::mutex mutex;
-    forEachInPool(wanted, options_.threads, stop, [&](std::size_t i) {
-        if (!runOne(i, stop)) return;
-        const std::lock_guard lock(mutex);
+    const auto wanted = wantedPoints(size(), options_.shard, [&](std::size_t i) { return isKnown(i); });
+    const auto compute = [&](std::size_t i) { return resultAt(i, stop); };
+    progress_.run(wanted, options_.threads, stop, compute, [&](std::size_t i, const Result& result) {
+        take(i, result);
         onPoint(i);
-        ++counters_->done;
     });
 }
 
@@ -129,9 +114,7 @@ Value optionsValue(const StabilityOptions& options) {
     value.set("x", textOf(options.x));
     value.set("y", options.y ? textOf(*options.y) : "");
     value.set("limit", options.findsLimits);
-    Value::Array only;
-    for (const std::string& label : options.only) only.emplace_back(label);
-    value.set("only", only);
+    value.set("only", arrayOf(options.only));
     return value;
 }
 
@@ -140,7 +123,7 @@ StabilityOptions stabilityOptionsOf(const Value& value) {
     options.x = parseAxis(value.find("x")->asString(), "--x");
     if (const std::string& y = value.find("y")->asString(); !y.empty()) options.y = parseAxis(y, "--y");
     options.findsLimits = value.find("limit")->asBool();
-    for (const Value& label : value.find("only")->asArray()) options.only.push_back(label.asString());
+    options.only = textsOf(*value.find("only"));
     return options;
 }
 
@@ -151,7 +134,7 @@ std::string headOf(const std::string& study, const StabilityStudy& stability) {
 std::optional<std::size_t> takeLine(const std::string& line, StabilityStudy& stability) {
     const std::vector<std::string> cells = cellsOf(line);
     if (cells.size() < 5) return {};
-    const auto index = static_cast<std::size_t>(parseNumber(cells[1]).value_or(1e18));
+    const auto index = cellIndex(cells[1]);
     if (cells.front() == "limit" && index >= stability.rows().size() && index < stability.size()) {
         StabilityLimit limit;
         limit.limit = cellNumber(cells[2]);
@@ -180,15 +163,11 @@ void runLines(StabilityStudy& stability, const std::function<void(const std::str
             const std::size_t points = stability.rows().size();
             if (i < points) {
                 const StabilityResult& r = stability.rows()[i].result;
-                std::string line = "point," + std::to_string(i) + ',' + std::string(name(r.kind)) + ',' +
-                                   std::string(name(r.cause));
-                for (const double value : {r.growth, r.maxEnergyError, r.failedAt})
-                    line += ',' + cellOf(value);
-                onLine(line);
+                onLine("point," + std::to_string(i) + ',' + std::string(name(r.kind)) + ',' +
+                       std::string(name(r.cause)) + cellsText({r.growth, r.maxEnergyError, r.failedAt}));
             } else {
                 const StabilityLimit& l = stability.limits()[i - points].limit;
-                onLine("limit," + std::to_string(i) + ',' + cellOf(l.limit) + ',' + cellOf(l.low) + ',' +
-                       cellOf(l.high));
+                onLine("limit," + std::to_string(i) + cellsText({l.limit, l.low, l.high}));
             }
         },
         stop);

@@ -10,16 +10,16 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "engine/core/value.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/study/progress.hpp"
 #include "engine/study/stability.hpp"
-#include "engine/study/sweep.hpp"
 
 namespace extremal {
 
@@ -56,23 +56,24 @@ public:
     /// Of points and limits.
     std::size_t size() const { return rows_.size() + limits_.size(); }
     bool isComplete() const;
-    double fraction() const;
+    double fraction() const { return progress_.fraction(); }
     bool isPreparing() const { return false; }  ///< it has no reference
 
-    void take(std::size_t index, StabilityResult result) { rows_[index].result = std::move(result); }
-    void take(std::size_t index, const StabilityLimit& limit);
+    /// What is known of the point or limit with this index.
+    using Result = std::variant<StabilityResult, StabilityLimit>;
+    void take(std::size_t index, const Result& result);
     void run(const std::function<void(std::size_t)>& onPoint, const std::stop_token& stop);
 
 private:
-    struct Counters;
     std::vector<std::pair<std::string, double>> changesAt(double y) const;
-    bool runOne(std::size_t index, const std::stop_token& stop);
+    bool isKnown(std::size_t index) const;
+    Result resultAt(std::size_t index, const std::stop_token& stop) const;
 
     ResolvedScene scene_;
     StabilityOptions options_;
     std::vector<Row> rows_;
     std::vector<Limit> limits_;
-    std::shared_ptr<Counters> counters_;
+    StudyProgress progress_;
 };
 
 /// Where the energy error stands out along x, ten times as high as on both sides, or a run between bounded

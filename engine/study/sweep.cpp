@@ -1,12 +1,9 @@
 #include "engine/study/sweep.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
-#include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/map_reference.hpp"
@@ -22,37 +19,10 @@ constexpr std::size_t noRow = std::numeric_limits<std::size_t>::max();
 
 }  // namespace
 
-struct Sweep::Counters {
-    std::atomic<std::size_t> done{0}, wanted{0};
-    std::atomic<bool> isPreparing{false};
-};
-
-std::vector<std::size_t> chosenSchemes(const Scene& scene, const std::vector<std::string>& only) {
-    std::vector<std::string> labels;
-    for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
-    for (const std::string& label : only)
-        if (std::find(labels.begin(), labels.end(), label) == labels.end())
-            throw InvalidScene("--only", "no scheme is called \"" + label + "\"", suggestName(label, labels));
-    std::vector<std::size_t> chosen;
-    for (std::size_t i = 0; i < labels.size(); ++i)
-        if (only.empty() ? scene.schemes[i].isEnabled
-                         : std::find(only.begin(), only.end(), labels[i]) != only.end())
-            chosen.push_back(i);
-    if (chosen.empty()) throw InvalidScene("/schemes", "no scheme is enabled", "enable one, or use --only");
-    return chosen;
-}
-
-void requireShard(const Shard& shard) {
-    if (shard.count < 1 || shard.index < 1 || shard.index > shard.count)
-        throw InvalidScene("--shard", "must be I/N with I from 1 to N, got " + std::to_string(shard.index) +
-                                          "/" + std::to_string(shard.count));
-}
-
 Sweep::Sweep(ResolvedScene scene, SweepOptions options)
     : scene_(std::move(scene)),
       options_(std::move(options)),
-      metric_(metricOf(options_.metric, options_.isAtEnd, *scene_.system, scene_.initial)),
-      counters_(std::make_shared<Counters>()) {
+      metric_(metricOf(options_.metric, options_.isAtEnd, *scene_.system, scene_.initial)) {
     requireShard(options_.shard);
     if (options_.repeat < 0 || options_.repeat > 1000)
         throw InvalidScene("--repeat", "must be 0 to 1000, got " + std::to_string(options_.repeat));
@@ -110,18 +80,17 @@ bool Sweep::isComplete() const {
 void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
                 const std::function<void(std::size_t, const PointResult&)>& onPoint,
                 const std::stop_token& stop) {
-    std::vector<std::size_t> wanted;
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-        if (belongsHere(i) && rows_[i].result.status == RunStatus::waiting) wanted.push_back(i);
-    counters_->wanted = wanted.size();
+    const std::vector<std::size_t> wanted = wantedPoints(rows_.size(), options_.shard, [&](std::size_t i) {
+        return rows_[i].result.status != RunStatus::waiting;
+    });
     if (wanted.empty()) return;
     MapReference reference;
     Reference scheme;  // what adaptive runs, whose nodes no table has, are compared with
     if (metric_.observable->needsReference) {
-        counters_->isPreparing = true;
+        progress_.setPreparing(true);
         reference = MapReference(scene_, steps_, stop);
         if (scene_.scene.reference.kind == ReferenceSpec::Kind::scheme) scheme = makeReference(scene_, stop);
-        counters_->isPreparing = false;
+        progress_.setPreparing(false);
         reference_ = scheme.make ? scheme.info : reference.info();
         if (stop.stop_requested()) return;
         if (onReference) onReference(reference_);
@@ -131,30 +100,22 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         return reference.at(point.row, scene_, run);
     };
-    std::mutex mutex;
-    forEachInPool(wanted, options_.threads, stop, [&](std::size_t i) {
+    const auto compute = [&](std::size_t i) {
         const StudyPoint& point = rows_[i].point;
         const auto run = [&](const StudyPoint& at, int repeat) {
             return runPoint(scene_, at, metric_, referenceOf(at), repeat, stop);
         };
-        PointResult result = options_.wantedError > 0
-                                 ? searchPoint(scene_, point, options_.wantedError, options_.repeat, run)
-                                 : run(point, options_.repeat);
-        if (result.status == RunStatus::partial) return;
-        if (options_.wantedError > 0 && result.isDone())
+        const bool isSearch = options_.wantedError > 0;
+        PointResult result = isSearch ? searchPoint(scene_, point, options_.wantedError, options_.repeat, run)
+                                      : run(point, options_.repeat);
+        if (isSearch && result.isDone())
             result.predictedSeconds = predictSeconds(scene_, schemeAt(scene_, point.scheme, result));
-        const std::lock_guard lock(mutex);
+        return result;
+    };
+    progress_.run(wanted, options_.threads, stop, compute, [&](std::size_t i, PointResult result) {
         rows_[i].result = std::move(result);
         if (onPoint) onPoint(i, rows_[i].result);
-        ++counters_->done;
     });
-}
-
-bool Sweep::isPreparing() const { return counters_->isPreparing; }
-
-double Sweep::fraction() const {
-    const std::size_t wanted = counters_->wanted;
-    return wanted > 0 ? static_cast<double>(counters_->done) / static_cast<double>(wanted) : 0;
 }
 
 std::vector<SchemeRows> bySchemes(const Sweep& sweep) {

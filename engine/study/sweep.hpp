@@ -7,7 +7,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -18,23 +17,9 @@
 #include "engine/study/ladder.hpp"
 #include "engine/study/metric.hpp"
 #include "engine/study/point.hpp"
+#include "engine/study/progress.hpp"
 
 namespace extremal {
-
-struct Shard {
-    int index = 1, count = 1;
-    bool has(std::size_t point) const {
-        return point % static_cast<std::size_t>(count) == static_cast<std::size_t>(index - 1);
-    }
-    bool operator==(const Shard&) const = default;
-};
-
-/// Throws InvalidScene (pointer "--shard") where it is none.
-void requireShard(const Shard& shard);
-
-/// The schemes of a scene by their labels, those that are enabled where there are none. Throws InvalidScene
-/// (pointer "--only").
-std::vector<std::size_t> chosenSchemes(const Scene& scene, const std::vector<std::string>& only);
 
 struct SweepOptions {
     std::string metric = "error";
@@ -81,12 +66,11 @@ public:
              const std::function<void(std::size_t, const PointResult&)>& onPoint,
              const std::stop_token& stop);
     /// 0..1; callable while it runs, as is the next.
-    double fraction() const;
+    double fraction() const { return progress_.fraction(); }
     /// The reference is computed; no point has begun.
-    bool isPreparing() const;
+    bool isPreparing() const { return progress_.isPreparing(); }
 
 private:
-    struct Counters;
     void addOwnPoint(std::size_t scheme);
     void addLadder(std::size_t scheme);
 
@@ -96,7 +80,7 @@ private:
     std::vector<SweepRow> rows_;
     std::vector<double> steps_;  ///< that the reference must know: a row of it each
     ReferenceInfo reference_;
-    std::shared_ptr<Counters> counters_;
+    StudyProgress progress_;
 };
 
 /// The rows of a sweep that belong to one scheme, for each scheme that has any.

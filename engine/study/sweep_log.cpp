@@ -13,13 +13,11 @@ long long count(const std::string& text) { return static_cast<long long>(parseNu
 std::string pointLine(std::size_t index, const PointResult& r) {
     std::string line =
         "point," + std::to_string(index) + ',' + name(r.status) + ',' + std::string(name(r.cause));
-    for (const double value : {r.failedAt, r.error}) line += ',' + cellOf(value);
+    line += cellsText({r.failedAt, r.error});
     for (const long long value :
          {r.steps, r.cost.iterations, r.cost.evaluations, r.cost.linearSolves, r.cost.rejected})
         line += ',' + std::to_string(value);
-    for (const double value : {r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance})
-        line += ',' + cellOf(value);
-    return line;
+    return line + cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
@@ -47,20 +45,15 @@ bool isSameButForTimes(PointResult a, PointResult b) {
 }  // namespace
 
 Value optionsValue(const SweepOptions& options) {
-    const auto texts = [](const auto& items) {
-        Value::Array all;
-        for (const auto& item : items) all.emplace_back(item);
-        return Value(all);
-    };
     Value value;
     value.set("metric", options.metric);
     value.set("final", options.isAtEnd);
-    value.set("steps", texts(options.ladder.steps));
+    value.set("steps", arrayOf(options.ladder.steps));
     value.set("from", options.ladder.from);
     value.set("to", options.ladder.to);
     value.set("points", options.ladder.points);
     value.set("repeat", options.repeat);
-    value.set("only", texts(options.only));
+    value.set("only", arrayOf(options.only));
     value.set("error", options.wantedError);
     return value;
 }
@@ -69,12 +62,12 @@ SweepOptions optionsOf(const Value& value) {
     SweepOptions options;
     options.metric = value.find("metric")->asString();
     options.isAtEnd = value.find("final")->asBool();
-    for (const Value& step : value.find("steps")->asArray()) options.ladder.steps.push_back(step.asNumber());
+    options.ladder.steps = numbersOf(*value.find("steps"));
     options.ladder.from = value.find("from")->asNumber();
     options.ladder.to = value.find("to")->asNumber();
     options.ladder.points = static_cast<int>(value.find("points")->asNumber());
     options.repeat = static_cast<int>(value.find("repeat")->asNumber());
-    for (const Value& label : value.find("only")->asArray()) options.only.push_back(label.asString());
+    options.only = textsOf(*value.find("only"));
     options.wantedError = value.find("error")->asNumber();
     return options;
 }
@@ -93,7 +86,7 @@ std::optional<std::size_t> takeLine(const std::string& line, Sweep& sweep) {
     }
     if (cells.front() != "point") return {};
     const std::optional<PointResult> result = pointOf(cells);
-    const auto index = static_cast<std::size_t>(count(cells.size() > 1 ? cells[1] : ""));
+    const std::size_t index = cellIndex(cells.size() > 1 ? cells[1] : "");
     if (!result || index >= sweep.size()) return {};
     const PointResult& known = sweep.rows()[index].result;
     if (known.status != RunStatus::waiting && !isSameButForTimes(known, *result))

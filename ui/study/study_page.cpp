@@ -27,14 +27,6 @@
 namespace extremal {
 namespace {
 
-/// Where the summary of a study says which scheme a row is of.
-int columnOf(const std::vector<std::string>& columns, std::initializer_list<const char*> names) {
-    for (std::size_t i = 0; i < columns.size(); ++i)
-        for (const char* name : names)
-            if (columns[i] == name) return static_cast<int>(i);
-    return -1;
-}
-
 QString cellText(const Value& value, const std::string& column) {
     if (value.isNumber())
         return column.find("cpu") != std::string::npos ? shortTime(value.asNumber())
@@ -277,8 +269,7 @@ void StudyPage::showState() {
     run_->setText(job_->isRunning() ? tr("Stop") : tr("Run the study"));
     progress_->setValue(static_cast<int>(1000 * job_->fraction()));
     const Sweep* sweep = job_->sweep();
-    use_->setEnabled(sweep && table_->currentRow() >= 0 && shown_ &&
-                     columnOf(shown_->summaryColumns, {"step"}) >= 0);
+    use_->setEnabled(sweep && table_->currentRow() >= 0 && shown_ && shown_->summaryPoints);
     if (!sweep) return state_->setText(QString::fromStdString(chosen().item.description));
     const auto& rows = sweep->rows();
     const auto known = std::count_if(rows.begin(), rows.end(), [](const SweepRow& row) {
@@ -300,24 +291,18 @@ void StudyPage::showState() {
 /// The selected row's scheme with its step, as an edit that can be undone.
 void StudyPage::use() {
     const int row = table_->currentRow();
-    if (!shown_ || row < 0) return;
-    const int label = columnOf(shown_->summaryColumns, {"scheme", "worth its cost"}),
-              step = columnOf(shown_->summaryColumns, {"step"}),
-              tolerance = columnOf(shown_->summaryColumns, {"tolerance"});
-    if (label < 0 || step < 0) return;
-    const auto number = [&](int column) {
-        return column < 0 ? 0.0 : table_->item(row, column)->data(Qt::UserRole).toDouble();
-    };
-    const QString name = table_->item(row, label)->text();
-    const std::vector<Edit> edits =
-        editsForPoint(workspace_.scene(), name.toStdString(), number(step), number(tolerance));
+    if (!shown_ || !shown_->summaryPoints || row < 0) return;
+    const SweepRow& point = *shown_->summaryPoints(*job_->sweep()).at(static_cast<std::size_t>(row));
+    const std::string& label = job_->sweep()->scene().scene.schemes[point.point.scheme].label;
+    const double step = point.result.step, tolerance = point.result.tolerance;
+    const std::vector<Edit> edits = editsForPoint(workspace_.scene(), label, step, tolerance);
+    const QString name = QString::fromStdString(label);
     if (edits.empty() || !workspace_.edit(edits, tr("Use a result of a study"))) {
         state_->setText(tr("%1 cannot be put into the scene as it is now").arg(name));
         return;
     }
-    emit pointUsed(number(step) > 0
-                       ? tr("%1 with the step %2").arg(name, shortNumber(number(step), 4))
-                       : tr("%1 with the tolerance %2").arg(name, shortNumber(number(tolerance), 4)));
+    emit pointUsed(step > 0 ? tr("%1 with the step %2").arg(name, shortNumber(step, 4))
+                            : tr("%1 with the tolerance %2").arg(name, shortNumber(tolerance, 4)));
 }
 
 }  // namespace extremal

@@ -87,6 +87,7 @@ StudyEntry cheapest() {
     e.summaryColumns = {"rank",        "scheme", "step",      "predicted cpu", "cpu seconds",
                         "evaluations", "error",  "tolerance", "status"};
     e.summary = summaryOfPrices;
+    e.summaryPoints = ranked;
     e.over = StudyEntry::Over::wantedError;
     return e;
 }

@@ -26,7 +26,7 @@ std::vector<Value::Array> rowsOfWork(const Sweep& sweep) {
 }
 
 /// What is worth its cost, the cheapest first.
-std::vector<Value::Array> summaryOfWork(const Sweep& sweep) {
+std::vector<const SweepRow*> frontOf(const Sweep& sweep) {
     const std::vector<SweepRow>& rows = sweep.rows();
     const std::vector<bool> front = paretoFront(rows);
     std::vector<const SweepRow*> best;
@@ -35,8 +35,12 @@ std::vector<Value::Array> summaryOfWork(const Sweep& sweep) {
     std::sort(best.begin(), best.end(), [](const SweepRow* a, const SweepRow* b) {
         return a->result.cpuSeconds < b->result.cpuSeconds;
     });
+    return best;
+}
+
+std::vector<Value::Array> summaryOfWork(const Sweep& sweep) {
     std::vector<Value::Array> all;
-    for (const SweepRow* row : best)
+    for (const SweepRow* row : frontOf(sweep))
         all.push_back({sweep.scene().scene.schemes[row->point.scheme].label, positiveNumber(row->point.step),
                        positiveNumber(row->point.tolerance), knownNumber(row->result.error),
                        knownNumber(row->result.cpuSeconds),
@@ -59,6 +63,7 @@ StudyEntry work_precision() {
     e.rows = rowsOfWork;
     e.summaryColumns = {"worth its cost", "step", "tolerance", "error", "cpu seconds", "evaluations"};
     e.summary = summaryOfWork;
+    e.summaryPoints = frontOf;
     return e;
 }
 

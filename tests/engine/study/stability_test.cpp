@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "engine/core/problem.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/stability_study.hpp"
+#include "tests/tools/pointer_of.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::stability_test {
@@ -28,15 +28,6 @@ StabilityOptions along(const std::string& x) {
     StabilityOptions options;
     options.x = parseAxis(x, "--x");
     return options;
-}
-
-std::string pointerOf(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const InvalidScene& e) {
-        return e.problems().front().pointer;
-    }
-    return "nothing thrown";
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/core/problem.hpp"
 #include "engine/run/error_floor.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
@@ -17,6 +16,7 @@
 #include "engine/study/pareto.hpp"
 #include "engine/study/study_log.hpp"
 #include "engine/study/sweep_log.hpp"
+#include "tests/tools/pointer_of.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::sweep_test {
@@ -57,15 +57,6 @@ std::vector<SweepRow> rowsWith(const std::vector<double>& errors) {
         h /= 2;
     }
     return rows;
-}
-
-std::string pointerOf(const std::function<void()>& work) {
-    try {
-        work();
-    } catch (const InvalidScene& e) {
-        return e.problems().front().pointer;
-    }
-    return "nothing thrown";
 }
 
 std::string contentOf(const std::filesystem::path& file) {
