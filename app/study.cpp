@@ -114,20 +114,22 @@ template <class Study>
 void writeResults(const StudyEntry& study, const Study& work, const std::vector<StudyTable>& tables,
                   const std::filesystem::path& folder, bool isPlotted) {
     for (const StudyTable& table : tables) writeFile(folder / (table.name + ".csv"), csvText(table));
-    const Figure figure = studyFigure(study.item.id, work);
-    if (!isPlotted || figure.view.empty()) return;
+    const std::vector<Figure> figures = studyFigures(study.item.id, work);
+    if (!isPlotted || figures.front().view.empty()) return;
     qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
     qputenv("QT_QPA_PLATFORM", "offscreen");
     int argc = 1;
     char program[] = "extremal";
     char* argv[] = {program, nullptr};
     const QApplication application(argc, argv);
-    for (const char* ending : {".svg", ".png"}) {
-        const std::filesystem::path file = folder / (study.item.id + ending);
-        const QString problem =
-            saveFigure(QString::fromStdString(file.string()), figure, {900, 640}, Theme::light(), 2);
-        if (!problem.isEmpty()) throw ExportError(file, problem.toStdString());
-    }
+    for (const Figure& figure : figures)
+        for (const char* ending : {".svg", ".png"}) {
+            const std::string& stem = &figure == &figures.front() ? study.item.id : figure.view;
+            const std::filesystem::path file = folder / (stem + ending);
+            const QString problem =
+                saveFigure(QString::fromStdString(file.string()), figure, {900, 640}, Theme::light(), 2);
+            if (!problem.isEmpty()) throw ExportError(file, problem.toStdString());
+        }
 }
 
 std::string cellText(const Value& value) {

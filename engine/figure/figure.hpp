@@ -69,6 +69,14 @@ struct Series {
 struct Guide {
     std::vector<double> x, y;  ///< NaN is a gap
     bool isStrong = false;
+    bool isBroad = false;  ///< a band of some width: what stands out
+};
+
+/// A faint area in the colour of a scheme: what its curve may be as well. A closed polygon.
+struct Area {
+    std::string label;  ///< the scheme's
+    int style = 0;
+    std::vector<double> x, y;
 };
 
 /// A word in the plane of the plot.
@@ -118,7 +126,7 @@ struct DoubtfulBand {
 };
 
 using Layer =
-    std::variant<Series, HeatMap, FailureMark, EventMarks, Guide, Label, RoundOffFloor, DoubtfulBand>;
+    std::variant<Series, HeatMap, FailureMark, EventMarks, Guide, Area, Label, RoundOffFloor, DoubtfulBand>;
 
 enum class Aspect {
     free,

@@ -7,6 +7,7 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/fit_axes.hpp"
+#include "engine/figure/region_figure.hpp"
 #include "engine/run/error_floor.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/convergence.hpp"
@@ -20,8 +21,8 @@ std::string errorTitle(const Sweep& sweep) {
         sweep.metric().observable->bind({*sweep.scene().system, sweep.scene().initial, {}});
     const Column& column = observer.columns[static_cast<std::size_t>(observer.extreme)];
     const std::string symbol = column.symbol.empty() ? column.name : column.symbol;
-    return axisTitle((sweep.metric().isAtEnd ? "|" + symbol + "| at the end" : "max |" + symbol + "|"),
-                     column.unit);
+    const std::string size = symbol.starts_with("|") ? symbol : "|" + symbol + "|";
+    return axisTitle(sweep.metric().isAtEnd ? size + " at the end" : "max " + size, column.unit);
 }
 
 Figure startOf(const Sweep& sweep, const char* view, const char* title) {
@@ -30,6 +31,8 @@ Figure startOf(const Sweep& sweep, const char* view, const char* title) {
     figure.title = title;
     figure.y = logAxis(errorTitle(sweep));
     if (const double floor = referenceFloor(sweep.reference()); floor > 0) figure.add(DoubtfulBand{floor});
+    if (sweep.metric().observable->needsReference)
+        figure.add(RoundOffFloor{0x1p-52 * largestEntry(sweep.scene().initial)});
     return figure;
 }
 
@@ -109,6 +112,47 @@ Figure convergenceFigure(const Sweep& sweep) {
     return figure;
 }
 
+namespace {
+
+/// What the times of a scheme may be as well, by their repetitions.
+Area noiseOf(const Sweep& sweep, const SchemeRows& scheme) {
+    Area area;
+    const SchemeSpec& spec = sweep.scene().scene.schemes[scheme.scheme];
+    area.label = spec.label;
+    area.style = styleOf(spec, scheme.scheme);
+    std::vector<const PointResult*> shown;
+    for (const auto& [point, result] : scheme.rows)
+        if (result.isDone() && result.cpuSpread > 0 && result.error > 0) shown.push_back(&result);
+    for (const PointResult* r : shown) {
+        area.x.push_back(std::max(r->cpuSeconds - r->cpuSpread, r->cpuSeconds / 4));
+        area.y.push_back(r->error);
+    }
+    std::reverse(shown.begin(), shown.end());
+    for (const PointResult* r : shown) {
+        area.x.push_back(r->cpuSeconds + r->cpuSpread);
+        area.y.push_back(r->error);
+    }
+    return area;
+}
+
+/// Triangles whose long sides fall as the error of orders 2, 4 and 8 does with the work, in the corner where
+/// no curve is: accurate and cheap.
+void addOrderTriangles(Figure& figure) {
+    if (!figure.x.range || !figure.y.range) return;
+    const auto [left, right] = *figure.x.range;
+    const auto [low, high] = *figure.y.range;
+    const double width = std::pow(right / left, 0.05), height = std::log(high / low);
+    const double foot = left * std::pow(right / left, 0.13), bottom = low * std::exp(0.06 * height);
+    for (const int order : {2, 4, 8}) {
+        const double top = bottom * std::pow(width, order);
+        if (std::log(top / bottom) > 0.5 * height) break;
+        figure.add(Guide{{foot, foot / width, foot / width, foot}, {bottom, bottom, top, bottom}, true});
+        figure.add(Label{foot / std::pow(width, 1.25), top, std::to_string(order)});
+    }
+}
+
+}  // namespace
+
 Figure workPrecisionFigure(const Sweep& sweep) {
     Figure figure = startOf(sweep, "work-precision", "Speed against accuracy");
     figure.x = logAxis(axisTitle("CPU time", "s"));
@@ -121,6 +165,7 @@ Figure workPrecisionFigure(const Sweep& sweep) {
                 s.y.push_back(result.error);
             }
         if (s.x.empty()) continue;
+        if (Area noise = noiseOf(sweep, scheme); noise.x.size() > 2) figure.add(std::move(noise));
         figure.add(std::move(s));
     }
     const std::vector<SweepRow>& rows = sweep.rows();
@@ -131,14 +176,15 @@ Figure workPrecisionFigure(const Sweep& sweep) {
             front.emplace_back(rows[i].result.cpuSeconds, rows[i].result.error);
     std::sort(front.begin(), front.end());
     Guide guide;
-    guide.isStrong = true;
+    guide.isBroad = true;
     for (const auto& [x, y] : front) {
         guide.x.push_back(x);
         guide.y.push_back(y);
     }
     if (guide.x.size() > 1) figure.add(std::move(guide));
-    figure.subtitle = "lower left is better; the front behind the curves is what is worth its cost";
+    figure.subtitle = "lower left is better; on the broad line is what is worth its cost";
     finish(figure, "Errors against CPU time");
+    addOrderTriangles(figure);
     return figure;
 }
 
@@ -283,6 +329,10 @@ Figure studyFigure(std::string_view study, const LinearStudy& linear) {
     finish(figure, "Amplification of one step over h ω");
     figure.y.range = {0.5, 4};  // what grows faster is unstable all the same
     return figure;
+}
+
+std::vector<Figure> studyFigures(std::string_view study, const LinearStudy& linear) {
+    return {studyFigure(study, linear), regionFigure(linear)};
 }
 
 }  // namespace extremal

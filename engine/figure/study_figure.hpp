@@ -2,6 +2,9 @@
 /// and exports share.
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "engine/figure/figure.hpp"
 #include "engine/study/extremes_study.hpp"
 #include "engine/study/linear_study.hpp"
@@ -24,5 +27,13 @@ Figure studyFigure(std::string_view study, const StabilityStudy& stability);
 Figure studyFigure(std::string_view study, const LinearStudy& linear);
 /// It has none.
 inline Figure studyFigure(std::string_view, const ExtremesStudy&) { return {}; }
+
+/// All plots of a study, the one above first; those behind it are named by their views.
+template <class Study>
+std::vector<Figure> studyFigures(std::string_view study, const Study& work) {
+    return {studyFigure(study, work)};
+}
+/// With the regions of stability.
+std::vector<Figure> studyFigures(std::string_view study, const LinearStudy& linear);
 
 }  // namespace extremal

@@ -19,10 +19,14 @@
 #include "engine/run/march_grid.hpp"
 #include "engine/run/reuse.hpp"
 #include "engine/run/row_sampler.hpp"
+#include "engine/run/timing.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 namespace {
+
+/// Of runs too short to be timed by themselves.
+constexpr TimingPlan shortRun{3, 1e-3, 3e-3, 100};
 
 /// Every m-th value from the first, and the last.
 std::vector<double> thinned(const std::vector<double>& values, std::size_t m) {
@@ -316,9 +320,14 @@ struct SchemeRun::Recording {
             return true;
         }});
         const MarchGrid grid = marchGrid(scene, scheme, step);
+        const auto fresh = integrator->clone();
         warmUp(*integrator, state, grid, stop);
         Judge judge(system, initialNode, step);
-        const MarchReport report = march(*integrator, state, grid, sinks, stop, &judge);
+        MarchReport report = march(*integrator, state, grid, sinks, stop, &judge);
+        if (report.outcome == Outcome::converged && report.cpuSeconds < shortRun.shortest)
+            if (const Timing timing = timeRuns(*fresh, initialNode, grid, report.cpuSeconds, shortRun, stop);
+                std::isfinite(timing.seconds))
+                report.cpuSeconds = timing.seconds;
         if (!isLastNodeRow)
             recordAlone(state, report.last, report.lastQuantities, static_cast<double>(state.node));
         if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <memory>
 #include <numbers>
 #include <optional>
 
 #include "engine/core/problem.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/study/one_step.hpp"
 
 namespace extremal {
 namespace {
@@ -27,23 +27,21 @@ public:
         const ReadScene problemRead = readScene(problem);
         Value document = toValue(problemRead.scene);
         Value own = toValue(scene).find("schemes")->asArray()[scheme];
-        if (!own.find("step")) throw InvalidScene("", "it chooses its steps by their errors");
-        own.set("step", 1.0);
+        if (own.find("step")) own.set("step", 1.0);
         own.set("enabled", true);
         own.set("allow_unstable", true);
         document.set("schemes", Value::Array{own});
         const ReadScene read = readScene(document);
         if (!read.resolved) throw InvalidScene("", read.errors.front().message);
         scene_ = *read.resolved;
-        if (!resolved().isFixed()) throw InvalidScene("", "it chooses its own steps");
         start_ = initialOf(scene_, resolved());
-        integrator_ = resolved().make(*systemOf(scene_, resolved()), 1, start_);
+        step_.emplace(resolved(), *systemOf(scene_, resolved()), 1, start_);
     }
 
     Point at(double z) {
         Point point;
         point.z = z;
-        integrator_->setStep(z / frequency_);
+        step_->setStep(z / frequency_);
         if (isWave(*systemOf(scene_, resolved())))
             ofWaves(point);
         else
@@ -51,18 +49,19 @@ public:
         return point;
     }
 
-private:
     const ResolvedScheme& resolved() const { return scene_.schemes.front(); }
 
-    bool step(State& state) { return advance(*integrator_, state).outcome == Outcome::converged; }
+private:
+    bool step(State& state) { return step_->take(state); }
 
     void ofOscillator(Point& point) {
         double M[2][2];
         for (const int column : {0, 1}) {
             State state = start_;
             state.x = {column == 0 ? 1.0 : 0.0, column == 1 ? 1.0 : 0.0};
-            integrator_->begin(state);
-            if (!state.memory.empty()) throw InvalidScene("", "its steps depend on more than the state");
+            step_->begin(state);
+            if (resolved().isFixed() && !state.memory.empty())
+                throw InvalidScene("", "its steps depend on more than the state");
             if (!step(state)) return;
             for (const int row : {0, 1}) M[row][column] = state.x[static_cast<std::size_t>(row)];
         }
@@ -79,7 +78,7 @@ private:
 
     void ofWaves(Point& point) {
         State state = start_;
-        integrator_->begin(state);
+        step_->begin(state);
         // Both roots of a scheme with levels are to be seen, not the physical one alone that it starts with.
         if (!state.memory.empty() && !step(state)) return;
         for (double& v : state.memory) v *= 0.7;
@@ -124,7 +123,7 @@ private:
     double frequency_;
     ResolvedScene scene_;
     State start_;
-    std::unique_ptr<Integrator> integrator_;
+    std::optional<OneStep> step_;
 };
 
 TestEquation testEquation(const Scene& scene, std::size_t scheme, const System& system) {
@@ -162,6 +161,16 @@ void findLimit(TestEquation& equation, LinearStability& result, const std::stop_
     }
 }
 
+LinearRegion regionOf(const ResolvedScheme& scheme, const std::stop_token& stop) {
+    try {
+        return linearRegion(scheme, stop);
+    } catch (const InvalidScene& e) {
+        LinearRegion none;
+        none.reason = e.problems().front().message;
+        return none;
+    }
+}
+
 }  // namespace
 
 LinearStability linearStability(const Scene& scene, std::size_t scheme, const std::stop_token& stop) {
@@ -172,6 +181,7 @@ LinearStability linearStability(const Scene& scene, std::size_t scheme, const st
         for (int i = 1; i <= parts && !stop.stop_requested(); ++i)
             result.points.push_back(equation.at(4 * std::numbers::pi * i / parts));
         findLimit(equation, result, stop);
+        result.region = regionOf(equation.resolved(), stop);
     } catch (const InvalidScene& e) {
         result.points.clear();
         result.reason = e.problems().front().message;

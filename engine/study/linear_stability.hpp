@@ -11,9 +11,10 @@
 ///     amplification   max |r|: 1 of a stable symplectic scheme, below 1 of one that damps
 ///     phase error     (arg r - z)/z of the physical eigenvalue, arg continued beyond pi
 ///
-/// A step is stable where max |r| <= 1 + 10^-6. The limit is the first z from which it is not: looked for
-/// in steps of 0.01 up to z = 20 and by 5 % up to 10^4, then bisected to round-off. Narrow intervals of
-/// instability between may be missed.
+/// Of schemes with an error control it is the step of the formula, whatever the error. A step is stable where
+/// max |r| <= 1 + 10^-6. The limit is the first z from which it is not: looked for in steps of 0.01 up to z =
+/// 20 and by 5 % up to 10^4, then bisected to round-off. Narrow intervals of instability between may be
+/// missed.
 #pragma once
 
 #include <limits>
@@ -22,6 +23,7 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
+#include "engine/study/linear_region.hpp"
 
 namespace extremal {
 
@@ -35,6 +37,7 @@ struct LinearStability {
     bool hasLimit = false;                 ///< else it is stable as far as was looked
     double low = unknown, high = unknown;  ///< stable at low, not at high; low 0: not even at z = 0.01
     std::string reason;                    ///< why there is nothing, where the scheme has no linear step
+    LinearRegion region;                   ///< over complex z
 
     double limit() const { return hasLimit ? (low + high) / 2 : std::numeric_limits<double>::infinity(); }
 };

@@ -56,13 +56,19 @@ std::optional<std::size_t> takeLine(const std::string& line, LinearStudy& linear
     LinearStability result;
     if (cells.front() == "refused") {
         result.reason = line.substr(line.find(',', line.find(',') + 1) + 1);
-    } else if (cells.front() == "scheme" && cells.size() % 3 == 1) {
+    } else if (cells.front() == "scheme" && cells.size() >= 5) {
         result.low = cellNumber(cells[2]);
         result.high = cellNumber(cells[3]);
         result.hasLimit = result.high == result.high;
-        for (std::size_t i = 4; i < cells.size(); i += 3)
+        const std::size_t region = 5 + 3 * cellIndex(cells[4]);
+        const std::size_t size = static_cast<std::size_t>(LinearRegion::columns * LinearRegion::rows);
+        if (cells.size() != region && cells.size() != region + 3 * size) return {};
+        for (std::size_t i = 5; i < region; i += 3)
             result.points.push_back(
                 {cellNumber(cells[i]), cellNumber(cells[i + 1]), cellNumber(cells[i + 2])});
+        for (std::size_t i = region; i < cells.size(); i += 3)
+            result.region.points.push_back(
+                {cellNumber(cells[i]), cellNumber(cells[i + 1]), cells[i + 2] == "1"});
     } else {
         return {};
     }
@@ -81,9 +87,12 @@ void runLines(LinearStudy& linear, const std::function<void(const std::string&)>
                 onLine("refused," + std::to_string(i) + ',' + reason);
                 return;
             }
-            std::string line = "scheme," + std::to_string(i) + cellsText({r.low, r.high});
+            std::string line = "scheme," + std::to_string(i) + cellsText({r.low, r.high}) + ',' +
+                               std::to_string(r.points.size());
             for (const LinearStability::Point& p : r.points)
                 line += cellsText({p.z, p.amplification, p.phaseError});
+            for (const LinearRegion::Point& p : r.region.points)
+                line += cellsText({p.amplification, p.phaseError}) + (p.isOnCut ? ",1" : ",");
             onLine(line);
         },
         stop);

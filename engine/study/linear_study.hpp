@@ -2,7 +2,8 @@
 /// (linear_stability.hpp). Each scheme is one point; its lines in the log:
 ///
 ///     {"extremal": 1, "study": "linear-stability", "options": {..}, "scene": "<fingerprint>"}
-///     scheme,<index>,<low>,<high>,<z>,<amplification>,<phase error>,<z>,...
+///     scheme,<index>,<low>,<high>,<points>,<z>,<amplification>,<phase error>,<z>,..., then of the region, if
+///            it has one, <amplification>,<phase error>,<1 on a cut>,...
 ///     refused,<index>,<reason>
 #pragma once
 

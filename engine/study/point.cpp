@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"
+#include "engine/run/timing.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -92,25 +93,11 @@ public:
 
     /// `first`: what the measured run took, observers apart.
     void time(int repeat, double first, PointResult& result) const {
-        const auto together =
-            static_cast<int>(std::clamp(std::ceil(shortest / std::max(first, 1e-7)), 1.0, 1e4));
-        std::vector<double> times;
-        double all = 0;
-        for (int i = 0; i < repeat && all < longest && !stop_.stop_requested(); ++i) {
-            double sum = 0;
-            for (int k = 0; k < together && !stop_.stop_requested(); ++k) {
-                const auto integrator = integrator_->clone();
-                State state = start_;
-                sum += march(*integrator, state, grid_, {}, stop_).cpuSeconds;
-            }
-            times.push_back(sum / together);
-            all += sum;
-        }
-        if (times.empty() || stop_.stop_requested()) return;
-        std::sort(times.begin(), times.end());
-        const std::size_t half = times.size() / 2;
-        result.cpuSeconds = times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2;
-        result.cpuSpread = (times.back() - times.front()) / 2;
+        const Timing timing =
+            timeRuns(*integrator_, start_, grid_, first, {repeat, shortest, longest}, stop_);
+        if (std::isnan(timing.seconds)) return;
+        result.cpuSeconds = timing.seconds;
+        result.cpuSpread = timing.spread;
     }
 
 private:

@@ -5,6 +5,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/run/judge.hpp"
 #include "engine/run/march.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/scene/codec.hpp"
@@ -86,13 +87,20 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
     const std::size_t size = start.x.size();
     const double first = energy ? energy(start.t, start.x.data()) : 0, norm = sizeOf(start.x.data(), size);
     EnergyLine line;
-    bool isLarge = false;
-    double last = norm, lastTime = start.t;
+    Judge judge(system, start, step);
+    bool isLarge = false, isOut = false;
+    double last = norm, lastTime = start.t, leftAt = start.t;
     const MarchSink look{[&](const Stretch& stretch) {
         for (std::size_t i = 0; i < stretch.nodes.size() && !isLarge; ++i) {
             last = sizeOf(stretch.nodes.x(i), size);
             lastTime = stretch.nodes.t(i);
             isLarge = norm > 0 && last > blowUp * norm;
+            // Near a limit of stability energies go far, and come back; a motion that was left does not.
+            if (isOut || judge.looksAt(stretch.nodes.node(i))) {
+                const bool wasOut = isOut;
+                isOut = !judge.isSound(lastTime, stretch.nodes.x(i));
+                if (isOut && !wasOut) leftAt = lastTime;
+            }
             if (energy) line.add(stretch.nodes.t(i), energy(stretch.nodes.t(i), stretch.nodes.x(i)) - first);
         }
         return !isLarge;
@@ -106,13 +114,15 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
     if (duration > 0 && norm > 0 && last > 0) r.growth = std::log(last / norm) / duration;
     if (energy) r.maxEnergyError = line.largest;
     r.cause = report.outcome;
-    if (isLarge || report.outcome == Outcome::notFinite)
+    const bool isLost = report.outcome == Outcome::converged && (isOut || judge.hasGained());
+    if (isLost) r.cause = Outcome::lost;
+    if (isLarge || isLost || report.outcome == Outcome::notFinite)
         r.kind = StabilityClass::blowUp;
     else if (report.outcome != Outcome::converged)
         r.kind = StabilityClass::solverFailed;
     else
         r.kind = line.drifts(duration, std::abs(first)) ? StabilityClass::drifting : StabilityClass::stable;
-    if (!r.isBounded()) r.failedAt = lastTime;
+    if (!r.isBounded()) r.failedAt = isLost && isOut && !isLarge ? leftAt : lastTime;
     return r;
 }
 

@@ -1,9 +1,11 @@
 /// How a scheme behaves where one or two numbers of a scene vary: stable, drifting, blowing up, or failing.
 ///
-///     blow-up        a state that is not finite, or larger than 10^6 times its size at the start
+///     blow-up        a state that is not finite, or larger than 10^6 times its size at the start, or a
+///                    motion that was lost (run/judge.hpp) and has not come back by the end
 ///     solver-failed  a step that found no solution
 ///     drifting       the line through the energy errors rises, over the run, by more than twice their
-///     scatter stable         anything else
+///                    scatter
+///     stable         anything else
 ///
 /// Growth is log(|x_end| / |x_start|) per unit of time, up to where the run ended. The limit along an axis is
 /// the first value from which the scheme no longer keeps to a bounded band (blow-up or solver-failed): found

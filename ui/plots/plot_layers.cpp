@@ -123,6 +123,7 @@ void CurvesLayer::draw(QCPPainter* painter) {
     drawHeat(*painter, map);
     drawFloor(*painter, map);
     drawGuides(*painter, map);
+    drawAreas(*painter, map);
     const Series* highlighted = nullptr;
     for (const Series& s : shared_.figure.series()) {
         if (!shared_.isShown(s)) continue;
@@ -255,10 +256,24 @@ void CurvesLayer::drawFloor(QCPPainter& painter, const PixelMap& map) const {
     }
 }
 
+void CurvesLayer::drawAreas(QCPPainter& painter, const PixelMap& map) const {
+    painter.setPen(Qt::NoPen);
+    for (const Area& area : shared_.figure.all<Area>()) {
+        if (shared_.hidden.contains(QString::fromStdString(area.label))) continue;
+        QPolygonF polygon;
+        for (std::size_t i = 0; i < area.x.size(); ++i) polygon << map(area.x[i], area.y[i]);
+        QColor tint = shared_.colorOf(area.style);
+        tint.setAlphaF(0.18f);
+        painter.setBrush(tint);
+        painter.drawPolygon(polygon);
+    }
+    painter.setBrush(Qt::NoBrush);
+}
+
 void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
     for (const Guide& guide : shared_.figure.all<Guide>()) {
-        const QPen pen(guide.isStrong ? shared_.theme.muted : shared_.theme.line, 1, Qt::SolidLine,
-                       Qt::FlatCap, Qt::BevelJoin);
+        const QPen pen(guide.isStrong ? shared_.theme.muted : shared_.theme.line, guide.isBroad ? 9 : 1,
+                       Qt::SolidLine, Qt::FlatCap, guide.isBroad ? Qt::RoundJoin : Qt::BevelJoin);
         drawVisible(painter, pen, visibleCurve(guide.x, guide.y, map, shared_.density), map);
     }
     painter.setFont(shared_.theme.caption());

@@ -40,6 +40,7 @@ private:
     void drawFloor(QCPPainter& painter, const PixelMap& map) const;
     double hiddenBy(const QRectF& box, const PixelMap& map) const;
     void drawKey(QCPPainter& painter, const PixelMap& map) const;
+    void drawAreas(QCPPainter& painter, const PixelMap& map) const;
     void drawGuides(QCPPainter& painter, const PixelMap& map) const;
     void drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const;
     void drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const;

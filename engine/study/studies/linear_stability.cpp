@@ -1,4 +1,5 @@
-/// What one step makes of the linear test equation: linear-stability.csv, linear-stability-limits.csv.
+/// What one step makes of the linear test equation: linear-stability.csv, linear-stability-limits.csv,
+/// linear-stability-region.csv.
 #include "engine/core/known_value.hpp"
 #include "engine/study/catalog.hpp"
 
@@ -24,6 +25,21 @@ StudyTable linearLimits(const LinearStudy& study, bool isForPeople) {
     return table;
 }
 
+/// The lower half of the plane is its mirror image.
+StudyTable regionsOf(const LinearStudy& study) {
+    StudyTable table{"linear-stability-region", {"label", "re", "im", "amplification", "phase_error"}, {}};
+    for (const LinearStudy::Row& row : study.rows()) {
+        if (row.result.region.points.empty()) continue;
+        for (int column = 0; column < LinearRegion::columns; ++column)
+            for (int at = 0; at < LinearRegion::rows; ++at) {
+                const LinearRegion::Point& p = row.result.region.at(column, at);
+                table.rows.push_back({labelOf(study, row), LinearRegion::re(column), LinearRegion::im(at),
+                                      knownNumber(p.amplification), knownNumber(p.phaseError)});
+            }
+    }
+    return table;
+}
+
 }  // namespace
 
 std::vector<StudyTable> tablesOf(const StudyEntry& study, const LinearStudy& linear) {
@@ -32,7 +48,7 @@ std::vector<StudyTable> tablesOf(const StudyEntry& study, const LinearStudy& lin
         for (const LinearStability::Point& p : row.result.points)
             points.rows.push_back({labelOf(linear, row), p.z, knownNumber(p.amplification),
                                    knownNumber(p.phaseError), p.isStable()});
-    return {std::move(points), linearLimits(linear, false)};
+    return {std::move(points), linearLimits(linear, false), regionsOf(linear)};
 }
 
 StudyTable summaryOf(const StudyEntry&, const LinearStudy& linear) {
@@ -45,13 +61,14 @@ namespace studies {
 
 StudyEntry linear_stability() {
     StudyEntry e;
-    e.item = {"linear-stability",
-              "Linear stability",
-              "Amplification and phase error of one step on the linear test equation over h w, and the limit "
-              "of stability, computed from the scheme itself.",
-              {},
-              {},
-              ""};
+    e.item = {
+        "linear-stability",
+        "Linear stability",
+        "Amplification and phase error of one step on the linear test equation, over h w and over complex "
+        "h lambda, and the limit of stability, computed from the scheme itself.",
+        {},
+        {},
+        ""};
     e.over = StudyEntry::Over::testEquation;
     e.columns = {"label", "h_omega", "amplification", "phase_error", "stable"};
     return e;

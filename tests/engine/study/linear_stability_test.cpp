@@ -2,6 +2,8 @@
 #include <QTest>
 
 #include <cmath>
+#include <complex>
+#include <functional>
 #include <numbers>
 
 #include "engine/scene/codec.hpp"
@@ -18,6 +20,21 @@ Scene sceneWith(const std::string& schemes, const std::string& model = R"("pendu
     for (const Problem& p : read.errors) qWarning("%s: %s", p.pointer.c_str(), p.message.c_str());
     return read.scene;
 }
+
+using Complex = std::complex<double>;
+
+LinearRegion regionOf(const std::string& scheme) { return linearStability(sceneWith(scheme), 0, {}).region; }
+
+/// sum_k c_k z^k
+Complex polynomial(const std::vector<double>& c, Complex z) {
+    Complex sum = 0;
+    for (auto each = c.rbegin(); each != c.rend(); ++each) sum = sum * z + *each;
+    return sum;
+}
+
+/// The stability function of an explicit method of order p with p stages, and of Dormand-Prince 5.
+const std::vector<double> rk4{1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24},
+    dopri5{1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 600};
 
 const std::string wave =
     R"json("schrodinger","modes":32,"potential":"cos(x)"},"initial":{"psi":{"packet":"gaussian","centre":3,
@@ -77,16 +94,70 @@ private slots:
                                                                 square * square * square * square / 576)) <
                 1e-13);
     }
+    void regionsAreThoseOfTheory() {
+        const std::pair<const char*, std::function<Complex(Complex)>> cases[] = {
+            {R"({"step":0.01,"baseline":"rk4"})", [](Complex z) { return polynomial(rk4, z); }},
+            {R"({"tolerance":1e-6,"baseline":"dopri5"})", [](Complex z) { return polynomial(dopri5, z); }},
+            {R"({"step":0.01,"scheme":"midpoint"})",
+             [](Complex z) { return (1.0 + z / 2.0) / (1.0 - z / 2.0); }},
+            {R"({"step":0.01,"scheme":"galerkin-gauss-2"})",
+             [](Complex z) { return (1.0 + z / 2.0 + z * z / 12.0) / (1.0 - z / 2.0 + z * z / 12.0); }},
+        };
+        for (const auto& [scheme, r] : cases) {
+            const LinearRegion region = regionOf(scheme);
+            QCOMPARE(region.points.size(), static_cast<std::size_t>(region.columns * region.rows));
+            double worst = 0;
+            for (int column = 0; column < region.columns; ++column)
+                for (int row = 0; row < region.rows; ++row) {
+                    const Complex z{region.re(column), region.im(row)};
+                    const LinearRegion::Point& p = region.at(column, row);
+                    QVERIFY(!p.isOnCut);
+                    // Round-off is that of the eigenvalue exp(-z) that stands beside it.
+                    const double size = std::abs(r(z)), other = std::abs(r(-z));
+                    worst = std::max(worst, std::abs(p.amplification - size) / std::max({size, other, 1.0}));
+                    if (z != 0.0 && size > 0.1)
+                        QVERIFY(std::abs(std::polar(1.0, p.phaseError * std::abs(z) + z.imag()) -
+                                         r(z) / size) < 1e-9 * std::max(1.0, other / size));
+                }
+            qInfo("%s: %.2g", scheme, worst);
+            QVERIFY(worst < 5e-14);  // 7.6e-15
+        }
+    }
+    void splittingsKeepAnInterval() {
+        // r + 1/r = 2 + z^2: inside on the left, and on the imaginary axis up to 2.
+        const LinearRegion region = regionOf(R"({"step":0.01,"baseline":"stormer-verlet"})");
+        for (int column = 0; column < region.columns; ++column)
+            for (int row = 0; row < region.rows; ++row) {
+                const LinearRegion::Point& p = region.at(column, row);
+                const double re = region.re(column), im = region.im(row);
+                QCOMPARE(p.isOnCut, re == 0 && im > 2);
+                if (re == 0 && im < 2)
+                    QVERIFY(std::abs(p.amplification - 1) < 1e-12);
+                else
+                    QVERIFY(re < 0 ? p.amplification < 1 : p.amplification > 1);
+            }
+    }
+    void formulasWithAnErrorControlHaveALimit() {
+        const LinearStability r =
+            linearStability(sceneWith(R"({"tolerance":1e-6,"baseline":"dopri5"})"), 0, {});
+        QCOMPARE(r.reason, "");
+        const auto size = [](double z) { return std::abs(polynomial(dopri5, {0, z})); };
+        qInfo("%.9g", r.limit());
+        QVERIFY(size(r.low) <= 1 + 1e-6 && size(r.high) > 1 + 1e-6 - 1e-14);
+    }
     void whatHasNoLinearStepSaysWhy() {
         const auto reasonOf = [](const std::string& scheme) {
             return linearStability(sceneWith(scheme), 0, {}).reason;
         };
-        QVERIFY(!reasonOf(R"({"tolerance":1e-6,"baseline":"dopri5"})").empty());
+        QVERIFY(!reasonOf(R"({"tolerance":1e-6,"baseline":"bulirsch-stoer"})").empty());
         QVERIFY(!reasonOf(R"({"step":0.1,"scheme":"sem-1"})").empty());
+        const LinearStability waves =
+            linearStability(sceneWith(R"({"step":0.001,"scheme":"schrodinger-gauss-2"})", wave), 0, {});
+        QVERIFY(waves.region.points.empty() && !waves.region.reason.empty());
     }
     void aStudyIsReadBackFromItsLines() {
-        const ReadScene read = readScene(
-            toValue(sceneWith(R"({"step":0.01,"baseline":"rk4"},{"tolerance":1e-6,"baseline":"dopri5"})")));
+        const ReadScene read = readScene(toValue(
+            sceneWith(R"({"step":0.01,"baseline":"rk4"},{"tolerance":1e-6,"baseline":"bulirsch-stoer"})")));
         LinearStudy study(*read.resolved, {}), again(*read.resolved, {});
         runLines(study, [&](const std::string& line) { QVERIFY(takeLine(line, again)); }, {});
         QVERIFY(study.isComplete() && again.isComplete());

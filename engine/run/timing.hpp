@@ -1,0 +1,32 @@
+/// What a run costs, from repetitions of it without observers.
+///
+/// A single short run says little: the clock of a thread has a grain, caches and branches are cold, and a
+/// page of memory that is met for the first time costs more than many a step. Repetitions of one measurement
+/// follow each other until it is long enough; of several measurements the median counts.
+#pragma once
+
+#include <limits>
+#include <stop_token>
+
+#include "engine/run/march.hpp"
+
+namespace extremal {
+
+struct Timing {
+    double seconds = std::numeric_limits<double>::quiet_NaN();  ///< of one run: the median
+    double spread = seconds;  ///< half the distance between the fastest and the slowest measurement
+};
+
+struct TimingPlan {
+    int repeat = 5;          ///< measurements
+    double shortest = 2e-3;  ///< CPU seconds of one measurement
+    double longest = 2;      ///< of all of them: slow runs have fewer
+    int together = 10000;    ///< at most, repetitions of one measurement
+};
+
+/// CPU seconds of the steps. `integrator` is as it was before a run, and stays so. `first`: about what a run
+/// takes. Unknown where it was stopped.
+Timing timeRuns(const Integrator& integrator, const State& start, const MarchGrid& grid, double first,
+                const TimingPlan& plan, const std::stop_token& stop);
+
+}  // namespace extremal
