@@ -62,7 +62,8 @@ struct Series {
     /// The samples are too far apart to be joined: between them the curve turns in a way that they do not
     /// tell.
     bool isSparse = false;
-    int hidden = 0;  ///< values a log axis cannot show (<= 0) or that are not finite
+    int hidden = 0;                      ///< values a log axis cannot show (<= 0) or that are not finite
+    std::vector<std::size_t> rows = {};  ///< of a study: which of its rows each point is; else empty
 };
 
 /// A faint line behind the series: a contour, an outline.
@@ -95,8 +96,10 @@ struct HeatMap {
     /// Title of a logarithmic scale beside the plot; low and high are positive, cells sharp, of equal size on
     /// the axes as they are (equal ratios on logarithmic ones). Empty: no scale.
     std::string scale = {};
-    std::vector<std::string> faults = {};  ///< with a scale: why a cell has no value ("blow-up"), else empty
-    std::vector<double> xs, ys;            ///< with a scale: what the columns and rows stand for
+    /// With a scale: what there is to say of a cell beside its value ("drifting"), or why it has none
+    /// ("blow-up"); else empty.
+    std::vector<std::string> faults = {};
+    std::vector<double> xs, ys;  ///< with a scale: what the columns and rows stand for
 };
 
 /// A scheme that ended early: where, and why.

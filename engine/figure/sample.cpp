@@ -90,7 +90,8 @@ std::optional<HeatCell> cellAt(const Figure& figure, double x, double y) {
     std::string text = withTitle(figure.x.title, formatNumber(heat.xs[c], 6)) + ", " +
                        withTitle(figure.y.title, formatNumber(heat.ys[r], 6)) + "\n";
     if (hasValue)
-        text += withTitle(heat.scale, formatNumber(heat.values[i], 3));
+        text += withTitle(heat.scale, formatNumber(heat.values[i], 3)) +
+                (heat.faults[i].empty() ? "" : ", " + heat.faults[i]);
     else
         text += heat.faults[i].empty() ? "not known" : heat.faults[i];
     return HeatCell{c, r, heat.xs[c], heat.ys[r], std::move(text)};

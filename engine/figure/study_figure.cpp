@@ -9,6 +9,7 @@
 #include "engine/figure/fit_axes.hpp"
 #include "engine/figure/region_figure.hpp"
 #include "engine/run/error_floor.hpp"
+#include "engine/scene/map_grid.hpp"
 #include "engine/study/catalog.hpp"
 #include "engine/study/convergence.hpp"
 #include "engine/study/pareto.hpp"
@@ -97,10 +98,11 @@ Figure convergenceFigure(const Sweep& sweep) {
     for (const SchemeRows& scheme : bySchemes(sweep)) {
         const OrderFit& fit = *next++;
         Series s = curveOf(sweep, scheme);
-        for (const auto& [point, result] : scheme.rows)
-            if (point.step > 0 && result.isDone()) {
-                s.x.push_back(point.step);
-                s.y.push_back(result.error);
+        for (const SweepRow& row : scheme.rows)
+            if (row.point.step > 0 && row.result.isDone()) {
+                s.x.push_back(row.point.step);
+                s.y.push_back(row.result.error);
+                s.rows.push_back(static_cast<std::size_t>(&row - sweep.rows().data()));
             }
         if (s.x.empty()) continue;
         if (fit.isKnown()) s.label += ": " + shortNumber(fit.order, 3);
@@ -159,10 +161,11 @@ Figure workPrecisionFigure(const Sweep& sweep) {
     for (const SchemeRows& scheme : bySchemes(sweep)) {
         Series s = curveOf(sweep, scheme);
         s.kind = SeriesKind::markedCurve;
-        for (const auto& [point, result] : scheme.rows)
-            if (result.isDone()) {
-                s.x.push_back(result.cpuSeconds);
-                s.y.push_back(result.error);
+        for (const SweepRow& row : scheme.rows)
+            if (row.result.isDone()) {
+                s.x.push_back(row.result.cpuSeconds);
+                s.y.push_back(row.result.error);
+                s.rows.push_back(static_cast<std::size_t>(&row - sweep.rows().data()));
             }
         if (s.x.empty()) continue;
         if (Area noise = noiseOf(sweep, scheme); noise.x.size() > 2) figure.add(std::move(noise));
@@ -195,24 +198,35 @@ Figure studyFigure(std::string_view study, const Sweep& sweep) {
 
 namespace {
 
-Axis axisOf(const VariedNumber& number) {
-    Axis axis = number.isLog ? logAxis(number.pointer) : Axis{};
-    axis.title = number.pointer;
+/// "k  [N/m]" of a number of the model, "step h  [s]"; else its place in the scene.
+std::string titleOf(const VariedNumber& number, const StabilityStudy& study) {
+    for (const ModelParameter& p : parametersOf(study.scene().scene))
+        if (p.pointer == number.pointer) return axisTitle(p.symbol, p.unit);
+    if (number.pointer.starts_with("/schemes/") && number.pointer.ends_with("/step"))
+        return axisTitle("step h", study.scene().system->timeUnit);
+    return number.pointer;
+}
+
+Axis axisOf(const VariedNumber& number, const StabilityStudy& study) {
+    Axis axis = number.isLog ? logAxis({}) : Axis{};
+    axis.title = titleOf(number, study);
     return axis;
 }
 
 /// Energy errors against the number that varies; a gap where a run was not bounded, with a mark at its edge.
 Figure alongX(const StabilityStudy& study) {
     Figure figure;
-    figure.x = axisOf(study.options().x);
+    figure.x = axisOf(study.options().x, study);
     figure.y = logAxis(axisTitle("max |H - H(0)|", study.scene().system->energyUnit));
     for (std::size_t scheme = 0; scheme < study.scene().scene.schemes.size(); ++scheme) {
         Series s;
         s.label = study.scene().scene.schemes[scheme].label;
         s.style = styleOf(study.scene().scene.schemes[scheme], scheme);
         s.kind = SeriesKind::markedLine;
-        for (const StabilityStudy::Row& row : study.rows()) {
+        for (std::size_t i = 0; i < study.rows().size(); ++i) {
+            const StabilityStudy::Row& row = study.rows()[i];
             if (row.scheme != scheme || row.result.kind == StabilityClass::waiting) continue;
+            s.rows.push_back(i);
             s.x.push_back(row.x);
             s.y.push_back(row.result.isBounded() ? row.result.maxEnergyError : PointResult::unknown);
         }
@@ -246,13 +260,13 @@ Figure alongX(const StabilityStudy& study) {
     return figure;
 }
 
-/// Of the first scheme: energy errors as colours over both numbers, with the class where a run was not
-/// bounded.
-Figure overBoth(const StabilityStudy& study) {
+/// Of one scheme: energy errors as colours over both numbers, with the class of a run that is not stable, and
+/// the limits along x as a line.
+Figure overBoth(const StabilityStudy& study, std::size_t scheme) {
     const VariedNumber &x = study.options().x, &y = *study.options().y;
     Figure figure;
-    figure.x = axisOf(x);
-    figure.y = axisOf(y);
+    figure.x = axisOf(x, study);
+    figure.y = axisOf(y, study);
     HeatMap heat;
     heat.columns = x.count;
     heat.rows = y.count;
@@ -274,14 +288,13 @@ Figure overBoth(const StabilityStudy& study) {
     heat.scale = axisTitle("max |H - H(0)|", study.scene().system->energyUnit);
     heat.low = HUGE_VAL;
     heat.high = 0;
-    const std::size_t scheme = study.rows().front().scheme;
+    const auto first = std::find_if(study.rows().begin(), study.rows().end(),
+                                    [&](const StabilityStudy::Row& row) { return row.scheme == scheme; });
     for (std::size_t i = 0; i < cells; ++i) {
-        const StabilityStudy::Row& row = study.rows()[i];  // y by y, along x
+        const StabilityStudy::Row& row = first[static_cast<std::ptrdiff_t>(i)];  // y by y, along x
         const std::size_t at = i % heat.xs.size() * heat.ys.size() + i / heat.xs.size();
-        if (!row.result.isBounded()) {
-            heat.faults[at] = name(row.result.kind);
-            continue;
-        }
+        if (row.result.kind != StabilityClass::stable) heat.faults[at] = name(row.result.kind);
+        if (!row.result.isBounded()) continue;
         const double value = row.result.maxEnergyError;
         if (!(value > 0)) continue;
         heat.values[at] = value;
@@ -294,13 +307,24 @@ Figure overBoth(const StabilityStudy& study) {
     figure.subtitle = study.scene().scene.schemes[scheme].label;
     figure.summary = "Energy errors of " + figure.subtitle + " over " + x.pointer + " and " + y.pointer + ".";
     figure.add(std::move(heat));
+    Guide boundary;
+    boundary.isStrong = true;
+    for (const StabilityStudy::Limit& each : study.limits())
+        if (each.scheme == scheme && each.isKnown) {
+            boundary.x.push_back(each.limit.limit);
+            boundary.y.push_back(each.y);
+        }
+    if (!boundary.x.empty()) figure.add(std::move(boundary));
     return figure;
 }
 
 }  // namespace
 
-Figure studyFigure(std::string_view study, const StabilityStudy& stability) {
-    Figure figure = stability.options().y ? overBoth(stability) : alongX(stability);
+Figure studyFigure(std::string_view study, const StabilityStudy& stability,
+                   std::optional<std::size_t> scheme) {
+    Figure figure = stability.options().y
+                        ? overBoth(stability, scheme.value_or(stability.rows().front().scheme))
+                        : alongX(stability);
     figure.view = study;
     figure.title = "Stability";
     return figure;

@@ -2,6 +2,7 @@
 /// and exports share.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -17,12 +18,16 @@ namespace extremal {
 /// beside the curves. Adaptive schemes have no step and are left out.
 Figure convergenceFigure(const Sweep& sweep);
 
-/// Errors against the CPU time, with the Pareto front behind the curves.
+/// Errors against the CPU time, with the spread of repeated runs as a band about each curve, the Pareto front
+/// behind them, and slopes of orders 2, 4, 6 and 8 in the lower left corner.
 Figure workPrecisionFigure(const Sweep& sweep);
 
 /// The figure of a study by its id: errors against costs unless it has one of its own.
 Figure studyFigure(std::string_view study, const Sweep& sweep);
-Figure studyFigure(std::string_view study, const StabilityStudy& stability);
+/// Energy errors along the number that varies, or a map over both numbers with the limit along each row: of
+/// one scheme, by its index in the scene, else of the first that was studied.
+Figure studyFigure(std::string_view study, const StabilityStudy& stability,
+                   std::optional<std::size_t> scheme = {});
 /// Amplification over h w, with the limits of stability.
 Figure studyFigure(std::string_view study, const LinearStudy& linear);
 /// It has none.

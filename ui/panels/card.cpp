@@ -25,10 +25,13 @@ protected:
         painter.setFont(font());
         painter.setPen(palette().color(foregroundRole()));
         const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
-        if (shown != text() && toolTip().isEmpty()) setToolTip(text());
+        if (shown != text() && (toolTip().isEmpty() || toolTip() == ownTip_)) setToolTip(ownTip_ = text());
         painter.drawText(rect(), Qt::AlignVCenter | static_cast<int>(alignment() & Qt::AlignHorizontal_Mask),
                          shown);
     }
+
+private:
+    QString ownTip_;  ///< the whole text, where it is shortened
 };
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPointer>
-#include <QThreadPool>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -14,6 +13,7 @@
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/lagrangian_edits.hpp"
 #include "ui/panels/parameter_table.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
@@ -125,17 +125,16 @@ void LagrangianEditor::check() {
     if (!isVisibleTo(parentWidget()) || workspace_.scene().model.type != "lagrangian") return;
     stop_.request_stop();
     stop_ = std::stop_source();
-    QThreadPool::globalInstance()->start(
-        [self = QPointer(this), formula = formulaNow(), stop = stop_.get_token()] {
-            const typed::Examination found = typed::examine(formula, stop);
-            if (!found.isComplete) return;
-            QMetaObject::invokeMethod(
-                qApp,
-                [self, text = formula.text, found] {
-                    if (self) self->take(text, found);
-                },
-                Qt::QueuedConnection);
-        });
+    runInBackground([self = QPointer(this), formula = formulaNow(), stop = stop_.get_token()] {
+        const typed::Examination found = typed::examine(formula, stop);
+        if (!found.isComplete) return;
+        QMetaObject::invokeMethod(
+            qApp,
+            [self, text = formula.text, found] {
+                if (self) self->take(text, found);
+            },
+            Qt::QueuedConnection);
+    });
 }
 
 void LagrangianEditor::take(const std::string& text, const typed::Examination& found) {

@@ -27,6 +27,8 @@ struct PlotCursors {
     QPointF hoverPoint;  ///< pixels
     QColor hoverColor;
     std::optional<QRectF> hoverCell;  ///< of a map: outlined in place of the point
+    std::optional<double> level;      ///< a value of y marked by a line across, which the user moves
+    QString levelText;                ///< beside that line
     std::optional<QRectF> box;        ///< the zoom box being drawn
     bool hasFocus = false;            ///< reached with the keyboard
 };

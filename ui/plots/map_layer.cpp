@@ -17,13 +17,26 @@ QFont scaleFont(const Theme& theme) {
     return font;
 }
 
-bool isBlowUp(const std::string& fault) { return fault == "blow-up"; }
+/// What a cell without a value, or beside its value, is marked with.
+enum class Fault { none, drifting, failed, blowUp };
+Fault faultOf(const std::string& text) {
+    return text.empty()         ? Fault::none
+           : text == "drifting" ? Fault::drifting
+           : text == "blow-up"  ? Fault::blowUp
+                                : Fault::failed;
+}
+QString nameOf(Fault fault) {
+    return fault == Fault::blowUp   ? QStringLiteral("blow-up")
+           : fault == Fault::failed ? QStringLiteral("failed")
+                                    : QStringLiteral("drifting");
+}
 
-/// Off the scale: plain where the state grew without bounds, hatched where there was no next step.
-void fillFault(QCPPainter& painter, const QRectF& rect, const Theme& theme, bool isPlain) {
-    painter.fillRect(rect, isPlain ? theme.errorLine : theme.errorGround);
-    if (isPlain) return;
-    painter.fillRect(rect, QBrush(theme.errorLine, Qt::BDiagPattern));
+/// Off the scale: plain where the state grew without bounds, hatched where there was no next step. Over its
+/// colour: dots where the energy drifts.
+void fillFault(QCPPainter& painter, const QRectF& rect, const Theme& theme, Fault fault) {
+    if (fault == Fault::drifting) return painter.fillRect(rect, QBrush(theme.panel, Qt::Dense6Pattern));
+    painter.fillRect(rect, fault == Fault::blowUp ? theme.errorLine : theme.errorGround);
+    if (fault == Fault::failed) painter.fillRect(rect, QBrush(theme.errorLine, Qt::BDiagPattern));
 }
 
 /// Decades with a word, every n-th where there is little room.
@@ -66,8 +79,9 @@ void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Sh
             const double value = heat.values[i];
             if (std::isfinite(value))
                 painter.fillRect(cell, valueColour(value > 0 ? std::log10(value / heat.low) / decades : 0));
-            else if (!heat.faults[i].empty())
-                fillFault(painter, cell, shared.theme, isBlowUp(heat.faults[i]));
+            const Fault fault = faultOf(heat.faults[i]);
+            if (fault != Fault::none && (fault == Fault::drifting) == std::isfinite(value))
+                fillFault(painter, cell, shared.theme, fault);
         }
     painter.setOpacity(1);
     painter.setAntialiasing(true);
@@ -82,16 +96,15 @@ void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Sh
     const double left = map.rect.right() + barLeft, line = metrics.height();
     double bottom = map.rect.bottom();
     // What has no colour of the scale stands below it, if there is any.
-    const auto hasFault = [&](bool isPlain) {
-        return std::any_of(heat.faults.begin(), heat.faults.end(),
-                           [&](const std::string& f) { return !f.empty() && isBlowUp(f) == isPlain; });
-    };
-    for (const bool isPlain : {true, false}) {
-        if (!hasFault(isPlain)) continue;
-        fillFault(painter, QRectF(left, bottom - barWidth, barWidth, barWidth), theme, isPlain);
+    for (const Fault fault : {Fault::blowUp, Fault::failed, Fault::drifting}) {
+        if (std::none_of(heat.faults.begin(), heat.faults.end(),
+                         [&](const std::string& f) { return faultOf(f) == fault; }))
+            continue;
+        const QRectF sample(left, bottom - barWidth, barWidth, barWidth);
+        if (fault == Fault::drifting) painter.fillRect(sample, valueColour(0.5));
+        fillFault(painter, sample, theme, fault);
         painter.setPen(theme.muted);
-        painter.drawText(QPointF(left + barWidth + 4, bottom - 1),
-                         isPlain ? QStringLiteral("blow-up") : QStringLiteral("failed"));
+        painter.drawText(QPointF(left + barWidth + 4, bottom - 1), nameOf(fault));
         bottom -= line + 3;
     }
     const double top = map.rect.top();

@@ -80,6 +80,7 @@ protected:
 private:
     void drawCursor(QCPPainter& painter, const PixelMap& map, double t, bool isPinned) const;
     void drawHover(QCPPainter& painter) const;
+    void drawLevel(QCPPainter& painter, const PixelMap& map) const;
     const FigurePlot::Shared& shared_;
 };
 

@@ -20,7 +20,7 @@
 namespace extremal {
 namespace {
 
-constexpr double hoverReach = 14, dragThreshold = 4;
+constexpr double hoverReach = 14, dragThreshold = 4, levelReach = 5;
 
 double valueAtPixel(const PixelMap& map, PlotAxis axis, QPointF pixel) {
     const bool isX = axis == PlotAxis::x;
@@ -51,7 +51,7 @@ struct PlotWidget::Impl {
     std::unique_ptr<FigurePlot> content;
     Theme theme;
     QPushButton* chip;
-    enum class Drag { none, maybe, pan, box, cursor } drag = Drag::none;
+    enum class Drag { none, maybe, pan, box, cursor, level } drag = Drag::none;
     QPointF press, last;
     int leftMargin = 0;
     std::optional<PlotRange> awaited;  ///< the time range of the group, until there is a figure
@@ -75,6 +75,20 @@ struct PlotWidget::Impl {
         return QRectF(corner.x() + width * static_cast<double>(cell.column),
                       corner.y() + height * static_cast<double>(cell.row), width, height)
             .normalized();
+    }
+    /// The row of a study that a point stands for.
+    std::optional<std::size_t> rowAt(QPointF pixel) const {
+        const auto hit = content->hit(pixel, hoverReach);
+        if (!hit) return {};
+        const std::vector<std::size_t>& rows = content->figure().series()[hit->series].rows;
+        return hit->row < rows.size() ? std::optional(rows[hit->row]) : std::nullopt;
+    }
+    bool isOnLevel(QPointF pixel) const {
+        const PixelMap map = content->pixelMap();
+        const std::optional<double> level = content->cursors().level;
+        if (!level || !map.rect.contains(pixel)) return false;
+        const double y = map(map.x.low, *level).y();
+        return std::abs(std::clamp(y, map.rect.top() + 2, map.rect.bottom() - 2) - pixel.y()) <= levelReach;
     }
     bool isTime() const { return content->figure().x.isTime; }
     /// Whether a pixel lies on the x axis, the y axis, or (neither) in the plot.
@@ -140,6 +154,16 @@ void PlotWidget::setPinned(std::optional<double> t) {
 void PlotWidget::setHighlighted(const QString& label) {
     if (impl_->content->setHighlighted(label)) impl_->replot();
 }
+
+void PlotWidget::setLevel(std::optional<double> y, const QString& text) {
+    PlotCursors& cursors = impl_->content->cursors();
+    if (cursors.level == y && cursors.levelText == text) return;
+    cursors.level = y;
+    cursors.levelText = text;
+    impl_->replotCursor();
+}
+
+std::optional<double> PlotWidget::level() const { return impl_->content->cursors().level; }
 
 void PlotWidget::fit() {
     impl_->content->view().remember();
@@ -238,6 +262,11 @@ void PlotWidget::keyPressEvent(QKeyEvent* event) {
     else if (const auto cell = impl_->cellAt(impl_->content->cursors().hoverPoint);
              cell && (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter))
         emit cellChosen(cell->x, cell->y);
+    else if (const auto row = impl_->rowAt(impl_->content->cursors().hoverPoint);
+             row && (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter))
+        emit rowChosen(*row);
+    else if (level() && (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down))
+        emit levelMoved(*level() * std::pow(10, event->key() == Qt::Key_Up ? 0.1 : -0.1));
     else
         QWidget::keyPressEvent(event);
 }
@@ -274,7 +303,9 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             setFocus(Qt::MouseFocusReason);
             if (mouse->button() != Qt::LeftButton) return false;
             s.press = s.last = mouse->position();
-            s.drag = mouse->modifiers() & Qt::ControlModifier ? Impl::Drag::box : Impl::Drag::maybe;
+            s.drag = mouse->modifiers() & Qt::ControlModifier ? Impl::Drag::box
+                     : s.isOnLevel(s.press)                   ? Impl::Drag::level
+                                                              : Impl::Drag::maybe;
             clearHover();
             return true;
         }
@@ -287,7 +318,10 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 s.drag = Impl::Drag::pan;
                 s.plot->setCursor(Qt::ClosedHandCursor);
             }
-            if (s.drag == Impl::Drag::pan) {
+            if (s.drag == Impl::Drag::level) {
+                emit levelMoved(valueAtPixel(
+                    map, PlotAxis::y, {at.x(), std::clamp(at.y(), map.rect.top(), map.rect.bottom())}));
+            } else if (s.drag == Impl::Drag::pan) {
                 const auto [onX, onY] = s.axesAt(s.press);
                 if (onX)
                     view.pan(PlotAxis::x, valueAtPixel(map, PlotAxis::x, s.last),
@@ -302,6 +336,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 s.replotCursor();
             } else if (s.drag == Impl::Drag::none) {
                 PlotCursors& c = s.content->cursors();
+                s.plot->setCursor(s.isOnLevel(at) ? Qt::SizeVerCursor : Qt::ArrowCursor);
                 if (const auto cell = s.cellAt(at)) {
                     c.hoverText = QString::fromStdString(cell->text);
                     c.hoverPoint = at;
@@ -346,9 +381,14 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 } else {
                     s.replotCursor();
                 }
+            } else if (was == Impl::Drag::level) {
+                const bool isClick = QLineF(s.press, mouse->position()).length() <= dragThreshold;
+                if (const auto row = s.rowAt(mouse->position()); row && isClick) emit rowChosen(*row);
             } else if (was == Impl::Drag::maybe) {
                 if (const auto cell = s.cellAt(mouse->position()))
                     emit cellChosen(cell->x, cell->y);
+                else if (const auto row = s.rowAt(mouse->position()))
+                    emit rowChosen(*row);
                 else if (const auto hit = s.content->hit(mouse->position(), hoverReach);
                          hit && figure().series()[hit->series].style >= 0)
                     emit pointClicked(figure().series()[hit->series].style);
@@ -376,6 +416,10 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 if (s.content->cursors().pinned)
                     menu.addAction(tr("Remove the second cursor"), this,
                                    [this] { emit pinRequested(std::nullopt); });
+                menu.addSeparator();
+            }
+            if (const auto row = s.rowAt(context->pos())) {
+                menu.addAction(tr("Load this run"), this, [this, row] { emit rowChosen(*row); });
                 menu.addSeparator();
             }
             if (const auto cell = s.cellAt(context->pos())) {

@@ -2,8 +2,9 @@
 ///
 /// Wheel: zoom at the pointer, on an axis only that axis; drag: pan; Ctrl+drag: zoom into a box; double
 /// click: fit; Backspace: previous view; right click: menu; a click on a cell of a map, or Return over it,
-/// chooses its case. Once the user has zoomed, new data do not move the view; the "auto" chip gives that
-/// back. The cursor is a time, shared with other plots through PlotGroup.
+/// chooses its case, and a click on a point with a row of a study that row; a line across (setLevel) is
+/// dragged, or moved with Up and Down. Once the user has zoomed, new data do not move the view; the "auto"
+/// chip gives that back. The cursor is a time, shared with other plots through PlotGroup.
 #pragma once
 
 #include <QWidget>
@@ -31,6 +32,9 @@ public:
     void setCursor(std::optional<double> t);
     void setPinned(std::optional<double> t);
     void setHighlighted(const QString& label);
+    /// A value of y as a line that the user can move; none removes it.
+    void setLevel(std::optional<double> y, const QString& text = {});
+    std::optional<double> level() const;
     void fit();      ///< to the part the view asks for, else to all data
     void showAll();  ///< all data, also where the view asks for a part
     void back();
@@ -55,6 +59,8 @@ signals:
     void cursorMoved(double t);
     void pointClicked(int style);
     void cellChosen(double x, double y);  ///< of a map with a scale: what the cell stands for
+    void rowChosen(std::size_t row);      ///< of a study: what the point stands for
+    void levelMoved(double y);
     void pinRequested(std::optional<double> t);
     void timeRangeChanged(std::optional<PlotRange> range);
     void saveFailed(const QString& reason);

@@ -5,7 +5,6 @@
 #include <QApplication>
 #include <QPointer>
 #include <QScrollArea>
-#include <QThreadPool>
 #include <QTimer>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
@@ -333,7 +333,7 @@ void CompareView::startJob() {
     FigureJob job = missing();
     if (job.views.empty() && !job.makesStage) return;
     isJobRunning_ = true;
-    QThreadPool::globalInstance()->start([self = QPointer(this), job = std::move(job)] {
+    runInBackground([self = QPointer(this), job = std::move(job)] {
         auto made = std::make_shared<FigureSet>(makeFigures(job));
         QMetaObject::invokeMethod(
             qApp,

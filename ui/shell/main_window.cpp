@@ -127,7 +127,10 @@ void MainWindow::makePages() {
     values_ = new ValuesTable;
     values_->hide();
     centreColumn->addWidget(values_);
-    connect(tabs_, &QTabBar::currentChanged, pages_, &QStackedWidget::setCurrentIndex);
+    connect(tabs_, &QTabBar::currentChanged, this, [this](int page) {
+        pages_->setCurrentIndex(page);
+        timeline_->setVisible(page == 0);  // nothing else follows the time
+    });
     connect(compare_, &CompareView::caseLoaded, this, [this](const QString& text) {
         notices_->post({Notice::Kind::information,
                         "case",
@@ -142,6 +145,18 @@ void MainWindow::makePages() {
                         tr("Ctrl+Z undoes this"),
                         {{tr("Compare"), [this] { tabs_->setCurrentIndex(0); }},
                          {tr("Undo"), [this] { workspace_->undo(); }}}});
+    });
+    connect(studies_, &StudyPage::runLoaded, this, [this](const QString& text) {
+        tabs_->setCurrentIndex(0);
+        notices_->post({Notice::Kind::information,
+                        "study",
+                        tr("Loaded from the study: %1.").arg(text),
+                        tr("Ctrl+Z undoes this"),
+                        {{tr("Studies"), [this] { tabs_->setCurrentIndex(2); }},
+                         {tr("Undo"), [this] { workspace_->undo(); }}}});
+    });
+    connect(studies_, &StudyPage::problemFound, this, [this](const QString& text, const QString& hint) {
+        notices_->post({Notice::Kind::error, "studyProblem", text, hint, {}});
     });
     connect(compare_, &CompareView::saveFailed, this, [this](const QString& reason) {
         notices_->post(

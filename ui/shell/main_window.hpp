@@ -70,6 +70,7 @@ private:
     void fillPlots(QMenu& menu);
     void toggleScheme(int index);
     void addRunActions();
+    void addStudyActions();
     void showScene();
     void showStatus();
     void offerUnsaved();

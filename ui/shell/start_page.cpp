@@ -8,7 +8,6 @@
 #include <QPointer>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QThreadPool>
 #include <QTimer>
 #include <QVBoxLayout>
 
@@ -21,6 +20,7 @@
 #include "engine/scene/preset.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/plots/plot_renderer.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/banners.hpp"
 
 namespace extremal {
@@ -115,18 +115,19 @@ StartPage::StartPage(const Theme& theme, Notices& notices, QWidget* parent)
     connect(timer_, &QTimer::timeout, this, &StartPage::work);
 }
 
-StartPage::~StartPage() = default;
+StartPage::~StartPage() { reading_.request_stop(); }
 
 /// Reads the presets in another thread, some of which take a while, and adds their cards as they come: the
 /// headline first, then the others by name.
 void StartPage::readPresets() {
     hasReadPresets_ = true;
-    QThreadPool::globalInstance()->start([self = QPointer(this)] {
+    runInBackground([self = QPointer(this), stop = reading_.get_token()] {
         std::vector<const Preset*> order;
         for (const Preset& p : presets()) order.push_back(&p);
         std::stable_partition(order.begin(), order.end(),
                               [](const Preset* p) { return p->id == "spring-pendulum"; });
         for (const Preset* p : order) {
+            if (stop.stop_requested()) return;
             auto read = std::make_shared<ReadScene>(readScene(p->json));
             if (!read->errors.empty()) continue;
             QMetaObject::invokeMethod(

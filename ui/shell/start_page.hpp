@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "engine/run/run.hpp"
@@ -55,6 +56,7 @@ private:
     QGridLayout *grid_, *unsavedGrid_;
     std::vector<std::unique_ptr<Entry>> entries_;
     std::deque<std::size_t> waiting_;
+    std::stop_source reading_;  ///< of the presets
     std::unique_ptr<Run> run_;
     QTimer* timer_;
     int columns_ = 0;

@@ -42,6 +42,7 @@ void MainWindow::makeActions() {
     addEditActions();
     addViewActions();
     addRunActions();
+    addStudyActions();
     actions_->add("help", tr("Help"), tr("Handbook"), {QKeySequence(Qt::Key_F1)}, [this] {
         if (!help_) help_ = new HelpWindow(this);
         help_->open("index");
@@ -204,14 +205,32 @@ void MainWindow::addRunActions() {
         if (studies_->isVisible() && studies_->stop()) return;
         if (!compare_->restore()) run_->stop();
     });
-    actions_->addSeparator(menu);
-    actions_->add(
-        "runStudy", menu, tr("Run the study"), {QKeySequence(Qt::CTRL | Qt::Key_R)},
-        [this] {
+}
+
+void MainWindow::addStudyActions() {
+    const QString menu = tr("Analyse");
+    const auto onPage = [this](void (StudyPage::*act)()) {
+        return [this, act] {
+            if (!workspace_->hasScene()) return;
             tabs_->setCurrentIndex(2);
-            studies_->start();
-        },
-        tr("Every scheme that is on over many steps: errors, costs, and what is worth it"));
+            (studies_->*act)();
+        };
+    };
+    actions_->add("runStudy", menu, tr("Run the study"), {QKeySequence(Qt::CTRL | Qt::Key_R)},
+                  onPage(&StudyPage::start),
+                  tr("Every scheme that is on over many steps: errors, costs, and what is worth it"));
+    actions_->add("chooseStudy", menu, tr("Choose the study..."),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_R)}, onPage(&StudyPage::openChoices));
+    actions_->add("wantedError", menu, tr("Wanted error"), {QKeySequence(Qt::Key_W)},
+                  onPage(&StudyPage::askForError), tr("The error that the cheapest scheme is to reach"));
+    actions_->add("measureCheapest", menu, tr("Measure the cheapest scheme"),
+                  {QKeySequence(Qt::CTRL | Qt::Key_M)}, onPage(&StudyPage::measureCheapest),
+                  tr("Runs every scheme that is on at the step that the wanted error needs"));
+    actions_->addSeparator(menu);
+    actions_->add("useResult", menu, tr("Use the selected result"), {QKeySequence(Qt::CTRL | Qt::Key_U)},
+                  onPage(&StudyPage::useSelected));
+    actions_->add("loadResult", menu, tr("Show the selected result in Compare"),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_U)}, onPage(&StudyPage::loadSelected));
 }
 
 void MainWindow::openDialog() {

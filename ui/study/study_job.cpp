@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -9,25 +10,67 @@
 #include "engine/core/problem.hpp"
 
 namespace extremal {
+namespace {
+
+/// What has become known, to be told to the window's copy of the study.
+using Arrival = std::function<void(Study&)>;
+using Announce = std::function<void(Arrival)>;
+
+template <class Kind, class... Arguments>
+Arrival taking(Arguments... arguments) {
+    return [=](Study& study) { std::get<Kind>(study).take(arguments...); };
+}
+
+void run(Sweep& sweep, const Announce& announce, const std::stop_token& stop) {
+    sweep.run([&](const ReferenceInfo& info) { announce(taking<Sweep>(info)); },
+              [&](std::size_t i, const PointResult& result) { announce(taking<Sweep>(i, result)); }, stop);
+}
+
+void run(StabilityStudy& study, const Announce& announce, const std::stop_token& stop) {
+    study.run(
+        [&](std::size_t i) {
+            const std::size_t points = study.rows().size();
+            announce(i < points ? taking<StabilityStudy>(i, study.rows()[i].result)
+                                : taking<StabilityStudy>(i, study.limits()[i - points].limit));
+        },
+        stop);
+}
+
+template <class Kind>
+void run(Kind& study, const Announce& announce, const std::stop_token& stop) {
+    study.run([&](std::size_t i) { announce(taking<Kind>(i, study.rows()[i].result)); }, stop);
+}
+
+bool isKnown(const SweepRow& row) { return row.result.status != RunStatus::waiting; }
+bool isKnown(const StabilityStudy::Row& row) { return row.result.kind != StabilityClass::waiting; }
+bool isKnown(const LinearStudy::Row& row) { return row.isKnown; }
+bool isKnown(const ExtremesStudy::Row& row) { return row.isKnown(); }
+
+}  // namespace
+
+StudyCount countOf(const Study& study) {
+    return std::visit(
+        [](const auto& each) {
+            const auto known = std::count_if(each.rows().begin(), each.rows().end(),
+                                             [](const auto& row) { return isKnown(row); });
+            return StudyCount{static_cast<std::size_t>(known), each.rows().size()};
+        },
+        study);
+}
 
 /// One study on its thread, with what the window has not fetched yet.
 struct StudyJob::Work {
-    explicit Work(Sweep given) : sweep(std::move(given)) {
-        thread = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    explicit Work(Study given) : study(std::move(given)) {
+        thread = std::jthread([this](const std::stop_token& stop) { work(stop); });
     }
 
-    void run(const std::stop_token& stop) {
+    void work(const std::stop_token& stop) {
+        const Announce announce = [this](Arrival arrival) {
+            const std::lock_guard lock(mutex);
+            arrived.push_back(std::move(arrival));
+        };
         try {
-            sweep.run(
-                [this](const ReferenceInfo& info) {
-                    const std::lock_guard lock(mutex);
-                    reference = info;
-                },
-                [this](std::size_t point, const PointResult& result) {
-                    const std::lock_guard lock(mutex);
-                    arrived.emplace_back(point, result);
-                },
-                stop);
+            std::visit([&](auto& each) { run(each, announce, stop); }, study);
         } catch (const InvalidScene& e) {
             const Problem& first = e.problems().front();
             const std::lock_guard lock(mutex);
@@ -36,10 +79,9 @@ struct StudyJob::Work {
         isFinished = true;
     }
 
-    Sweep sweep;
+    Study study;
     std::mutex mutex;
-    std::vector<std::pair<std::size_t, PointResult>> arrived;  ///< guarded by mutex, as the next two
-    std::optional<ReferenceInfo> reference;
+    std::vector<Arrival> arrived;  ///< guarded by mutex, as the next
     std::string problem;
     std::atomic<bool> isFinished{false};
     std::jthread thread;
@@ -56,14 +98,14 @@ StudyJob::~StudyJob() {
     for (const auto& work : stopping_) work->thread.request_stop();
 }
 
-void StudyJob::start(const Scene& scene, const SweepOptions& options) {
-    Sweep sweep(resolve(scene), options);
+void StudyJob::start(Study study) {
     retire();
-    sweep_ = sweep;
+    study_ = study;
     problem_.clear();
     wasStopped_ = false;
-    work_ = std::make_unique<Work>(std::move(sweep));
+    work_ = std::make_unique<Work>(std::move(study));
     timer_.start();
+    emit pointsArrived();
     emit changed();
 }
 
@@ -76,8 +118,13 @@ void StudyJob::stop() {
 }
 
 double StudyJob::fraction() const {
-    if (work_) return work_->sweep.fraction();
-    return sweep_ && sweep_->isComplete() ? 1 : 0;
+    const auto whole = [](const auto& study) { return study.isComplete() ? 1.0 : 0.0; };
+    if (work_) return std::visit([](const auto& study) { return study.fraction(); }, work_->study);
+    return study_ ? std::visit(whole, *study_) : 0;
+}
+
+bool StudyJob::isPreparing() const {
+    return work_ && std::visit([](const auto& study) { return study.isPreparing(); }, work_->study);
 }
 
 void StudyJob::retire() {
@@ -87,11 +134,14 @@ void StudyJob::retire() {
 }
 
 void StudyJob::fetch(Work& work) {
-    const std::lock_guard lock(work.mutex);
-    if (work.reference) sweep_->take(*work.reference);
-    for (auto& [point, result] : work.arrived) sweep_->take(point, std::move(result));
-    work.arrived.clear();
-    problem_ = QString::fromStdString(work.problem);
+    std::vector<Arrival> arrived;
+    {
+        const std::lock_guard lock(work.mutex);
+        arrived.swap(work.arrived);
+        problem_ = QString::fromStdString(work.problem);
+    }
+    for (const Arrival& each : arrived) each(*study_);
+    if (!arrived.empty()) emit pointsArrived();
 }
 
 void StudyJob::poll() {

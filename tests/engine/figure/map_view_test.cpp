@@ -52,6 +52,10 @@ private slots:
                  std::string("blow-up"));
         QVERIFY(cellAt(figure, 1e4, 0.0316)->text.ends_with("diverged"));
         QVERIFY(cellAt(figure, 1e5, 0.01)->text.ends_with("not known"));
+        Figure drifting = figure;
+        for (std::string& fault : drifting.heat()->faults)
+            if (fault.empty()) fault = "drifting";
+        QCOMPARE(cellAt(drifting, 1.4e3, 0.0095)->text, cell->text + ", drifting");
         QVERIFY(cellAt(figure, 0.32, 0.01) && !cellAt(figure, 0.31, 0.01));
         QVERIFY(!cellAt(figure, 1e3, 0.2) && !cellAt(Figure(), 1, 1));
     }

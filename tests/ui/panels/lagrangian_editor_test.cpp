@@ -191,7 +191,9 @@ private slots:
         edits.push_back({"/model/lagrangian", kinetic.toStdString()});
         QVERIFY(window.workspace().edit(edits, "many"));
         window.formula()->setPlainText(kinetic + " + " + nest);
-        const auto isDifferentiating = [] { return QThreadPool::globalInstance()->activeThreadCount() > 0; };
+        const auto isDifferentiating = [] {
+            return qApp->findChild<QThreadPool*>(QStringLiteral("background"))->activeThreadCount() > 0;
+        };
         QTRY_VERIFY(isDifferentiating());
         QVERIFY(window.workspace().edit({{"/time/end", 5.0}}, "end"));
         QVERIFY(isDifferentiating());                        // the edit did not wait for it

@@ -117,6 +117,46 @@ private slots:
         QTest::mouseDClick(&c, Qt::LeftButton, {}, m);
         QVERIFY(!plot->isUserZoomed());
     }
+    void aLevelIsDraggedAndAPointWithARowIsChosen() {
+        PlotWidget plot(Theme::light());
+        plot.resize(600, 400);
+        Figure figure;
+        figure.view = "study";
+        figure.x = {"cost", true, false, std::pair{1e-4, 1.0}};
+        figure.y = {"error", true, false, std::pair{1e-8, 1.0}};
+        Series series;
+        series.kind = SeriesKind::markedCurve;
+        series.x = {1e-3, 1e-2, 1e-1};
+        series.y = {1e-2, 1e-4, 1e-6};
+        series.rows = {7, 8, 9};
+        figure.add(series);
+        plot.setFigure(figure);
+        plot.setLevel(1e-4, "1e-4");
+        plot.show();
+        (void)QTest::qWaitForWindowExposed(&plot);
+        QCustomPlot& c = canvas(plot);
+        c.replot();
+        const auto at = [&](double x, double y) {
+            return QPoint(static_cast<int>(c.xAxis->coordToPixel(x)),
+                          static_cast<int>(c.yAxis->coordToPixel(y)));
+        };
+        QSignalSpy rows(&plot, &PlotWidget::rowChosen), levels(&plot, &PlotWidget::levelMoved);
+        QTest::mouseClick(&c, Qt::LeftButton, {}, at(1e-1, 1e-6));
+        QCOMPARE(rows.size(), 1);
+        QCOMPARE(rows.takeFirst().front().toULongLong(), 9ull);
+        // On the line a click still chooses the point; a drag moves the line, and does not pan.
+        QTest::mouseClick(&c, Qt::LeftButton, {}, at(1e-2, 1e-4));
+        QCOMPARE(rows.size(), 1);
+        QCOMPARE(rows.takeFirst().front().toULongLong(), 8ull);
+        QVERIFY(levels.isEmpty());
+        QTest::mousePress(&c, Qt::LeftButton, {}, at(1e-3, 1e-4));
+        QTest::mouseMove(&c, at(1e-3, 1e-5));
+        QTest::mouseMove(&c, at(1e-3, 1e-6));
+        QTest::mouseRelease(&c, Qt::LeftButton, {}, at(1e-3, 1e-6));
+        QVERIFY(!levels.isEmpty() && rows.isEmpty() && !plot.isUserZoomed());
+        // To the pixel: 350 pixels are eight decades.
+        QVERIFY(std::abs(std::log10(levels.back().front().toDouble()) + 6) < 0.05);
+    }
     void timeAxesOfAGroupMoveTogether() {
         const auto energy = shown("energy"), error = shown("error"), phase = shown("phase");
         PlotGroup group;

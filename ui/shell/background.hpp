@@ -1,0 +1,15 @@
+/// Work of the window that takes a while, on threads of its own.
+///
+/// Not on the global pool of Qt: painting divides its work among those threads and waits for them, so that a
+/// long task there would stall the window.
+#pragma once
+
+#include <functional>
+
+namespace extremal {
+
+/// On one of as many threads as the machine has cores, shared by all windows of the application, which waits
+/// for them when it ends. From the window's thread.
+void runInBackground(std::function<void()> work);
+
+}  // namespace extremal

@@ -1,0 +1,146 @@
+#include "ui/study/study_form.hpp"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+
+#include <algorithm>
+
+#include "engine/core/problem.hpp"
+#include "engine/study/catalog.hpp"
+#include "ui/study/varied_number_edit.hpp"
+
+namespace extremal {
+
+StudyForm::StudyForm(QWidget* parent) : Card(tr("Study"), parent) {
+    kind_ = new QComboBox;
+    kind_->setAccessibleName(tr("Study"));
+    for (const StudyEntry& entry : studyEntries())
+        kind_->addItem(QString::fromStdString(entry.item.title), QString::fromStdString(entry.item.id));
+    metricLabel_ = makeLabel(tr("metric"), "caption");
+    metric_ = new QComboBox;
+    metric_->setAccessibleName(tr("Metric"));
+    metric_->setToolTip(tr("What is measured of each run: the largest size of this observable"));
+    isAtEnd_ = new QCheckBox(tr("at the end alone"));
+    isAtEnd_->setToolTip(tr("The metric at the last node in place of its maximum over all nodes"));
+    findsLimits_ = new QCheckBox(tr("limits of stability along x, to four digits"));
+    findsLimits_->setToolTip(
+        tr("Bisects the first value along x from which a run is not bounded; with two "
+           "numbers, for every value of y"));
+    findsLimits_->setChecked(true);
+    run_ = new QPushButton(tr("Run the study"));
+    run_->setObjectName("runStudy");
+    run_->setProperty("kind", "primary");
+    run_->setToolTip(tr("Runs it on every scheme that is on (Ctrl+R)"));
+    header()->addWidget(kind_);
+    header()->addWidget(run_);
+    auto* row = new QHBoxLayout;
+    for (QWidget* each : std::initializer_list<QWidget*>{metricLabel_, metric_, isAtEnd_, findsLimits_})
+        row->addWidget(each);
+    row->addStretch(1);
+    body()->addLayout(row);
+    auto* numbers = new QGridLayout;
+    numbers->setHorizontalSpacing(6);
+    numbers->setVerticalSpacing(4);
+    x_ = new VariedNumberEdit(QStringLiteral("x"), *numbers, 0, this);
+    y_ = new VariedNumberEdit(QStringLiteral("y"), *numbers, 1, this);
+    numbers->setColumnStretch(1, 1);
+    body()->addLayout(numbers);
+    progress_ = new QProgressBar;
+    progress_->setTextVisible(false);
+    progress_->setRange(0, 1000);
+    body()->addWidget(progress_);
+    state_ = makeElidedLabel({}, "caption");
+    state_->setObjectName("studyState");
+    body()->addWidget(state_);
+    connect(kind_, &QComboBox::currentIndexChanged, this, &StudyForm::showOptions);
+    connect(run_, &QPushButton::clicked, this, &StudyForm::runRequested);
+    choose("work-precision");
+    showOptions();
+}
+
+const StudyEntry& StudyForm::chosen() const {
+    return *findStudy(kind_->currentData().toString().toStdString());
+}
+
+void StudyForm::choose(const char* study) {
+    kind_->setCurrentIndex(std::max(0, kind_->findData(QString::fromLatin1(study))));
+}
+
+void StudyForm::openChoices() {
+    kind_->setFocus(Qt::ShortcutFocusReason);
+    kind_->showPopup();
+}
+
+void StudyForm::showOptions() {
+    using Over = StudyEntry::Over;
+    const StudyEntry& entry = chosen();
+    const bool hasMetric = entry.over == Over::steps || entry.over == Over::wantedError;
+    for (QWidget* each : std::initializer_list<QWidget*>{metricLabel_, metric_, isAtEnd_})
+        each->setVisible(hasMetric);
+    findsLimits_->setVisible(entry.over == Over::numbers);
+    x_->setVisible(entry.over == Over::numbers);
+    y_->setVisible(entry.over == Over::numbers);
+    kind_->setToolTip(QString::fromStdString(entry.item.description));
+    emit chosenChanged();
+}
+
+void StudyForm::offer(const Scene& scene) {
+    offerMetrics(scene);
+    x_->offer(scene);
+    y_->offer(scene);
+}
+
+/// An error needs a reference.
+void StudyForm::offerMetrics(const Scene& scene) {
+    const ResolvedScene resolved = resolve(scene);
+    const bool hasReference = scene.reference.kind != ReferenceSpec::Kind::none;
+    QStringList names;
+    for (const std::string& name : metricNames(*resolved.system, resolved.initial))
+        if (hasReference ||
+            metricOf(name, false, *resolved.system, resolved.initial).observable->needsReference == false)
+            names << QString::fromStdString(name);
+    QStringList present;
+    for (int i = 0; i < metric_->count(); ++i) present << metric_->itemText(i);
+    if (names == present) return;
+    const QString before = metric_->currentText();
+    metric_->clear();
+    metric_->addItems(names);
+    metric_->setCurrentText(names.contains(before)                    ? before
+                            : names.contains(QStringLiteral("error")) ? QStringLiteral("error")
+                                                                      : names.value(0));
+}
+
+Study StudyForm::study(const Scene& scene, double wantedError) const {
+    using Over = StudyEntry::Over;
+    const Over over = chosen().over;
+    if (over == Over::extremes) return ExtremesStudy();
+    if (over == Over::testEquation) return LinearStudy(resolve(scene), LinearOptions{});
+    if (over == Over::numbers) {
+        StabilityOptions options;
+        const std::optional<VariedNumber> x = x_->value();
+        options.x = *x;
+        options.y = y_->value();
+        options.findsLimits = findsLimits_->isChecked();
+        return StabilityStudy(resolve(scene), options);
+    }
+    if (metric_->currentText().isEmpty())
+        throw InvalidScene("", "the system has nothing that this study measures",
+                           "a reference in the scene, or another study");
+    SweepOptions options;
+    options.metric = metric_->currentText().toStdString();
+    options.isAtEnd = isAtEnd_->isChecked();
+    if (over == Over::wantedError) options.wantedError = wantedError;
+    return Sweep(resolve(scene), options);
+}
+
+void StudyForm::showState(const StudyJob& job, const QString& text) {
+    run_->setText(job.isRunning() ? tr("Stop") : tr("Run the study"));
+    progress_->setValue(static_cast<int>(1000 * job.fraction()));
+    state_->setText(text);
+}
+
+}  // namespace extremal

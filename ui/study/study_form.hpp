@@ -1,0 +1,48 @@
+/// What study is wanted: its kind, and what this kind needs besides the scene.
+#pragma once
+
+#include "ui/panels/card.hpp"
+#include "ui/study/study_job.hpp"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+
+namespace extremal {
+
+struct StudyEntry;
+class VariedNumberEdit;
+
+class StudyForm : public Card {
+    Q_OBJECT
+public:
+    explicit StudyForm(QWidget* parent = nullptr);
+
+    const StudyEntry& chosen() const;
+    void choose(const char* study);
+    void openChoices();
+    /// The metrics and numbers that the scene has.
+    void offer(const Scene& scene);
+    /// The study as it is chosen. Throws InvalidScene where the options do not fit the scene.
+    Study study(const Scene& scene, double wantedError) const;
+    void showState(const StudyJob& job, const QString& text);
+
+signals:
+    void runRequested();
+    void chosenChanged();
+
+private:
+    void showOptions();
+    void offerMetrics(const Scene& scene);
+
+    QComboBox *kind_, *metric_;
+    QLabel *metricLabel_, *state_;
+    QCheckBox *isAtEnd_, *findsLimits_;
+    VariedNumberEdit *x_, *y_;
+    QPushButton* run_;
+    QProgressBar* progress_;
+};
+
+}  // namespace extremal

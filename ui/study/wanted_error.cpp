@@ -1,0 +1,76 @@
+#include "ui/study/wanted_error.hpp"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalBlocker>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/text.hpp"
+#include "ui/panels/card.hpp"
+#include "ui/panels/format.hpp"
+#include "ui/panels/seek_slider.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr int tenths = 10, lowest = -15, highest = 2;  ///< powers of ten
+
+}  // namespace
+
+WantedError::WantedError(QWidget* parent) : QWidget(parent) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(8);
+    text_ = new QLineEdit;
+    text_->setAccessibleName(tr("Wanted error"));
+    text_->setMaximumWidth(80);
+    text_->setToolTip(
+        tr("The largest acceptable value of the metric (W); also a line in the plot, to be dragged"));
+    auto* label = makeLabel(tr("wanted error"), "caption");
+    label->setBuddy(text_);
+    slider_ = new SeekSlider(Qt::Horizontal);
+    slider_->setRange(tenths * lowest, tenths * highest);
+    slider_->setPageStep(tenths);
+    slider_->setMinimumWidth(80);
+    slider_->setAccessibleName(tr("Wanted error, slider"));
+    row->addWidget(label);
+    row->addWidget(text_);
+    row->addWidget(slider_, 1);
+    connect(text_, &QLineEdit::editingFinished, this, &WantedError::readText);
+    connect(slider_, &QSlider::valueChanged, this,
+            [this](int place) { setValue(std::pow(10.0, static_cast<double>(place) / tenths)); });
+    show();
+}
+
+void WantedError::setValue(double value) {
+    if (!(value > 0)) return;
+    const double within = std::clamp(value, std::pow(10.0, lowest), std::pow(10.0, highest));
+    const double rounded = parseNumber(formatNumber(within, 2)).value_or(within);
+    if (rounded == value_) return show();
+    value_ = rounded;
+    show();
+    emit changed(value_);
+}
+
+void WantedError::takeFocus() {
+    text_->setFocus(Qt::ShortcutFocusReason);
+    text_->selectAll();
+}
+
+void WantedError::readText() {
+    const std::optional<double> number = parseNumber(text_->text().trimmed().toStdString());
+    if (number && *number > 0 && std::isfinite(*number)) return setValue(*number);
+    emit refused(text_->text());
+    show();
+}
+
+void WantedError::show() {
+    text_->setText(shortNumber(value_, 2));
+    const QSignalBlocker blocker(slider_);
+    slider_->setValue(static_cast<int>(std::lround(tenths * std::log10(value_))));
+}
+
+}  // namespace extremal
