@@ -51,12 +51,13 @@ ResolvedScheme withStep(ResolvedScheme scheme, double step, double tolerance) {
 class PointRun {
 public:
     PointRun(const ResolvedScene& scene, const StudyPoint& point, const std::stop_token& stop)
-        : scheme_(withStep(scene.schemes[point.scheme], point.step, point.tolerance)),
+        : scheme_(withStep(schemeOf(scene, point), point.step, point.tolerance)),
           system_(*systemOf(scene, scheme_)),
           step_(point.step),
           start_(schemeStart(scene, scheme_, step_)),
           grid_(marchGrid(scene.scene, scheme_, step_)),
           integrator_(scheme_.make(system_, step_, start_)),
+          reduction_(point.reduction),
           stop_(stop) {}
 
     PointResult measure(const Metric& metric, ExactSolution reference) {
@@ -79,6 +80,7 @@ public:
         result.steps = state.node;
         result.cost = report.cost;
         result.step = step_;
+        result.reduction = reduction_;
         result.tolerance = scheme_.isAdaptive() ? scheme_.spec.tolerance.value_or(0) : 0;
         result.cpuSeconds = report.cpuSeconds;
         result.cause = report.outcome;
@@ -107,13 +109,23 @@ private:
     State start_;
     MarchGrid grid_;
     std::unique_ptr<Integrator> integrator_;  ///< as it is before a run: each run has a copy
+    Reduction reduction_;
     std::stop_token stop_;
 };
 
 }  // namespace
 
+double workOf(const PointResult& result, int nodes) {
+    return static_cast<double>(result.cost.evaluations > 0 ? result.cost.evaluations
+                                                           : result.steps * std::max(1, nodes));
+}
+
+ResolvedScheme schemeOf(const ResolvedScene& scene, const StudyPoint& point) {
+    return reduced(scene.schemes[point.scheme], point.reduction, scene);
+}
+
 ResolvedScheme schemeAt(const ResolvedScene& scene, std::size_t scheme, const PointResult& result) {
-    return withStep(scene.schemes[scheme], result.step, result.tolerance);
+    return withStep(reduced(scene.schemes[scheme], result.reduction, scene), result.step, result.tolerance);
 }
 
 PointResult runPoint(const ResolvedScene& scene, const StudyPoint& point, const Metric& metric,

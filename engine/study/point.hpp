@@ -16,6 +16,7 @@
 #include "engine/run/comparison.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/study/metric.hpp"
+#include "engine/study/reductions.hpp"
 
 namespace extremal {
 
@@ -24,6 +25,7 @@ struct StudyPoint {
     double step = 0;         ///< 0 for adaptive schemes
     double tolerance = 0;    ///< 0 for those with steps
     std::size_t row = 0;     ///< of the reference: which of the study's steps
+    Reduction reduction = {};
 };
 
 struct PointResult {
@@ -33,6 +35,8 @@ struct PointResult {
     double failedAt = unknown;
     double error = unknown;          ///< the metric; of a failed run up to its last node
     double step = 0, tolerance = 0;  ///< where it was measured: of the point, or what a search found
+    Reduction reduction = {};
+    double unreducedWork = unknown;  ///< of a reduced scheme: what the error takes of the scheme as it is
     long long steps = 0;
     Cost cost = {};
     double cpuSeconds = unknown;        ///< median
@@ -43,7 +47,11 @@ struct PointResult {
     bool isDone() const { return status == RunStatus::done; }
 };
 
-/// The scheme of the scene with the step or tolerance of a result.
+/// Evaluations, or where none are counted, steps times nodes: a cost that is the same on every machine.
+double workOf(const PointResult& result, int nodes);
+/// The scheme of the scene with the reduction of a point.
+ResolvedScheme schemeOf(const ResolvedScene& scene, const StudyPoint& point);
+/// The scheme of the scene with the reduction, step or tolerance of a result.
 ResolvedScheme schemeAt(const ResolvedScene& scene, std::size_t scheme, const PointResult& result);
 
 /// Runs it. `reference`: empty where the metric needs none or there is none. `repeat`: timed runs, 0 for

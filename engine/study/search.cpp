@@ -9,43 +9,47 @@
 namespace extremal {
 namespace {
 
-constexpr double mostSearched = 1e7, strictest = 1e15;  ///< steps, 1/tolerance
+constexpr double strictest = 1e15;  ///< 1/tolerance
 constexpr int mostRuns = 24;
 
 class Search {
 public:
-    Search(const ResolvedScene& scene, const StudyPoint& own, double wanted,
-           const std::function<PointResult(const StudyPoint&, int)>& run)
+    Search(const ResolvedScene& scene, const ResolvedScheme& scheme, const StudyPoint& own, double wanted,
+           double most, const std::function<PointResult(const StudyPoint&, int)>& run)
         : own_(own),
           wanted_(wanted),
-          isAdaptive_(scene.schemes[own.scheme].isAdaptive()),
-          isOnly_(hasStepOfItsSpace(scene, scene.schemes[own.scheme])),
+          mostSteps_(most),
+          isAdaptive_(scheme.isAdaptive()),
+          isOnly_(hasStepOfItsSpace(scene, scheme)),
           length_(scene.scene.end.value - scene.scene.start.value),
-          order_(isAdaptive_ ? 1 : std::max(1, scene.schemes[own.scheme].claims.order)),
+          order_(isAdaptive_ ? 1 : std::max(1, scheme.claims.order)),
           run_(run) {}
 
-    PointResult find(int repeat) {
+    PointResult find() {
         if (isOnly_) {
-            PointResult result = run_(own_, repeat);
+            PointResult result = run_(own_, 0);
             if (result.isDone() && !(result.error <= wanted_)) result.status = RunStatus::failed;
             return result;
         }
         double n = isAdaptive_ ? 1 / own_.tolerance : std::max(1.0, std::round(length_ / own_.step));
+        PointResult found;
         for (int runs = 0; runs < mostRuns; ++runs) {
             const PointResult result = run_(at(n), 0);
             if (result.status == RunStatus::partial) return result;
             const bool isKnown = result.isDone() && std::isfinite(result.error);
             if (isKnown && !(nearest_ && nearest_->error <= result.error)) nearest_ = result;
             const double excess = isKnown ? std::log(result.error / wanted_) : HUGE_VAL;
-            if (excess <= 0)
+            if (excess <= 0) {
                 good_ = End{n, excess};
-            else
+                found = result;
+            } else {
                 noteBad(n, excess);
+            }
             const std::optional<double> next = nextOf();
             if (!next) break;
             n = *next;
         }
-        if (good_) return run_(at(good_->n), repeat);
+        if (good_) return found;
         PointResult failed = nearest_.value_or(PointResult{});
         failed.status = RunStatus::failed;
         return failed;
@@ -73,7 +77,7 @@ private:
 
     /// None where the search ends.
     std::optional<double> nextOf() const {
-        const double apart = isAdaptive_ ? 1.2 : 1.03, limit = isAdaptive_ ? strictest : mostSearched;
+        const double apart = isAdaptive_ ? 1.2 : 1.03, limit = isAdaptive_ ? strictest : mostSteps_;
         if (good_ && bad_) {
             const double low = bad_->n, high = good_->n;
             if (high <= low * apart || (!isAdaptive_ && high - low <= 1)) return {};
@@ -96,7 +100,7 @@ private:
     }
 
     StudyPoint own_;
-    double wanted_;
+    double wanted_, mostSteps_;
     bool isAdaptive_;
     bool isOnly_;  ///< the step follows from the space: there is no other
     double length_;
@@ -111,7 +115,36 @@ private:
 
 PointResult searchPoint(const ResolvedScene& scene, const StudyPoint& own, double wanted, int repeat,
                         const std::function<PointResult(const StudyPoint&, int repeat)>& run) {
-    return Search(scene, own, wanted, run).find(repeat);
+    constexpr double most = 1e7;
+    const ResolvedScheme& scheme = scene.schemes[own.scheme];
+    const PointResult whole = Search(scene, scheme, own, wanted, most, run).find();
+    if (!whole.isDone()) return whole;
+    const Reduction has = richnessOf(scheme);
+    const double work = workOf(whole, has.nodes);
+    PointResult best = whole;
+    double least = work;
+    for (const Reduction& reduction : reductionsOf(scheme, scene)) {
+        StudyPoint less = own;
+        less.reduction = reduction;
+        less.step = whole.step;
+        // With more steps it could not be cheaper, even if its nodes took half as many evaluations.
+        const double perStep = work / static_cast<double>(whole.steps) * reduction.nodes / has.nodes;
+        const PointResult result =
+            Search(scene, schemeOf(scene, less), less, wanted, 2 * least / perStep, run).find();
+        if (result.status == RunStatus::partial) return result;
+        if (!result.isDone() || !(workOf(result, reduction.nodes) < least)) continue;
+        least = workOf(result, reduction.nodes);
+        best = result;
+        best.unreducedWork = work;
+    }
+    if (repeat == 0) return best;
+    StudyPoint at = own;
+    at.step = best.step;
+    at.tolerance = best.tolerance;
+    at.reduction = best.reduction;
+    PointResult timed = run(at, repeat);
+    timed.unreducedWork = best.unreducedWork;
+    return timed;
 }
 
 }  // namespace extremal

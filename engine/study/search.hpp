@@ -4,6 +4,9 @@
 /// claimed order, and narrowed by the secant in log error over log n until the ends are 3 % apart (20 % for
 /// tolerances). Errors are taken to fall with the step; where they do not, the step that is found reaches the
 /// error all the same, but need not be the largest.
+///
+/// Then the same is asked of the scheme with a smaller degree or with fewer nodes (reductions.hpp), within
+/// the steps with which it could be cheaper: the cheapest is the result.
 #pragma once
 
 #include <functional>

@@ -17,11 +17,13 @@ std::string pointLine(std::size_t index, const PointResult& r) {
     for (const long long value :
          {r.steps, r.cost.iterations, r.cost.evaluations, r.cost.linearSolves, r.cost.rejected})
         line += ',' + std::to_string(value);
-    return line + cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
+    line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
+    line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes);
+    return line + cellsText({r.unreducedWork});
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 16) return {};
+    if (cells.size() != 19) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -34,6 +36,8 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.predictedSeconds = cellNumber(cells[13]);
     r.step = cellNumber(cells[14]);
     r.tolerance = cellNumber(cells[15]);
+    r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17]))};
+    r.unreducedWork = cellNumber(cells[18]);
     return r;
 }
 

@@ -2,7 +2,8 @@
 ///
 ///     {"extremal": 1, "study": "convergence", "options": {..}, "scene": "<fingerprint>"}
 ///     point,<index>,<status>,<cause>,<failed_at>,<error>,<steps>,<iterations>,<evaluations>,<linear solves>,
-///           <rejected>,<cpu_seconds>,<cpu_spread>,<step>,<tolerance>
+///           <rejected>,<cpu_seconds>,<cpu_spread>,<predicted>,<step>,<tolerance>,
+///           <degree>,<nodes>,<work without reduction>
 ///     reference,<type>,<estimated_error>
 #pragma once
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/scene/codec.hpp"
+
 namespace extremal {
 
 int indexOfScheme(const Scene& scene, const std::string& label) {
@@ -27,6 +29,15 @@ std::vector<Edit> editsForRun(const Scene& scene, const std::string& label,
         edits.push_back({pointer.starts_with(any) ? own + pointer.substr(any.size()) : pointer, value});
     if (!scene.schemes[static_cast<std::size_t>(index)].isEnabled) edits.push_back({own + "/enabled", true});
     return edits;
+}
+
+std::vector<Edit> editsForScheme(Scene scene, const SchemeSpec& scheme) {
+    const int index = indexOfScheme(scene, scheme.label);
+    if (index < 0) return {};
+    const auto at = static_cast<std::size_t>(index);
+    scene.schemes[at] = scheme;
+    scene.schemes[at].isEnabled = true;
+    return {{"/schemes/" + std::to_string(index), toValue(scene).find("schemes")->asArray()[at]}};
 }
 
 }  // namespace extremal

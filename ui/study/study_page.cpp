@@ -396,8 +396,11 @@ void StudyPage::showState() {
 StudyPage::LoadableRun StudyPage::runOfRow(std::size_t row) const {
     if (const Sweep* sweep = job_->as<Sweep>(); sweep && row < sweep->rows().size()) {
         const SweepRow& point = sweep->rows()[row];
-        return {sweep->scene().scene.schemes[point.point.scheme].label,
-                stepOrTolerance(point.result.step, point.result.tolerance)};
+        LoadableRun run{sweep->scene().scene.schemes[point.point.scheme].label,
+                        stepOrTolerance(point.result.step, point.result.tolerance)};
+        if (point.result.reduction)
+            run.scheme = schemeAt(sweep->scene(), point.point.scheme, point.result).spec;
+        return run;
     }
     if (const auto* study = job_->as<StabilityStudy>(); study && row < study->rows().size())
         return {study->scene().scene.schemes[study->rows()[row].scheme].label,
@@ -428,7 +431,8 @@ bool StudyPage::use(const LoadableRun& run, QString& text) {
         parts << tr("%1 = %2").arg(QString::fromStdString(name), shortNumber(value, 4));
     }
     text = tr("%1 with %2").arg(QString::fromStdString(run.label), parts.join(QStringLiteral(", ")));
-    const std::vector<Edit> edits = editsForRun(workspace_.scene(), run.label, run.numbers);
+    const std::vector<Edit> edits = run.scheme ? editsForScheme(workspace_.scene(), *run.scheme)
+                                               : editsForRun(workspace_.scene(), run.label, run.numbers);
     if (!edits.empty() && workspace_.edit(edits, tr("Use a result of a study"))) {
         workspace_.selectScheme(indexOfScheme(workspace_.scene(), run.label));
         return true;

@@ -63,6 +63,7 @@ private:
     struct LoadableRun {
         std::string label;
         std::vector<std::pair<std::string, double>> numbers;
+        std::optional<SchemeSpec> scheme = {};  ///< a smaller one in its place, with these numbers
     };
 
     void makeResults(const Theme& theme);

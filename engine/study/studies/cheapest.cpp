@@ -24,18 +24,35 @@ std::vector<const SweepRow*> ranked(const Sweep& sweep) {
     return all;
 }
 
+std::string counted(int count, const std::string& what) {
+    return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
 /// What the wanted error needs of the scheme.
-std::string keptOf(const SweepRow& row) {
+std::string keptOf(const Sweep& sweep, const SweepRow& row) {
     const PointResult& r = row.result;
     if (!r.isDone()) return "";
-    return std::to_string(r.steps) + " steps" +
+    std::string text;
+    const Reduction has = richnessOf(sweep.scene().schemes[row.point.scheme]),
+                    kept = r.reduction ? r.reduction : has;
+    if (kept) text = "degree " + std::to_string(kept.degree) + ", " + counted(kept.nodes, "node") + ", ";
+    return text + std::to_string(r.steps) + " steps" +
            (r.tolerance > 0 ? ", tolerance " + formatNumber(r.tolerance, 3) : "");
 }
 
-/// What of the scene it does without: steps, and observables that the metric does not need.
+/// What of the scene it does without: degrees, nodes, steps, and observables that the metric does not need;
+/// and what the smaller scheme saves, against the largest step of the scheme as it is.
 std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
     if (!row.result.isDone()) return "";
     std::vector<std::string> all;
+    if (const Reduction kept = row.result.reduction; kept) {
+        const Reduction has = richnessOf(sweep.scene().schemes[row.point.scheme]);
+        if (has.degree > kept.degree) all.push_back(counted(has.degree - kept.degree, "degree"));
+        if (has.nodes > kept.nodes) all.push_back(counted(has.nodes - kept.nodes, "node"));
+        const double saved = 1 - workOf(row.result, kept.nodes) / row.result.unreducedWork;
+        all.push_back("which saves " + formatNumber(std::round(100 * saved), 3) + " % of the " +
+                      (row.result.cost.evaluations > 0 ? "evaluations" : "nodes"));
+    }
     const double own = sweep.scene().schemes[row.point.scheme].spec.step.value;
     if (row.result.step > own * 1.01) {
         const double length = sweep.scene().scene.end.value - sweep.scene().scene.start.value;
@@ -57,7 +74,7 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
         all.push_back({r.isDone() ? Value(++rank) : Value(nullptr),
                        sweep.scene().scene.schemes[row->point.scheme].label, positiveNumber(r.step),
                        positiveNumber(r.predictedSeconds), knownNumber(r.cpuSeconds),
-                       static_cast<double>(r.cost.evaluations), knownNumber(r.error), keptOf(*row),
+                       static_cast<double>(r.cost.evaluations), knownNumber(r.error), keptOf(sweep, *row),
                        leftOutOf(sweep, *row), positiveNumber(r.tolerance), name(r.status)});
     }
     return all;
@@ -65,7 +82,7 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
 
 std::vector<Value::Array> summaryOfPrices(const Sweep& sweep) {
     std::vector<Value::Array> all = rowsOfPrices(sweep);
-    for (Value::Array& row : all) row.erase(row.begin() + 7, row.begin() + 9);
+    for (Value::Array& row : all) row.erase(row.begin() + 8);  // what is left out is long
     return all;
 }
 
@@ -75,8 +92,8 @@ StudyEntry cheapest() {
     StudyEntry e;
     e.item = {"cheapest",
               "The cheapest scheme",
-              "For a wanted error (--error), the largest step of every scheme that reaches it, ranked by CPU "
-              "time.",
+              "For a wanted error (--error), the largest step and the smallest degree of every scheme that "
+              "reach it, ranked by CPU time.",
               {},
               {},
               ""};
@@ -84,8 +101,8 @@ StudyEntry cheapest() {
                  "cpu_seconds", "evaluations", "error", "kept",
                  "left_out",    "tolerance",   "status"};
     e.rows = rowsOfPrices;
-    e.summaryColumns = {"rank",        "scheme", "step",      "predicted cpu", "cpu seconds",
-                        "evaluations", "error",  "tolerance", "status"};
+    e.summaryColumns = {"rank",        "scheme", "step", "predicted cpu", "cpu seconds",
+                        "evaluations", "error",  "kept", "tolerance",     "status"};
     e.summary = summaryOfPrices;
     e.summaryPoints = ranked;
     e.over = StudyEntry::Over::wantedError;

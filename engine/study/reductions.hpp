@@ -1,0 +1,28 @@
+/// What a scheme can do without: a smaller degree, fewer nodes.
+#pragma once
+
+#include <vector>
+
+#include "engine/scene/resolve.hpp"
+
+namespace extremal {
+
+/// The degree of a space and the nodes of its rule; 0: not changed.
+struct Reduction {
+    int degree = 0, nodes = 0;
+    explicit operator bool() const { return degree > 0; }
+    bool operator==(const Reduction&) const = default;
+};
+
+/// The present ones of a scheme whose space has one degree for all and whose rule has nodes; else none.
+Reduction richnessOf(const ResolvedScheme& scheme);
+
+/// The scheme with another degree and number of nodes; itself where the reduction is none. Throws
+/// InvalidScene where there is no such scheme.
+ResolvedScheme reduced(const ResolvedScheme& scheme, const Reduction& to, const ResolvedScene& scene);
+
+/// Smaller ones that exist, the largest degree first: each degree with as many more nodes than degrees as the
+/// scheme has, and with fewer.
+std::vector<Reduction> reductionsOf(const ResolvedScheme& scheme, const ResolvedScene& scene);
+
+}  // namespace extremal
