@@ -10,21 +10,33 @@
 namespace extremal {
 namespace {
 
-/// Half the trace of the step's map on L = (v^2 - z^2 q^2)/2 with h = 1.
-double halfTrace(const Table<double>& t, double z) {
-    const int m = t.unknowns();
-    const Eigen::MatrixXd weighted = t.weight.asDiagonal() * t.testValue;
-    const Eigen::MatrixXd stiffness = t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative;
-    const Eigen::MatrixXd A = stiffness - z * z * weighted.transpose() * t.value;
-    // Right-hand sides for (q_0, p_0) = (1, 0) and (0, 1).
-    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(m, 2);
-    rhs.col(0) = z * z * weighted.colwise().sum().transpose();
-    rhs(m - 1, 1) = -1;
-    const Eigen::MatrixXd Y = dense::solve<double>(A, rhs);
-    const double q = 1 + Y(m - 1, 0);
-    const double p = 1 - z * z * t.weight.dot(t.value * Y.col(1));
-    return (q + p) / 2;
-}
+/// Half the trace of the step's map on L = (v^2 - z^2 q^2)/2 with h = 1, whose equations are
+/// (stiffness - z^2 mass) Y = rhs.
+class HalfTrace {
+public:
+    explicit HalfTrace(const Table<double>& t) {
+        const Eigen::MatrixXd weighted = t.weight.asDiagonal() * t.testValue;
+        stiffness_ = t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative;
+        mass_ = weighted.transpose() * t.value;
+        load_ = weighted.colwise().sum().transpose();
+        impulse_ = t.value.transpose() * t.weight;
+    }
+    double operator()(double z) const {
+        const Eigen::Index m = load_.size();
+        // Right-hand sides for (q_0, p_0) = (1, 0) and (0, 1).
+        Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(m, 2);
+        rhs.col(0) = z * z * load_;
+        rhs(m - 1, 1) = -1;
+        const Eigen::MatrixXd Y = dense::solve<double>(stiffness_ - z * z * mass_, rhs);
+        const double q = 1 + Y(m - 1, 0);
+        const double p = 1 - z * z * impulse_.dot(Y.col(1));
+        return (q + p) / 2;
+    }
+
+private:
+    Eigen::MatrixXd stiffness_, mass_;  ///< sum_i b_i psi_a' phi_b' and sum_i b_i psi_a phi_b
+    Eigen::VectorXd load_, impulse_;    ///< sum_i b_i psi_a and sum_i b_i phi_b
+};
 
 /// The error of L_d over h^(2 degree + 1) from the space, h^(order of the rule + 1) from the rule on the
 /// solution, and h^(2 consistency + 1) from the rule in the stationarity conditions, where it counts twice.
@@ -55,7 +67,7 @@ Properties describeTable(const std::function<Table<double>()>& make, const Setti
         const Table<double> table = make();
         p.claims.order = orderOf(table);
         p.curveOrder = std::min({table.space.degree + 1, table.consistency + 1, p.claims.order});
-        p.stabilityLimit = firstInstability([&](double z) { return halfTrace(table, z); });
+        p.stabilityLimit = firstInstability(HalfTrace(table));
         p.shortfall = shortfallOf(table);
         if (table.consistency == 0) {
             p.refusal =

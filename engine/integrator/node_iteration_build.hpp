@@ -41,7 +41,7 @@ class Grid {
 public:
     explicit Grid(const T& largest) {
         T above(1);
-        while (above <= largest) above *= 2;
+        while (above <= largest && above < std::numeric_limits<T>::max() / 2) above *= 2;
         while (above / 2 > largest) above /= 2;
         unit_ = above * std::numeric_limits<T>::epsilon() / 2;
     }

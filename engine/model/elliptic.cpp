@@ -12,7 +12,7 @@
 namespace extremal {
 namespace {
 
-constexpr int mostPanels = 4'000'000;
+constexpr int mostPanels = 400'000;
 
 /// a(x/epsilon), which must be positive and finite.
 double coefficient(const EllipticProblem& p, double x) {
@@ -76,6 +76,13 @@ double EllipticSolution::start(int panel) const {
            elements_;
 }
 
+/// R alone, continued from x0 to x1.
+EllipticSolution::Wide EllipticSolution::resistance(Wide from, double x0, double x1) const {
+    for (std::size_t i = 0; i < c_.size(); ++i)
+        from += Wide(b_[i] * (x1 - x0)) / Wide(coefficient(problem_, x0 + c_[i] * (x1 - x0)));
+    return from;
+}
+
 /// The sums continued from x0 to x1, within one panel. F inside is integrated by the same rule on a shorter
 /// stretch.
 EllipticSolution::Sums EllipticSolution::added(Sums from, double x0, double x1) const {
@@ -131,7 +138,7 @@ std::vector<double> EllipticSolution::nodal(EllipticElements kind) const {
                 mean += share * Wide(coefficient(problem_, x));
                 const Wide phi = kind == EllipticElements::linear
                                      ? Wide(x) * elements_ - static_cast<Wide>(e)
-                                     : (added(ends_[panel], x0, x).R - ends_[first].R) / length;
+                                     : (resistance(ends_[panel].R, x0, x) - ends_[first].R) / length;
                 load += share * Wide(problem_.f(x)) * phi;
             }
         }

@@ -56,6 +56,7 @@ private:
         Wide R = 0, F = 0, G = 0;
     };
     Sums at(double x) const;
+    Wide resistance(Wide from, double x0, double x1) const;
     Sums added(Sums from, double x0, double x1) const;
     double start(int panel) const;
 

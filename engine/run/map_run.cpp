@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "engine/core/contained.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/map_reference.hpp"
@@ -101,7 +102,7 @@ struct MapColumn {
 
     MapCell cell(const ResolvedScheme& scheme, std::size_t row) const {
         try {
-            return runCell(scheme, row);
+            return contained("", [&] { return runCell(scheme, row); });
         } catch (const InvalidScene&) {
             return {MapCell::End::refused};
         }

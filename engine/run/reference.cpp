@@ -1,18 +1,15 @@
 #include "engine/run/reference.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <map>
 #include <memory>
-#include <sstream>
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/run/reference_file.hpp"
 #include "engine/run/shared_solution.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -279,58 +276,6 @@ Reference fromScheme(const ResolvedScene& resolved, const std::stop_token& stop)
     return reference;
 }
 
-/// Rows of a CSV with t and the state columns; known at its own times, to 1e-9 of their spacing.
-Reference fromFile(const Scene& scene, const System& system) {
-    std::ifstream in(scene.reference.path);
-    std::string line;
-    if (!in || !std::getline(in, line))
-        throw InvalidScene("/reference/path", "cannot read \"" + scene.reference.path + "\"",
-                           "a CSV with t and the state");
-    std::vector<std::string> header;
-    std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) {
-        while (!cell.empty() && (cell.back() == '\r' || cell.back() == '"')) cell.pop_back();
-        if (!cell.empty() && cell.front() == '"') cell.erase(0, 1);
-        header.push_back(cell);
-    }
-    auto find = [&](const std::string& name) {
-        const auto it = std::find(header.begin(), header.end(), name);
-        if (it == header.end())
-            throw InvalidScene("/reference/path",
-                               "\"" + scene.reference.path + "\" has no column \"" + name + "\"",
-                               "a CSV with t and the state columns");
-        return static_cast<std::size_t>(it - header.begin());
-    };
-    std::vector<std::size_t> wanted{find("t")};
-    for (const Quantity& c : stateColumns(system)) wanted.push_back(find(c.name));
-    auto rows = std::make_shared<std::map<double, std::vector<double>>>();
-    while (std::getline(in, line)) {
-        std::vector<double> values;
-        std::istringstream row(line);
-        for (std::string cell; std::getline(row, cell, ',');) {
-            double v = unknown;
-            std::from_chars(cell.data(), cell.data() + cell.size(), v);
-            values.push_back(v);
-        }
-        values.resize(header.size(), unknown);
-        std::vector<double> x;
-        for (std::size_t k = 1; k < wanted.size(); ++k) x.push_back(values[wanted[k]]);
-        if (std::isfinite(values[wanted[0]])) (*rows)[values[wanted[0]]] = x;
-    }
-    Reference reference;
-    reference.info = {"file", unknown, scene.reference.path};
-    reference.make = [rows]() -> ExactSolution {
-        return [rows](double t, std::span<double> x) {
-            std::fill(x.begin(), x.end(), unknown);
-            const double slack = 1e-9 * std::max(1e-300, std::abs(t)) + 1e-12;
-            const auto it = rows->lower_bound(t - slack);
-            if (it != rows->end() && std::abs(it->first - t) <= slack)
-                std::copy(it->second.begin(), it->second.end(), x.begin());
-        };
-    };
-    return reference;
-}
-
 }  // namespace
 
 Reference makeReference(const ResolvedScene& resolved, const std::stop_token& stop) {
@@ -341,7 +286,7 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     const Kind kind = scene.reference.kind;
     if (kind == Kind::none) return {};
     if (kind == Kind::scheme) return fromScheme(resolved, stop);
-    if (kind == Kind::file) return fromFile(scene, system);
+    if (kind == Kind::file) return readReference(scene.reference.path, system);
     if (exactSolution(scene, system, initial)) {
         Reference reference;
         const double estimate = exactError(system, initial, scene.end.value - scene.start.value);

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "engine/core/contained.hpp"
 #include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
@@ -75,8 +76,10 @@ struct Run::Impl {
         if (needsSchemes && needsReference()) {
             isPreparing = true;
             try {
-                ref = makeReference(resolved, stop);
-                shareReference(ref, unknownPart());
+                contained("/reference", [&] {
+                    ref = makeReference(resolved, stop);
+                    shareReference(ref, unknownPart());
+                });
             } catch (const InvalidScene& e) {
                 ref.info.problems = e.problems();  // the run goes on without errors
             }

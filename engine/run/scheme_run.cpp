@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/core/contained.hpp"
 #include "engine/core/line_fit.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
@@ -370,9 +371,23 @@ void SchemeRun::publish(const SchemeResult& result) {
 
 void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
     if (isKnown_) return;
+    try {
+        contained("", [&] { compute(ofScene, exact, stop); });
+    } catch (const InvalidScene& e) {
+        const double start = initialOf(resolved_, scheme_).t;
+        SchemeResult failed = *latest();
+        failed.summary.status = RunStatus::failed;
+        failed.summary.cause = Outcome::refused;
+        failed.summary.failedAt = start;
+        failed.summary.tEnd = start;
+        failed.summary.advice = e.problems().front().message;
+        publish(failed);
+    }
+}
+
+void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
     const Reference reference = referenceFor(ofScene, resolved_, scheme_);
     const System& system = *systemOf(resolved_, scheme_);
-    const State& initial = initialOf(resolved_, scheme_);
     const int style = latest()->style;
     using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
@@ -398,40 +413,30 @@ void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::st
         });
         return p;
     };
-    try {
-        const bool isUnplanned = !scheme_.isFixed() && !scene_.every;
-        const long long planned = marchGrid(scene_, scheme_, spec_.step.value).steps;
-        Recording p = record(isUnplanned ? 1 : RowSampler::stride(planned), isUnplanned ? heldRows : 0);
-        SchemeResult result = std::move(p.result);
-        if (isUnplanned) {
-            const long long m = RowSampler::stride(result.summary.steps);
-            if (p.hasOverflown) {
-                result = std::move(record(m, 0).result);
-            } else if (m > 1) {
-                for (Column& c : result.trajectory.columns)
-                    c.values = thinned(c.values, static_cast<std::size_t>(m));
-                result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
-            }
+    const bool isUnplanned = !scheme_.isFixed() && !scene_.every;
+    const long long planned = marchGrid(scene_, scheme_, spec_.step.value).steps;
+    Recording p = record(isUnplanned ? 1 : RowSampler::stride(planned), isUnplanned ? heldRows : 0);
+    SchemeResult result = std::move(p.result);
+    if (isUnplanned) {
+        const long long m = RowSampler::stride(result.summary.steps);
+        if (p.hasOverflown) {
+            result = std::move(record(m, 0).result);
+        } else if (m > 1) {
+            for (Column& c : result.trajectory.columns)
+                c.values = thinned(c.values, static_cast<std::size_t>(m));
+            result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
         }
-        const bool wantsOrder =
-            std::find(scene_.observe.begin(), scene_.observe.end(), "order") != scene_.observe.end();
-        if (plan_.has(Product::kktPattern) || plan_.has(Product::actionDefect)) {
-            publish(result);
-            const State own = schemeStart(resolved_, scheme_, spec_.step.value);
-            addEquations(result, plan_, resolved_, scheme_, own, exact, stop);
-        }
-        if (wantsOrder && result.summary.status == RunStatus::done && !scheme_.isAdaptive() && reference.make)
-            measureOrder(result, reference, ofScene, stop);
-        publish(result);
-    } catch (const InvalidScene& e) {
-        SchemeResult failed = *latest();
-        failed.summary.status = RunStatus::failed;
-        failed.summary.cause = Outcome::refused;
-        failed.summary.failedAt = initial.t;
-        failed.summary.tEnd = initial.t;
-        failed.summary.advice = e.problems().front().message;
-        publish(failed);
     }
+    const bool wantsOrder =
+        std::find(scene_.observe.begin(), scene_.observe.end(), "order") != scene_.observe.end();
+    if (plan_.has(Product::kktPattern) || plan_.has(Product::actionDefect)) {
+        publish(result);
+        const State own = schemeStart(resolved_, scheme_, spec_.step.value);
+        addEquations(result, plan_, resolved_, scheme_, own, exact, stop);
+    }
+    if (wantsOrder && result.summary.status == RunStatus::done && !scheme_.isAdaptive() && reference.make)
+        measureOrder(result, reference, ofScene, stop);
+    publish(result);
 }
 
 /// Slope of log(max error) over log(step) from runs with h, h/2 and h/4: of fields on meshes that are refined

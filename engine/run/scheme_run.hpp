@@ -37,6 +37,7 @@ public:
 
 private:
     struct Recording;
+    void compute(const Reference& reference, ExactActions* exact, const std::stop_token& stop);
     void publish(const SchemeResult& result);
     void measureOrder(SchemeResult& result, const Reference& reference, const Reference& ofScene,
                       const std::stop_token& stop) const;

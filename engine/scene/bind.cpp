@@ -1,6 +1,9 @@
 #include "engine/scene/bind.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <vector>
 
 #include "engine/core/problem.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -38,8 +41,20 @@ State initialState(const Scene& scene, const System& system) {
 }
 
 ExactSolution exactSolution(const Scene& scene, const System& system, const State& initial) {
-    if (system.exactFrom) return system.exactFrom(scene.initial.given, initial);
-    return system.exact ? system.exact(initial) : ExactSolution();
+    // With parameters of extreme size a formula may over- or underflow, and a special function refuse.
+    try {
+        const ExactSolution exact = system.exactFrom ? system.exactFrom(scene.initial.given, initial)
+                                    : system.exact   ? system.exact(initial)
+                                                     : ExactSolution();
+        if (!exact) return {};
+        std::vector<double> x(initial.x.size());
+        exact(initial.t, x);
+        const bool isFinite = std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
+        return isFinite ? exact : ExactSolution();
+    } catch (const std::domain_error&) {
+    } catch (const std::runtime_error&) {  // of Boost.Math: overflow, evaluation, rounding
+    }
+    return {};
 }
 
 long long stepCount(double start, double end, double step) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/contained.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/cost.hpp"
@@ -144,14 +145,16 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
                const std::string& pointer) {
     try {
         const double step = scheme.spec.step.value;
-        scheme.make(*systemOf(scene, scheme), step, initialOf(scene, scheme));
-        schemeStart(scene, scheme, step);
-        checkStep(reader, scene, scheme, pointer);
+        contained("", [&] {
+            scheme.make(*systemOf(scene, scheme), step, initialOf(scene, scheme));
+            schemeStart(scene, scheme, step);
+            checkStep(reader, scene, scheme, pointer);
+        });
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
         return;
     }
-    checkCost(reader, scene, scheme, pointer);
+    if (reader.errors.empty()) checkCost(reader, scene, scheme, pointer);
 }
 
 void checkScheme(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
@@ -169,7 +172,7 @@ bool checkStart(Reader& reader, ResolvedScene& scene) {
     const ModelEntry* entry = findModel(scene.scene.model.type);
     std::string prefix;
     try {
-        scene.initial = initialState(scene.scene, *scene.system);
+        scene.initial = contained("/initial", [&] { return initialState(scene.scene, *scene.system); });
         prefix = "/model";
         if (entry && entry->checkInitial && reader.errors.empty())
             entry->checkInitial(scene.scene.model, *scene.system, scene.initial);
@@ -195,8 +198,9 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
     if (scene.end.value > scene.start.value) checkRows(reader, scene);
     if (resolved.system) checkCaution(reader, resolved);
     for (std::size_t i = 0; i < resolved.schemes.size() && resolved.system; ++i) {
+        if (!resolved.schemes[i].properties.refusal.empty()) continue;
         try {
-            resolveSystem(resolved.schemes[i], scene);
+            contained("", [&] { resolveSystem(resolved.schemes[i], scene); });
         } catch (const InvalidScene& e) {
             for (const Problem& p : e.problems())
                 reader.error(childPointer("/schemes", places[i]) + "/space", p.message, p.hint);

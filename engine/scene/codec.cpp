@@ -1,5 +1,6 @@
 #include "engine/scene/codec.hpp"
 
+#include "engine/core/contained.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
@@ -26,7 +27,7 @@ void readHeader(Reader& reader, const Value& document, Scene& scene) {
     readText("notes", scene.notes);
 }
 
-ReadScene readDocument(const Value& document, const std::string& directory) {
+ReadScene readParts(const Value& document, const std::string& directory) {
     Reader reader;
     ReadScene result;
     if (!document.isObject()) {
@@ -56,6 +57,14 @@ ReadScene readDocument(const Value& document, const std::string& directory) {
     result.errors = std::move(reader.errors);
     result.warnings = std::move(reader.warnings);
     return result;
+}
+
+ReadScene readDocument(const Value& document, const std::string& directory) {
+    try {
+        return contained("", [&] { return readParts(document, directory); });
+    } catch (const InvalidScene& e) {
+        return {{}, e.problems(), {}};
+    }
 }
 
 }  // namespace

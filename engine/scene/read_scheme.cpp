@@ -274,6 +274,9 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     readSolver(reader, value, childPointer(pointer, "solver"), spec);
     // A step that follows from a parameter whose own error is reported is unknown without a further one.
     const bool hasStep = spec.step.value > 0 || spec.tolerance;
+    if (!hasStep && reader.errors.empty())
+        reader.error(pointer + "/step", "follows from the model, where it is no positive number",
+                     "parameters of the model of ordinary size");
     if (reader.errors.size() > errorsBefore || !hasStep) return {};
     return spec;
 }

@@ -14,7 +14,9 @@ TentDegrees tentDegrees(const Settings& space) {
     const Value* degree = space.find("degree");
     if (!degree) return {};
     const auto whole = [](const Value* v) {
-        return v && v->isNumber() ? static_cast<int>(std::lround(v->asNumber())) : 1;
+        if (!v) return 1;
+        const double number = v->isNumber() ? v->asNumber() : 0;
+        return std::abs(number) < 1000 && number == std::round(number) ? static_cast<int>(number) : 0;
     };
     if (!degree->isObject()) return {whole(degree), whole(degree)};
     return {whole(degree->find("space")), whole(degree->find("time"))};

@@ -15,7 +15,8 @@ namespace extremal {
 struct TentDegrees {
     int space = 1, time = 1;
 };
-/// Of the space's key `degree`: one number for both directions, or one for each.
+/// Of the space's key `degree`: one number for both directions, or one for each; 0 for what is no whole
+/// number.
 TentDegrees tentDegrees(const Settings& space);
 
 /// Whether the elements have functions of their own in place of linear ones: "cell-problem" or "snapshots".

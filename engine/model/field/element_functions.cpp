@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "engine/core/dense.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal {
@@ -105,12 +107,20 @@ ElementFunctions cellFunctions(const Mesh& mesh, const MediumCoefficient& a, int
 
 ElementFunctions snapshotFunctions(const Mesh& mesh, const MediumCoefficient& a, double speed, int parts) {
     constexpr int snapshots = 32;
+    constexpr double mostSnapshotSteps = 1e6;
     ElementFunctions f = withCoefficients(mesh, a, parts);
     ResolvedWave wave(mesh, f, speed);
     // For the time in which the slowest wave crosses the domain at most.
     double resistance = 0;
     for (const double c : f.coefficient) resistance += 1 / c / static_cast<double>(f.coefficient.size());
-    const auto steps = static_cast<long long>(mesh.length() * std::sqrt(resistance) / speed / wave.step());
+    const double needed = mesh.length() * std::sqrt(resistance) / speed / wave.step();
+    if (!(needed >= snapshots && needed < mostSnapshotSteps))
+        throw InvalidScene("",
+                           "takes its snapshots from a resolved run, which would have " +
+                               formatNumber(needed, 3) + " steps, the limits are " +
+                               std::to_string(snapshots) + " and " + formatNumber(mostSnapshotSteps),
+                           "a domain of ordinary size, or the functions of the cell problem");
+    const auto steps = static_cast<long long>(needed);
     const long long every = std::max(1LL, steps / snapshots);
     dense::Matrix<double> correlation = dense::Matrix<double>::Zero(parts, parts);
     Eigen::VectorXd increment(parts);
@@ -124,6 +134,8 @@ ElementFunctions snapshotFunctions(const Mesh& mesh, const MediumCoefficient& a,
             correlation += increment * increment.transpose();
         }
     }
+    if (!correlation.allFinite())
+        throw InvalidScene("", "has snapshots that are not finite", "the functions of the cell problem");
     const auto modes = dense::symmetricEigen<double>(correlation);
     const auto leading = modes.vectors.col(parts - 1);
     for (int e = 0; e < mesh.elements(); ++e) {

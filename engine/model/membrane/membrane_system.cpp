@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/quiet.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/typed/typed_function.hpp"
 
@@ -23,7 +24,7 @@ struct Mode {
 
     double shape(const std::array<double, 2>& at) const {
         const double r = std::hypot(at[0], at[1]);
-        return amplitude * boost::math::cyl_bessel_j(m, frequency * r) *
+        return amplitude * boost::math::cyl_bessel_j(m, frequency * r, quiet) *
                std::cos(m * std::atan2(at[1], at[0]));
     }
 };

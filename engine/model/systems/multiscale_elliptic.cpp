@@ -5,11 +5,10 @@
 #include <cmath>
 #include <memory>
 
-#include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
-#include "engine/core/text.hpp"
 #include "engine/model/elliptic.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/typed/typed_function.hpp"
 
 namespace extremal::systems {
 namespace {
@@ -19,22 +18,10 @@ std::function<double(double)> formula(const Value& value, const std::string& poi
                                       const std::string& variable) {
     if (value.isNumber()) return [c = value.asNumber()](double) { return c; };
     if (!value.isString()) throw InvalidScene(pointer, "must be an expression in " + variable);
-    const std::string text = value.asString();
-    try {
-        const auto expression = std::make_shared<const Expression>(parseExpression(text));
-        for (const Expression::Node& node : expression->nodes)
-            if (node.kind == Operator::name && node.name != variable && node.name != "pi")
-                throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position,
-                                      "it depends on " + variable);
-        return [expression, variable](double x) {
-            return evaluate(*expression, [&](std::string_view name) -> std::optional<double> {
-                if (name == variable) return x;
-                return std::acos(-1.0);
-            });
-        };
-    } catch (const ExpressionError& e) {
-        throw InvalidScene(pointer, std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
-    }
+    const auto function = std::make_shared<const typed::TypedFunction>(
+        value.asString(), pointer, std::vector<std::string>{variable},
+        std::vector<std::pair<std::string, double>>{});
+    return [function](double x) { return (*function)(&x); };
 }
 
 System makeMultiscaleElliptic(const Settings& settings) {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/quiet.hpp"
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
@@ -44,7 +45,7 @@ const std::vector<Field<Pendulum>>& pendulumFields() {
 }
 
 /// The incomplete integral F(phi, k) for any phi, through the quarter period.
-double ellipticF(double k, double phi) { return boost::math::ellint_1(k, phi); }
+double ellipticF(double k, double phi) { return boost::math::ellint_1(k, phi, quiet); }
 
 struct PendulumFlow {
     double w, inertia, kappa, modulus, quarter, u0, sign, start, turns;
@@ -62,7 +63,7 @@ struct PendulumFlow {
         isRotation = !isSeparatrix && kappa > 1;
         sign = y < 0 ? -1 : 1;
         modulus = isRotation ? 1 / kappa : std::min(kappa, 1.0);
-        quarter = isSeparatrix ? 0 : boost::math::ellint_1(modulus);
+        quarter = isSeparatrix ? 0 : boost::math::ellint_1(modulus, quiet);
         if (isSeparatrix) {
             u0 = sign * std::atanh(std::sin(half));
         } else if (isRotation) {
@@ -86,13 +87,14 @@ struct PendulumFlow {
             double dn = 0, cn = 0;
             const double u = kappa * w * (t - start) + u0;
             const double cycles = std::round(u / (2 * quarter));
-            const double sn = boost::math::jacobi_elliptic(modulus, u - 2 * quarter * cycles, &cn, &dn);
+            const double sn =
+                boost::math::jacobi_elliptic(modulus, u - 2 * quarter * cycles, &cn, &dn, quiet);
             half = sign * (std::atan2(sn, cn) + cycles * pi);
             rate = sign * kappa * w * dn;
         } else if (kappa > 0) {
             double dn = 0, cn = 0;
             const double u = std::remainder(w * (t - start) + u0, 4 * quarter);
-            const double sn = boost::math::jacobi_elliptic(modulus, u, &cn, &dn);
+            const double sn = boost::math::jacobi_elliptic(modulus, u, &cn, &dn, quiet);
             half = std::asin(kappa * sn);
             rate = kappa * w * cn;
         }

@@ -1,0 +1,21 @@
+/// A reference from a CSV file: rows with the time t and the state, in columns of these names and in any
+/// order, as the files of a run have them. It is known at its own times, to 1e-9 of t; an empty cell, or nan,
+/// is not known.
+#pragma once
+
+#include <istream>
+#include <string>
+
+#include "engine/model/system.hpp"
+#include "engine/run/reference.hpp"
+
+namespace extremal {
+
+/// `name`: of the file, for messages. Throws InvalidScene (pointer /reference/path) that names the line for a
+/// missing column, a row of another length, a cell that is no number, or a time that is there twice.
+Reference readReference(std::istream& in, const std::string& name, const System& system);
+
+/// The same from a path.
+Reference readReference(const std::string& path, const System& system);
+
+}  // namespace extremal

@@ -1,0 +1,152 @@
+/// The program in surroundings that fail: killed at any moment, output that vanishes, two of it in one
+/// folder, and machines without what is usually there.
+#include <QDir>
+#include <QElapsedTimer>
+#include <QJsonDocument>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+
+#include "tests/app/program.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::faults_test {
+namespace {
+
+using tests::Answer;
+using tests::contentOf;
+using tests::runProgram;
+
+const QStringList scene = {"run", "preset:spring-pendulum", "--quiet", "--out"};
+
+/// What is wrong with the files of a run, next to those of a whole one: a file must be whole, or not be
+/// there. Those that name processor times have as many lines as the whole ones.
+QString faultOf(const QDir& folder, const QDir& whole) {
+    for (const QString& name : folder.entryList(QDir::Files)) {
+        const QByteArray here = contentOf(folder.filePath(name)), there = contentOf(whole.filePath(name));
+        if (name == "summary.json" && QJsonDocument::fromJson(here).isNull()) return name + " is no document";
+        const bool hasTimes = name.startsWith("summary.");
+        if (hasTimes ? here.count('\n') != there.count('\n') || !here.endsWith('\n') : here != there)
+            return name + " is not whole";
+    }
+    return {};
+}
+
+}  // namespace
+
+class FaultsTest : public QObject {
+    Q_OBJECT
+private slots:
+    void initTestCase() {
+        QElapsedTimer timer;
+        timer.start();
+        QCOMPARE(runProgram(scene + QStringList{whole()}).code, 0);
+        duration_ = timer.elapsed();
+        QCOMPARE(QDir(whole()).entryList(QDir::Files).size(), 8);
+        QCOMPARE(faultOf(whole(), whole()), "");
+    }
+
+    void killedAtAnyMomentFilesAreWholeOrAbsent() {
+        int killed = 0;
+        double part = 0;  // of the shortest run so far
+        for (int i = 0; i < 200 && killed < 50; ++i) {
+            const QString folder = folder_.filePath("killed");
+            QDir(folder).removeRecursively();
+            QElapsedTimer timer;
+            timer.start();
+            QProcess process;
+            process.start(QStringLiteral(EXTREMAL_BINARY), scene + QStringList{folder});
+            QVERIFY(process.waitForStarted());
+            part = std::fmod(part + 0.381966, 1);  // the golden section: moments spread evenly
+            if (process.waitForFinished(static_cast<int>(part * static_cast<double>(duration_)))) {
+                duration_ = std::min(duration_, timer.elapsed());
+            } else {
+                ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
+                ++killed;
+                process.waitForFinished();
+            }
+            QCOMPARE(faultOf(folder, whole()), "");
+        }
+        QCOMPARE(killed, 50);
+        // What was left behind is in nobody's way.
+        QCOMPARE(runProgram(scene + QStringList{folder_.filePath("killed")}).code, 0);
+        QCOMPARE(faultOf(folder_.filePath("killed"), whole()), "");
+    }
+
+    void aFileThatIsNotWholeIsFound() {
+        const QString folder = folder_.filePath("cut");
+        QVERIFY(QDir().mkpath(folder));
+        const QByteArray bytes = contentOf(QDir(whole()).filePath("midpoint.csv"));
+        QFile cut(QDir(folder).filePath("midpoint.csv"));
+        QVERIFY(cut.open(QFile::WriteOnly));
+        cut.write(bytes.left(bytes.size() / 2));
+        cut.close();
+        QCOMPARE(faultOf(folder, whole()), "midpoint.csv is not whole");
+    }
+
+    void twoInOneFolder() {
+        const QString folder = folder_.filePath("two");
+        QProcess other;
+        other.start(QStringLiteral(EXTREMAL_BINARY), scene + QStringList{folder});
+        QVERIFY(other.waitForStarted());
+        QCOMPARE(runProgram(scene + QStringList{folder}).code, 0);
+        QVERIFY(other.waitForFinished());
+        QCOMPARE(other.exitCode(), 0);
+        QCOMPARE(faultOf(folder, whole()), "");
+        QCOMPARE(QDir(folder).entryList(QDir::Files | QDir::Hidden).size(), 8);
+    }
+
+    void aFolderThatVanishesIsAnError() {
+        const QString folder = folder_.filePath("vanished");
+        QProcess process;
+        process.start(QStringLiteral(EXTREMAL_BINARY), scene + QStringList{folder, "--set", "/time/end=600"});
+        QVERIFY(process.waitForStarted());
+        QTRY_VERIFY(QDir(folder).exists());
+        QVERIFY(QDir(folder).removeRecursively());
+        QVERIFY(process.waitForFinished(60000));
+        QCOMPARE(process.exitCode(), 3);
+        const QString message = QString::fromUtf8(process.readAllStandardError());
+        QVERIFY2(message.contains("vanished"), qPrintable(message));
+    }
+
+    void withoutAHomeAndInAnotherLocale() {
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        environment.remove("HOME");
+        for (const char* name : {"LC_ALL", "LANG", "LC_NUMERIC"}) environment.insert(name, "de_DE.UTF-8");
+        const QString folder = folder_.filePath("elsewhere");
+        QCOMPARE(runProgram(scene + QStringList{folder}, {{}, {}, environment}).code, 0);
+        QCOMPARE(QDir(folder).entryList(QDir::Files).size(), 8);
+        QCOMPARE(faultOf(folder, whole()), "");
+    }
+
+    void withoutFonts() {
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        environment.insert("FONTCONFIG_FILE", "/dev/null");
+        environment.insert("QT_QPA_PLATFORM", "offscreen");
+        const QString file = folder_.filePath("picture.png");
+        QCOMPARE(runProgram({"snapshot", "preset:pendulum", "--out", file}, {{}, {}, environment}).code, 0);
+        QVERIFY(contentOf(file).startsWith("\x89PNG"));
+    }
+
+    void anOutputThatIsClosedIsAnError() {
+        const Answer answer =
+            runProgram({"list", "models"}, {{}, "/dev/full", QProcessEnvironment::systemEnvironment()});
+        QCOMPARE(answer.code, 3);
+        QVERIFY2(answer.err.contains("cannot be written"), qPrintable(answer.err));
+    }
+
+private:
+    QString whole() const { return folder_.filePath("whole"); }
+
+    QTemporaryDir folder_;
+    qint64 duration_ = 0;
+};
+
+EXTREMAL_TEST(FaultsTest)
+
+}  // namespace extremal::faults_test
+
+#include "faults_test.moc"
