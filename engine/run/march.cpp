@@ -152,6 +152,7 @@ private:
 
 void warmUp(const Integrator& integrator, const State& state, const MarchGrid& grid,
             const std::stop_token& stop) {
+    if (stop.stop_requested()) return;
     const auto copy = integrator.clone();
     copy->setStop(stop);
     State from = state;

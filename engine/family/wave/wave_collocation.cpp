@@ -53,6 +53,7 @@ private:
         middle_ = (*low + *high) / 2;
         inverse_.resize(stages_ * stages_ * size_);
         for (std::size_t k = 0; k < size_; ++k) {
+            if (k % 512 == 0 && stop().stop_requested()) return;  // and so will the step
             const Complex y(0, factor * (hamiltonian().kinetic()[k] + middle_ - shift()));
             const Eigen::MatrixXcd P = Eigen::MatrixXcd::Identity(s, s) + y * A_.cast<Complex>();
             Eigen::Map<Eigen::MatrixXcd>(inverse_.data() + k * stages_ * stages_, s, s) =

@@ -107,19 +107,21 @@ ElementFunctions cellFunctions(const Mesh& mesh, const MediumCoefficient& a, int
 
 ElementFunctions snapshotFunctions(const Mesh& mesh, const MediumCoefficient& a, double speed, int parts) {
     constexpr int snapshots = 32;
-    constexpr double mostSnapshotSteps = 1e6;
+    constexpr double mostUpdates = 3e8;
     ElementFunctions f = withCoefficients(mesh, a, parts);
     ResolvedWave wave(mesh, f, speed);
     // For the time in which the slowest wave crosses the domain at most.
     double resistance = 0;
     for (const double c : f.coefficient) resistance += 1 / c / static_cast<double>(f.coefficient.size());
     const double needed = mesh.length() * std::sqrt(resistance) / speed / wave.step();
-    if (!(needed >= snapshots && needed < mostSnapshotSteps))
+    const double work = needed * static_cast<double>(f.coefficient.size());
+    if (!(needed >= snapshots && work < mostUpdates))
         throw InvalidScene("",
                            "takes its snapshots from a resolved run, which would have " +
-                               formatNumber(needed, 3) + " steps, the limits are " +
-                               std::to_string(snapshots) + " and " + formatNumber(mostSnapshotSteps),
-                           "a domain of ordinary size, or the functions of the cell problem");
+                               formatNumber(needed, 3) + " steps of " + std::to_string(f.coefficient.size()) +
+                               " parts, the limits are " + std::to_string(snapshots) + " steps and " +
+                               formatNumber(mostUpdates) + " parts in all",
+                           "fewer elements or parts, or the functions of the cell problem");
     const auto steps = static_cast<long long>(needed);
     const long long every = std::max(1LL, steps / snapshots);
     dense::Matrix<double> correlation = dense::Matrix<double>::Zero(parts, parts);

@@ -63,9 +63,9 @@ std::shared_ptr<const ElementFunctions> functionsOf(const Settings& settings, co
     const MediumCoefficient a = problem.coefficient ? problem.coefficient : [](double) { return 1.0; };
     int parts = settings.integer(elementPartsKey);
     if (parts == 0)
-        parts = std::min(mostParts,
-                         static_cast<int>(std::ceil(
-                             perPeriod * std::max(1.0, problem.mesh.size(0) / settings.number("epsilon")))));
+        parts = static_cast<int>(std::min<double>(
+            mostParts,
+            std::ceil(perPeriod * std::max(1.0, problem.mesh.size(0) / settings.number("epsilon")))));
     return std::make_shared<const ElementFunctions>(
         settings.text(elementFunctionsKey) == "snapshots"
             ? snapshotFunctions(problem.mesh, a, problem.speed(), parts)
