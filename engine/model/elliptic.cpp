@@ -12,7 +12,7 @@
 namespace extremal {
 namespace {
 
-constexpr int mostPanels = 200'000;
+constexpr int mostPanels = 100'000;
 
 /// a(x/epsilon), which must be positive and finite.
 double coefficient(const EllipticProblem& p, double x) {
