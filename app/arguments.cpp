@@ -108,6 +108,23 @@ void addStudy(CLI::App& app, Arguments& arguments) {
     });
 }
 
+void addAtlas(CLI::App& app, Arguments& arguments) {
+    CLI::App& verb =
+        addVerb(app, arguments, "atlas",
+                "measure what every scheme claims, on a system of every kind; write a page", false);
+    verb.add_option("--out", arguments.atlas.out,
+                    "folder for index.html and its pictures, created if missing")
+        ->required()
+        ->type_name("DIR");
+    verb.add_option("--systems", arguments.atlas.systems,
+                    "presets in place of those of the atlas, with commas")
+        ->delimiter(',')
+        ->type_name("A,B,C");
+    verb.add_flag("--quick", arguments.atlas.isQuick, "low degrees, few steps, costs measured once");
+    verb.add_flag("--resume", arguments.atlas.isResumed, "keep the points that the logs in DIR have");
+    addCommon(verb, arguments.common);
+}
+
 void addWisdom(CLI::App& app, Arguments& arguments) {
     CLI::App& verb =
         addVerb(app, arguments, "wisdom",
@@ -166,6 +183,7 @@ std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
         ->type_name("");
     addCommon(list, arguments.common);
     addStudy(app, arguments);
+    addAtlas(app, arguments);
     addWisdom(app, arguments);
     app.require_subcommand(0, 1);
     for (const auto& [label, word] :

@@ -15,6 +15,7 @@ struct Arguments {
     SnapshotOptions snapshot;
     StudyOptions study;
     WisdomOptions wisdom;
+    AtlasRunOptions atlas;
 };
 
 /// Reads the arguments. Empty if there is nothing left to do (--help, --version, or an error that was

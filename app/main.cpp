@@ -30,6 +30,7 @@ int dispatch(int argc, char** argv) {
     }
     if (arguments->verb == "run") return runVerb(arguments->scene, arguments->folder, arguments->common);
     if (arguments->verb == "study") return studyVerb(arguments->scene, arguments->study, arguments->common);
+    if (arguments->verb == "atlas") return atlasVerb(arguments->atlas, arguments->common);
     if (arguments->verb == "study merge") return mergeVerb(arguments->study, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);

@@ -1,16 +1,14 @@
 #include <QApplication>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <thread>
 
 #include "app/load.hpp"
 #include "app/report.hpp"
+#include "app/study_work.hpp"
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
@@ -193,47 +191,6 @@ int report(const StudyEntry& study, const Study& work, const StudyOptions& given
     if (options.isQuiet) return code;
     return print(tableText(summaryOf(study, work)) + "\n" + study.item.id + ".csv in " + given.out + "\n",
                  code);
-}
-
-/// Runs what is not known on another thread and waits. True: it was interrupted.
-template <class Study>
-bool runAndWait(Study& study, StudyLog& log, InterruptWatch& watch, const CommonOptions& options) {
-    std::atomic<bool> isFinished{false};
-    std::exception_ptr failure;
-    std::jthread worker([&](const std::stop_token& stop) {
-        try {
-            runLines(
-                study, [&](const std::string& line) { log.append(line); }, stop);
-        } catch (...) {
-            failure = std::current_exception();
-        }
-        isFinished = true;
-    });
-    const Work work{[&] { return isFinished.load(); }, [&] { return study.fraction(); },
-                    [&] { return std::string(study.isPreparing() ? "computing the reference" : "studying"); },
-                    [&] { worker.request_stop(); }};
-    const bool isInterrupted = waitFor(work, watch, options);
-    worker.join();
-    if (failure) std::rethrow_exception(failure);
-    return isInterrupted;
-}
-
-template <class Function>
-int guarded(const std::string& file, Function&& work) {
-    try {
-        return work();
-    } catch (const InvalidScene& e) {
-        for (const Problem& p : e.problems()) {
-            if (!p.pointer.empty() && p.pointer.front() == '/')
-                printProblems(file, {p});
-            else
-                printProblem(p.pointer, p.message, p.hint);
-        }
-        return unusable;
-    } catch (const ExportError& e) {
-        printProblem(e.path.string(), std::string("cannot be written: ") + e.what(), "another --out DIR");
-        return unwritable;
-    }
 }
 
 std::string textOf(const std::filesystem::path& file) {

@@ -38,12 +38,19 @@ struct StudyOptions {
     std::vector<std::string> folders;  ///< of `study merge`
 };
 
+struct AtlasRunOptions {
+    std::string out;
+    std::vector<std::string> systems;  ///< names of presets; empty: all of the atlas
+    bool isQuick = false, isResumed = false;
+};
+
 int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options);
 int checkVerb(const std::string& scene, const CommonOptions& options);
 int listVerb(const std::string& kind, const CommonOptions& options);
 int wisdomVerb(const WisdomOptions& wisdom, const CommonOptions& options);
 int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions& options);
 int studyVerb(const std::string& scene, const StudyOptions& study, const CommonOptions& options);
+int atlasVerb(const AtlasRunOptions& atlas, const CommonOptions& options);
 int mergeVerb(const StudyOptions& study, const CommonOptions& options);
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options);
 

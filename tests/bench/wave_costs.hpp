@@ -5,15 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <span>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/splitting_table.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/model/wave/hamiltonian.hpp"
 #include "tests/bench/cpu_time.hpp"
+#include "tests/bench/peer_table.hpp"
 
 namespace extremal::bench {
 
@@ -76,10 +81,6 @@ inline Method baselineMethod(const char* id) {
     };
 }
 
-struct Point {
-    double error, time;
-};
-
 inline double errorOf(const WaveProblem& p, const std::vector<double>& x) {
     if (x.empty()) return 1;
     double sum = 0;
@@ -111,18 +112,6 @@ inline std::vector<Point> curveOf(const WaveProblem& p, const Method& method) {
     return points;
 }
 
-/// CPU seconds for an error; NaN if it is not reached.
-inline double costAt(const std::vector<Point>& points, double error) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        if (points[i].error > error) continue;
-        if (i == 0) return points[0].time;
-        const double w =
-            std::log(points[i - 1].error / error) / std::log(points[i - 1].error / points[i].error);
-        return std::exp(std::log(points[i - 1].time) + w * std::log(points[i].time / points[i - 1].time));
-    }
-    return std::nan("");
-}
-
 /// CPU seconds of one method to some errors, as a row; the least of all rows so far is kept in `least`, which
 /// may be null.
 inline void printCosts(const WaveProblem& p, const std::string& name, const Method& method,
@@ -145,6 +134,75 @@ inline void printHeading(const WaveProblem& p, std::span<const double> targets) 
                 "CPU seconds to an L2 error of");
     for (const double t : targets) std::printf("%12.0e", t);
     std::printf("\n");
+}
+
+inline System onCircle(const char* potential, double hbar, double modes) {
+    return makeSystem("schrodinger", {{"potential", potential}, {"hbar", hbar}, {"modes", modes}});
+}
+
+inline State packet(const System& system, double kappa, double k) {
+    return makeStart(
+        system, {{"packet", "periodic-gaussian"}, {"kappa", kappa}, {"centre", 1.2}, {"wave_number", k}});
+}
+
+/// A loop by hand, whose neighbouring drifts are one.
+inline std::vector<double> bareSrkn14a(const WaveProblem& p, int n) {
+    const Hamiltonian& h = *p.system.hamiltonian();
+    const auto size = static_cast<std::size_t>(h.size());
+    const double dt = p.T / n;
+    std::vector<std::vector<Complex>> phases;
+    const auto table = srkn14a().stages;
+    const auto phase = [&](bool isKick, double fraction) {
+        std::vector<Complex> result;
+        for (const double E : isKick ? h.potential() : h.kinetic())
+            result.push_back(std::polar(isKick ? 1.0 / h.size() : 1.0, -fraction * dt / h.hbar() * E));
+        return result;
+    };
+    for (std::size_t s = 0; s < table.size(); ++s)  // a palindrome
+        phases.push_back(2 * s < table.size() ? phase(table[s].isKick, table[s].fraction)
+                                              : phases[table.size() - 1 - s]);
+    const auto joined = phase(false, table.front().fraction + table.back().fraction);
+    std::vector<double> x = p.start.x;
+    std::vector<Complex> psi(size);
+    Complex* c = coefficients(x.data());
+    const auto multiply = [&](Complex* v, const std::vector<Complex>& by) {
+        double* a = reinterpret_cast<double*>(v);
+        const double* b = reinterpret_cast<const double*>(by.data());
+        for (std::size_t i = 0; i < 2 * size; i += 2) {
+            const double re = a[i], im = a[i + 1];
+            a[i] = re * b[i] - im * b[i + 1];
+            a[i + 1] = re * b[i + 1] + im * b[i];
+        }
+    };
+    for (int k = 0; k < n; ++k) {
+        multiply(c, k == 0 ? phases.front() : joined);
+        for (std::size_t s = 1; s + 1 < table.size(); ++s) {
+            if (!table[s].isKick) {
+                multiply(c, phases[s]);
+                continue;
+            }
+            h.fourier().rawToNodes(c, psi.data());
+            multiply(psi.data(), phases[s]);
+            h.fourier().rawToCoefficients(psi.data(), c);
+        }
+    }
+    multiply(c, phases.back());
+    return x;
+}
+
+/// Problem A at T = 1, from tests/data.
+inline std::vector<double> knownState(const System& system, int modes) {
+    std::ifstream in(EXTREMAL_SOURCE_DIR "/tests/data/schrodinger_N" + std::to_string(modes) + ".txt");
+    std::vector<Complex> psi, c(static_cast<std::size_t>(modes));
+    for (std::string text; std::getline(in, text);) {
+        std::istringstream fields(text);
+        double x = 0, re = 0, im = 0;
+        if (fields >> x >> re >> im) psi.emplace_back(re, im);
+    }
+    psi.resize(c.size());
+    system.hamiltonian()->fourier().toCoefficients(psi.data(), c.data());
+    const double* numbers = reinterpret_cast<const double*>(c.data());
+    return {numbers, numbers + 2 * c.size()};
 }
 
 }  // namespace extremal::bench

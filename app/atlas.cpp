@@ -1,0 +1,109 @@
+#include <QApplication>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "app/report.hpp"
+#include "app/study_work.hpp"
+#include "app/verbs.hpp"
+#include "engine/core/instruction_set.hpp"
+#include "engine/figure/study_figure.hpp"
+#include "engine/scene/json.hpp"
+#include "engine/study/atlas.hpp"
+#include "engine/study/sweep_log.hpp"
+#include "ui/plots/plot_renderer.hpp"
+
+namespace extremal::app {
+namespace {
+
+/// "Intel(R) Xeon(R) ..., 2 cores, kernels for avx512".
+std::string machineText() {
+    std::string processor = "this machine";
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);)
+        if (line.starts_with("model name")) {
+            processor = line.substr(line.find(':') + 2);
+            break;
+        }
+    return processor + ", " + std::to_string(std::thread::hardware_concurrency()) + " cores, kernels for " +
+           std::string(name(instructionSet()));
+}
+
+/// What its log knows, and what is left to run. True: it was interrupted.
+bool runPart(const AtlasSystem& system, AtlasPart& part, InterruptWatch& watch, const AtlasRunOptions& given,
+             const CommonOptions& options) {
+    const auto file = std::filesystem::path(given.out) / (part.logName(system.id) + ".log");
+    const std::string head = headOf("atlas", part.sweep);
+    std::vector<std::string> known;
+    StudyLog log = given.isResumed ? StudyLog::resume(file, head, known) : StudyLog::begin(file, head);
+    for (const std::string& line : known) (void)takeLine(line, part.sweep);
+    if (part.sweep.isComplete()) return false;
+    return runAndWait(part.sweep, log, watch, options, system.id + ", " + part.metric);
+}
+
+void writePicture(const AtlasSystem& system, const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / (system.id + ".svg");
+    const QString problem =
+        saveFigure(QString::fromStdString(file.string()), studyFigure("work-precision", system.errors()),
+                   {860, 520}, Theme::light(), 1);
+    if (!problem.isEmpty()) throw ExportError(file, problem.toStdString());
+}
+
+Value documentOf(const std::vector<AtlasSystem>& systems, bool isComplete) {
+    Value::Array all;
+    const auto number = [](double value) { return std::isfinite(value) ? Value(value) : Value(nullptr); };
+    for (const AtlasSystem& system : systems)
+        for (const AtlasRow& row : rowsOf(system)) {
+            Value each;
+            each.set("system", system.id);
+            each.set("label", row.label);
+            each.set("order_claimed", row.claims.order);
+            each.set("order_measured", number(row.order.order));
+            each.set("error", number(row.error));
+            each.set("cpu_seconds", number(row.seconds));
+            each.set("cpu_seconds_for_1e-6", number(row.secondsForError));
+            for (const AtlasRow::Measured& m : row.metrics) each.set(m.metric, number(m.value));
+            each.set("cause", row.cause);
+            all.push_back(std::move(each));
+        }
+    Value document;
+    document.set("rows", std::move(all));
+    document.set("complete", isComplete);
+    return document;
+}
+
+}  // namespace
+
+int atlasVerb(const AtlasRunOptions& given, const CommonOptions& common) {
+    return guarded("", [&] {
+        AtlasOptions options;
+        options.isQuick = given.isQuick;
+        options.threads = common.threads;
+        const std::vector<std::string>& wanted = given.systems.empty() ? atlasSystems() : given.systems;
+        std::vector<AtlasSystem> systems;
+        for (const std::string& id : wanted) systems.push_back(atlasSystem(id, options));
+        prepareFolder(given.out);
+        InterruptWatch watch;
+        bool isInterrupted = false;
+        for (AtlasSystem& system : systems)
+            for (AtlasPart& part : system.parts)
+                isInterrupted = isInterrupted || runPart(system, part, watch, given, common);
+        qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
+        qputenv("QT_QPA_PLATFORM", "offscreen");
+        int argc = 1;
+        char program[] = "extremal";
+        char* argv[] = {program, nullptr};
+        const QApplication application(argc, argv);
+        for (const AtlasSystem& system : systems) writePicture(system, given.out);
+        const std::filesystem::path page = std::filesystem::path(given.out) / "index.html";
+        writeFile(page, atlasPage(systems, EXTREMAL_VERSION, machineText(), !isInterrupted));
+        const int code = isInterrupted ? interrupted : done;
+        if (common.isJson) return print(writeJson(documentOf(systems, !isInterrupted)), code);
+        if (isInterrupted) printProblem("", "interrupted: the atlas is partial", "--resume goes on");
+        return common.isQuiet ? code : print("index.html in " + given.out + "\n", code);
+    });
+}
+
+}  // namespace extremal::app

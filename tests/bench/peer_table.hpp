@@ -1,0 +1,176 @@
+/// What the table of peers is made of: CPU seconds of whole runs, set-up included, over settings from coarse
+/// to fine; the cheapest of ours and of the peers for an error, and their ratio.
+///
+/// Every run is repeated until 2 ms have passed, and the median of five such measurements counts; runs of 50
+/// ms and more are measured once. Between two settings costs are interpolated, log cost over log error.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/bench/cpu_time.hpp"
+
+namespace extremal::bench {
+
+struct Point {
+    double error, time;
+};
+
+/// CPU seconds for an error; NaN if it is not reached.
+inline double costAt(const std::vector<Point>& points, double error) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!(points[i].error <= error)) continue;
+        if (i == 0 || !(points[i - 1].error > error) || !(points[i].error > 0)) return points[i].time;
+        const double w =
+            std::log(points[i - 1].error / error) / std::log(points[i - 1].error / points[i].error);
+        return std::exp(std::log(points[i - 1].time) + w * std::log(points[i].time / points[i - 1].time));
+    }
+    return std::nan("");
+}
+
+/// Median CPU seconds of one call; `first` is what a call took.
+inline double secondsOf(const std::function<void()>& run, double first) {
+    if (first >= 0.05) return first;
+    const int together = std::max(1, static_cast<int>(2e-3 / std::max(first, 1e-7)));
+    std::vector<double> samples;
+    for (int k = 0; k < 5; ++k) {
+        const double start = cpuSeconds();
+        for (int i = 0; i < together; ++i) run();
+        samples.push_back((cpuSeconds() - start) / together);
+    }
+    std::nth_element(samples.begin(), samples.begin() + 2, samples.end());
+    return samples[2];
+}
+
+/// A code over its settings; of several errors (an angle, an extension) of the same runs each has a curve.
+struct Curve {
+    std::string name;
+    bool isPeer;
+    std::vector<std::vector<Point>> errors;
+};
+
+/// `run(setting)`: its errors, not finite where it failed. Ends behind the first run that takes longer than
+/// `longest`, or where round-off lets no error fall any more: six in a row.
+inline Curve measure(const std::string& name, bool isPeer, const std::vector<double>& settings,
+                     double longest, const std::function<std::vector<double>(double)>& run) {
+    Curve curve{name, isPeer, {}};
+    double best = HUGE_VAL;
+    int inVain = 0;
+    (void)run(settings.front());  // tables, plans and caches
+    for (const double setting : settings) {
+        const double start = cpuSeconds();
+        const std::vector<double> errors = run(setting);
+        const double first = cpuSeconds() - start;
+        curve.errors.resize(errors.size());
+        const double largest = *std::max_element(errors.begin(), errors.end());
+        const bool isUseful = std::any_of(errors.begin(), errors.end(), [](double e) { return e < 0.3; });
+        if (isUseful) {
+            const double seconds = secondsOf([&] { (void)run(setting); }, first);
+            for (std::size_t i = 0; i < errors.size(); ++i) curve.errors[i].push_back({errors[i], seconds});
+        }
+        inVain = largest < 1e-9 && largest > 0.9 * best ? inVain + 1 : 0;
+        if (first > longest || inVain == 6) break;
+        if (std::isfinite(largest)) best = std::min(best, largest);
+    }
+    return curve;
+}
+
+inline std::vector<double> ratios(double from, double to, double factor) {
+    std::vector<double> all;
+    for (double v = from; factor > 1 ? v <= to * (1 + 1e-9) : v >= to * (1 - 1e-9); v *= factor)
+        all.push_back(v);
+    return all;
+}
+/// Numbers of steps.
+inline std::vector<double> counts(double from, double to, double factor) {
+    std::vector<double> all;
+    for (const double v : ratios(from, to, factor))
+        if (all.empty() || std::floor(v) > all.back()) all.push_back(std::floor(v));
+    return all;
+}
+
+class PeerTable {
+public:
+    static constexpr double targets[] = {1e-3, 1e-6, 1e-9, 1e-12};
+
+    /// One row: a problem, with the index of its error in the curves.
+    void add(const std::string& problem, const std::vector<Curve>& curves, std::size_t error) {
+        Row row{problem, {}};
+        for (const double target : targets) {
+            Cell cell;
+            for (const Curve& curve : curves) {
+                if (error >= curve.errors.size()) continue;
+                const double cost = costAt(curve.errors[error], target);
+                Best& best = curve.isPeer ? cell.peer : cell.ours;
+                if (cost < best.seconds) best = {cost, curve.name};
+            }
+            row.cells.push_back(cell);
+        }
+        rows_.push_back(row);
+        print(row);
+    }
+    void printHeading() const {
+        std::printf("%-24s", "ours / best peer at");
+        for (const double t : targets) std::printf("%8.0e", t);
+        std::printf("   ours and the best peer, CPU seconds\n");
+    }
+    /// One line per problem and error.
+    bool writeCsv(const char* path) const {
+        std::FILE* file = std::fopen(path, "w");
+        if (!file) return false;
+        std::fprintf(file, "problem,error,ours,ours_seconds,peer,peer_seconds,ratio\n");
+        for (const Row& row : rows_)
+            for (std::size_t i = 0; i < row.cells.size(); ++i) {
+                const Cell& c = row.cells[i];
+                std::fprintf(file, "\"%s\",%g,%s,%s,%s,%s,%s\n", row.problem.c_str(), targets[i],
+                             c.ours.name.c_str(), number(c.ours.seconds).c_str(), c.peer.name.c_str(),
+                             number(c.peer.seconds).c_str(), number(c.ratio()).c_str());
+            }
+        return std::fclose(file) == 0;
+    }
+
+private:
+    struct Best {
+        double seconds = HUGE_VAL;
+        std::string name;
+    };
+    struct Cell {
+        Best ours, peer;
+        double ratio() const { return ours.seconds / peer.seconds; }
+    };
+    struct Row {
+        std::string problem;
+        std::vector<Cell> cells;
+    };
+    static std::string number(double value) {
+        char text[32] = "";
+        if (std::isfinite(value) && value > 0) std::snprintf(text, sizeof text, "%.4g", value);
+        return text;
+    }
+    /// "-": neither reaches the error; "none": ours does not; "alone": no peer does.
+    static void print(const Row& row) {
+        std::printf("%-24s", row.problem.c_str());
+        for (const Cell& c : row.cells) {
+            const bool isOurs = std::isfinite(c.ours.seconds), isPeer = std::isfinite(c.peer.seconds);
+            if (isOurs && isPeer)
+                std::printf("%8.3g", c.ratio());
+            else
+                std::printf("%8s", isOurs ? "alone" : isPeer ? "none" : "-");
+        }
+        std::printf("  ");
+        for (const Cell& c : row.cells)
+            if (std::isfinite(c.ours.seconds) || std::isfinite(c.peer.seconds))
+                std::printf(" | %s %s : %s %s", c.ours.name.c_str(), number(c.ours.seconds).c_str(),
+                            c.peer.name.c_str(), number(c.peer.seconds).c_str());
+        std::printf("\n");
+        std::fflush(stdout);
+    }
+
+    std::vector<Row> rows_;
+};
+
+}  // namespace extremal::bench

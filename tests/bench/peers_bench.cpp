@@ -1,0 +1,475 @@
+/// The engine against its peers on problems whose solutions are known, in one process: the ratio of the CPU
+/// seconds that the best variational scheme and the best peer need for errors of 1e-3, 1e-6, 1e-9 and 1e-12.
+///
+/// P1  spring pendulum, k = 1e4, 1e6, 1e8, 1e12, to t = 10: the angle, the extension over its amplitude, both
+/// P2  free rigid body 1, 2, 3, attitude at t = 100
+/// P3  Kepler, e = 0.6, position after 100 periods
+/// P5  wave function in a cosine well, N = 256 and 512, at t = 1
+/// P6  sine-Gordon breather, w = 0.9, to t = 100
+///
+/// Peers are loops by hand around Boost.odeint and splittings, and the methods in common use that the program
+/// offers beside its own (GSL, SUNDIALS, SRKN, impulse, Gauss collocation with its nodes in vector registers,
+/// split-step with FFTW). Arguments: problems ("P1", "P3"; all by default), --csv FILE.
+#include <boost/numeric/odeint.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "engine/baseline/catalog.hpp"
+#include "engine/core/instruction_set.hpp"
+#include "engine/family/multiscale/multiscale.hpp"
+#include "engine/family/scheme.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/study/sweep.hpp"
+#include "tests/bench/peer_table.hpp"
+#include "tests/bench/wave_costs.hpp"
+#include "tests/laws/bodies.hpp"
+
+namespace extremal::bench {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+const std::vector<double> failed{HUGE_VAL};
+
+using Make = std::function<std::unique_ptr<Integrator>(const System&, const State&, double setting)>;
+
+/// A scheme, or a baseline by its id; the setting of an adaptive one is its tolerance.
+Make schemeOf(const Discretization& discretization) {
+    return [discretization](const System& s, const State& start, double h) {
+        return makeIntegrator(s, discretization, {start.t, h});
+    };
+}
+Make baselineOf(const std::string& id, Value::Object keys = {}) {
+    const BaselineEntry* entry = findBaseline(id);
+    Settings settings{id, {}, {}};
+    for (const auto& [key, value] : keys) settings.keys.emplace_back(key, value);
+    return [entry, settings](const System& s, const State& start, double setting) {
+        return entry->isAdaptive ? entry->make(s, {0, start, setting, settings})
+                                 : entry->make(s, {setting, start, 0, settings});
+    };
+}
+
+// --- P1 ------------------------------------------------------------------------------------------------
+
+struct Spring {
+    double k;
+    System system;
+    std::vector<std::array<double, 2>> rows;  ///< (a, theta) at 0.1 n
+    double amplitude() const { return 0.05 * std::sqrt(1e4 / k); }
+    State start() const { return {0, 0, {amplitude(), 1, 0, 0}}; }
+
+    /// Largest errors at the rows: angle, extension, both.
+    struct Errors {
+        double theta = 0, a = 0;
+        void see(const Spring& p, double t, double x, double angle) {
+            const double place = 10 * t;
+            if (std::abs(place - std::round(place)) > 1e-6) return;
+            const auto& known = p.rows[static_cast<std::size_t>(std::llround(place))];
+            theta = std::max(theta, std::abs(angle - known[1]));
+            a = std::max(a, std::abs(x - known[0]) / p.amplitude());
+        }
+        std::vector<double> all() const { return {theta, a, std::max(theta, a)}; }
+    };
+};
+const std::vector<double> lostSpring{HUGE_VAL, HUGE_VAL, HUGE_VAL};
+
+Spring springOf(double k) {
+    Settings keys{"spring-pendulum", {{"m", 1.0}, {"g", 9.81}, {"l", 1.0}, {"k", k}}, {}};
+    Spring p{k, findModel("spring-pendulum")->make(keys), {}};
+    if (k < 1e9) {
+        const std::string name = k == 1e4 ? "1e4" : k == 1e6 ? "1e6" : "1e8";
+        std::ifstream in(EXTREMAL_SOURCE_DIR "/tests/laws/data/spring_pendulum_k" + name + ".txt");
+        for (std::string line; std::getline(in, line);) {
+            std::istringstream cells(line);
+            double t = 0, a = 0, theta = 0;
+            if (cells >> t >> a >> theta) p.rows.push_back({a, theta});
+        }
+        return p;
+    }
+    // R3 at a quarter of the largest step that is measured, which agrees with that at half of it to 1e-8.
+    const auto integrator = makeIntegrator(p.system, *namedScheme("multiscale-r3"), {0, 0.05});
+    State state = p.start();
+    p.rows.push_back({state.x[0], state.x[1]});
+    while (state.t < 10 - 0.01 && advance(*integrator, state).outcome == Outcome::converged)
+        if (state.node % 2 == 0) p.rows.push_back({state.x[0], state.x[1]});
+    return p;
+}
+
+/// Of n steps; nodes at the rows, or every m-th row where steps are longer.
+std::vector<double> runSpring(const Spring& p, const Make& make, double n) {
+    const State start = p.start();
+    const auto integrator = make(p.system, start, 10 / n);
+    State state = start;
+    Spring::Errors errors;
+    while (state.t < 10 - 5 / n) {
+        if (advance(*integrator, state).outcome != Outcome::converged) return lostSpring;
+        errors.see(p, state.t, state.x[0], state.x[1]);
+    }
+    return errors.all();
+}
+/// Under error control, from row to row.
+std::vector<double> runSpringTo(const Spring& p, const Make& make, double tolerance) {
+    const State start = p.start();
+    const auto integrator = make(p.system, start, tolerance);
+    State state = start;
+    Spring::Errors errors;
+    for (int row = 1; row <= 100; ++row) {
+        while (state.t < 0.1 * row)
+            if (integrator->advance(state, 0.1 * row).outcome != Outcome::converged) return lostSpring;
+        errors.see(p, 0.1 * row, state.x[0], state.x[1]);
+    }
+    return errors.all();
+}
+template <class Stepper>
+std::vector<double> springByOdeint(const Spring& p, const Stepper& stepper) {
+    using Array = std::array<double, 4>;
+    const double k = p.k, g = 9.81;
+    Array x{p.amplitude(), 1, 0, 0};
+    const auto rhs = [k, g](const Array& y, Array& d, double) {
+        const double r = 1 + y[0], w = y[3] / (r * r), c = std::cos(y[1]), s = std::sin(y[1]);
+        d = {y[2], w, r * w * w + g * c - k * y[0], -g * r * s};
+    };
+    Spring::Errors errors;
+    std::vector<double> times;
+    for (int row = 0; row <= 100; ++row) times.push_back(0.1 * row);
+    odeint::integrate_times(stepper, rhs, x, times.begin(), times.end(), 0.1 / std::sqrt(k),
+                            [&](const Array& y, double t) { errors.see(p, t, y[0], y[1]); });
+    return errors.all();
+}
+
+void springs(PeerTable& table) {
+    for (const double k : {1e4, 1e6, 1e8, 1e12}) {
+        const Spring p = springOf(k);
+        const double longest = k > 1e9 ? 3 : k > 1e7 ? 0.5 : 0.1;
+        std::vector<Curve> curves;
+        const auto steps = [&](const std::string& name, bool isPeer, const Make& make,
+                               const std::vector<double>& settings) {
+            curves.push_back(
+                measure(name, isPeer, settings, longest, [&](double n) { return runSpring(p, make, n); }));
+        };
+        const std::vector<double> few{10, 20, 25, 40, 50, 100, 200, 300, 400, 500};
+        steps("6/4 [3,0]", false, schemeOf(multiscalePair(6, 4, {3, 0})), few);
+        for (const std::string r : {"1", "2", "3"})
+            steps("R" + r, false, schemeOf(*namedScheme("multiscale-r" + r)), few);
+        std::vector<double> many;
+        for (const double n : ratios(100, 2e7, 1.3)) many.push_back(100 * std::ceil(n / 100));
+        if (k < 1e5)
+            for (const int s : {2, 4, 6, 8, 10, 12})
+                steps("Gauss " + std::to_string(2 * s), false,
+                      schemeOf(*namedScheme("galerkin-gauss-" + std::to_string(s))), many);
+        // At k = 1e12 impulse alone comes near.
+        for (const double order : {4.0, 6.0, 8.0})
+            steps("impulse " + std::to_string(static_cast<int>(order)), true,
+                  baselineOf("impulse", {{"order", order}}), many);
+        if (k < 1e9) {
+            steps("Gauss collocation 16", true, baselineOf("gauss-collocation", {{"stages", 8.0}}), many);
+            const std::vector<double> tolerances = ratios(1e-3, 1e-14, 0.3);
+            for (const char* id : {"rk8pd", "stiff"})
+                curves.push_back(measure(id, true, tolerances, longest, [&](double tolerance) {
+                    return runSpringTo(p, baselineOf(id), tolerance);
+                }));
+            using Array = std::array<double, 4>;
+            curves.push_back(measure("odeint rkf78", true, tolerances, longest, [&](double tolerance) {
+                return springByOdeint(p, odeint::make_controlled(tolerance, tolerance,
+                                                                 odeint::runge_kutta_fehlberg78<Array>()));
+            }));
+            curves.push_back(
+                measure("odeint bulirsch-stoer", true, tolerances, longest, [&](double tolerance) {
+                    return springByOdeint(p, odeint::bulirsch_stoer<Array>(tolerance, tolerance));
+                }));
+        }
+        char name[32];
+        std::snprintf(name, sizeof name, "P1 k=%.0e, ", k);
+        const char* const quantities[] = {"theta", "a", "both"};
+        for (std::size_t e = 0; e < 3; ++e) table.add(std::string(name) + quantities[e], curves, e);
+    }
+}
+
+// --- P2 ------------------------------------------------------------------------------------------------
+
+template <class Stepper>
+double bodyByOdeint(const Stepper& stepper, const laws::Four& known) {
+    using Array = std::array<double, 7>;
+    Array y{1, 0, 0, 0, std::cos(1.1), 0, std::sin(1.1)};
+    const auto rhs = [](const Array& x, Array& d, double) {
+        const double w1 = x[4], w2 = x[5] / 2, w3 = x[6] / 3;
+        d = {-0.5 * (x[1] * w1 + x[2] * w2 + x[3] * w3),
+             0.5 * (x[0] * w1 + x[2] * w3 - x[3] * w2),
+             0.5 * (x[0] * w2 + x[3] * w1 - x[1] * w3),
+             0.5 * (x[0] * w3 + x[1] * w2 - x[2] * w1),
+             x[5] * w3 - x[6] * w2,
+             x[6] * w1 - x[4] * w3,
+             x[4] * w2 - x[5] * w1};
+    };
+    odeint::integrate_adaptive(stepper, rhs, y, 0.0, 100.0, 0.1);
+    return laws::attitudeError({y[0], y[1], y[2], y[3]}, known);
+}
+
+void body(PeerTable& table) {
+    const System system = laws::standard().system();
+    const laws::Four known = laws::standard().at[2].q;
+    const State start = laws::bodyState(laws::standard().start);
+    const auto run = [&](const Make& make, double n) {
+        const auto integrator = make(system, start, 100 / n);
+        State state = start;
+        for (double i = 0; i < n; ++i)
+            if (advance(*integrator, state).outcome != Outcome::converged) return failed;
+        return std::vector<double>{laws::attitudeError(state.x, known)};
+    };
+    std::vector<Curve> curves;
+    const std::vector<double> steps = counts(20, 60000, 1.15), tolerances = ratios(1e-3, 1e-14, 0.5);
+    for (const int degree : {1, 2, 3, 4, 6, 8})
+        curves.push_back(measure("lie-" + std::to_string(degree), false, steps, 0.02,
+                                 [&](double n) { return run(schemeOf(laws::liePair(degree)), n); }));
+    for (const double order : {2.0, 4.0, 6.0})
+        curves.push_back(
+            measure("splitting " + std::to_string(static_cast<int>(order)), true, steps, 0.02, [&](double n) {
+                return run(baselineOf("rigid-splitting", {{"order", order}}), n);
+            }));
+    using Array = std::array<double, 7>;
+    curves.push_back(measure("odeint dopri5", true, tolerances, 0.02, [&](double e) {
+        return std::vector<double>{
+            bodyByOdeint(odeint::make_controlled(e, e, odeint::runge_kutta_dopri5<Array>()), known)};
+    }));
+    curves.push_back(measure("odeint rkf78", true, tolerances, 0.02, [&](double e) {
+        return std::vector<double>{
+            bodyByOdeint(odeint::make_controlled(e, e, odeint::runge_kutta_fehlberg78<Array>()), known)};
+    }));
+    table.add("P2 rigid body", curves, 0);
+}
+
+// --- P3 ------------------------------------------------------------------------------------------------
+
+void kepler(PeerTable& table) {
+    constexpr double end = 200 * std::numbers::pi;
+    const System system = findModel("kepler")->make({"kepler", {{"mu", 1.0}}, {}});
+    const State start{0, 0, {0.4, 0, 0, 2}};
+    const auto error = [](double x, double y) { return std::vector<double>{std::hypot(x - 0.4, y)}; };
+    const auto run = [&](const Make& make, double n) {
+        const auto integrator = make(system, start, end / n);
+        State state = start;
+        for (double i = 0; i < n; ++i)
+            if (advance(*integrator, state).outcome != Outcome::converged) return failed;
+        return error(state.x[0], state.x[1]);
+    };
+    std::vector<Curve> curves;
+    const std::vector<double> steps = counts(500, 3e6, 1.08), tolerances = ratios(1e-6, 1e-16, 0.5);
+    for (const int s : {4, 6, 8, 10, 12})
+        curves.push_back(measure("Gauss " + std::to_string(2 * s), false, steps, 0.05, [&](double n) {
+            return run(schemeOf(*namedScheme("galerkin-gauss-" + std::to_string(s))), n);
+        }));
+    curves.push_back(measure("Gauss collocation 16", true, steps, 0.05, [&](double n) {
+        return run(baselineOf("gauss-collocation", {{"stages", 8.0}}), n);
+    }));
+    for (const char* id : {"srkn-11b", "srkn-14a", "blanes-moan-s10"})
+        curves.push_back(measure(id, true, steps, 0.05, [&](double n) { return run(baselineOf(id), n); }));
+    using Array = std::array<double, 4>;
+    const auto byOdeint = [&](const auto& stepper) {
+        Array x{0.4, 0, 0, 2};
+        const auto rhs = [](const Array& y, Array& d, double) {
+            const double r2 = y[0] * y[0] + y[1] * y[1], w = -1 / (r2 * std::sqrt(r2));
+            d = {y[2], y[3], w * y[0], w * y[1]};
+        };
+        odeint::integrate_adaptive(stepper, rhs, x, 0.0, end, 0.01);
+        return error(x[0], x[1]);
+    };
+    curves.push_back(measure("odeint rkf78", true, tolerances, 0.05, [&](double e) {
+        return byOdeint(odeint::make_controlled(e, e, odeint::runge_kutta_fehlberg78<Array>()));
+    }));
+    curves.push_back(measure("odeint bulirsch-stoer", true, tolerances, 0.05,
+                             [&](double e) { return byOdeint(odeint::bulirsch_stoer<Array>(e, e)); }));
+    curves.push_back(measure("rk8pd", true, tolerances, 0.05, [&](double e) {
+        const auto integrator = baselineOf("rk8pd")(system, start, e);
+        State state = start;
+        while (state.t < end)
+            if (integrator->advance(state, end).outcome != Outcome::converged) return failed;
+        return error(state.x[0], state.x[1]);
+    }));
+    table.add("P3 Kepler", curves, 0);
+}
+
+// --- P5 ------------------------------------------------------------------------------------------------
+
+void waves(PeerTable& table) {
+    for (const int modes : {256, 512}) {
+        WaveProblem p{"P5", onCircle("50*(1 - cos(x))", 1, modes), {}, 1, {}, 3e-16};
+        p.start = packet(p.system, 20, 5);
+        p.exact = knownState(p.system, modes);
+        std::vector<Curve> curves;
+        const auto add = [&](const std::string& name, bool isPeer, const Method& method) {
+            curves.push_back(measure(name, isPeer, counts(2, 3e5, 1.12), 0.05, [&](double n) {
+                return std::vector<double>{errorOf(p, method(p, static_cast<int>(n)))};
+            }));
+        };
+        for (const int degree : {4, 8, 12, 16})
+            for (const double tolerance : {0.0, 1e-10})
+                add("Gauss " + std::to_string(2 * degree) + (tolerance > 0 ? " in fours" : " in pairs"),
+                    false, pairMethod(degree, "banded", tolerance));
+        add("SRKN 14a by hand", true, bareSrkn14a);
+        for (const char* id : {"srkn-14a", "srkn-11b", "strang", "chebyshev-propagation"})
+            add(id, true, baselineMethod(id));
+        table.add("P5 wave, N=" + std::to_string(modes), curves, 0);
+    }
+}
+
+// --- P6 ------------------------------------------------------------------------------------------------
+
+/// The exact flow of u_tt = u_xx in Fourier modes between kicks by -sin u, in n steps: the L2 error at the
+/// end. The transform is that of u + i v; with w the conjugate of the mode -k, the flow over t takes the mode
+/// z to
+///
+///     (cos kt - i/2 (k + 1/k) sin kt) z - i/2 (k - 1/k) sin kt w.
+double breatherByHand(int modes, const Splitting& table, int n) {
+    constexpr double length = 160, end = 100, omega = 0.9;
+    const auto size = static_cast<std::size_t>(modes);
+    static std::map<int, System> systems;  // for their transforms
+    if (!systems.contains(modes)) systems.emplace(modes, onCircle("0", 1, modes));
+    const Fourier& fourier = systems.at(modes).hamiltonian()->fourier();
+    const double dt = end / n, k0 = std::sqrt(1 - omega * omega), dx = length / modes;
+    struct Flow {
+        std::vector<Complex> own, other;
+    };
+    std::vector<Flow> flows;
+    for (const auto& stage : table.stages) {
+        Flow flow;
+        const double t = stage.isKick ? 0 : stage.fraction * dt;
+        for (int j = 0; j < modes && !stage.isKick; ++j) {
+            const double k = 2 * std::numbers::pi / length * (j <= modes / 2 ? j : j - modes);
+            const double s = k == 0 ? t : std::sin(k * t) / k, ks = k * std::sin(k * t);
+            flow.own.push_back(Complex(std::cos(k * t), -0.5 * (ks + s)) / static_cast<double>(modes));
+            flow.other.push_back(Complex(0, -0.5 * (ks - s)) / static_cast<double>(modes));
+        }
+        flows.push_back(std::move(flow));
+    }
+    // u = 4 atan(k/w sin(w t)/cosh(k x)): at t = 0 it is at rest in u, and moves.
+    std::vector<Complex> z(size), modesOf(size), next(size);
+    for (int j = 0; j < modes; ++j)
+        z[static_cast<std::size_t>(j)] = {0, 4 * k0 / std::cosh(k0 * (-length / 2 + j * dx))};
+    for (int step = 0; step < n; ++step)
+        for (std::size_t s = 0; s < table.stages.size(); ++s) {
+            if (table.stages[s].isKick) {
+                const double h = table.stages[s].fraction * dt;
+                for (Complex& each : z) each -= Complex(0, h * std::sin(each.real()));
+                continue;
+            }
+            fourier.rawToCoefficients(z.data(), modesOf.data());
+            for (std::size_t j = 0; j < size; ++j)
+                next[j] =
+                    flows[s].own[j] * modesOf[j] + flows[s].other[j] * std::conj(modesOf[(size - j) % size]);
+            fourier.rawToNodes(next.data(), z.data());
+        }
+    double sum = 0;
+    for (int j = 0; j < modes; ++j) {
+        const double x = -length / 2 + j * dx,
+                     u = 4 * std::atan(k0 / omega * std::sin(omega * end) / std::cosh(k0 * x));
+        sum += dx * (z[static_cast<std::size_t>(j)].real() - u) * (z[static_cast<std::size_t>(j)].real() - u);
+    }
+    return std::sqrt(sum);
+}
+
+/// Every scheme on meshes and steps that are refined together; the error is the L2 norm at the nodes.
+void breather(PeerTable& table) {
+    struct Code {
+        const char* label;
+        const char* scheme;  ///< "CELLS" stands for the number of cells
+        double ratio;        ///< of the step to the width of a cell
+        std::vector<int> cells;
+    };
+    const std::vector<Code> codes{
+        {"leapfrog",
+         R"("space": "tent", "quadrature": {"space": "trapezoid", "time": "trapezoid"})",
+         0.95,
+         {320, 640, 1280, 2560, 5120, 10240, 20480}},
+        {"tents, Gauss 2",
+         R"("space": "tent", "quadrature": {"space": {"type": "gauss", "nodes": 2}, "time": {"type": "gauss", "nodes": 2}})",
+         0.9,
+         {320, 640, 1280, 2560, 5120}},
+        {"tents of degree 2",
+         R"("space": {"type": "tent", "degree": 2, "cells": CELLS})",
+         0.5,
+         {80, 160, 240, 320, 480, 640, 960}},
+        {"tents of degree 3",
+         R"("space": {"type": "tent", "degree": 3, "cells": CELLS})",
+         0.5,
+         {80, 120, 160, 240, 320, 480, 640}},
+    };
+    std::vector<Curve> curves;
+    for (const Code& code : codes) {
+        Curve curve{code.label, false, {{}}};
+        for (const int cells : code.cells) {
+            std::string scheme = code.scheme;
+            if (const auto at = scheme.find("CELLS"); at != std::string::npos)
+                scheme.replace(at, 5, std::to_string(cells));
+            const double h = 100 / std::ceil(100 / (code.ratio * 160 / cells));
+            const ReadScene read = readScene(std::string_view(
+                R"json({"extremal": 1, "model": {"type": "field", "potential": "sine-gordon", "domain": [-80, 80],
+                "boundary": "periodic", "cells": )json" +
+                std::to_string(cells) +
+                R"json(}, "initial": {"profile": "breather", "omega": 0.9}, "time": {"end": 100},
+                "schemes": [{"label": "code", "step": )json" +
+                std::to_string(h) + ", " + scheme + "}]}"));
+            if (!read.resolved) {
+                std::fprintf(stderr, "%s, %d cells: %s\n", code.label, cells,
+                             read.errors.front().message.c_str());
+                continue;
+            }
+            SweepOptions options;
+            options.isAtEnd = true;
+            options.threads = 1;
+            options.repeat = 3;
+            options.ladder.steps = {h};
+            Sweep sweep(*read.resolved, options);
+            sweep.run([](const ReferenceInfo&) {},
+                      [&](std::size_t i, const PointResult& r) { sweep.take(i, r); }, {});
+            for (const SweepRow& row : sweep.rows())
+                if (row.result.isDone()) curve.errors[0].push_back({row.result.error, row.result.cpuSeconds});
+        }
+        curves.push_back(curve);
+    }
+    for (const int modes : {192, 256, 320, 384, 512})
+        for (const bool isLong : {false, true})
+            curves.push_back(measure(std::string(isLong ? "SRKN 14a" : "SRKN 11b") + " with FFTW", true,
+                                     counts(30, 4000, 1.12), 0.1, [&](double n) {
+                                         return std::vector<double>{breatherByHand(
+                                             modes, isLong ? srkn14a() : srkn11b(), static_cast<int>(n))};
+                                     }));
+    table.add("P6 breather", curves, 0);
+}
+
+}  // namespace
+}  // namespace extremal::bench
+
+int main(int argc, char** argv) {
+    using namespace extremal::bench;
+    std::set<std::string> wanted;
+    const char* csv = nullptr;
+    for (int i = 1; i < argc; ++i) {
+        if (std::strcmp(argv[i], "--csv") == 0 && i + 1 < argc)
+            csv = argv[++i];
+        else
+            wanted.insert(argv[i]);
+    }
+    PeerTable table;
+    std::printf("kernels for %s\n", std::string(name(extremal::instructionSet())).c_str());
+    table.printHeading();
+    struct Problem {
+        const char* id;
+        void (*run)(PeerTable&);
+    };
+    for (const auto& [problem, run] :
+         {Problem{"P1", springs}, {"P2", body}, {"P3", kepler}, {"P5", waves}, {"P6", breather}})
+        if (wanted.empty() || wanted.contains(problem)) run(table);
+    if (csv && !table.writeCsv(csv)) {
+        std::fprintf(stderr, "%s cannot be written\n", csv);
+        return 1;
+    }
+    return 0;
+}
