@@ -102,7 +102,7 @@ private slots:
         file.close();
         const Answer second = atlas({"--out", dir.filePath("out"), "--json", "--resume"});
         QCOMPARE(second.code, 0);
-        static const QRegularExpression times(R"("cpu_seconds[^"]*": *[^,}\n]*)");
+        static const QRegularExpression times("cpu_seconds[^,}]*");
         QString a = first.out, b = second.out;
         QCOMPARE(a.remove(times), b.remove(times));
         QVERIFY(tests::contentOf(log).startsWith(whole.left(whole.size() / 2)));
