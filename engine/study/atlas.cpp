@@ -8,6 +8,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/run/error_floor.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/study/proposal.hpp"
@@ -105,7 +106,9 @@ AtlasSystem atlasSystem(const std::string& preset, const AtlasOptions& options) 
 }
 
 AtlasRow::Verdict AtlasRow::orderVerdict() const {
-    if (!order.isKnown() || claims.order == 0) return Verdict::unknown;
+    constexpr double plateau = 0.5, resolved = 0.01;
+    if (!order.isKnown() || claims.order == 0 || order.order < plateau) return Verdict::unknown;
+    if (order.errorAt(order.to) > resolved * size) return Verdict::unknown;
     return order.order >= claims.order - 0.3 ? Verdict::kept : Verdict::below;
 }
 
@@ -122,6 +125,7 @@ std::vector<AtlasRow> rowsOf(const AtlasSystem& system) {
     const Sweep& errors = system.errors();
     const std::vector<OrderFit> orders = fitOrders(errors);
     const std::vector<Proposal> proposals = proposalsFor(errors, 1e-6);
+    const double size = largestEntry(errors.scene().initial);
     std::vector<AtlasRow> all;
     auto order = orders.begin();
     for (const SchemeRows& scheme : bySchemes(errors)) {
@@ -130,6 +134,7 @@ std::vector<AtlasRow> rowsOf(const AtlasSystem& system) {
         row.label = resolved.spec.label;
         row.claims = resolved.claims;
         row.order = *order++;
+        row.size = size;
         for (const SweepRow& point : scheme.rows) {
             if (point.point.step > 0 && std::abs(point.point.step - system.step) > 1e-9 * system.step)
                 continue;

@@ -51,13 +51,16 @@ struct AtlasRow {
     std::string label;
     Claims claims;
     OrderFit order;
+    double size = 1;                            ///< of the state at the start
     double error = unknown, seconds = unknown;  ///< at the step
     std::vector<Measured> metrics;              ///< at the step: energy, momentum, ...
     double secondsForError = unknown;           ///< for an error of 1e-6
     std::string cause;                          ///< why it did not reach the end at the step; else empty
 
     enum class Verdict { kept, below, unknown };
-    /// The measured order is at most 0.3 below the claimed one; unknown where no order could be measured.
+    /// The measured order is at most 0.3 below the claimed one; unknown where none could be measured, where
+    /// errors hardly change with the step (the mesh decides), or where they stay above a hundredth of the
+    /// state, so that steps are too long for an order.
     Verdict orderVerdict() const;
     /// What a scheme claims to conserve changes by at most 1e-9; unknown where it claims nothing of the kind.
     Verdict verdictOf(const Measured& measured) const;
