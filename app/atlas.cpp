@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "app/report.hpp"
@@ -12,6 +13,8 @@
 #include "engine/figure/study_figure.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/study/atlas.hpp"
+#include "engine/study/pareto.hpp"
+#include "engine/study/proposal.hpp"
 #include "engine/study/sweep_log.hpp"
 #include "ui/plots/plot_renderer.hpp"
 
@@ -43,11 +46,32 @@ bool runPart(const AtlasSystem& system, AtlasPart& part, InterruptWatch& watch, 
     return runAndWait(part.sweep, log, watch, options, system.id + ", " + part.metric);
 }
 
+/// Of dozens of schemes those that have a point on the front, and the ten cheapest for an error of 1e-6.
+Figure pictureOf(const AtlasSystem& system) {
+    constexpr std::size_t most = 10;
+    const Sweep& sweep = system.errors();
+    const auto labelOf = [&](std::size_t scheme) { return sweep.scene().scene.schemes[scheme].label; };
+    std::set<std::string> shown;
+    const std::vector<bool> front = paretoFront(sweep.rows());
+    for (std::size_t i = 0; i < front.size(); ++i)
+        if (front[i]) shown.insert(labelOf(sweep.rows()[i].point.scheme));
+    std::vector<Proposal> proposals = proposalsFor(sweep, 1e-6);
+    if (proposals.size() > most) proposals.resize(most);
+    for (const Proposal& p : proposals) shown.insert(labelOf(p.scheme));
+    Figure figure = studyFigure("work-precision", sweep);
+    std::erase_if(figure.layers, [&](const Layer& layer) {
+        if (const auto* series = std::get_if<Series>(&layer)) return !shown.contains(series->label);
+        if (const auto* area = std::get_if<Area>(&layer)) return !shown.contains(area->label);
+        return false;
+    });
+    figure.subtitle.clear();
+    return figure;
+}
+
 void writePicture(const AtlasSystem& system, const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / (system.id + ".svg");
     const QString problem =
-        saveFigure(QString::fromStdString(file.string()), studyFigure("work-precision", system.errors()),
-                   {860, 520}, Theme::light(), 1);
+        saveFigure(QString::fromStdString(file.string()), pictureOf(system), {860, 520}, Theme::light(), 1);
     if (!problem.isEmpty()) throw ExportError(file, problem.toStdString());
 }
 

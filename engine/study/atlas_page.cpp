@@ -27,7 +27,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: 3px 10px; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; color: var(--muted); font-size: 12.5px; vertical-align: bottom; }
 th:first-child, td:first-child, td.text, th.text { text-align: left; }
-td.below { color: #a3260b; font-weight: 600; } td.best { font-weight: 700; } td.kept { color: #0a6b4f; }
+td.below { color: #a3260b; font-weight: 600; } td.text { white-space: normal; min-width: 190px; } td.best { font-weight: 700; } td.kept { color: #0a6b4f; }
 td.none { color: var(--muted); }
 @media print { body { background: white; } section { border: 0; padding: 0; break-inside: avoid-page; } }
 )";
@@ -139,8 +139,9 @@ std::string atlasPage(const std::vector<AtlasSystem>& systems, const std::string
            " pairs of a scheme and a system. The measured order is the claimed one, or above, in " +
            std::to_string(kept) + "; below it in " + std::to_string(below) + "; in " +
            std::to_string(unknown) +
-           " no order could be measured, because errors do not lie on a line at these steps, or there are no "
-           "steps. "
+           " no order could be measured, because errors do not lie on a line at these steps or stay large, "
+           "or "
+           "there are no steps. Plots show the schemes on the front and the ten cheapest for 1e-6. "
            "Errors, times and changes of what is conserved are those at one step, or at the largest "
            "tolerance that "
            "ran; the last time is interpolated. Green is a claim that is kept, red one that is not seen "
