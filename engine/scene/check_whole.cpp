@@ -113,7 +113,9 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
         return;
     const double seconds = predictSeconds(scene, scheme);
     if (seconds > longest)
-        reader.warning(pointer, "will take about " + durationText(seconds) + " of computing",
+        reader.warning(pointer,
+                       "will take about " + durationText(seconds) + " of computing, to within a factor of " +
+                           formatNumber(predictedWithin),
                        "a larger step, or an earlier end");
 }
 

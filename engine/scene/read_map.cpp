@@ -140,7 +140,9 @@ void checkMapCost(Reader& reader, const std::string& pointer, const View& view, 
         return;  // reported where the scheme is checked
     }
     if (seconds > longest)
-        reader.warning(pointer, "will take about " + formatNumber(seconds, 2) + " s of computing",
+        reader.warning(pointer,
+                       "will take about " + formatNumber(seconds, 2) +
+                           " s of computing, to within a factor of " + formatNumber(predictedWithin),
                        "larger steps, fewer cells, or a shorter \"duration\"");
 }
 
