@@ -25,7 +25,7 @@ Timing timeRuns(const Integrator& integrator, const State& start, const MarchGri
     if (times.empty() || stop.stop_requested()) return {};
     std::sort(times.begin(), times.end());
     const std::size_t half = times.size() / 2;
-    return {times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2,
+    return {times.size() % 2 == 1 ? times[half] : (times[half - 1] + times[half]) / 2, times.front(),
             (times.back() - times.front()) / 2};
 }
 

@@ -2,7 +2,8 @@
 ///
 /// A single short run says little: the clock of a thread has a grain, caches and branches are cold, and a
 /// page of memory that is met for the first time costs more than many a step. Repetitions of one measurement
-/// follow each other until it is long enough; of several measurements the median counts.
+/// follow each other until it is long enough. Of several measurements the median says what a run costs as the
+/// machine is, and the fastest what it costs by itself: other work on the machine can only add to it.
 #pragma once
 
 #include <limits>
@@ -14,6 +15,7 @@ namespace extremal {
 
 struct Timing {
     double seconds = std::numeric_limits<double>::quiet_NaN();  ///< of one run: the median
+    double fastest = seconds;                                   ///< of one run: the fastest measurement
     double spread = seconds;  ///< half the distance between the fastest and the slowest measurement
 };
 
