@@ -1,7 +1,7 @@
 /// Long fuzzing: `tool.fuzz KIND COUNT [SEED [FIRST]]`, or KIND all. The cases run in a process of their own
-/// with bounded memory; where it dies, stands still for ten seconds or finds a fault, the text is kept in
-/// fuzz/ below the current folder, and the next case goes on. Prints the counts; ends with 1 if anything was
-/// found.
+/// with bounded memory; where it dies, takes more than ten seconds of processor time for a case (two minutes,
+/// where it waits) or finds a fault, the text is kept in fuzz/ below the current folder, and the next case
+/// goes on. Prints the counts; ends with 1 if anything was found.
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -94,6 +95,7 @@ private:
     bool watch(pid_t child, Counts& counts) {
         std::uint64_t seen = board_->number;
         auto since = Clock::now();
+        double used = 0;
         for (int status = 0;; std::this_thread::sleep_for(20ms)) {
             if (waitpid(child, &status, WNOHANG) == child) {
                 if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
@@ -104,7 +106,8 @@ private:
             if (board_->number != seen) {
                 seen = board_->number;
                 since = Clock::now();
-            } else if (Clock::now() - since > 10s) {
+                used = processorSeconds(child);
+            } else if (processorSeconds(child) - used > 10 || Clock::now() - since > 120s) {
                 ++counts.hangs;
                 keep("hang");
                 kill(child, SIGKILL);
@@ -112,6 +115,13 @@ private:
                 return false;
             }
         }
+    }
+
+    static double processorSeconds(pid_t process) {
+        clockid_t clock{};
+        timespec time{};
+        if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
     }
 
     void keep(const char* what) const {

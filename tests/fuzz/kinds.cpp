@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <exception>
 #include <sstream>
 #include <thread>
@@ -45,11 +46,11 @@ std::string runShortly(const ResolvedScene& scene) {
     run.start();
     const auto begin = Clock::now();
     while (!run.isFinished() && Clock::now() - begin < 2ms) std::this_thread::sleep_for(50us);
-    const auto asked = Clock::now();
+    const std::clock_t asked = std::clock();
     run.stop();
     run.wait();
-    const std::chrono::duration<double> taken = Clock::now() - asked;
-    return taken > 5s ? "stopped only " + std::to_string(taken.count()) + " s after it was asked to" : "";
+    const double taken = static_cast<double>(std::clock() - asked) / CLOCKS_PER_SEC;
+    return taken > 3 ? "works for " + std::to_string(taken) + " s after it was asked to stop" : "";
 }
 
 std::string judgeRead(const ReadScene& read, bool hasOverrides = false) {
