@@ -387,19 +387,19 @@ void breather(PeerTable& table) {
         {"leapfrog",
          R"("space": "tent", "quadrature": {"space": "trapezoid", "time": "trapezoid"})",
          0.95,
-         {320, 640, 1280, 2560, 5120, 10240, 20480}},
+         {320, 640, 1280, 2560, 5120}},
         {"tents, Gauss 2",
          R"("space": "tent", "quadrature": {"space": {"type": "gauss", "nodes": 2}, "time": {"type": "gauss", "nodes": 2}})",
          0.9,
-         {320, 640, 1280, 2560, 5120}},
+         {320, 640, 1280, 2560}},
         {"tents of degree 2",
          R"("space": {"type": "tent", "degree": 2, "cells": CELLS})",
          0.5,
-         {80, 160, 240, 320, 480, 640, 960}},
+         {80, 160, 240, 320, 480}},
         {"tents of degree 3",
          R"("space": {"type": "tent", "degree": 3, "cells": CELLS})",
          0.5,
-         {80, 120, 160, 240, 320, 480, 640}},
+         {80, 120, 160, 240, 320}},
     };
     std::vector<Curve> curves;
     for (const Code& code : codes) {
@@ -424,7 +424,7 @@ void breather(PeerTable& table) {
             SweepOptions options;
             options.isAtEnd = true;
             options.threads = 1;
-            options.repeat = 3;
+            options.repeat = 1;
             options.ladder.steps = {h};
             Sweep sweep(*read.resolved, options);
             sweep.run([](const ReferenceInfo&) {},
