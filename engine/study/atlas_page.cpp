@@ -14,7 +14,7 @@ const char* const style = R"(
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--ground); color: var(--text);
   font: 14px/1.5 Inter, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
-main { max-width: 1120px; margin: 0 auto; padding: 28px 20px 60px; }
+main { max-width: 1280px; margin: 0 auto; padding: 28px 20px 60px; }
 h1 { font-size: 26px; margin: 0 0 4px; } h2 { font-size: 18px; margin: 0; }
 p { margin: 6px 0; } .muted { color: var(--muted); }
 nav { margin: 14px 0 22px; } nav a { margin-right: 14px; white-space: nowrap; }
@@ -27,7 +27,7 @@ table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
 th, td { padding: 3px 10px; text-align: right; white-space: nowrap; border-bottom: 1px solid var(--line); }
 th { font-weight: 600; color: var(--muted); font-size: 12.5px; vertical-align: bottom; }
 th:first-child, td:first-child, td.text, th.text { text-align: left; }
-td.below { color: #a3260b; font-weight: 600; } td.text { white-space: normal; min-width: 190px; } td.best { font-weight: 700; } td.kept { color: #0a6b4f; }
+td.below { color: #a3260b; font-weight: 600; } td.claims { white-space: normal; min-width: 330px; font-size: 12.5px; } td.best { font-weight: 700; } td.kept { color: #0a6b4f; }
 td.none { color: var(--muted); }
 @media print { body { background: white; } section { border: 0; padding: 0; break-inside: avoid-page; } }
 )";
@@ -97,7 +97,7 @@ std::string tableOf(const AtlasSystem& system, const std::vector<AtlasRow>& rows
                      row.secondsForError == cheapest ? "best" : "");
         for (const AtlasRow::Measured& m : row.metrics)
             html += cell(known(m.value, 2), kindOf(row.verdictOf(m)));
-        html += cell(claimsText(row.claims), "text") + cell(row.cause, "text") + "</tr>\n";
+        html += cell(claimsText(row.claims), "text claims") + cell(row.cause, "text") + "</tr>\n";
     }
     return html + "</tbody></table></div>\n";
 }
