@@ -159,6 +159,32 @@ private slots:
         QCOMPARE(other.code, 0);
         QVERIFY(merge({"1", "2"}).err.contains("another study, scene or option"));
     }
+    /// As the handbook has it, by a tool that starts one process per shard.
+    void shardsRunSideBySide() {
+        const QTemporaryDir dir;
+        QFile file(dir.filePath("scene.json"));
+        QVERIFY(file.open(QIODevice::WriteOnly) && file.write(scene) == scene.size());
+        file.close();
+        QProcess shell;
+        shell.setWorkingDirectory(dir.path());
+        shell.start("sh", {"-c", QStringLiteral("printf '1\\n2\\n' | xargs -P 2 -I{} ") + EXTREMAL_BINARY +
+                                     " study convergence scene.json --threads 1 --repeat 0 --no-plot --quiet "
+                                     "--shard {}/2 --out part{}"});
+        QVERIFY(shell.waitForFinished(60000));
+        QCOMPARE(shell.exitCode(), 0);
+        const QStringList quietly{"--quiet", "--no-plot", "--out"};
+        QCOMPARE(study(QStringList{"merge", dir.filePath("part1"), dir.filePath("part2")} + quietly +
+                       QStringList{dir.filePath("merged")})
+                     .code,
+                 0);
+        QCOMPARE(study(QStringList{"convergence", "-", "--repeat", "0"} + quietly +
+                       QStringList{dir.filePath("whole")})
+                     .code,
+                 0);
+        const QByteArray whole = tests::contentOf(dir.filePath("whole/convergence.csv"));
+        QVERIFY(whole.count('\n') > 10);
+        QCOMPARE(tests::contentOf(dir.filePath("merged/convergence.csv")), whole);
+    }
     void aKilledStudyGoesOn() {
         const QTemporaryDir dir;
         QByteArray longScene = scene;
