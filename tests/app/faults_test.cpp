@@ -71,7 +71,7 @@ private slots:
             QCOMPARE(faultOf(folder, whole()), "");
         }
         QCOMPARE(killed, 50);
-        // What was left behind is in nobody's way.
+        // What was left behind does not stand in the way.
         QCOMPARE(runProgram(scene + QStringList{folder_.filePath("killed")}).code, 0);
         QCOMPARE(faultOf(folder_.filePath("killed"), whole()), "");
     }

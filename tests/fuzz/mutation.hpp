@@ -1,4 +1,4 @@
-/// Inputs that are wrong in a few places: what users mistype, what files lose, and what nobody would write.
+/// Inputs that are wrong in a few places: what users mistype, what files lose, and what is not written by hand.
 #pragma once
 
 #include <string>
