@@ -1,4 +1,4 @@
-/// Inputs that are wrong in a few places: what users mistype, what files lose, and what is not written by hand.
+/// Inputs that are wrong in a few places: what users mistype, what files lose, and what is random.
 #pragma once
 
 #include <string>
