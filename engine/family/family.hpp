@@ -88,8 +88,8 @@ struct Family {
     /// Whether a solution is read off between nodes; else it is made anew there, and solutions are compared
     /// at nodes.
     bool hasDenseOutput = true;
-    /// Of its schemes. free: the step of a scheme is its first.
-    TimeGrid grid = TimeGrid::fixed;
+    /// Of the schemes of a space. free: the step of a scheme is its first. Null: fixed.
+    TimeGrid (*grid)(const Settings& space) = nullptr;
     /// Its choices are further rows of the grid of another family, from which references come as well.
     bool isVariant = false;
 

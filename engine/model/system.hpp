@@ -92,6 +92,7 @@ class Hamiltonian;
 struct FieldProblem;
 struct MembraneProblem;
 struct EllipticProblem;
+struct StaticProblem;
 
 /// What kind of problem a system is: what schemes are made for. Families and baselines ask for it; whoever
 /// shows, measures or writes a system asks for the capabilities of System below.
@@ -109,9 +110,11 @@ struct ScalarField {
 struct Membrane {
     std::shared_ptr<const MembraneProblem> problem;
 };
-/// No motion, but a boundary-value problem along x (model/elliptic.hpp).
+/// No motion, but a boundary-value problem along x: an elliptic one (model/elliptic.hpp), or the profile with
+/// the least energy (model/static_problem.hpp). The other is null.
 struct BoundaryProblem {
-    std::shared_ptr<const EllipticProblem> problem;
+    std::shared_ptr<const EllipticProblem> problem = {};
+    std::shared_ptr<const StaticProblem> profile = {};
 };
 using SystemKind =
     std::variant<std::monostate, Mechanical, Body, Wave, ScalarField, Membrane, BoundaryProblem>;

@@ -53,6 +53,12 @@ void readTime(Reader& reader, const Value& document, Scene& scene) {
         scene.end = Number{1, {}};
         return;
     }
+    if (const Value* const domain = scene.model.find("domain");
+        !time && domain && scene.model.type == "static-profile") {
+        scene.start = Number{domain->asArray()[0].asNumber(), {}};
+        scene.end = Number{domain->asArray()[1].asNumber(), {}};
+        return;
+    }
     if (!time) return reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
     if (!reader.isObject(*time, "/time")) return;
     reader.checkKeys(*time, "/time", format::time);

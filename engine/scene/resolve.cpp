@@ -67,7 +67,7 @@ ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
         r.discretization = std::move(*discretization);
         r.family = familyOf(r.discretization.space);
         if (!r.family) throw InvalidScene("/space/type", "there is no space \"" + scheme.space.type + "\"");
-        r.grid = r.family->grid;
+        if (r.family->grid) r.grid = r.family->grid(r.discretization.space);
         r.properties = describe(r.discretization);
         r.claims = r.properties.claims;
     } else {

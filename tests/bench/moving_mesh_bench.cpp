@@ -60,6 +60,7 @@ int main() {
                                {"relaxation", 0.1},
                                {"speed_limit", 1.0},
                                {"fallback", false},
+                               {"times", "fixed"},
                                {"mesh_mass", 0.0}},
                               {}},
                              {"auto", {}, {}},

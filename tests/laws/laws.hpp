@@ -63,7 +63,9 @@ inline std::vector<Case> everyScheme(int maxDegree, const System& system = syste
         for (int degree = low; degree <= high; ++degree) {
             const Discretization discretization = e.make(degree);
             // Times that are unknowns have laws of their own (moving_times_test.cpp).
-            if (familyOf(discretization.space)->grid != TimeGrid::fixed) continue;
+            if (const auto grid = familyOf(discretization.space)->grid;
+                grid && grid(discretization.space) != TimeGrid::fixed)
+                continue;
             if (!isFor(discretization, system) ||
                 std::find(known.begin(), known.end(), discretization) != known.end() ||
                 !describe(discretization.space, discretization.quadrature).caution.empty())

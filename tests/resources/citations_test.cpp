@@ -29,6 +29,7 @@ struct Topic {
 };
 const Topic topics[] = {
     {"multiscale-elliptic|elliptic", "7(\\.1)?"},
+    {"static-profile|knots", "6"},
     {"family/multiscale/|filon|spring_pendulum", "7(\\.[23])?"},
     {"schrodinger|/wave/", "8(\\.[12])?"},
     {"rigid-body|heavy-top|/lie/|engine/group/|averaging", "[34](\\.[12])?"},

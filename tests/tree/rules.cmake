@@ -14,7 +14,8 @@ set(max_lines 500)
 
 # What belongs to one family: the types of its spaces, keys and values that no other family has. Quoted, they occur in
 # engine/family/<family> alone, and in tests. Polynomials and splines are tables as well: engine/space may name them.
-set(families galerkin energy_momentum multiscale lie wave elliptic field asynchronous moving_mesh)
+set(families galerkin energy_momentum multiscale lie wave elliptic field asynchronous moving_mesh
+    free_knot)
 set(names_of_galerkin polynomial spline)
 set(names_of_energy_momentum moving-time minimise hmin hmax)
 set(names_of_multiscale oscillatory oscillatory-product harmonics)
@@ -23,6 +24,7 @@ set(names_of_wave fourier space-time energy_shift time_basis slabs three-level)
 set(names_of_elliptic elliptic-elements)
 set(names_of_field tent)
 set(names_of_asynchronous asynchronous courant)
+set(names_of_free_knot knots free-knots)
 set(names_of_moving_mesh moving-mesh relaxation speed_limit action-error)
 
 set(level 0)

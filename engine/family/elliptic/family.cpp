@@ -93,7 +93,10 @@ Family elliptic() {
               {},         "the elliptic problem"};
     f.source = "Leok 2004, sec. 7.1";
     f.spaces = {ellipticElements()};
-    f.applies = [](const System& system) { return kindOf<BoundaryProblem>(system) != nullptr; };
+    f.applies = [](const System& system) {
+        const auto* const kind = kindOf<BoundaryProblem>(system);
+        return kind && kind->problem;
+    };
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // integrals over elements are exact to round-off
     };

@@ -247,7 +247,7 @@ Family energy_momentum() {
     f.source = "Leok 2004, sec. 5";
     f.spaces = {movingTime()};
     f.solverMethods = {"newton"};
-    f.grid = TimeGrid::free;
+    f.grid = [](const Settings&) { return TimeGrid::free; };
     f.isVariant = true;
     f.applies = isMechanical;
     f.mismatch = mismatchOf;

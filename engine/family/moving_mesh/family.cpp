@@ -11,6 +11,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/moving_mesh/moving_mesh.hpp"
+#include "engine/family/moving_mesh/multiplier_step.hpp"
 #include "engine/family/moving_mesh/placement.hpp"
 #include "engine/model/field/field_system.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -38,33 +39,41 @@ SpaceEntry movingMeshSpace() {
     FieldInfo speedLimit = positive(
         "speed_limit", "speed limit", "", 1,
         "Largest speed of the nodes of the explicit method, in wave speeds; beyond 1 it may be unstable.");
-    e.item = {"moving-mesh",
-              "moving mesh",
-              "Linear elements whose nodes move with the solution: equidistribution as a constraint on the "
-              "action in values and places, or a mesh that follows a monitor.",
-              {nodes,
-               choiceField("monitor", "monitor", {"arclength", "curvature", "action-error"},
-                           "Density of the nodes, of which all elements have the same share."),
-               alpha,
-               choiceField("method", "method", {"multiplier", "explicit", "hierarchical", "free"},
-                           "multiplier: equidistribution as a constraint, by multipliers; explicit: the mesh "
-                           "follows the monitor with a lag; hierarchical: dyadic elements, refined and "
-                           "coarsened between steps; free: nodes without a constraint, an experiment."),
-               beta, relaxation, speedLimit,
-               flagField("fallback", true,
-                         "A multiplier step without a solution, or with nodes faster than 1.5 waves, is "
-                         "taken explicitly, as are those after it; else the run ends there."),
-               notNegative("mesh_mass", "mesh mass", "", 0,
-                           "Mass that free nodes have besides that of the field; without it their equations "
-                           "are singular.")},
-              {},
-              "a field between two ends"};
+    e.item = {
+        "moving-mesh",
+        "moving mesh",
+        "Linear elements whose nodes move with the solution: equidistribution as a constraint on the "
+        "action in values and places, or a mesh that follows a monitor.",
+        {nodes,
+         choiceField("monitor", "monitor", {"arclength", "curvature", "action-error"},
+                     "Density of the nodes, of which all elements have the same share."),
+         alpha,
+         choiceField("method", "method", {"multiplier", "explicit", "hierarchical", "free"},
+                     "multiplier: equidistribution as a constraint, by multipliers; explicit: the mesh "
+                     "follows the monitor with a lag; hierarchical: dyadic elements, refined and "
+                     "coarsened between steps; free: nodes without a constraint, an experiment."),
+         beta, relaxation, speedLimit,
+         flagField("fallback", true,
+                   "A multiplier step without a solution, or with nodes faster than 1.5 waves, is "
+                   "taken explicitly, as are those after it; so is a run from the start whose u may become "
+                   "flat, as more than half of its variation is not held by the ends. Else the run ends "
+                   "where it fails."),
+         choiceField("times", "times", {"fixed", "energy"},
+                     "fixed: steps of one length; energy: the step of all nodes is an unknown of the "
+                     "multiplier method, and keeps the discrete energy."),
+         notNegative("mesh_mass", "mesh mass", "", 0,
+                     "Mass that free nodes have besides that of the field; without it their equations "
+                     "are singular.")},
+        {},
+        "a field between two ends"};
     return e;
 }
 
 bool isExplicit(const Settings& space) { return space.text("method") == "explicit"; }
 bool isFree(const Settings& space) { return space.text("method") == "free"; }
 bool isHierarchical(const Settings& space) { return space.text("method") == "hierarchical"; }
+bool isConstrained(const Settings& space) { return space.text("method") == "multiplier"; }
+bool hasEnergyTimes(const Settings& space) { return space.text("times") == "energy"; }
 
 bool isMovable(const System& system) {
     if (!isField(system)) return false;
@@ -89,6 +98,14 @@ const std::shared_ptr<const FieldProblem>& problemOf(const System& system) {
     return std::get<ScalarField>(system.kind).problem;
 }
 
+/// Which start a run has. That of the explicit method where equidistribution of u alone is going to fail: a
+/// mesh off its constraint stays with that method (moving_mesh.hpp).
+bool startsExplicitly(const Settings& space, const ProfileTable& table) {
+    constexpr double leastHeld = 0.5;
+    return isExplicit(space) ||
+           (isConstrained(space) && space.flag("fallback") && heldVariation(table) < leastHeld);
+}
+
 /// With alpha as a number.
 State startOf(const System& system, Discretization& d, const Settings& initial, double t) {
     const NodeSpace space(problemOf(system));
@@ -98,13 +115,15 @@ State startOf(const System& system, Discretization& d, const Settings& initial, 
                            "a profile, or u and u_t as expressions");
     const ProfileTable table(profile, space.problem->mesh, t);
     Monitor monitor = monitorOf(d.space, space.c2);
+    const bool isGiven = startsExplicitly(d.space, table);
+    if (!isGiven && !isHierarchical(d.space)) monitor.beta = 0;  // the constraint knows u alone
     for (auto& [key, value] : d.space.keys)
         if (key == "alpha" && !value.isNumber())
-            value = monitor.alpha = automaticAlpha(monitor, table.x, table.u);
+            value = monitor.alpha = automaticAlpha(monitor, table.x, table.u, table.u_t);
     State state;
     state.t = t;
     state.x = isHierarchical(d.space) ? startOnDyadicMesh(space, monitor, profile, table, t)
-              : isExplicit(d.space)   ? startAtRest(space, monitor, profile, table, t)
+              : isGiven               ? startAtRest(space, monitor, profile, table, t)
                                       : startOnConstraint(space, monitor, profile, table, t);
     for (const double value : state.x)
         if (!std::isfinite(value)) throw InvalidScene("", "the initial data are not finite everywhere");
@@ -122,7 +141,22 @@ Properties describeMovingMesh(const Discretization& d) {
         p.hint = "\"alpha\": \"auto\"";
         return p;
     }
+    if (hasEnergyTimes(d.space) && !isConstrained(d.space)) {
+        p.refusal = "the energy of a mesh that is prescribed is not constant, and cannot choose the steps";
+        p.hint = "the method multiplier, or \"times\": \"fixed\"";
+        return p;
+    }
+    if (!d.quadrature.type.empty() && d.quadrature.type != "auto") {
+        p.refusal = "moving meshes have the midpoint rule in time and four Gauss points in space";
+        p.hint = "\"quadrature\": \"auto\"";
+        return p;
+    }
     p.claims.order = isGiven ? 1 : 2;
+    if (hasEnergyTimes(d.space)) {
+        p.claims.conserves.push_back("discrete energy");
+        p.claims.isOneStep = false;
+        p.prefix = "SEM ";
+    }
     p.claims.isSymmetric = isFree(d.space) || (!isGiven && !d.space.flag("fallback"));
     if (isFree(d.space))
         p.caution = d.space.number("mesh_mass") > 0
@@ -136,6 +170,97 @@ Properties describeMovingMesh(const Discretization& d) {
     p.remark = isGiven ? "order 1 in time, does not keep energy, never tangles"
                        : "order 2 in time, symplectic while it needs no fallback";
     return p;
+}
+
+/// Nodes and their rates at the start, as the steps take them.
+std::vector<double> nodesOf(const State& state) {
+    const std::size_t n = state.x.size() / 4;
+    std::vector<double> z(2 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        z[2 * i] = state.x[i];
+        z[2 * i + 1] = state.x[2 * n + i];
+    }
+    return z;
+}
+
+void checkConstraint(const SchemeCase& scheme, Findings& findings) {
+    constexpr double onConstraint = 1e-8, leastMass = 3e-4;
+    const Settings& space = scheme.discretization.space;
+    if (!isConstrained(space)) return;
+    const NodeSpace nodes(problemOf(scheme.system));
+    if (scheme.initial.x.size() != 4 * nodes.n) return;  // there is no start
+    const Monitor monitor = monitorOf(space, nodes.c2);
+    const std::vector<double> z = nodesOf(scheme.initial);
+    MultiplierStep step(nodes, monitor, 0, 1);
+    if (step.constraint().residual(z.data()) > onConstraint) {
+        if (space.flag("fallback"))
+            findings.warning(
+                "/space",
+                "takes all its steps explicitly, each marked as mesh-fallback: less than half of "
+                "the variation of u is held by the values at the ends, so that u may become flat, "
+                "and a mesh that equidistributes it would have to become uniform at once",
+                "\"method\": \"explicit\", or \"fallback\": false for the constraint all the same");
+        return;
+    }
+    if (monitor.kind == Monitor::Kind::arclength || scheme.allowsUnstable) return;
+    if (const double mass = step.smallestMass(z); mass < leastMass)
+        findings.error(
+            "/space/monitor",
+            "leaves the nodes nearly free: there is a motion of the mesh that keeps it equidistributed, "
+            "with a mass of " +
+                formatNumber(mass, 2) +
+                " of that of a mean element (arclength: 0.1), and nothing holds it; the limit is 0.0003",
+            "arclength, fewer nodes, the method explicit, or \"allow_unstable\": true");
+}
+
+std::string adviceFor(Outcome outcome) {
+    if (outcome == Outcome::lost)
+        return "The mesh no longer follows the solution: an element has more than three times its share of "
+               "the monitor, or nodes met. Try more nodes, shorter steps or a smaller alpha.";
+    if (outcome == Outcome::singular)
+        return "Nothing says where the nodes are to stand. Try the method multiplier.";
+    return {};
+}
+
+/// The rule in time is the midpoint one, whatever the column; the others say so.
+ChoiceGrid choicesOf(const System&) {
+    struct Row {
+        const char *heading, *method, *times;
+    };
+    static constexpr Row rows[] = {{"moving", "multiplier", "fixed"},
+                                   {"SEM", "multiplier", "energy"},
+                                   {"follows", "explicit", "fixed"},
+                                   {"refines", "hierarchical", "fixed"}};
+    ChoiceGrid grid;
+    for (const char* rule : {"trapezoid", "exact", "auto", "gauss", "gauss"})
+        grid.columns.push_back({rule, {}});
+    for (const Row& row : rows) {
+        std::string description;
+        for (std::size_t column = 0; column < grid.columns.size(); ++column) {
+            ChoiceGrid::Cell cell;
+            cell.discretization.space = {"moving-mesh",
+                                         {{"monitor", "arclength"},
+                                          {"alpha", "auto"},
+                                          {"method", row.method},
+                                          {"beta", 1.0},
+                                          {"relaxation", 0.1},
+                                          {"speed_limit", 1.0},
+                                          {"fallback", true},
+                                          {"times", row.times},
+                                          {"mesh_mass", 0.0}},
+                                         {}};
+            cell.discretization.quadrature = {grid.columns[column].text, {}, {}};
+            const Properties known = describe(cell.discretization);
+            cell.id = std::string(row.method) + "." + row.times + "." + std::to_string(column);
+            cell.text = known.refusal.empty() ? "∞" : "–";
+            if (known.refusal.empty()) cell.superscript = std::to_string(known.claims.order);
+            cell.title = std::string("moving mesh, ") + row.method + ", times: " + row.times;
+            description = cell.title;
+            grid.cells.push_back(std::move(cell));
+        }
+        grid.rows.push_back({row.heading, description});
+    }
+    return grid;
 }
 
 std::unique_ptr<Integrator> makeIt(const System& system, const Discretization& d, double step) {
@@ -152,6 +277,7 @@ std::unique_ptr<Integrator> makeIt(const System& system, const Discretization& d
                                                : Method::multiplier;
     options.meshMass = d.space.number("mesh_mass");
     options.hasFallback = d.space.flag("fallback");
+    options.hasEnergyTimes = hasEnergyTimes(d.space);
     options.monitor = monitorOf(d.space, problem->elastic.k);
     options.relaxation = d.space.number("relaxation");
     options.speedLimit = d.space.number("speed_limit");
@@ -182,7 +308,12 @@ Family moving_mesh() {
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // midpoint in time, four Gauss points for the potential
     };
+    f.isVariant = true;
+    f.grid = [](const Settings& space) { return hasEnergyTimes(space) ? TimeGrid::free : TimeGrid::fixed; };
     f.describe = describeMovingMesh;
+    f.check = checkConstraint;
+    f.advice = adviceFor;
+    f.choices = choicesOf;
     f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
     f.slowestStep = [](const System& system) {
         return 5e-3 * std::max(1.0, system.fieldProblem().size() / 500.0);

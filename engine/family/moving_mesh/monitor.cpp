@@ -30,16 +30,8 @@ Monitor monitorOf(const Settings& space, double c2) {
     return m;
 }
 
-void curvatures(const double* x, const double* u, std::size_t n, std::vector<double>& u_xx) {
-    u_xx.resize(n);
-    for (std::size_t i = 1; i + 1 < n; ++i)
-        u_xx[i] = 2 * ((u[i + 1] - u[i]) / (x[i + 1] - x[i]) - (u[i] - u[i - 1]) / (x[i] - x[i - 1])) /
-                  (x[i + 1] - x[i - 1]);
-    u_xx[0] = n > 2 ? u_xx[1] : 0;
-    u_xx[n - 1] = n > 2 ? u_xx[n - 2] : 0;
-}
-
-double automaticAlpha(const Monitor& monitor, const std::vector<double>& x, const std::vector<double>& u) {
+double automaticAlpha(const Monitor& monitor, const std::vector<double>& x, const std::vector<double>& u,
+                      const std::vector<double>& u_t) {
     constexpr double share = 0.6;
     std::vector<double> u_xx;
     curvatures(x.data(), u.data(), x.size(), u_xx);
@@ -47,31 +39,12 @@ double automaticAlpha(const Monitor& monitor, const std::vector<double>& x, cons
     for (std::size_t i = 0; i + 1 < x.size(); ++i) {
         const double h = x[i + 1] - x[i];
         integral += monitor.kind == Monitor::Kind::arclength
-                        ? std::abs(u[i + 1] - u[i])
+                        ? std::hypot(u[i + 1] - u[i], h * std::sqrt(monitor.beta) * (u_t[i] + u_t[i + 1]) / 2)
                         : h * std::pow(std::abs(u_xx[i] + u_xx[i + 1]) / 2, monitor.power());
     }
     const double length = x.back() - x.front();
     if (!(integral > 1e-12 * length)) return 1;
     return std::pow(share * length / integral, 1 / monitor.power());
-}
-
-void equidistribute(const std::vector<double>& x, const std::vector<double>& M, std::vector<double>& nodes) {
-    double whole = 0;
-    for (std::size_t e = 0; e + 1 < x.size(); ++e) whole += M[e] * (x[e + 1] - x[e]);
-    const std::size_t n = nodes.size();
-    nodes.front() = x.front();
-    nodes.back() = x.back();
-    std::size_t e = 0;
-    double before = 0, own = M[0] * (x[1] - x[0]);
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        const double wanted = whole * static_cast<double>(i) / static_cast<double>(n - 1);
-        while (before + own < wanted && e + 2 < x.size()) {
-            before += own;
-            ++e;
-            own = M[e] * (x[e + 1] - x[e]);
-        }
-        nodes[i] = x[e] + (wanted - before) / M[e];
-    }
 }
 
 }  // namespace extremal

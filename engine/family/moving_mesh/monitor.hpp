@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/core/settings.hpp"
+#include "engine/mesh/equidistribution.hpp"
 
 namespace extremal {
 
@@ -32,14 +33,9 @@ struct Monitor {
 Monitor monitorOf(const Settings& space, double c2);
 
 /// The alpha for which (alpha |D u|)^power has 0.6 times the length as its integral, so that some 40 % of the
-/// nodes stand where u varies much. 1 of a u that does not vary.
-double automaticAlpha(const Monitor& monitor, const std::vector<double>& x, const std::vector<double>& u);
-
-/// The nodes that give every element the same integral of a piecewise constant density M[e] on the mesh x
-/// (de Boor): the ends stay. As many nodes as `nodes` has room for.
-void equidistribute(const std::vector<double>& x, const std::vector<double>& M, std::vector<double>& nodes);
-
-/// Second differences of the values u over x, at all nodes; at the ends those of their neighbours.
-void curvatures(const double* x, const double* u, std::size_t n, std::vector<double>& u_xx);
+/// nodes stand where u varies much; |D u|^2 = u_x^2 + beta u_t^2 of the arclength. 1 of a u that does not
+/// vary.
+double automaticAlpha(const Monitor& monitor, const std::vector<double>& x, const std::vector<double>& u,
+                      const std::vector<double>& u_t);
 
 }  // namespace extremal

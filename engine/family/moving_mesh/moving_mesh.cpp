@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "engine/family/moving_mesh/energy_root.hpp"
 #include "engine/family/moving_mesh/explicit_step.hpp"
 #include "engine/family/moving_mesh/hierarchical_step.hpp"
 #include "engine/family/moving_mesh/multiplier_step.hpp"
@@ -18,6 +20,10 @@ constexpr double onConstraint = 1e-8;
 /// In wave speeds. Nodes that carry a front are as fast as it; where equidistribution asks for more it has to
 /// follow what changes everywhere at once.
 constexpr double fastestNodes = 1.5;
+/// Residual of a mesh that no longer follows the solution: a share that is the mean one and this many times
+/// more, as a square, beside its neighbour. Runs whose error makes sense have at most 6, with few nodes;
+/// those that have lost a front have 15 to 40.
+constexpr double lostResidual = 10;
 
 class MovingMesh final : public Integrator {
     using Method = MovingMeshOptions::Method;
@@ -37,34 +43,60 @@ public:
         for (auto* each : {&z_, &v_, &zBefore_, &vBefore_}) each->assign(2 * space_.n, 0);
     }
 
-    double stepSize() const override { return h_; }
+    TimeGrid grid() const override { return isFree() ? TimeGrid::free : TimeGrid::fixed; }
+    double stepSize() const override { return isFree() ? 0 : h_; }
     void setStep(double h) override { h_ = h; }
     bool checksFinite() const override { return true; }
 
-    StepReport advance(State& state, double until) override {
+    std::vector<MemoryPart> memoryParts() const override {
+        if (!isFree()) return {};
+        return {{"discrete energy", 1}, {"last step", 1}, {"change of energy by the step", 1}};
+    }
+    /// The first step is made once for its energy, and again by advance().
+    void begin(State& state) override {
+        state.memory.clear();
+        if (!isFree()) return;
         StepReport report;
-        report.step = h_;
         unpack(state.x);
-        report.outcome = step(report);
+        const double energy = energyOf(h_, report);
+        state.memory = {energy, h_, 0};
+    }
+
+    StepReport advance(State& state, double until) override {
+        if (isFree() && state.memory.empty()) begin(state);
+        StepReport report;
+        unpack(state.x);
+        report.step = h_;
+        report.outcome = isFree() ? freeStep(state.memory, report) : step(h_, report);
         if (report.outcome != Outcome::converged) return report;
         pack(state.x);
-        state.t = until;
+        state.t = isFree() ? state.t + report.step : until;
+        lastStep_ = report.step;
         ++state.node;
         return report;
     }
 
     std::span<const Quantity> quantities() const override {
-        static const std::array<Quantity, 3> all{{{"discrete_energy", "discrete energy", "E_d", ""},
+        static const std::array<Quantity, 5> all{{{"discrete_energy", "discrete energy", "E_d", ""},
                                                   {"multiplier", "multiplier", "max |λ|", ""},
-                                                  {"mesh_residual", "mesh residual", "max |g|", ""}}};
+                                                  {"mesh_residual", "mesh residual", "max |g|", ""},
+                                                  {"density", "", "ℓ", ""},
+                                                  {"monitor", "", "", ""}}};
         return all;
     }
+    /// The density of the action's error in time is 0 = H - E_d - 3 h^2 l, and the monitor h |l|^(1/3).
     void measure(const State&, double* values) const override {
         values[0] = last_ == Method::explicitMesh   ? explicit_.slabEnergy()
                     : last_ == Method::hierarchical ? hierarchical_.slabEnergy()
                                                     : multiplier_.slabEnergy();
         values[1] = last_ == Method::multiplier ? multiplier_.largestMultiplier() : std::nan("");
         values[2] = constraint_.residual(z_.data());
+        values[3] = values[4] = std::nan("");
+        if (!isFree() || last_ != Method::multiplier) return;
+        const double H =
+            (space_.energy(zBefore_.data(), vBefore_.data()) + space_.energy(z_.data(), v_.data())) / 2;
+        values[3] = (H - values[0]) / (3 * lastStep_ * lastStep_);
+        values[4] = std::abs(lastStep_) * std::cbrt(std::abs(values[3]));
     }
 
     void denseOutput(double tau, std::span<double> x) const override {
@@ -74,8 +106,9 @@ public:
         shorter.z_ = zBefore_;
         shorter.v_ = vBefore_;
         shorter.pack(state.x);
+        shorter.options_.hasEnergyTimes = false;
         if (tau > 0) {
-            shorter.setStep(tau * h_);
+            shorter.setStep(tau * lastStep_);
             (void)shorter.advance(state, 0);
         }
         std::copy(state.x.begin(), state.x.end(), x.begin());
@@ -83,7 +116,8 @@ public:
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MovingMesh>(*this); }
 
 private:
-    /// x = (y, y', X, X') to z and v, which are (y_i, X_i) and their rates node by node.
+    /// x = (y, y', X, X') to z and v, which are (y_i, X_i) and their rates node by node, before the step and
+    /// now.
     void unpack(const std::vector<double>& x) {
         const std::size_t n = space_.n;
         for (std::size_t i = 0; i < n; ++i) {
@@ -92,6 +126,8 @@ private:
             z_[2 * i + 1] = x[2 * n + i];
             v_[2 * i + 1] = x[3 * n + i];
         }
+        zBefore_ = z_;
+        vBefore_ = v_;
     }
     void pack(std::vector<double>& x) const {
         const std::size_t n = space_.n;
@@ -103,17 +139,51 @@ private:
         }
     }
 
-    Outcome step(StepReport& report) {
-        zBefore_ = z_;
-        vBefore_ = v_;
+    bool isFree() const { return options_.hasEnergyTimes; }
+    bool isOffConstraint() { return options_.hasFallback && constraint_.residual(z_.data()) > onConstraint; }
+
+    /// Of a multiplier step of length h from where the state is, which is left at its end; not a number where
+    /// it has no solution.
+    double energyOf(double h, StepReport& report) {
+        z_ = zBefore_;
+        v_ = vBefore_;
+        if (checked(multiplier_.advance(z_, v_, h, report, stop())) != Outcome::converged)
+            return std::nan("");
+        last_ = Method::multiplier;
+        return multiplier_.slabEnergy();
+    }
+
+    /// memory: E, the last step, and dE_d/d(h^2).
+    Outcome freeStep(std::vector<double>& memory, StepReport& report) {
+        if (isOffConstraint() || !std::isfinite(memory[0])) return step(h_, report);
+        const double tolerance = 16 * std::numeric_limits<double>::epsilon() * std::abs(memory[0]);
+        const EnergyRoot root = findEnergyRoot([&](double h) { return energyOf(h, report); }, memory[0],
+                                               memory[1], memory[2], tolerance);
+        if (stop().stop_requested()) return Outcome::stopped;
+        if (root.isFound && !(options_.hasFallback && isTooFast(root.h))) {
+            report.step = memory[1] = root.h;
+            memory[2] = root.slope;
+            return Outcome::converged;
+        }
+        z_ = zBefore_;
+        v_ = vBefore_;
+        ++report.cost.rejected;
+        const Outcome outcome = step(h_, report);
+        if (outcome == Outcome::converged && last_ == Method::multiplier) {
+            report.event = StepEvent::energyUnsolvable;
+            memory = {multiplier_.slabEnergy(), h_, 0};
+        }
+        return outcome;
+    }
+
+    Outcome step(double h, StepReport& report) {
         last_ = options_.method;
-        if (last_ == Method::explicitMesh) return checked(explicit_.advance(z_, v_, h_, report, stop()));
-        if (last_ == Method::hierarchical) return checked(hierarchical_.advance(z_, v_, h_, report, stop()));
-        const bool isOff = options_.hasFallback && constraint_.residual(z_.data()) > onConstraint;
+        if (last_ == Method::explicitMesh) return followed(explicit_.advance(z_, v_, h, report, stop()));
+        if (last_ == Method::hierarchical) return checked(hierarchical_.advance(z_, v_, h, report, stop()));
         Outcome outcome = Outcome::diverged;
-        if (!isOff) {
-            outcome = checked(multiplier_.advance(z_, v_, h_, report, stop()));
-            const bool isSound = outcome == Outcome::converged && !isTooFast();
+        if (!isOffConstraint()) {
+            outcome = checked(multiplier_.advance(z_, v_, h, report, stop()));
+            const bool isSound = outcome == Outcome::converged && !isTooFast(h);
             if (!options_.hasFallback || isSound || outcome == Outcome::stopped) return outcome;
             ++report.cost.rejected;
         }
@@ -121,13 +191,19 @@ private:
         v_ = vBefore_;
         last_ = Method::explicitMesh;
         report.event = StepEvent::meshFallback;
-        return checked(explicit_.advance(z_, v_, h_, report, stop()));
+        return followed(explicit_.advance(z_, v_, h, report, stop()));
     }
-    bool isTooFast() const {
-        const double most = fastestNodes * std::sqrt(space_.c2) * std::abs(h_);
+    bool isTooFast(double h) const {
+        const double most = fastestNodes * std::sqrt(space_.c2) * std::abs(h);
         for (std::size_t i = 0; i < space_.n; ++i)
             if (std::abs(z_[2 * i + 1] - zBefore_[2 * i + 1]) > most) return true;
         return false;
+    }
+    /// Of an explicit step.
+    Outcome followed(Outcome outcome) {
+        outcome = checked(outcome);
+        const bool isLost = outcome == Outcome::converged && constraint_.residual(z_.data()) > lostResidual;
+        return isLost ? Outcome::lost : outcome;
     }
     Outcome checked(Outcome outcome) const {
         if (outcome != Outcome::converged) return outcome;
@@ -140,7 +216,7 @@ private:
 
     NodeSpace space_;
     MovingMeshOptions options_;
-    double h_;
+    double h_, lastStep_ = 0;
     MultiplierStep multiplier_;
     ExplicitStep explicit_;
     HierarchicalStep hierarchical_;

@@ -6,10 +6,17 @@
 /// hierarchical: the mesh is refined and coarsened between steps, and at rest in each
 /// (hierarchical_step.hpp). free: an experiment without any of this, which is singular, or tangles.
 ///
+/// With times from the energy a multiplier step is as long as the discrete energy of the slab says, which is
+/// that of the first step (energy_root.hpp): all nodes share one step, and steps equidistribute the error of
+/// the action. A slab without such a step is as long as the first, and the energy starts anew: the event
+/// energyUnsolvable.
+///
 /// With a fallback a multiplier step that does not converge, or whose nodes would be faster than 1.5 times
 /// the waves, is taken explicitly: the event meshFallback. A mesh that is off its constraint, as it is from
 /// then on, stays with the explicit method: the state says which method goes on, and nothing else is
-/// remembered. Without a fallback the run ends with the outcome of the step.
+/// remembered. Without a fallback the run ends with the outcome of the step. An explicit step after which one
+/// element has more than three times its share of the arclength has lost what it was to follow: the outcome
+/// lost.
 #pragma once
 
 #include <memory>
@@ -23,8 +30,9 @@ namespace extremal {
 struct MovingMeshOptions {
     enum class Method { multiplier, explicitMesh, free, hierarchical };
     Method method = Method::multiplier;
-    bool hasFallback = true;  ///< of the method multiplier
-    double meshMass = 0;      ///< of each free node
+    bool hasFallback = true;      ///< of the method multiplier
+    bool hasEnergyTimes = false;  ///< steps of the method multiplier from the discrete energy
+    double meshMass = 0;          ///< of each free node
     Monitor monitor;
     double relaxation = 0.1;  ///< time in which the mesh of the explicit method follows its monitor
     double speedLimit = 1;    ///< of its nodes, in wave speeds

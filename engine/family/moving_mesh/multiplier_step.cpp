@@ -225,6 +225,26 @@ Outcome MultiplierStep::project(const std::vector<double>& z, std::vector<double
     return outcome;
 }
 
+double MultiplierStep::smallestMass(const std::vector<double>& z) {
+    constexpr int iterations = 20;
+    constraint_.evaluate(z.data(), g_, Dg1_);
+    const std::size_t size = 2 * space_.n;
+    std::vector<double> v(size), next(size);
+    for (std::size_t k = 0; k < size; ++k) v[k] = std::sin(1 + 2.7 * static_cast<double>(k));  // any
+    double norm = 0;
+    Cost cost;
+    for (int i = 0; i < iterations; ++i) {  // by the inverse
+        if (tangent(z, v, next, cost) != Outcome::converged) return 0;
+        norm = 0;
+        for (const double each : next) norm += each * each;
+        norm = std::sqrt(norm);
+        if (!(norm > 0)) return 0;
+        for (std::size_t k = 0; k < size; ++k) v[k] = next[k] / norm;
+    }
+    std::fill(mu_.begin(), mu_.end(), 0.0);
+    return 1 / norm / (space_.problem->mesh.length() / static_cast<double>(space_.elements()));
+}
+
 Outcome MultiplierStep::advance(std::vector<double>& z, std::vector<double>& v, double h, StepReport& report,
                                 const std::stop_token& stop) {
     const std::size_t n = space_.n;

@@ -39,6 +39,10 @@ public:
     /// of the nodes is to be made one.
     Outcome project(const std::vector<double>& z, std::vector<double>& v, Cost& cost);
 
+    /// The smallest eigenvalue of the mass on the tangent space of {g = 0} at z, over the length of the mean
+    /// element: how far the nodes are from free ones, whose mass is singular. 0 where it cannot be found.
+    double smallestMass(const std::vector<double>& z);
+
     /// After a step: the largest |lambda_i|, with the multiplier mu of the step before, whose end is the same
     /// node of time. It would vanish if the action were stationary in the places of the nodes as well.
     double largestMultiplier() const { return largestMultiplier_; }

@@ -2,6 +2,7 @@
 /// one after the other; which of them are held; mass, momentum and energies.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,18 @@ struct NodeSpace {
             for (std::size_t a = 0; a < 4; ++a)
                 for (std::size_t b = 0; b < 4; ++b) p[2 * e + a] += mass[a][b] * v[2 * e + b];
         }
+    }
+    double energy(const double* z, const double* v) const {
+        std::vector<double> y(n);
+        for (std::size_t i = 0; i < n; ++i) y[i] = z[2 * i];
+        PotentialMomentsOf W(problem->potential, elements());
+        W.evaluate(y.data(), false);
+        double sum = 0;
+        for (std::size_t e = 0; e + 1 < n; ++e) {
+            const ElementEnergy own = elementEnergy(z + 2 * e, v + 2 * e, c2, W[e].W);
+            sum += own.kinetic + own.potential;
+        }
+        return sum;
     }
     /// Whether all elements are longer than 0.
     bool isOrdered(const double* z) const {

@@ -123,6 +123,12 @@ ProfileTable::ProfileTable(const FieldProfile& profile, const Mesh& mesh, double
     }
 }
 
+double heldVariation(const ProfileTable& table) {
+    double all = 0;
+    for (std::size_t i = 0; i + 1 < table.u.size(); ++i) all += std::abs(table.u[i + 1] - table.u[i]);
+    return all > 0 ? std::abs(table.u.back() - table.u.front()) / all : 0;
+}
+
 std::vector<double> startAtRest(const NodeSpace& space, const Monitor& monitor, const FieldProfile& profile,
                                 const ProfileTable& table, double t) {
     const std::vector<double> X = placeNodes(space, monitor, table);

@@ -16,6 +16,10 @@ struct ProfileTable {
     ProfileTable(const FieldProfile& profile, const Mesh& mesh, double t);
 };
 
+/// The part of the variation of u that its values at both ends hold, |u_R - u_L| / integral |u_x| dx: the
+/// rest may vanish, as it does where a kink meets an antikink. 0 of a u that does not vary.
+double heldVariation(const ProfileTable& table);
+
 /// x = (y, y', X, X') on a mesh that equidistributes the monitor of the table, at rest: y' = u_t.
 std::vector<double> startAtRest(const NodeSpace& space, const Monitor& monitor, const FieldProfile& profile,
                                 const ProfileTable& table, double t);

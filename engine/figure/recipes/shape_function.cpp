@@ -38,7 +38,8 @@ Figure makeShapeFunction(const FigureContext& context) {
         figure.add(std::move(s));
     }
     if (right > left) figure.x.range = {left, right};
-    if (context.system && !kindOf<BoundaryProblem>(*context.system))
+    const auto* const kind = context.system ? kindOf<BoundaryProblem>(*context.system) : nullptr;
+    if (context.system && !(kind && kind->problem))
         figure.message = "Only schemes of the elliptic problem have shape functions";
     finishFigure(figure, context, "Shape function " + figure.subtitle);
     figure.drop<FailureMark>();

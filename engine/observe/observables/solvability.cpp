@@ -15,8 +15,8 @@ ObservableEntry solvability() {
               "root, and the monitor that is equal on all steps; of schemes whose times are unknowns.",
               {},
               {},
-              "coordinates"};
-    e.applies = [](const System& system) { return isMechanical(system); };
+              "coordinates, or a field"};
+    e.applies = [](const System& system) { return isMechanical(system) || isField(system); };
     e.bind = [](const ObserveContext& context) {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         const std::optional<std::size_t> density = context.quantity("density"),

@@ -13,7 +13,8 @@ ViewEntry shape_function() {
         .scales = againstPlace,
         .missing =
             [](const View&, const System& system) {
-                return std::string(kindOf<BoundaryProblem>(system) ? "" : "a boundary-value problem");
+                const auto* const kind = kindOf<BoundaryProblem>(system);
+                return std::string(kind && kind->problem ? "" : "the elliptic problem");
             },
         .keys = {.hasNode = true}};
 }

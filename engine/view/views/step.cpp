@@ -8,7 +8,8 @@ ViewEntry step() {
             .recipe = OwnRecipe{"step"},
             .scales = logAgainstTime,
             .missing = [](const View&, const System& system) {
-                return std::string(kindOf<BoundaryProblem>(system) ? "a motion" : "");
+                const auto* const kind = kindOf<BoundaryProblem>(system);
+                return std::string(kind && kind->problem ? "a motion, or knots" : "");
             }};
 }
 

@@ -26,7 +26,7 @@ ReadScene exampleOf(const ModelEntry& entry, const Value::Array& views, const st
         if (!field.example.isNull()) model.set(field.key, field.example);
     Value first(Value::Object{{"label", "first"}, {"scheme", scheme}, {"step", entry.exampleStep}});
     Value document(Value::Object{{"extremal", 1}, {"model", model}, {"schemes", Value::Array{first}}});
-    if (entry.item.id != "multiscale-elliptic")
+    if (entry.item.id != "multiscale-elliptic" && entry.item.id != "static-profile")
         document.set("time", Value(Value::Object{{"end", 20 * entry.exampleStep}}));
     document.set("observe", observe);
     document.set("views", views);
@@ -34,7 +34,8 @@ ReadScene exampleOf(const ModelEntry& entry, const Value::Array& views, const st
 }
 
 std::string schemeFor(const System& system) {
-    if (kindOf<BoundaryProblem>(system)) return "elliptic-multiscale";
+    if (const auto* const kind = kindOf<BoundaryProblem>(system))
+        return kind->problem ? "elliptic-multiscale" : "free-knots";
     if (isWave(system)) return "schrodinger-gauss-1";
     if (kindOf<Membrane>(system)) return "asynchronous-dyadic";
     if (isField(system)) return system.fieldProblem().isBody ? "asynchronous-dyadic" : "multisymplectic-1";
@@ -129,7 +130,7 @@ private slots:
         QCOMPARE(hint("norm"), "it needs a wave function" + has);
         QCOMPARE(hint("polhode"), "it needs a rigid body" + has);
         QCOMPARE(hint("fast-energy"), "it needs a fast oscillation of its own" + has);
-        QCOMPARE(hint("shape-function"), "it needs a boundary-value problem" + has);
+        QCOMPARE(hint("shape-function"), "it needs the elliptic problem" + has);
     }
     void presetsHaveOnlyViewsThatApply() {
         for (const Preset& preset : presets()) {

@@ -24,6 +24,7 @@ SchemeEntry moving_mesh() {
                     {"relaxation", 0.1},
                     {"speed_limit", 1.0},
                     {"fallback", true},
+                    {"times", "fixed"},
                     {"mesh_mass", 0.0}},
                    {}};
         return d;

@@ -21,10 +21,29 @@ struct Case {
     double start = 0, end = 10, step = 0.025;
     int nodes = 31;
     Value alpha = 2.0;
-    std::string method = "multiplier", monitor = "arclength", boundary = "dirichlet";
+    std::string method = "multiplier", monitor = "arclength", boundary = "dirichlet", times = "fixed";
     bool fallback = false;
     double relaxation = 0.1, beta = 1, speedLimit = 1, meshMass = 0;
 };
+
+inline Case kink(int nodes, double alpha, double step) {
+    Case c;
+    c.nodes = nodes;
+    c.alpha = alpha;
+    c.step = step;
+    return c;
+}
+inline Case collision(const char* profile, int nodes, double alpha) {
+    Case c;
+    c.left = -15;
+    c.right = 15;
+    c.initial = {{"profile", profile}, {"v", 0.9}};
+    c.start = -8;
+    c.end = 8;
+    c.nodes = nodes;
+    c.alpha = alpha;
+    return c;
+}
 
 struct Run {
     System system;
@@ -51,6 +70,7 @@ struct Run {
                             {"relaxation", c.relaxation},
                             {"speed_limit", c.speedLimit},
                             {"fallback", c.fallback},
+                            {"times", c.times},
                             {"mesh_mass", c.meshMass}},
                            {}},
                           {"auto", {}, {}},
@@ -93,7 +113,7 @@ inline Result go(const Case& c) {
     Result r;
     const auto steps = static_cast<long long>(std::lround((c.end - c.start) / c.step));
     const double atStart = run.energy();
-    double first = 0, quantities[3];
+    double first = 0, quantities[5];
     for (long long k = 1; k <= steps; ++k) {
         const StepReport report =
             run.integrator->advance(run.state, c.start + static_cast<double>(k) * c.step);

@@ -55,6 +55,22 @@ private slots:
         row("alpha text", sceneText(R"~({"type": "moving-mesh", "alpha": "much"})~"),
             "alpha is neither auto nor");
         row("nodes", sceneText(R"~({"type": "moving-mesh", "nodes": 2})~"), "/schemes/0/space/nodes");
+        const std::string kink = R"~({"profile": "kink", "v": 0.9})~";
+        row("monitor",
+            sceneText(R"~({"type": "moving-mesh", "nodes": 31, "monitor": "curvature"})~", "dirichlet", kink),
+            "");
+        row("nearly free",
+            sceneText(R"~({"type": "moving-mesh", "nodes": 127, "monitor": "curvature"})~", "dirichlet",
+                      kink),
+            "leaves the nodes nearly free");
+        row("nearly free, explicit",
+            sceneText(
+                R"~({"type": "moving-mesh", "nodes": 127, "monitor": "curvature", "method": "explicit"})~",
+                "dirichlet", kink),
+            "");
+        row("times", sceneText(R"~({"type": "moving-mesh", "method": "explicit", "times": "energy"})~"),
+            "the energy of a mesh that is prescribed is not constant");
+        row("rule", sceneText(R"~("moving-mesh", "quadrature": "gauss")~"), "quadrature");
         row("method", sceneText(R"~({"type": "moving-mesh", "method": "magic"})~"),
             "/schemes/0/space/method");
         row("values",
@@ -71,6 +87,18 @@ private slots:
             QCOMPARE(found, std::string());
         else
             QVERIFY2(found.find(error.toStdString()) != std::string::npos, found.c_str());
+    }
+    void whatCannotBeFollowedIsSaidAtTheStart() {
+        // A kink and an antikink: nothing holds the variation of u, which a monitor of u needs.
+        const auto warnings = [](const std::string& space) {
+            return readScene(std::string_view(sceneText(space))).warnings;
+        };
+        const auto found = warnings(R"~({"type": "moving-mesh", "nodes": 31})~");
+        QCOMPARE(found.size(), std::size_t{1});
+        QVERIFY(found[0].pointer == "/schemes/0/space");
+        QVERIFY(found[0].message.find("explicitly") != std::string::npos);
+        QVERIFY(warnings(R"~({"type": "moving-mesh", "nodes": 31, "fallback": false})~").empty());
+        QVERIFY(warnings(R"~({"type": "moving-mesh", "nodes": 31, "method": "explicit"})~").empty());
     }
     void framesCarryTheirNodes() {
         const ReadScene read =
@@ -95,7 +123,7 @@ private slots:
         for (const char* column :
              {"error", "error.function", "energy", "translation_momentum", "h_min", "mesh_residual"})
             QVERIFY2(std::isfinite(moving.trajectory[column].back()), column);
-        QVERIFY(std::isfinite(moving.trajectory["multiplier"][1]));
+        QVERIFY(std::isnan(moving.trajectory["multiplier"][1]));  // explicit from the start
         const SchemeResult& atRest = *result.schemes.at(1);
         QVERIFY(!std::isfinite(atRest.trajectory["multiplier"].back()));
         QCOMPARE(atRest.trajectory["h_min"].back(), 30.0 / 32);

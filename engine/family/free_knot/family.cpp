@@ -1,0 +1,133 @@
+/// Static profiles on knots that are unknowns (Leok 2004, sec. 6).
+#include <limits>
+
+#include "engine/core/memo_cache.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/family.hpp"
+#include "engine/family/free_knot/free_knots.hpp"
+
+namespace extremal::family {
+namespace {
+
+constexpr const char* places[] = {"equal", "arclength", "density", "free"};
+
+SpaceEntry knotSpace() {
+    SpaceEntry e;
+    e.item = {
+        "knots",
+        "knots",
+        "Straight lines between knots, of the least energy.",
+        {integerField("elements", "n", 2, 10000, 16.0, "Number of straight lines."),
+         choiceField("place", "knots", {places[0], places[1], places[2], places[3]},
+                     "equal: elements of one length; arclength: of one length of the graph; density: of "
+                     "the same share of |u_xx|^p, p = 2/3, or 2/5 without stiffness; free: knots for "
+                     "which the energy is stationary.")},
+        {},
+        "a static profile"};
+    return e;
+}
+
+Knots knotsOf(const Settings& space) {
+    const std::string place = space.text("place");
+    for (int i = 0; i < 4; ++i)
+        if (place == places[i]) return static_cast<Knots>(i);
+    return Knots::equal;
+}
+
+const std::shared_ptr<const StaticProblem>& problemOf(const System& system) {
+    return std::get<BoundaryProblem>(system.kind).profile;
+}
+
+/// Once for the start, the check and the run.
+std::shared_ptr<const KnotProfile> profileOf(const System& system, const Settings& space) {
+    using Key = std::pair<Settings, Settings>;
+    static MemoCache<Key, std::shared_ptr<const KnotProfile>> known(32);
+    const StaticProblem& problem = *problemOf(system);
+    return known.get(Key{problem.settings, space}, [&] {
+        return std::make_shared<const KnotProfile>(
+            findProfile(problem, space.integer("elements"), knotsOf(space)));
+    });
+}
+
+Properties describeKnots(const Discretization& d) {
+    Properties p;
+    p.claims.order = 2;
+    p.claims.isOneStep = false;
+    p.curveOrder = 2;
+    p.space =
+        std::to_string(d.space.integer("elements")) + " straight lines, knots: " + d.space.text("place");
+    p.knownAs = d.space.text("place") == "free" ? "free knots" : d.space.text("place") + " knots";
+    p.shortName = d.space.text("place");
+    p.remark = d.space.text("place") == "free" ? "the energy is stationary in the knots as well"
+                                               : "the energy is stationary in the values";
+    p.stabilityLimit = std::numeric_limits<double>::infinity();
+    return p;
+}
+
+ChoiceGrid choices(const System&) {
+    ChoiceGrid grid;
+    grid.subtitle = "knots × elements";
+    for (const char* place : places) {
+        grid.rows.push_back({place, {}});
+        for (const int elements : {4, 8, 16, 32, 64, 128}) {
+            ChoiceGrid::Cell cell;
+            cell.discretization.space = {
+                "knots", {{"elements", static_cast<double>(elements)}, {"place", place}}, {}};
+            cell.discretization.quadrature = {"auto", {}, {}};
+            cell.text = std::to_string(elements);
+            cell.id = std::string(place) + "." + cell.text;
+            cell.title = describe(cell.discretization).space;
+            grid.cells.push_back(std::move(cell));
+        }
+    }
+    return grid;
+}
+
+}  // namespace
+
+Family free_knot() {
+    Family f;
+    f.item = {"free_knot", "free knots", "Profiles whose knots are unknowns.", {}, {}, "a static profile"};
+    f.source = "Leok 2004, sec. 6";
+    f.spaces = {knotSpace()};
+    f.grid = [](const Settings&) { return TimeGrid::free; };
+    f.applies = [](const System& system) {
+        const auto* const kind = kindOf<BoundaryProblem>(system);
+        return kind && kind->profile;
+    };
+    f.model = [](const Settings&, const Settings& model) -> std::optional<Settings> { return model; };
+    f.start = [](const System& system, Discretization& d, const Settings&, double) {
+        return knotStart(*profileOf(system, d.space));
+    };
+    f.completeRule = [](const Settings&, const Settings&) {
+        return Settings{"auto", {}, {}};  // integrals over panels are exact to round-off
+    };
+    f.describe = describeKnots;
+    f.check = [](const SchemeCase& scheme, Findings& findings) {
+        const StaticProblem& problem = *problemOf(scheme.system);
+        if (scheme.initial.t != problem.left || scheme.end != problem.right)
+            findings.error("",
+                           "goes along x from " + formatNumber(problem.left) + " to " +
+                               formatNumber(problem.right) + ", and the scene does not",
+                           "\"time\": { \"start\": " + formatNumber(problem.left) +
+                               ", \"end\": " + formatNumber(problem.right) + " }");
+    };
+    f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
+    f.impliedStep = [](const Settings& space, const Settings& model,
+                       const ParameterValue&) -> std::optional<ImpliedStep> {
+        const Value* const domain = model.find("domain");
+        if (!domain || !domain->isArray() || domain->asArray().size() != 2) return {};
+        const double length = domain->asArray()[1].asNumber() - domain->asArray()[0].asNumber();
+        return ImpliedStep{length / space.number("elements"), {}, true};
+    };
+    f.choices = choices;
+    f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
+    f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
+    f.make = [](const System& system, const Discretization& d, double) {
+        return makeFreeKnots(profileOf(system, d.space));
+    };
+    return f;
+}
+
+}  // namespace extremal::family

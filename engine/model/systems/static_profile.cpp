@@ -1,0 +1,107 @@
+/// The profile with the least energy between two places (Leok 2004, sec. 6): no motion, but a solution along
+/// x, which a scheme gives knot by knot. State columns: u at the knot, and of the element that ends there the
+/// derivative C of its energy by its end and its energy; the energy of the whole (static_problem.hpp).
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/static_problem.hpp"
+#include "engine/model/system.hpp"
+#include "engine/model/typed/typed_function.hpp"
+
+namespace extremal::systems {
+namespace {
+
+System makeStaticProfile(const Settings& settings) {
+    const Value::Array domain = settings.find("domain")->asArray();
+    StaticProblem problem;
+    problem.left = domain[0].asNumber();
+    problem.right = domain[1].asNumber();
+    if (!(problem.right > problem.left))
+        throw InvalidScene("/domain", "must be two ascending places, got " + formatNumber(problem.left) +
+                                          " and " + formatNumber(problem.right));
+    problem.stiffness = settings.number("stiffness");
+    const Value::Array ends = settings.find("ends")->asArray();
+    problem.uLeft = ends[0].asNumber();
+    problem.uRight = ends[1].asNumber();
+    problem.isHeld = settings.text("boundary") == "held";
+    problem.W = std::make_shared<const typed::TypedFunction>(settings.text("energy"), "/energy",
+                                                             std::vector<std::string>{"u", "x"},
+                                                             std::vector<std::pair<std::string, double>>{});
+    if (const Value* const jumps = settings.find("jumps"))
+        for (const Value& each : jumps->asArray()) {
+            if (!each.isNumber()) throw InvalidScene("/jumps", "must be places, numbers");
+            problem.jumps.push_back(each.asNumber());
+        }
+    std::sort(problem.jumps.begin(), problem.jumps.end());
+    problem.resolution = settings.number("resolution") * problem.length();
+    problem.settings = settings;
+    System s;
+    s.id = "static-profile";
+    s.independent = "x";
+    s.columns = {{"u", "profile", "u", ""},
+                 {"element_energy", "horizontal momentum", "∂E/∂x", ""},
+                 {"share", "energy of the element", "E_e", ""},
+                 {"total", "energy of the profile", "E", ""}};
+    s.kind = BoundaryProblem{{}, std::make_shared<const StaticProblem>(problem)};
+    if (const Value* const exact = settings.find("exact")) {
+        const auto u = std::make_shared<const typed::TypedFunction>(
+            exact->asString(), "/exact", std::vector<std::string>{"x"},
+            std::vector<std::pair<std::string, double>>{});
+        s.exact = [u](const State&) -> ExactSolution {
+            return [u](double x, std::span<double> values) {
+                std::fill(values.begin(), values.end(), 0.0);
+                values[0] = (*u)(&x);
+            };
+        };
+    }
+    s.error.columns = {{"error", "", "|u - u_exact|", ""}};
+    s.error.evaluate = [](const double* x, const double* reference, double* values) {
+        values[0] = std::abs(x[0] - reference[0]);
+    };
+    s.start = [](const Settings&, double) { return std::vector<double>(4, 0.0); };
+    s.draw = [](const double*, Drawing&) {};
+    s.phaseX = "t";
+    s.phaseY = "u";
+    s.trajectoryX = "t";
+    s.trajectoryY = "u";
+    return s;
+}
+
+}  // namespace
+
+ModelEntry static_profile() {
+    ModelEntry e;
+    const FieldInfo jumps = optionalJsonField(
+                        "jumps", "jumps",
+                        "Places where the energy density jumps, for the quadrature to stop at."),
+                    exact =
+                        optionalJsonField("exact", "exact profile",
+                                          "The exact profile, an expression in x: for the error at knots.");
+    e.item = {
+        "static-profile",
+        "static profile",
+        "The function with the least energy, int k u_x^2/2 + W(x, u) dx: a kink at rest, or, without "
+        "stiffness, the best approximation of a function by straight lines.",
+        {jsonField("energy", "energy density", "W", "1-cos(u)",
+                   "The density W, an expression in u and x; (u-f(x))^2/2 for the best approximation of f."),
+         notNegative("stiffness", "stiffness", "", 1, "The factor k of u_x^2/2."),
+         numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, 1.0}, "Both ends."),
+         numbers("ends", "values at the ends", "", {"left", "right"}, Value::Array{0.0, 1.0},
+                 "Values at both ends; where they are free the iteration starts from them."),
+         choiceField("boundary", "boundary", {"held", "free"},
+                     "held: the values at the ends are given; free: they are unknowns."),
+         jumps, exact,
+         positive("resolution", "resolution", "", 0.005,
+                  "Longest panel of the quadrature, eight Gauss points each, as a part of the domain.")},
+        {},
+        ""};
+    e.exampleEnd = 1;
+    e.exampleStep = 0.1;
+    e.make = makeStaticProfile;
+    return e;
+}
+
+}  // namespace extremal::systems
