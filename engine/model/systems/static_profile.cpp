@@ -27,14 +27,18 @@ System makeStaticProfile(const Settings& settings) {
     problem.uLeft = ends[0].asNumber();
     problem.uRight = ends[1].asNumber();
     problem.isHeld = settings.text("boundary") == "held";
+    if (!settings.find("energy")->isString())
+        throw InvalidScene("/energy", "must be an expression in u and x", "\"1-cos(u)\"");
     problem.W = std::make_shared<const typed::TypedFunction>(settings.text("energy"), "/energy",
                                                              std::vector<std::string>{"u", "x"},
                                                              std::vector<std::pair<std::string, double>>{});
-    if (const Value* const jumps = settings.find("jumps"))
+    if (const Value* const jumps = settings.find("jumps"); jumps && !jumps->isNull()) {
+        if (!jumps->isArray()) throw InvalidScene("/jumps", "must be an array of places", "[0.4]");
         for (const Value& each : jumps->asArray()) {
-            if (!each.isNumber()) throw InvalidScene("/jumps", "must be places, numbers");
+            if (!each.isNumber()) throw InvalidScene("/jumps", "must be an array of places", "[0.4]");
             problem.jumps.push_back(each.asNumber());
         }
+    }
     std::sort(problem.jumps.begin(), problem.jumps.end());
     problem.resolution = settings.number("resolution") * problem.length();
     problem.settings = settings;
@@ -46,7 +50,8 @@ System makeStaticProfile(const Settings& settings) {
                  {"share", "energy of the element", "E_e", ""},
                  {"total", "energy of the profile", "E", ""}};
     s.kind = BoundaryProblem{{}, std::make_shared<const StaticProblem>(problem)};
-    if (const Value* const exact = settings.find("exact")) {
+    if (const Value* const exact = settings.find("exact"); exact && !exact->isNull()) {
+        if (!exact->isString()) throw InvalidScene("/exact", "must be an expression in x");
         const auto u = std::make_shared<const typed::TypedFunction>(
             exact->asString(), "/exact", std::vector<std::string>{"x"},
             std::vector<std::pair<std::string, double>>{});

@@ -3,11 +3,14 @@
 #include <QFile>
 #include <QTest>
 
+#include <algorithm>
 #include <string>
 
+#include "engine/family/family.hpp"
 #include "engine/figure/figure.hpp"
 #include "engine/run/export.hpp"
 #include "engine/run/run.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/tools/test.hpp"
 
@@ -140,6 +143,20 @@ private slots:
         QCOMPARE(lines[0], QByteArray("t,node,x"));
         QCOMPARE(lines.size(), static_cast<qsizetype>(2 + 33 * frames->all.size()));
         QCOMPARE(lines[1], QByteArray("-2,0,-15"));
+    }
+    void methodsAreRowsOfTheDiscretizer() {
+        const auto countIn = [](const std::string& text, bool isPossible) {
+            const ChoiceGrid grid = choicesFor(makeSystem(readScene(std::string_view(text)).scene));
+            return std::count_if(grid.cells.begin(), grid.cells.end(), [&](const ChoiceGrid::Cell& cell) {
+                return cell.discretization.space.type == "moving-mesh" &&
+                       describe(cell.discretization).refusal.empty() == isPossible;
+            });
+        };
+        const std::string between = sceneText("\"moving-mesh\"");
+        QCOMPARE(countIn(between, true), 4);  // under the midpoint rule in time
+        QCOMPARE(countIn(between, false), 16);
+        const std::string around = sceneText("\"tent\"", "periodic", R"~({"profile": "breather"})~");
+        QCOMPARE(countIn(around, true) + countIn(around, false), 0);
     }
     void picturesShowTheNodes() {
         const ReadScene read =
