@@ -79,26 +79,32 @@ System makeStaticProfile(const Settings& settings) {
 
 ModelEntry static_profile() {
     ModelEntry e;
-    const FieldInfo jumps = optionalJsonField(
-                        "jumps", "jumps",
-                        "Places where the energy density jumps, for the quadrature to stop at."),
-                    exact =
-                        optionalJsonField("exact", "exact profile",
-                                          "The exact profile, an expression in x: for the error at knots.");
+    FieldInfo jumps = optionalJsonField(
+                  "jumps", "jumps", "Places where the energy density jumps, for the quadrature to stop at."),
+              exact = optionalJsonField("exact", "exact profile",
+                                        "The exact profile, an expression in x: for the error at knots.");
+    // In a new scene, a steep profile.
+    FieldInfo energy = jsonField("energy", "energy density", "W", "1-cos(u)",
+                                 "The density W, an expression in u and x; (u-f(x))^2/2 for the best "
+                                 "approximation of f."),
+              stiffness = notNegative("stiffness", "stiffness", "", 1, "The factor k of u_x^2/2."),
+              ends = numbers("ends", "values at the ends", "", {"left", "right"}, Value::Array{0.0, 1.0},
+                             "Values at both ends; where they are free the iteration starts from them."),
+              boundary = choiceField("boundary", "boundary", {"held", "free"},
+                                     "held: the values at the ends are given; free: they are unknowns.");
+    energy.example = "(u-tanh((x-0.3)/0.05))^2/2";
+    exact.example = "tanh((x-0.3)/0.05)";
+    stiffness.example = 0.0;
+    ends.example = Value::Array{-1.0, 1.0};
+    boundary.example = "free";
     e.item = {
         "static-profile",
         "static profile",
         "The function with the least energy, int k u_x^2/2 + W(x, u) dx: a kink at rest, or, without "
         "stiffness, the best approximation of a function by straight lines.",
-        {jsonField("energy", "energy density", "W", "1-cos(u)",
-                   "The density W, an expression in u and x; (u-f(x))^2/2 for the best approximation of f."),
-         notNegative("stiffness", "stiffness", "", 1, "The factor k of u_x^2/2."),
-         numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, 1.0}, "Both ends."),
-         numbers("ends", "values at the ends", "", {"left", "right"}, Value::Array{0.0, 1.0},
-                 "Values at both ends; where they are free the iteration starts from them."),
-         choiceField("boundary", "boundary", {"held", "free"},
-                     "held: the values at the ends are given; free: they are unknowns."),
-         jumps, exact,
+        {energy, stiffness,
+         numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, 1.0}, "Both ends."), ends,
+         boundary, jumps, exact,
          positive("resolution", "resolution", "", 0.005,
                   "Longest panel of the quadrature, eight Gauss points each, as a part of the domain.")},
         {},
