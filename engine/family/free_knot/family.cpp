@@ -18,7 +18,7 @@ SpaceEntry knotSpace() {
         "knots",
         "knots",
         "Straight lines between knots, of the least energy.",
-        {integerField("elements", "n", 2, 10000, 16.0, "Number of straight lines."),
+        {integerField("elements", "n", 2, 512, 16.0, "Number of straight lines."),
          choiceField("place", "knots", {places[0], places[1], places[2], places[3]},
                      "equal: elements of one length; arclength: of one length of the graph; density: of "
                      "the same share of |u_xx|^p, p = 2/3, or 2/5 without stiffness; free: knots for "

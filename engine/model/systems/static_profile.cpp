@@ -83,6 +83,11 @@ ModelEntry static_profile() {
                   "jumps", "jumps", "Places where the energy density jumps, for the quadrature to stop at."),
               exact = optionalJsonField("exact", "exact profile",
                                         "The exact profile, an expression in x: for the error at knots.");
+    FieldInfo resolution =
+        positive("resolution", "resolution", "", 0.005,
+                 "Longest panel of the quadrature, eight Gauss points each, as a part of the domain.");
+    resolution.min = 1e-4;
+    resolution.isMinExcluded = false;
     // In a new scene, a steep profile.
     FieldInfo energy = jsonField("energy", "energy density", "W", "1-cos(u)",
                                  "The density W, an expression in u and x; (u-f(x))^2/2 for the best "
@@ -97,18 +102,15 @@ ModelEntry static_profile() {
     stiffness.example = 0.0;
     ends.example = Value::Array{-1.0, 1.0};
     boundary.example = "free";
-    e.item = {
-        "static-profile",
-        "static profile",
-        "The function with the least energy, int k u_x^2/2 + W(x, u) dx: a kink at rest, or, without "
-        "stiffness, the best approximation of a function by straight lines.",
-        {energy, stiffness,
-         numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, 1.0}, "Both ends."), ends,
-         boundary, jumps, exact,
-         positive("resolution", "resolution", "", 0.005,
-                  "Longest panel of the quadrature, eight Gauss points each, as a part of the domain.")},
-        {},
-        ""};
+    e.item = {"static-profile",
+              "static profile",
+              "The function with the least energy, int k u_x^2/2 + W(x, u) dx: a kink at rest, or, without "
+              "stiffness, the best approximation of a function by straight lines.",
+              {energy, stiffness,
+               numbers("domain", "domain", "", {"left", "right"}, Value::Array{0.0, 1.0}, "Both ends."), ends,
+               boundary, jumps, exact, resolution},
+              {},
+              ""};
     e.exampleEnd = 1;
     e.exampleStep = 0.1;
     e.make = makeStaticProfile;
