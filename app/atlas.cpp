@@ -1,11 +1,10 @@
-#include <QApplication>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <thread>
 
+#include "app/offscreen.hpp"
 #include "app/report.hpp"
 #include "app/study_work.hpp"
 #include "app/verbs.hpp"
@@ -114,12 +113,7 @@ int atlasVerb(const AtlasRunOptions& given, const CommonOptions& common) {
         for (AtlasSystem& system : systems)
             for (AtlasPart& part : system.parts)
                 isInterrupted = isInterrupted || runPart(system, part, watch, given, common);
-        qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
-        qputenv("QT_QPA_PLATFORM", "offscreen");
-        int argc = 1;
-        char program[] = "extremal";
-        char* argv[] = {program, nullptr};
-        const QApplication application(argc, argv);
+        const Offscreen qt;
         for (const AtlasSystem& system : systems) writePicture(system, given.out);
         const std::filesystem::path page = std::filesystem::path(given.out) / "index.html";
         writeFile(page, atlasPage(systems, EXTREMAL_VERSION, machineText(), !isInterrupted));

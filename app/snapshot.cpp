@@ -1,11 +1,10 @@
-#include <QApplication>
-
 #include <algorithm>
 #include <charconv>
 #include <memory>
 #include <optional>
 
 #include "app/load.hpp"
+#include "app/offscreen.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
@@ -15,12 +14,6 @@
 
 namespace extremal::app {
 namespace {
-
-/// Suppresses Qt's remarks about the system, which do not concern the picture; errors are reported by this
-/// program.
-void dropRemarks(QtMsgType type, const QMessageLogContext&, const QString& text) {
-    if (type == QtCriticalMsg || type == QtFatalMsg) printProblem("", text.toStdString());
-}
 
 /// "1200x800".
 std::optional<std::pair<int, int>> parseSize(const std::string& text) {
@@ -81,12 +74,7 @@ int printSnapshot(const SnapshotOptions& snapshot, const SnapshotRequest& reques
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options) {
     const ReadScene read = loadScene(scene, options.overrides);
     if (!reportScene(scene, read, options)) return unusable;
-    qInstallMessageHandler(dropRemarks);
-    qputenv("QT_QPA_PLATFORM", "offscreen");
-    int argc = 1;
-    char program[] = "extremal";
-    char* argv[] = {program, nullptr};
-    const QApplication application(argc, argv);
+    const Offscreen qt;
     try {
         const SnapshotRequest request = requestOf(snapshot);
         checkSnapshot(read.scene, request);

@@ -1,5 +1,3 @@
-#include <QApplication>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -7,6 +5,7 @@
 #include <sstream>
 
 #include "app/load.hpp"
+#include "app/offscreen.hpp"
 #include "app/report.hpp"
 #include "app/study_work.hpp"
 #include "app/signals.hpp"
@@ -114,12 +113,7 @@ void writeResults(const StudyEntry& study, const Study& work, const std::vector<
     for (const StudyTable& table : tables) writeFile(folder / (table.name + ".csv"), csvText(table));
     const std::vector<Figure> figures = studyFigures(study.item.id, work);
     if (!isPlotted || figures.front().view.empty()) return;
-    qInstallMessageHandler([](QtMsgType, const QMessageLogContext&, const QString&) {});
-    qputenv("QT_QPA_PLATFORM", "offscreen");
-    int argc = 1;
-    char program[] = "extremal";
-    char* argv[] = {program, nullptr};
-    const QApplication application(argc, argv);
+    const Offscreen qt;
     for (const Figure& figure : figures)
         for (const char* ending : {".svg", ".png"}) {
             const std::string& stem = &figure == &figures.front() ? study.item.id : figure.view;

@@ -62,8 +62,9 @@ struct SchemeRun::Recording {
     long long steps = 0;    ///< planned; 0 where their number is not known before
     long long maxRows = 0;  ///< of those: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
-    ProductPlan plan;     ///< products to make
-    Observer denseError;  ///< measured along the dense output as well, where it is in the plan
+    bool isTimed = false;  ///< what it costs is shown
+    ProductPlan plan;      ///< products to make
+    Observer denseError;   ///< measured along the dense output as well, where it is in the plan
     std::unique_ptr<Integrator> integrator;
     FrameKeeper frames;
     RowSampler sampler;
@@ -322,11 +323,11 @@ struct SchemeRun::Recording {
             return true;
         }});
         const MarchGrid grid = marchGrid(scene, scheme, step);
-        const auto fresh = integrator->clone();
+        const auto fresh = isTimed ? integrator->clone() : nullptr;
         warmUp(*integrator, state, grid, stop);
         Judge judge(system, initialNode, step);
         MarchReport report = march(*integrator, state, grid, sinks, stop, &judge);
-        if (report.outcome == Outcome::converged && report.cpuSeconds < shortRuns)
+        if (fresh && report.outcome == Outcome::converged && report.cpuSeconds < shortRuns)
             if (const Timing timing = timeRuns(*fresh, initialNode, grid, report.cpuSeconds, shortRun, stop);
                 std::isfinite(timing.fastest))
                 report.cpuSeconds = timing.fastest;
@@ -397,6 +398,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
         Recording p(resolved_, scheme_, own, reference, scene_.observe, spec_.step.value, stride, style,
                     stop);
         p.maxRows = maxRows;
+        p.isTimed = true;
         p.plan = plan_;
         const ObservableEntry* error = findObservable("error");
         if (plan_.has(Product::denseError) && reference.make && error)

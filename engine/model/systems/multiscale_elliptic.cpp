@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/core/problem.hpp"
+#include "engine/model/boundary_system.hpp"
 #include "engine/model/elliptic.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/typed_function.hpp"
@@ -27,29 +28,17 @@ std::function<double(double)> formula(const Value& value, const std::string& poi
 System makeMultiscaleElliptic(const Settings& settings) {
     const EllipticProblem problem{formula(*settings.find("a"), "/a", "s"), settings.number("epsilon"),
                                   formula(*settings.find("f"), "/f", "x")};
-    System s;
-    s.id = "multiscale-elliptic";
-    s.independent = "x";
-    s.columns = {{"u", "solution", "u", ""}, {"u_exact", "exact solution", "u_exact", ""}};
-    s.kind = BoundaryProblem{std::make_shared<const EllipticProblem>(problem)};
     // Positive everywhere, or there is no solution: seen at the places of the quadrature.
     const auto exact = std::make_shared<const EllipticSolution>(problem, 16);
     double size = 0;
     for (int i = 1; i < 200; ++i) size = std::max(size, std::abs(exact->u(i / 200.0)));
+    System s = boundarySystem("multiscale-elliptic",
+                              {{"u", "solution", "u", ""}, {"u_exact", "exact solution", "u_exact", ""}},
+                              {std::make_shared<const EllipticProblem>(problem), {}},
+                              "|u - u_exact| / max |u|", size > 0 ? size : 1);
     s.exact = [exact](const State&) -> ExactSolution {
         return [exact](double x, std::span<double> values) { values[0] = values[1] = exact->u(x); };
     };
-    s.error.columns = {{"error", "", "|u - u_exact| / max |u|", ""}};
-    s.error.evaluate = [scale = size > 0 ? size : 1](const double* x, const double* reference,
-                                                     double* values) {
-        values[0] = std::abs(x[0] - reference[0]) / scale;
-    };
-    s.start = [](const Settings&, double) { return std::vector<double>{0, 0}; };
-    s.draw = [](const double*, Drawing&) {};
-    s.phaseX = "t";
-    s.phaseY = "u";
-    s.trajectoryX = "t";
-    s.trajectoryY = "u";
     return s;
 }
 

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/model/boundary_system.hpp"
 #include "engine/model/static_problem.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/typed_function.hpp"
@@ -14,11 +18,15 @@
 namespace extremal::systems {
 namespace {
 
+std::optional<std::pair<double, double>> domainOf(const Settings& settings) {
+    const Value* const domain = settings.find("domain");
+    if (!domain || !domain->isArray() || domain->asArray().size() != 2) return {};
+    return std::pair(domain->asArray()[0].asNumber(), domain->asArray()[1].asNumber());
+}
+
 System makeStaticProfile(const Settings& settings) {
-    const Value::Array domain = settings.find("domain")->asArray();
     StaticProblem problem;
-    problem.left = domain[0].asNumber();
-    problem.right = domain[1].asNumber();
+    std::tie(problem.left, problem.right) = domainOf(settings).value();
     if (!(problem.right > problem.left))
         throw InvalidScene("/domain", "must be two ascending places, got " + formatNumber(problem.left) +
                                           " and " + formatNumber(problem.right));
@@ -42,14 +50,12 @@ System makeStaticProfile(const Settings& settings) {
     std::sort(problem.jumps.begin(), problem.jumps.end());
     problem.resolution = settings.number("resolution") * problem.length();
     problem.settings = settings;
-    System s;
-    s.id = "static-profile";
-    s.independent = "x";
-    s.columns = {{"u", "profile", "u", ""},
-                 {"element_energy", "horizontal momentum", "∂E/∂x", ""},
-                 {"share", "energy of the element", "E_e", ""},
-                 {"total", "energy of the profile", "E", ""}};
-    s.kind = BoundaryProblem{{}, std::make_shared<const StaticProblem>(problem)};
+    System s = boundarySystem("static-profile",
+                              {{"u", "profile", "u", ""},
+                               {"element_energy", "horizontal momentum", "∂E/∂x", ""},
+                               {"share", "energy of the element", "E_e", ""},
+                               {"total", "energy of the profile", "E", ""}},
+                              {{}, std::make_shared<const StaticProblem>(problem)}, "|u - u_exact|", 1);
     if (const Value* const exact = settings.find("exact"); exact && !exact->isNull()) {
         if (!exact->isString()) throw InvalidScene("/exact", "must be an expression in x");
         const auto u = std::make_shared<const typed::TypedFunction>(
@@ -62,16 +68,6 @@ System makeStaticProfile(const Settings& settings) {
             };
         };
     }
-    s.error.columns = {{"error", "", "|u - u_exact|", ""}};
-    s.error.evaluate = [](const double* x, const double* reference, double* values) {
-        values[0] = std::abs(x[0] - reference[0]);
-    };
-    s.start = [](const Settings&, double) { return std::vector<double>(4, 0.0); };
-    s.draw = [](const double*, Drawing&) {};
-    s.phaseX = "t";
-    s.phaseY = "u";
-    s.trajectoryX = "t";
-    s.trajectoryY = "u";
     return s;
 }
 

@@ -1,0 +1,16 @@
+/// A boundary-value problem as a system: no motion, but a solution u along x, the first state column, which a
+/// scheme gives node by node. Its error is |u - u_exact| / scale.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+/// `error`: its title. The state columns are 0 at the start.
+System boundarySystem(std::string id, std::vector<Quantity> columns, BoundaryProblem problem,
+                      std::string error, double scale);
+
+}  // namespace extremal
