@@ -11,9 +11,11 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -258,6 +260,9 @@ struct ModelEntry {
     std::function<System(const Settings& settings)> make;  ///< keys are checked and complete
     /// Throws InvalidScene (pointers below /model) where the system cannot start from a state; may be empty.
     std::function<void(const Settings& settings, const System& system, const State& initial)> checkInitial;
+    /// Of a boundary-value problem: where its independent variable begins and ends, so that a scene need not
+    /// say it; nothing where the settings do not tell. Null for motions.
+    std::optional<std::pair<double, double>> (*interval)(const Settings& settings) = nullptr;
 };
 
 /// All systems, in alphabetical order of their ids; gathered from the files of model/systems.

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "engine/core/text.hpp"
+#include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/format.hpp"
@@ -49,15 +50,12 @@ void readReferenceFile(Reader& reader, const Value& object, const std::string& d
 
 void readTime(Reader& reader, const Value& document, Scene& scene) {
     const Value* time = document.find("time");
-    if (!time && scene.model.type == "multiscale-elliptic") {
-        scene.end = Number{1, {}};
-        return;
-    }
-    if (const Value* const domain = scene.model.find("domain");
-        !time && domain && scene.model.type == "static-profile") {
-        scene.start = Number{domain->asArray()[0].asNumber(), {}};
-        scene.end = Number{domain->asArray()[1].asNumber(), {}};
-        return;
+    if (const ModelEntry* const entry = findModel(scene.model.type); !time && entry && entry->interval) {
+        if (const auto interval = entry->interval(scene.model)) {
+            scene.start = Number{interval->first, {}};
+            scene.end = Number{interval->second, {}};
+            return;
+        }
     }
     if (!time) return reader.error("/time/end", "is required", "for example \"time\": { \"end\": 10 }");
     if (!reader.isObject(*time, "/time")) return;

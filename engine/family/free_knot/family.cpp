@@ -116,10 +116,10 @@ Family free_knot() {
     f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
     f.impliedStep = [](const Settings& space, const Settings& model,
                        const ParameterValue&) -> std::optional<ImpliedStep> {
-        const Value* const domain = model.find("domain");
-        if (!domain || !domain->isArray() || domain->asArray().size() != 2) return {};
-        const double length = domain->asArray()[1].asNumber() - domain->asArray()[0].asNumber();
-        return ImpliedStep{length / space.number("elements"), {}, true};
+        const ModelEntry* const entry = findModel(model.type);
+        const auto interval = entry && entry->interval ? entry->interval(model) : std::nullopt;
+        if (!interval) return {};
+        return ImpliedStep{(interval->second - interval->first) / space.number("elements"), {}, true};
     };
     f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };

@@ -43,19 +43,19 @@ public:
         for (auto* each : {&z_, &v_, &zBefore_, &vBefore_}) each->assign(2 * space_.n, 0);
     }
 
-    TimeGrid grid() const override { return isFree() ? TimeGrid::free : TimeGrid::fixed; }
-    double stepSize() const override { return isFree() ? 0 : h_; }
+    TimeGrid grid() const override { return choosesSteps() ? TimeGrid::free : TimeGrid::fixed; }
+    double stepSize() const override { return choosesSteps() ? 0 : h_; }
     void setStep(double h) override { h_ = h; }
     bool checksFinite() const override { return true; }
 
     std::vector<MemoryPart> memoryParts() const override {
-        if (!isFree()) return {};
+        if (!choosesSteps()) return {};
         return {{"discrete energy", 1}, {"last step", 1}, {"change of energy by the step", 1}};
     }
     /// The first step is made once for its energy, and again by advance().
     void begin(State& state) override {
         state.memory.clear();
-        if (!isFree()) return;
+        if (!choosesSteps()) return;
         StepReport report;
         unpack(state.x);
         const double energy = energyOf(h_, report);
@@ -63,14 +63,14 @@ public:
     }
 
     StepReport advance(State& state, double until) override {
-        if (isFree() && state.memory.empty()) begin(state);
+        if (choosesSteps() && state.memory.empty()) begin(state);
         StepReport report;
         unpack(state.x);
         report.step = h_;
-        report.outcome = isFree() ? freeStep(state.memory, report) : step(h_, report);
+        report.outcome = choosesSteps() ? freeStep(state.memory, report) : step(h_, report);
         if (report.outcome != Outcome::converged) return report;
         pack(state.x);
-        state.t = isFree() ? state.t + report.step : until;
+        state.t = choosesSteps() ? state.t + report.step : until;
         lastStep_ = report.step;
         ++state.node;
         return report;
@@ -92,7 +92,7 @@ public:
         values[1] = last_ == Method::multiplier ? multiplier_.largestMultiplier() : std::nan("");
         values[2] = constraint_.residual(z_.data());
         values[3] = values[4] = std::nan("");
-        if (!isFree() || last_ != Method::multiplier) return;
+        if (!choosesSteps() || last_ != Method::multiplier) return;
         const double H =
             (space_.energy(zBefore_.data(), vBefore_.data()) + space_.energy(z_.data(), v_.data())) / 2;
         values[3] = (H - values[0]) / (3 * lastStep_ * lastStep_);
@@ -139,7 +139,7 @@ private:
         }
     }
 
-    bool isFree() const { return options_.hasEnergyTimes; }
+    bool choosesSteps() const { return options_.hasEnergyTimes; }
     bool isOffConstraint() { return options_.hasFallback && constraint_.residual(z_.data()) > onConstraint; }
 
     /// Of a multiplier step of length h from where the state is, which is left at its end; not a number where

@@ -62,6 +62,7 @@ ModelEntry multiscale_elliptic() {
     e.exampleEnd = 1;
     e.exampleStep = 0.1;
     e.make = makeMultiscaleElliptic;
+    e.interval = [](const Settings&) { return std::optional(std::pair(0.0, 1.0)); };
     return e;
 }
 

@@ -110,6 +110,7 @@ ModelEntry static_profile() {
     e.exampleEnd = 1;
     e.exampleStep = 0.1;
     e.make = makeStaticProfile;
+    e.interval = domainOf;
     return e;
 }
 
