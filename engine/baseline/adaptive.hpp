@@ -34,6 +34,20 @@ public:
         std::copy(y.begin(), y.end(), x.begin());
     }
 
+    std::size_t tangentSize() const override { return isHamiltonian() ? size() : 0; }
+    bool applyTangent(std::span<double> W) override {
+        Stepper same;
+        bool isKnown = true;
+        const auto rhs = [&](const Vector& at, Vector& dx, double time) {
+            isKnown = isKnown && variationalFlow(time, at.data(), dx.data(), at.size());
+        };
+        extended_ = before();
+        extended_.insert(extended_.end(), W.begin(), W.end());
+        same.do_step(rhs, extended_, startTime(), endTime() - startTime());
+        std::copy(extended_.begin() + static_cast<std::ptrdiff_t>(size()), extended_.end(), W.begin());
+        return isKnown;
+    }
+
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Adaptive>(*this); }
 
 private:
@@ -73,6 +87,7 @@ private:
     }
 
     decltype(boost::numeric::odeint::make_controlled(1.0, 1.0, Stepper())) stepper_;
+    Vector extended_;  ///< x and columns of variations
 };
 
 }  // namespace extremal

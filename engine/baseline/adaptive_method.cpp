@@ -13,10 +13,22 @@ AdaptiveMethod::AdaptiveMethod(const Mechanics<double>& m)
           [m](double t, const double* x, double* dx) {
               return m.flow(m.model.get(), t, x, x + m.dimension, dx, dx + m.dimension);
           },
-          static_cast<std::size_t>(2 * m.dimension)) {}
+          static_cast<std::size_t>(2 * m.dimension)) {
+    jacobian_.emplace(m);
+}
 
 AdaptiveMethod::AdaptiveMethod(Rate rate, std::size_t n)
     : rate_(std::move(rate)), before_(n, 0.0), x_(n, 0.0) {}
+
+bool AdaptiveMethod::variationalFlow(double t, const double* y, double* dy, std::size_t size) {
+    const std::size_t n = before_.size();
+    if (!flow(t, y, dy)) return false;
+    const Eigen::MatrixXd& jacobian = jacobian_->evaluate(t, y, dy);
+    const auto rows = static_cast<Eigen::Index>(n), columns = static_cast<Eigen::Index>(size / n) - 1;
+    Eigen::Map<Eigen::MatrixXd>(dy + n, rows, columns).noalias() =
+        jacobian.lazyProduct(Eigen::Map<const Eigen::MatrixXd>(y + n, rows, columns));
+    return true;
+}
 
 void AdaptiveMethod::begin(State& state) {
     state.memory.assign(1, 0);

@@ -8,10 +8,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/flow_jacobian.hpp"
 
 namespace extremal {
 
@@ -37,6 +39,11 @@ protected:
     virtual Outcome take(double& t, Vector& x, double& next, StepReport& report, bool isContinued) = 0;
 
     bool flow(double t, const double* x, double* dx) const { return rate_(t, x, dx); }
+    /// x' = f(t, x) and with it the variational equation w' = f'(t, x) w of columns w: y = (x, w, w, ...), of
+    /// length `size`. A Runge-Kutta step of it, of the length that was chosen for x, is the step and its
+    /// tangent map. Only for Hamilton's vector field.
+    bool variationalFlow(double t, const double* y, double* dy, std::size_t size);
+    bool isHamiltonian() const { return jacobian_.has_value(); }
     /// The first step: 1/1000 of the time scale |x| / |xdot|, at most a hundredth of what is left.
     double firstStep(double t, const Vector& x) const;
 
@@ -48,6 +55,7 @@ protected:
 
 private:
     Rate rate_;
+    std::optional<FlowJacobian> jacobian_;
     double end_ = 0, startTime_ = 0, endTime_ = 0;
     Vector before_, x_;
     bool hasStepped_ = false;

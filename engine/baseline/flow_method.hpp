@@ -8,8 +8,10 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <utility>
 
+#include "engine/baseline/flow_jacobian.hpp"
 #include "engine/core/dimension.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/mechanics.hpp"
@@ -40,6 +42,12 @@ public:
     double stepSize() const final { return h_; }
     void setStep(double h) final { h_ = h; }
 
+    std::size_t tangentSize() const final { return static_cast<std::size_t>(2 * d()); }
+    bool applyTangent(std::span<double> W) final {
+        return tangent(startTime_,
+                       Columns(W.data(), 2 * d(), static_cast<Eigen::Index>(W.size()) / (2 * d())));
+    }
+
     StepReport advance(State& state, double until) final {
         startTime_ = state.t;
         recall(state);
@@ -69,6 +77,21 @@ protected:
     /// Moves q1_, p1_ (which start at the present state) by one step, and fills report_.
     virtual void step(double t) = 0;
 
+    /// W <- M W, columns (dq, dp), of the step that went from q0_, p0_ at time t to q1_, p1_.
+    using Columns = Eigen::Map<Eigen::MatrixXd>;
+    virtual bool tangent(double t, Columns W) = 0;
+
+    /// The Jacobian of Hamilton's vector field; null where the Legendre transform fails.
+    const Eigen::MatrixXd* flowJacobian(double t, const Vector& q, const Vector& p) {
+        if (!jacobian_) {
+            jacobian_.emplace(mechanics_);
+            velocity_ = Vector::Zero(d());
+        }
+        if (!mechanics_.velocity(mechanics_.model.get(), t, q.data(), p.data(), velocity_.data()))
+            return nullptr;
+        return &jacobian_->evaluate(t, q.data(), velocity_.data());
+    }
+
     /// Hamilton's vector field; sets the outcome where the Legendre transform fails.
     void flow(double t, const Vector& q, const Vector& p, Vector& dq, Vector& dp) {
         ++report_.cost.evaluations;
@@ -82,6 +105,9 @@ protected:
     StepReport report_;
 
 private:
+    std::optional<FlowJacobian> jacobian_;  ///< made where a tangent map is asked for
+    Vector velocity_;
+
     bool call(double t, const Vector& q, const Vector& p, Vector& dq, Vector& dp) const {
         return mechanics_.flow(mechanics_.model.get(), t, q.data(), p.data(), dq.data(), dp.data());
     }

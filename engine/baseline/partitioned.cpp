@@ -65,20 +65,62 @@ public:
 
 private:
     void step(double t) override {
+        takeStages(t, [](auto&&...) { return true; });
+    }
+    /// `besides(isKick, isImplicit, t, s)` before each explicit stage, and after each implicit one: where the
+    /// state is that of its derivatives. Its false ends the step.
+    template <class Besides>
+    bool takeStages(double t, Besides&& besides) {
         double tq = t,
                tp = t;  // kicks and drifts each move their own clock: q and p are known at different times
         for (const PartitionedStage& stage : stages_) {
             const double s = stage.fraction * this->h();
             const bool isKick = stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit;
+            const bool isImplicit = !this->mechanics_.isSeparable && (stage.map == HalfMap::kickImplicit ||
+                                                                      stage.map == HalfMap::driftImplicit);
+            const double at = isKick ? tq : tp;
+            if (!isImplicit && !besides(isKick, false, at, s)) return false;
             if (this->mechanics_.isSeparable)
                 separable(isKick, tq, s);
-            else if (stage.map == HalfMap::kickExplicit || stage.map == HalfMap::driftExplicit)
-                explicitMap(isKick, isKick ? tq : tp, s);
+            else if (isImplicit)
+                implicitMap(isKick, at, s);
             else
-                implicitMap(isKick, isKick ? tq : tp, s);
+                explicitMap(isKick, at, s);
+            if (this->report_.outcome != Outcome::converged) return false;
+            if (isImplicit && !besides(isKick, true, at, s)) return false;
             (isKick ? tp : tq) += s;
-            if (this->report_.outcome != Outcome::converged) return;
         }
+        return true;
+    }
+    /// The product of the tangent maps of the stages, which are taken once more.
+    bool tangent(double t, typename Base::Columns W) override {
+        const Vector endQ = this->q1_, endP = this->p1_;
+        this->q1_ = this->q0_;
+        this->p1_ = this->p0_;
+        const bool isKnown = takeStages(t, [&](bool isKick, bool isImplicit, double at, double s) {
+            return multiply(isKick, isImplicit, at, s, W);
+        });
+        this->q1_ = endQ;
+        this->p1_ = endP;
+        return isKnown;
+    }
+    /// Of a kick, with f' at (q_1, p_1): dp <- dp + s (pdot_q dq + pdot_p dp), where it is implicit with the
+    /// new dp on the right; of a drift likewise.
+    bool multiply(bool isKick, bool isImplicit, double t, double s, typename Base::Columns W) {
+        const int d = this->d(), row = isKick ? d : 0, other = d - row;
+        const Eigen::MatrixXd* const jacobian = this->flowJacobian(t, this->q1_, this->p1_);
+        if (!jacobian) return false;
+        auto moved = W.middleRows(row, d);
+        if (!this->mechanics_.isSeparable) {
+            implicit_ = s * jacobian->block(row, row, d, d);
+            if (!isImplicit) moved += (implicit_ * moved).eval();
+        }
+        moved.noalias() += s * jacobian->block(row, other, d, d).lazyProduct(W.middleRows(other, d));
+        if (isImplicit) {
+            implicit_ = Eigen::MatrixXd::Identity(d, d) - implicit_;
+            moved = implicit_.partialPivLu().solve(moved).eval();
+        }
+        return true;
     }
     void separable(bool isKick, double t, double s) {
         if (isKick) {
@@ -129,6 +171,7 @@ private:
     }
 
     std::vector<PartitionedStage> stages_;
+    Eigen::MatrixXd implicit_;
     Vector dq_, dp_, start_, change_, force_, forceAt_, inverseMass_;
 };
 

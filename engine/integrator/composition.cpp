@@ -74,6 +74,13 @@ public:
             x[i] = isFound ? at.x[i] : (1 - tau) * start_.x[i] + tau * end_.x[i];
     }
 
+    /// Tangent maps multiply; every part has its own last step.
+    std::size_t tangentSize() const override { return schemes_.front()->tangentSize(); }
+    bool applyTangent(std::span<double> W) override {
+        return std::all_of(schemes_.begin(), schemes_.end(),
+                           [&](const auto& scheme) { return scheme->applyTangent(W); });
+    }
+
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Composition>(*this); }
 
 private:

@@ -37,6 +37,7 @@ public:
     }
 
     StepReport advance(State& state, double until) override {
+        start_ = state.t;
         const StepReport report =
             step_.advance(state.t, state.x.data(), state.x.data() + mechanics_.dimension, stop());
         if (report.outcome != Outcome::converged) return report;
@@ -48,6 +49,11 @@ public:
         step_.denseOutput(tau, x.data(), x.data() + mechanics_.dimension);
     }
     double periodsPerStep() const override { return periods_; }
+
+    std::size_t tangentSize() const override { return static_cast<std::size_t>(2 * mechanics_.dimension); }
+    bool applyTangent(std::span<double> W) override {
+        return step_.applyTangent(start_, W.data(), static_cast<int>(W.size() / tangentSize()));
+    }
 
     /// E_d = -dS/dh at the solution; not where the functions change with the step, or L with time.
     std::span<const Quantity> quantities() const override {
@@ -84,6 +90,7 @@ private:
     TablesOfStep tables_;
     SolverPolicy policy_;
     double h_, periods_ = 0;
+    double start_ = 0;  ///< of the last step
     GalerkinStep<double, D> step_;
     mutable std::optional<ElementKernel<double>> kernel_;  ///< made where the discrete energy is asked for
 };

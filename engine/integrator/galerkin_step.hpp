@@ -77,6 +77,10 @@ public:
     /// Y of the last step: entry a of coordinate k after the m_0 + ... + m_{k-1} of those before it.
     void coefficients(T* Y) const;
 
+    /// W <- M W for columns (dq, dp), with the tangent map M of the last step, which began at t
+    /// (galerkin_step_tangent.hpp). False where its equations are singular.
+    bool applyTangent(const T& t, T* W, int columns);
+
     /// Forgets the previous curve: the next step starts from a Taylor guess.
     void restart() {
         hasPrevious_ = false;
@@ -139,6 +143,8 @@ private:
     Attempt solve(const T& t, const std::stop_token& stop);
     void resume(const T* q, const T* p);
     void add(T* q, T* p);
+    bool linearise(const T& t);
+    void vary(const T* dq0, bool movesY);
 
     Mechanics<T> mechanics_;
     std::vector<Table<T>> tables_;
@@ -172,6 +178,7 @@ private:
     std::optional<ForceDefect<T>> defect_;              ///< not of oscillatory functions
     T nearness_ = T(0);                                 ///< first correction of the last iteration
     Flat motion_;                                       ///< states and rates of the explicit steps
+    std::vector<Accumulator> impulse_;                  ///< change of h sum_i b_i L_q(i) of a variation
     StartingLadder ladder_;
     int newtonSteps_ = 0;  ///< steps for which Newton is preferred after the fixed point was slow
     StepReport report_;

@@ -11,6 +11,7 @@
 #include "engine/integrator/galerkin_step.hpp"
 #include "engine/integrator/galerkin_step_solve.hpp"
 #include "engine/integrator/galerkin_step_sums.hpp"
+#include "engine/integrator/galerkin_step_tangent.hpp"
 #include "engine/integrator/node_iteration_build.hpp"
 
 namespace extremal {
@@ -67,6 +68,7 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         fixedPointSolver_.emplace(mechanics_, tables_.front(), h_, tolerance_);
     if (tables_.front().frequency == T(0)) defect_.emplace(mechanics_, tables_);
     motion_ = Flat::Zero(8 * d());
+    impulse_.assign(static_cast<std::size_t>(d()), Accumulator(0));
 }
 
 /// Slopes by time and weights by h.

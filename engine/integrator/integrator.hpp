@@ -75,6 +75,17 @@ public:
     /// State. Only valid after a converged advance().
     virtual void denseOutput(double tau, std::span<double> x) const = 0;
 
+    /// How many numbers a variation of the state has, 0 where the scheme has no tangent map. They are
+    /// canonical coordinates, first those of positions, then those of momenta: (dq, dp); real and imaginary
+    /// parts of a wave function; (dt, dq, -dE, dp) where times are unknowns. On a group they are left
+    /// trivialised, (g^{-1} dg, dmu), with the form of model/symplectic_form.hpp.
+    virtual std::size_t tangentSize() const { return 0; }
+    /// Moves variations of the state before the last step to those of the state after it, W <- M W with the
+    /// tangent map M = dx_1/dx_0 of the step; column after column. Steps of a size chosen from the state are
+    /// taken as given. False where M does not exist; W is then of no use. Only valid after a converged
+    /// advance() of a scheme with a tangentSize().
+    virtual bool applyTangent(std::span<double> /*W*/) { return false; }
+
     /// The same integrator with all that it remembers: its next step has the same bits.
     virtual std::unique_ptr<Integrator> clone() const = 0;
 

@@ -11,6 +11,7 @@
 #include "engine/core/outcome.hpp"
 #include "engine/core/state.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/integrator/with_variations.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/evaluation.hpp"
 #include "engine/trajectory/trajectory.hpp"
@@ -58,6 +59,7 @@ Observer observeQuantity(const ObserveContext& context, std::string_view quantit
 struct ObservableEntry {
     CatalogItem item;
     bool needsReference = false;
+    VariationPlan variations = {};  ///< which variations of the state the run must carry along for it
     /// Whether the system has it; the default is every system.
     std::function<bool(const System&)> applies;
     /// Empty for what only fills the summary ("order").

@@ -5,17 +5,40 @@
 
 namespace extremal {
 
-Observer observeQuantity(const ObserveContext& context, const Column& column) {
-    const std::optional<std::size_t> place = context.quantity(column.name);
+Observer observeQuantities(const ObserveContext& context, const std::vector<Column>& columns) {
+    std::vector<std::optional<std::size_t>> places;
     Observer o;
-    o.columns = {column};
-    o.extreme = 0;
-    o.readsQuantities = place.has_value();
-    o.evaluate = [place](const NodeBlock& nodes, double* values, std::size_t stride) {
+    o.columns = columns;
+    for (const Column& column : columns) {
+        places.push_back(context.quantity(column.name));
+        o.readsQuantities = o.readsQuantities || places.back();
+    }
+    o.evaluate = [places](const NodeBlock& nodes, double* values, std::size_t stride) {
         for (std::size_t i = 0; i < nodes.size(); ++i, values += stride)
-            values[0] = place ? nodes.quantities(i)[*place] : std::nan("");
+            for (std::size_t k = 0; k < places.size(); ++k)
+                values[k] = places[k] ? nodes.quantities(i)[*places[k]] : std::nan("");
     };
     return o;
+}
+
+Observer observeQuantity(const ObserveContext& context, const Column& column) {
+    Observer o = observeQuantities(context, {column});
+    o.extreme = 0;
+    return o;
+}
+
+ObservableEntry variationObservable(CatalogItem item, std::vector<Column> columns, VariationPlan plan,
+                                    bool isDefect) {
+    ObservableEntry e;
+    e.item = std::move(item);
+    e.variations = plan;
+    e.applies = [](const System& system) { return isMechanical(system) || isBody(system); };
+    e.bind = [columns = std::move(columns), isDefect](const ObserveContext& context) {
+        Observer o = observeQuantities(context, columns);
+        if (isDefect) o.extreme = 0;
+        return o;
+    };
+    return e;
 }
 
 ObservableEntry quantityObservable(CatalogItem item, Column column) {

@@ -9,7 +9,14 @@ namespace extremal {
 /// One column, whose name is that of the quantity; its size goes into the summary.
 ObservableEntry quantityObservable(CatalogItem item, Column column);
 
-/// The observer of that column.
+/// Of variations of the state (integrator/with_variations.hpp): columns by the names of their quantities,
+/// the first of which goes into the summary where `isDefect`. Of systems with coordinates and of bodies.
+ObservableEntry variationObservable(CatalogItem item, std::vector<Column> columns, VariationPlan plan,
+                                    bool isDefect);
+
+/// Columns by the names of their quantities; unknown where the integrator has none.
+Observer observeQuantities(const ObserveContext& context, const std::vector<Column>& columns);
+/// The observer of one column, whose size goes into the summary.
 Observer observeQuantity(const ObserveContext& context, const Column& column);
 
 }  // namespace extremal

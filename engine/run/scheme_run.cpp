@@ -42,6 +42,17 @@ void growTo(double& extreme, double value) {
     if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
 }
 
+/// Which variations of the state the observables need.
+VariationPlan variationsFor(const std::vector<std::string>& observe) {
+    VariationPlan plan;
+    for (const std::string& id : observe)
+        if (const ObservableEntry* entry = findObservable(id)) {
+            plan.map = plan.map || entry->variations.map;
+            plan.vector = plan.vector || entry->variations.vector;
+        }
+    return plan;
+}
+
 }  // namespace
 
 /// One march over the time interval with fixed sampling, and what it records.
@@ -98,7 +109,7 @@ struct SchemeRun::Recording {
         result.summary.orderClaimed = scheme.claims.order;
         result.trajectory.columns = leadingColumns(system);
         stateWidth = result.trajectory.columns.size() - 1;
-        integrator = scheme.make(system, step, initial);
+        integrator = withVariations(scheme.make(system, step, initial), system, variationsFor(observe));
         integrator->setStop(stop);
         result.summary.about = integrator->about();
         bindObservers(reference, observe, initial);

@@ -3,6 +3,7 @@
 
 #include "engine/core/contained.hpp"
 #include "engine/core/text.hpp"
+#include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/cost.hpp"
 #include "engine/scene/pointer.hpp"
@@ -142,13 +143,30 @@ void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
     report(reader, pointer, findings);
 }
 
+/// What is observed of tangent maps, where the scheme has none.
+void checkTangent(Reader& reader, const Scene& scene, const Integrator& integrator,
+                  const std::string& pointer) {
+    if (integrator.tangentSize() > 0) return;
+    std::vector<std::string> lacking;
+    for (const std::string& id : scene.observe)
+        if (const ObservableEntry* entry = findObservable(id); entry && !entry->variations.isEmpty())
+            lacking.push_back(id);
+    if (!lacking.empty())
+        reader.warning(pointer,
+                       "has no tangent map, because its steps cannot be differentiated: these columns stay "
+                       "empty for it: " +
+                           joinNames(lacking),
+                       "another scheme, or do not observe them");
+}
+
 /// The makers know best what they cannot do.
 void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     try {
         const double step = scheme.spec.step.value;
         contained("", [&] {
-            scheme.make(*systemOf(scene, scheme), step, initialOf(scene, scheme));
+            const auto integrator = scheme.make(*systemOf(scene, scheme), step, initialOf(scene, scheme));
+            checkTangent(reader, scene.scene, *integrator, pointer);
             schemeStart(scene, scheme, step);
             checkStep(reader, scene, scheme, pointer);
         });

@@ -8,31 +8,16 @@
 #include "engine/family/lie/lie_step_build.hpp"
 #include "engine/space/polynomial.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/quadruple_top.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::quadruple_bodies_test {
 namespace {
 
-using Quad = boost::multiprecision::float128;
 using Group = RotationGroup<Quad>;
 
-/// Heavy top of weight 1 with its centre of mass at (0.3, 0, 1).
-void topPotential(const void*, const Quad* R, const Quad*, Quad* value, Quad* force, Quad* slope) {
-    const so3::Vector<Quad> gamma(R[2], R[5], R[8]), arm(Quad(3) / 10, Quad(0), Quad(1));
-    const Quad U = so3::dot(arm, gamma);
-    if (value) *value = U;
-    const so3::Vector<Quad> torque = so3::cross(gamma, arm);
-    for (int i = 0; i < 3; ++i) force[i] = torque(i);
-    if (!slope) return;
-    for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r) slope[3 * c + r] = (r == c ? U : Quad(0)) - gamma(r) * arm(c);
-}
-
 Pose<Quad> run(bool isTop, int degree, bool isGauss, int n) {
-    BodyMechanics<Quad> body;
-    body.dimension = 3;
-    body.inertia = {Quad(1), Quad(isTop ? 1 : 2), isTop ? Quad(1) / 2 : Quad(3)};
-    if (isTop) body.potential = topPotential;
+    const BodyMechanics<Quad> body = isTop ? quadrupleTop() : quadrupleBody();
     const Table<Quad> table = makeTable(polynomialSpace<Quad>(degree, PolynomialBasis::lobatto),
                                         isGauss ? gauss<Quad>(degree) : lobatto<Quad>(degree + 1));
     LieStep<Quad, Group> step(body, table, Quad(2) / n, true, false, {});

@@ -97,11 +97,31 @@ private:
         if (withJacobian) lu_.compute(system_);
     }
 
+    /// (1 - h sum_i b_i c_i f'_i) dz_1 = (1 + h sum_i b_i (1 - c_i) f'_i) dz_0, f'_i along the chord.
+    bool tangent(double t, typename Base::Columns W) override {
+        const double h = this->h();
+        change_ << this->q1_ - this->q0_, this->p1_ - this->p0_;
+        system_.setIdentity();
+        moved_ = W;
+        for (std::size_t i = 0; i < rule_.c.size(); ++i) {
+            const double c = rule_.c[i], b = rule_.b[i];
+            q_ = this->q0_ + c * change_.head(this->d());
+            p_ = this->p0_ + c * change_.tail(this->d());
+            const Eigen::MatrixXd* const jacobian = this->flowJacobian(t + c * h, q_, p_);
+            if (!jacobian) return false;
+            system_ -= (h * b * c) * *jacobian;
+            moved_.noalias() += (h * b * (1 - c)) * jacobian->lazyProduct(W);
+        }
+        lu_.compute(system_);
+        W = lu_.solve(moved_);
+        return true;
+    }
+
     Rule<double> rule_;
     FlowJacobian jacobian_;
     Vector q_, p_, dq_, dp_;
     Eigen::VectorXd average_, change_, residual_;
-    Eigen::MatrixXd system_;
+    Eigen::MatrixXd system_, moved_;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
 

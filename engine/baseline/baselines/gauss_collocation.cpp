@@ -197,6 +197,41 @@ private:
         return true;
     }
 
+    /// The stages of the variational equation, all together:
+    ///     L_i = f'(x_i) (W + h sum_j a_ij L_j),   W <- W + h sum_i b_i L_i.
+    bool tangent(double t, typename Base::Columns W) override {
+        const int n = 2 * this->d();
+        const double h = this->h();
+        if (stages_.rows() != s_ * n) {
+            stages_ = Square::Zero(s_ * n, s_ * n);
+            stagesLu_ = Eigen::PartialPivLU<Square>(s_ * n);
+        }
+        slopes_.resize(s_ * n, W.cols());
+        stages_.setIdentity();
+        for (int i = 0; i < s_; ++i) {
+            placeStage(i);
+            const Square* const jacobian = this->flowJacobian(t + c(i) * h, q_, p_);
+            if (!jacobian) return false;
+            slopes_.middleRows(i * n, n).noalias() = jacobian->lazyProduct(W);
+            for (int j = 0; j < s_; ++j) stages_.block(i * n, j * n, n, n) -= h * a_(i, j) * *jacobian;
+        }
+        stagesLu_.compute(stages_);
+        slopes_ = stagesLu_.solve(slopes_);
+        for (int i = 0; i < s_; ++i)
+            W += h * rule_.b[static_cast<std::size_t>(i)] * slopes_.middleRows(i * n, n);
+        return true;
+    }
+    /// (q_, p_) of stage i, from the K of the last step.
+    void placeStage(int i) {
+        const double h = this->h();
+        for (int k = 0; k < this->d(); ++k) {
+            p_(k) = this->p0_(k) + h * a_.row(i).dot(Kp_.col(k));
+            q_(k) = this->q0_(k) + (isSeparable() ? h * inverseMass_(k) *
+                                                        (c(i) * this->p0_(k) + h * aa_.row(i).dot(Kp_.col(k)))
+                                                  : h * a_.row(i).dot(Kq_.col(k)));
+        }
+    }
+
     /// What the last evaluation changed, each coordinate against its own increments and the round-off of its
     /// value.
     double change() const {
@@ -250,6 +285,8 @@ private:
     Rule<double> rule_;
     int s_;
     Square a_, aa_, continuation_;
+    Square stages_, slopes_;  ///< of the tangent map
+    Eigen::PartialPivLU<Square> stagesLu_;
     Nodes Kq_, Kp_, newKq_, newKp_, Q_, P_;
     Vector q_, p_, dq_, dp_, endQ_, endP_, lostQ_, lostP_, inverseMass_, changeQ_, changeP_;
     bool hasCurve_ = false;

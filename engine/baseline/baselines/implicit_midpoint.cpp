@@ -74,6 +74,21 @@ private:
         }
         this->report_.outcome = Outcome::diverged;
     }
+    /// M = (1 - h/2 f')^-1 (1 + h/2 f'), f' at the midpoint.
+    bool tangent(double t, typename Base::Columns W) override {
+        const double half = this->h() / 2;
+        q_ = (this->q0_ + this->q1_) / 2;
+        p_ = (this->p0_ + this->p1_) / 2;
+        const Square* const jacobian = this->flowJacobian(t + half, q_, p_);
+        if (!jacobian) return false;
+        slope_.noalias() = half * jacobian->lazyProduct(W);
+        system_.setIdentity();
+        system_ -= half * *jacobian;
+        lu_.compute(system_);
+        slope_ += W;
+        W = lu_.solve(slope_);
+        return true;
+    }
     /// I - h/2 DX_H at (q_, p_), factored; dq_ holds v(q_, p_).
     void assemble(double t, double half) {
         ++this->report_.cost.evaluations;
@@ -84,7 +99,7 @@ private:
 
     Vector q_, p_, dq_, dp_;
     BigVector r_;
-    Square system_;
+    Square system_, slope_;
     FlowJacobian jacobian_;
     Eigen::PartialPivLU<Square> lu_;
 };

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/flow_method.hpp"
 
 namespace extremal::baselines {
@@ -58,11 +59,12 @@ private:
         constexpr int most = 20;
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
         const auto& m = this->mechanics_;
+        lambda_ = 0;
         this->flow(t, q_, p_, gradP_, gradQ_);
         if (this->report_.outcome != Outcome::converged) return;
         gradQ_ *= -1;
         const double square = gradQ_.squaredNorm() + gradP_.squaredNorm();
-        double lambda = 0, last = std::numeric_limits<double>::infinity();
+        double last = std::numeric_limits<double>::infinity();
         this->q1_ = q_;
         this->p1_ = p_;
         for (int i = 0; i < most && square > 0; ++i) {
@@ -74,14 +76,55 @@ private:
             }
             if (std::abs(off) <= epsilon * std::abs(energy_) || !(std::abs(off) < last)) return;
             last = std::abs(off);
-            lambda -= off / square;
-            this->q1_ = q_ + lambda * gradQ_;
-            this->p1_ = p_ + lambda * gradP_;
+            lambda_ -= off / square;
+            this->q1_ = q_ + lambda_ * gradQ_;
+            this->p1_ = p_ + lambda_ * gradP_;
         }
     }
 
-    double energy_ = 0;
-    Vector q_, p_, dq_, dp_, sumQ_, sumP_, gradQ_, gradP_;
+    /// The tangent map of the step that keeps the energy of its start: with g = grad H at z~_1,
+    ///     dz_1 = (1 + lambda H'') dz~_1 + g dlambda,   grad H(z_1) . dz_1 = grad H(z_0) . dz_0.
+    bool tangent(double t, typename Base::Columns W) override {
+        const double h = this->h();
+        placeQ_ = q_;
+        placeP_ = p_;
+        gradient(t, this->q0_, this->p0_, atEnd_);
+        kept_.noalias() = atEnd_.transpose().lazyProduct(W);
+        const bool isKnown = tangent_.apply(h, W, [&](double ahead) {
+            q_ = this->q0_ + ahead * dq_;
+            p_ = this->p0_ + ahead * dp_;
+            this->flow(t + ahead, q_, p_, dq_, dp_);
+            return this->flowJacobian(t + ahead, q_, p_);
+        });
+        q_ = placeQ_;
+        p_ = placeP_;
+        const Eigen::MatrixXd* const jacobian = this->flowJacobian(t + h, q_, p_);
+        if (!isKnown || !jacobian) return false;
+        gradient(t + h, q_, p_, atPlace_);
+        gradient(t + h, this->q1_, this->p1_, atEnd_);
+        const int d = this->d();
+        change_ = W;
+        W.topRows(d).noalias() -= lambda_ * jacobian->bottomRows(d).lazyProduct(change_);
+        W.bottomRows(d).noalias() += lambda_ * jacobian->topRows(d).lazyProduct(change_);
+        kept_.noalias() -= atEnd_.transpose().lazyProduct(W);
+        kept_ /= atEnd_.dot(atPlace_);
+        W.noalias() += atPlace_.lazyProduct(kept_);
+        return true;
+    }
+    /// grad H = (-pdot, qdot).
+    void gradient(double t, const Vector& q, const Vector& p, Eigen::VectorXd& g) {
+        this->flow(t, q, p, dq_, dp_);
+        g.resize(2 * this->d());
+        g << -dp_, dq_;
+    }
+
+    double energy_ = 0, lambda_ = 0;
+    Vector q_, p_, dq_, dp_, sumQ_, sumP_, gradQ_, gradP_;  ///< after a step (q, p) is z~_1
+    ClassicalTangent tangent_;
+    Vector placeQ_, placeP_;
+    Eigen::VectorXd atPlace_, atEnd_;  ///< gradients of H
+    Eigen::RowVectorXd kept_;
+    Eigen::MatrixXd change_;
 };
 
 }  // namespace

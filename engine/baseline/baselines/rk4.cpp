@@ -1,5 +1,6 @@
 /// The classical Runge-Kutta method of order 4 on (q, p): accurate over short times, not symplectic.
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/flow_method.hpp"
 
 namespace extremal::baselines {
@@ -37,7 +38,16 @@ private:
         this->q1_ = this->q0_ + h * sumQ_;
         this->p1_ = this->p0_ + h * sumP_;
     }
+    bool tangent(double t, typename Base::Columns W) override {
+        return tangent_.apply(this->h(), W, [&](double ahead) {
+            q_ = this->q0_ + ahead * dq_;
+            p_ = this->p0_ + ahead * dp_;
+            this->flow(t + ahead, q_, p_, dq_, dp_);
+            return this->flowJacobian(t + ahead, q_, p_);
+        });
+    }
     Vector q_, p_, dq_, dp_, sumQ_, sumP_;
+    ClassicalTangent tangent_;
 };
 
 }  // namespace

@@ -52,7 +52,29 @@ public:
         std::copy(y.begin(), y.end(), x.begin());
     }
 
+    std::size_t tangentSize() const override { return size(); }
+    bool applyTangent(std::span<double> W) override {
+        Vector y = before();
+        y.insert(y.end(), W.begin(), W.end());
+        Vector error(y.size());
+        const Step same(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, y.size()));
+        Variation variation{*this, y.size()};
+        const gsl_odeiv2_system system{&Rk8pd::variationalRate, nullptr, y.size(), &variation};
+        const int status = gsl_odeiv2_step_apply(same.get(), startTime(), endTime() - startTime(), y.data(),
+                                                 error.data(), nullptr, nullptr, &system);
+        std::copy(y.begin() + static_cast<std::ptrdiff_t>(size()), y.end(), W.begin());
+        return status == GSL_SUCCESS;
+    }
+
 private:
+    struct Variation {
+        Rk8pd& method;
+        std::size_t size;
+    };
+    static int variationalRate(double t, const double* y, double* dy, void* given) {
+        const auto& variation = *static_cast<Variation*>(given);
+        return variation.method.variationalFlow(t, y, dy, variation.size) ? GSL_SUCCESS : GSL_EBADFUNC;
+    }
     /// What the right-hand side is given, and what it saw.
     struct Watch {
         const Rk8pd& method;

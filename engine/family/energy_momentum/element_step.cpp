@@ -113,6 +113,42 @@ void ElementStep::followStep() {
     energyByStep_ = -derivatives_.byStepTwice - c.tail(n).dot(byStep_);
 }
 
+bool ElementStep::applyTangent(double* W, int columns) {
+    const int d = dimension(), n = unknowns();
+    const auto& H = derivatives_.hessian;
+    const auto& c = derivatives_.gradientByStep;
+    if (moved_.size() == 0) {
+        moved_ = Vector::Zero(n + d + 1);
+        extended_ = SmallLu<double>(n + 1);
+    }
+    const auto start = [&](int k, int column) { return H(k, column) - H(n + k, column); };
+    for (int j = 0; j <= n; ++j) {
+        double* const column = extended_.column(j);
+        for (int i = 0; i < n - d; ++i) column[i] = j < n ? H(d + i, d + j) : c(d + i);
+        for (int k = 0; k < d; ++k) column[n - d + k] = j < n ? start(k, d + j) : c(k) - c(n + k);
+        column[n] = j < n ? -c(d + j) : -derivatives_.byStepTwice;
+    }
+    if (extended_.factorise() != SmallLu<double>::Result::regular) return false;
+    for (double* w = W; columns > 0; --columns, w += 2 * d + 2) {
+        const Eigen::Map<const Vector> dq(w + 1, d);
+        Eigen::Map<Vector> dp(w + d + 2, d);
+        for (int i = 0; i < n - d; ++i) moved_(i) = -H.row(d + i).head(d).dot(dq);
+        for (int k = 0; k < d; ++k)
+            moved_(n - d + k) = H.row(n + k).head(d).dot(dq) - H.row(k).head(d).dot(dq) - dp(k);
+        moved_(n) = -w[d + 1] + c.head(d).dot(dq);
+        extended_.solve(moved_.data());
+        const double dh = moved_(n);
+        for (int i = n; i-- > 0;) moved_(d + i) = moved_(i);
+        moved_.head(d) = dq;
+        for (int k = 0; k < d; ++k) {
+            dp(k) += H.row(k).dot(moved_.head(n + d)) + c(k) * dh;
+            w[1 + k] += moved_(n + k);
+        }
+        w[0] += dh;
+    }
+    return true;
+}
+
 double ElementStep::energyScale() const {
     const double lagrangian = derivatives_.action / h_;
     return std::abs(lagrangian) + std::abs(lagrangian + discreteEnergy());

@@ -50,6 +50,12 @@ public:
     double positionChange(int k) const { return Y_(Y_.size() - dimension() + k); }
     double momentumChange(int k) const { return derivatives_.gradient(k); }
 
+    /// W <- M W for columns (dt, dq, -dE, dp), with the tangent map M of the last solution as a step of
+    /// energy E = E_d. One equation and one unknown more than Newton's method has:
+    ///     J dY + R_h dh = -R_q dq_0 - R_p dp_0,    -S_hY dY - S_hh dh = dE + S_hq dq_0.
+    /// False where it is singular.
+    bool applyTangent(double* W, int columns);
+
     /// The trial curve of the last solution at tau, and p by the momentum equation integrated to tau.
     void denseOutput(double t, double tau, std::span<double> x) const;
 
@@ -65,7 +71,8 @@ private:
     Table<double> table_;
     ElementKernel<double> kernel_;
     ElementDerivatives<double> derivatives_;
-    SmallLu<double> lu_;
+    SmallLu<double> lu_, extended_;  ///< extended_: of the tangent map, made where it is asked for
+    Vector moved_;                   ///< (dY, dh), then (dq_0, dY)
     SolverPolicy policy_;
     double tolerance_;
     Vector z_, Y_, byStep_, residual_;  ///< z = (q_0, Y); byStep: dY/dh

@@ -72,6 +72,15 @@ public:
         values[2] = std::abs(lastStep_) * std::pow(std::abs(density_), 1.0 / (options_.order + 1));
     }
 
+    /// Of (t, q, -E, p), where the step has the energy of those before it.
+    std::size_t tangentSize() const override {
+        return static_cast<std::size_t>(2 * mechanics_.dimension + 2);
+    }
+    bool applyTangent(std::span<double> W) override {
+        return report_.event == StepEvent::none &&
+               element_.applyTangent(W.data(), static_cast<int>(W.size() / tangentSize()));
+    }
+
     void denseOutput(double tau, std::span<double> x) const override { element_.denseOutput(start_, tau, x); }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MovingTime>(*this); }
 

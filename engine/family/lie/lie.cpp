@@ -52,6 +52,13 @@ public:
         G::write(tau < 0.5 ? adjoint_.denseOutput(2 * tau) : step_.denseOutput(2 * tau - 1), x.data());
     }
 
+    std::size_t tangentSize() const override { return 2 * G::n; }
+    bool applyTangent(std::span<double> W) override {
+        const auto columns = static_cast<int>(W.size() / tangentSize());
+        return (!isSymmetrised_ || adjoint_.applyTangent(W.data(), columns)) &&
+               step_.applyTangent(W.data(), columns);
+    }
+
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Lie>(*this); }
 
 private:

@@ -58,6 +58,10 @@ public:
     /// The pose of the last step at tau in [0, 1] from its start.
     Pose<T> denseOutput(const T& tau) const;
 
+    /// W <- M W for columns (zeta, dmu), with the tangent map M of the last step (lie_step_tangent.hpp).
+    /// False where its equations are singular.
+    bool applyTangent(T* W, int columns);
+
     /// Y of the last step, n x m: column a is the coefficient of the table's function a.
     const Eigen::Matrix<T, n, Eigen::Dynamic>& coefficients() const { return Y_; }
     /// Steps of another length from now on.
@@ -84,6 +88,7 @@ private:
     void correct();
     void updateImpulse();
     Attempt iterate(const std::stop_token& stop);
+    Vector vary(const Vector& base, bool movesY);
     /// Test functions of the table at node i.
     auto testAt(int i) const {
         return [this, i](int a) {

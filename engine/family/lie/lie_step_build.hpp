@@ -11,6 +11,7 @@
 #include "engine/action/chain_rule.hpp"
 #include "engine/family/lie/lie_guess.hpp"
 #include "engine/family/lie/lie_step.hpp"
+#include "engine/family/lie/lie_step_tangent.hpp"
 
 namespace extremal {
 

@@ -98,6 +98,28 @@ StepReport WaveStep::advance(State& state, double until) {
     return report;
 }
 
+bool WaveStep::applyTangent(std::span<double> W) {
+    const std::size_t n = v_.size();
+    if (!twin_.step) twin_.step = clone();
+    if (twin_.step->stepSize() != h_) twin_.step->setStep(h_);
+    State& variation = twin_.state;
+    variation.x.resize(2 * n);
+    for (std::size_t column = 0; column + 2 * n <= W.size(); column += 2 * n) {
+        double* const w = W.data() + column;
+        for (std::size_t i = 0; i < n; ++i) {
+            variation.x[2 * i] = w[i];
+            variation.x[2 * i + 1] = w[n + i];
+        }
+        variation.t = startTime_;
+        if (twin_.step->advance(variation, endTime_).outcome != Outcome::converged) return false;
+        for (std::size_t i = 0; i < n; ++i) {
+            w[i] = variation.x[2 * i];
+            w[n + i] = variation.x[2 * i + 1];
+        }
+    }
+    return true;
+}
+
 void WaveStep::denseOutput(double tau, std::span<double> x) const {
     State state;
     state.t = startTime_;

@@ -28,6 +28,9 @@ public:
     StepReport advance(State& state, double until) final;
     /// A shorter step from the state before: as accurate as the scheme itself. Made on each use.
     void denseOutput(double tau, std::span<double> x) const final;
+    /// The step is linear: of a one-step scheme it is its own tangent map.
+    std::size_t tangentSize() const final { return memoryParts().empty() ? 2 * v_.size() : 0; }
+    bool applyTangent(std::span<double> W) final;
     std::string about() const final { return about_; }
     void setAbout(std::string about) { about_ = std::move(about); }
 
@@ -66,6 +69,15 @@ private:
     std::vector<double> handedOut_;
     double startTime_ = 0, endTime_ = 0;
     std::size_t memorySize_ = 0;
+    /// A copy of the step for variations, made where they are asked for; copies of this have none.
+    struct Twin {
+        std::unique_ptr<Integrator> step = {};
+        State state = {};
+        Twin() = default;
+        Twin(const Twin&) {}
+        Twin& operator=(const Twin&) = delete;
+    };
+    Twin twin_;
     std::string about_;
 };
 

@@ -122,10 +122,11 @@ private slots:
             return read.errors.size() == 1 ? read.errors[0].hint : "";
         };
         const std::string has =
-            "; kepler has curve-error, discrete-energy, discrete-lagrangian, energy, error, mesh, momentum, "
-            "monitor, multiplier, parameter-map, phase, section, solvability, sparsity, stage, step, "
-            "trajectory and "
-            "work-precision";
+            "; kepler has curve-error, discrete-energy, discrete-lagrangian, energy, error, floquet, "
+            "lyapunov, "
+            "megno, mesh, momentum, monitor, multiplier, parameter-map, phase, section, solvability, "
+            "sparsity, "
+            "stage, step, symplecticity, symplecticity-accumulated, trajectory, volume and work-precision";
         QCOMPARE(hint("carpet"), "it needs a field or a wave function" + has);
         QCOMPARE(hint("norm"), "it needs a wave function" + has);
         QCOMPARE(hint("polhode"), "it needs a rigid body" + has);

@@ -1,0 +1,46 @@
+/// The symplectic form of a system's phase space, in the coordinates of its variations (integrator.hpp):
+///     w(a, b) = a_q . b_p - a_p . b_q,
+/// on the cotangent bundle of a group, left trivialised, a = (zeta_a, mu_a), at the momentum mu
+///     w(a, b) = zeta_a . mu_b - mu_a . zeta_b + mu . [zeta_a, zeta_b],
+/// so that Om(mu) = [[-[mu]x, 1], [-1, 0]] on SO(3). `mu` is in the body: (Pi, p) on SE(3), where
+/// [(u, v), (u', v')] = (u x u', u x v' - u' x v).
+#pragma once
+
+#include <cstddef>
+
+#include "engine/group/so3.hpp"
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+class SymplecticForm {
+public:
+    explicit SymplecticForm(const System& system)
+        : group_(isBody(system) ? static_cast<std::size_t>(system.body().dimension) : 0) {}
+
+    /// Of two variations of length n at the state x.
+    double operator()(const double* x, const double* a, const double* b, std::size_t n) const {
+        const std::size_t half = n / 2;
+        double sum = 0;
+        for (std::size_t i = 0; i < half; ++i) sum += a[i] * b[half + i] - a[half + i] * b[i];
+        return group_ == 0 ? sum : sum + bracket(x, a, b);
+    }
+
+private:
+    using Three = so3::Vector<double>;
+
+    /// mu . [zeta_a, zeta_b] at a state of a body (model/body.hpp).
+    double bracket(const double* x, const double* a, const double* b) const {
+        const auto part = [](const double* v) { return Three(v[0], v[1], v[2]); };
+        const Three u = part(a), other = part(b);
+        double sum = part(x + 4).dot(so3::cross(u, other));
+        if (group_ < 6) return sum;
+        const so3::Matrix<double> R = so3::matrix(so3::Quaternion<double>(x[0], x[1], x[2], x[3]));
+        const Three p = R.transpose() * part(x + 13);
+        return sum + p.dot(so3::cross(u, part(b + 3)) - so3::cross(other, part(a + 3)));
+    }
+
+    std::size_t group_;  ///< dimension; 0: none
+};
+
+}  // namespace extremal

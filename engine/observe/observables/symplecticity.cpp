@@ -1,0 +1,23 @@
+/// How far each step is from keeping the symplectic form, max |M^T J M - J| with its tangent map M, and how
+/// far all steps together are, relative to the square of their tangent map.
+#include "engine/observe/quantity_observable.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry symplecticity() {
+    ObservableEntry e = variationObservable(
+        {"symplecticity",
+         "symplecticity",
+         "Largest entry of M^T J M - J, M the tangent map of the step that ended at each row; and the same "
+         "of all steps so far, over the square of the largest entry of their product.",
+         {},
+         {},
+         "a scheme with a tangent map"},
+        {{"symplecticity", "max |MᵀJM − J|", "", {}, {}},
+         {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
+        {.map = true}, true);
+    e.applies = [](const System& system) { return isMechanical(system) || isBody(system) || isWave(system); };
+    return e;
+}
+
+}  // namespace extremal::observables
