@@ -22,6 +22,7 @@ void addCommon(CLI::App& verb, CommonOptions& options) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb.add_flag("--json", options.isJson, "one JSON document on standard output");
     verb.add_flag("--quiet", options.isQuiet, "errors only");
+    verb.add_flag("--trust", options.isTrusted, "read files that the scene names outside its own folder");
     verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
         ->type_name("N")
         ->check(CLI::Range(1U, 1024U).description(""));

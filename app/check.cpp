@@ -20,7 +20,7 @@ Value equationsValue(const Scene& scene) {
 }  // namespace
 
 int checkVerb(const std::string& scene, const CommonOptions& options) {
-    const ReadScene read = loadScene(scene, options.overrides);
+    const ReadScene read = loadScene(scene, options);
     const bool isValid = reportScene(scene, read, options);
     const int code = isValid ? done : unusable;
     if (options.isJson) {

@@ -8,9 +8,9 @@
 
 namespace extremal::app {
 
-/// Reads SCENE with its overrides; what cannot be read at all is an error in the result as well. Prints
-/// nothing.
-ReadScene loadScene(const std::string& scene, const std::vector<std::string>& overrides);
+/// Reads SCENE with its overrides; what cannot be read at all, or may not be (--trust), is an error in the
+/// result as well. Prints nothing.
+ReadScene loadScene(const std::string& scene, const CommonOptions& options);
 
 /// How messages call a scene: its path, preset:NAME, or "standard input".
 std::string sceneName(const std::string& scene);

@@ -65,7 +65,7 @@ int printResult(const Comparison& comparison, const std::string& folder, int cod
 }  // namespace
 
 int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options) {
-    const ReadScene read = loadScene(scene, options.overrides);
+    const ReadScene read = loadScene(scene, options);
     if (!reportScene(scene, read, options)) return unusable;
     try {
         InterruptWatch watch;

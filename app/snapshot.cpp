@@ -72,7 +72,7 @@ int printSnapshot(const SnapshotOptions& snapshot, const SnapshotRequest& reques
 }  // namespace
 
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options) {
-    const ReadScene read = loadScene(scene, options.overrides);
+    const ReadScene read = loadScene(scene, options);
     if (!reportScene(scene, read, options)) return unusable;
     const Offscreen qt;
     try {

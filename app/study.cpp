@@ -266,7 +266,7 @@ int studyVerb(const std::string& scene, const StudyOptions& options, const Commo
             return runStudy(study, ExtremesStudy(shard, common.threads), nullptr, options, common);
         }
         if (scene.empty()) throw InvalidScene("arguments", "SCENE is required", "see extremal study --help");
-        const ReadScene read = loadScene(scene, common.overrides);
+        const ReadScene read = loadScene(scene, common);
         if (!reportScene(scene, read, common)) return static_cast<int>(unusable);
         if (study.over == StudyEntry::Over::numbers)
             return runStudy(study, stabilityOf(*read.resolved, options, common), &read.scene, options,

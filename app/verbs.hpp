@@ -14,7 +14,8 @@ struct CommonOptions {
     std::vector<std::string> overrides;  ///< --set POINTER=VALUE
     bool isJson = false;
     bool isQuiet = false;
-    unsigned threads = 0;  ///< 0: as many as there are cores
+    bool isTrusted = false;  ///< files that the scene names outside its folder are read
+    unsigned threads = 0;    ///< 0: as many as there are cores
 };
 
 struct SnapshotOptions {

@@ -14,9 +14,10 @@ namespace extremal {
 namespace {
 
 /// Positions of the exact motion at equal times from the start to h: nodes of a far finer run.
-Eigen::MatrixXd exactPath(const System& system, const State& start, double h) {
+Eigen::MatrixXd exactPath(const System& system, const State& start, double h, const std::stop_token& stop) {
     constexpr int pieces = 16;
     const auto integrator = trustedIntegrator(system, start, h / pieces);
+    integrator->setStop(stop);
     const int d = system.dimension();
     Eigen::MatrixXd path(d, pieces + 1);
     State state = start;
@@ -56,22 +57,23 @@ void fit(ActionDefect& result) {
 
 }  // namespace
 
-ExactActions::Entry ExactActions::at(int i) {
+ExactActions::Entry ExactActions::at(int i, const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     const auto index = static_cast<std::size_t>(i);
     if (entries_.size() <= index) entries_.resize(index + 1);
     if (entries_[index]) return *entries_[index];
     auto entry = std::make_unique<Entry>();
     entry->h = largest_ * std::pow(2.0, -0.5 * i);
-    if (const Eigen::MatrixXd path = exactPath(system_, start_, entry->h); path.size() > 0) {
+    if (const Eigen::MatrixXd path = exactPath(system_, start_, entry->h, stop); path.size() > 0) {
         const auto exact =
-            exactDiscreteLagrangian<double>(system_.mechanics(), start_.t, entry->h, path, 1e-15);
+            exactDiscreteLagrangian<double>(system_.mechanics(), start_.t, entry->h, path, 1e-15, stop);
         entry->isKnown = exact.outcome == Outcome::converged;
         entry->action = exact.action;
         entry->estimatedError = exact.estimatedError;
         entry->q0 = path.col(0);
         entry->q1 = path.col(path.cols() - 1);
     }
+    if (stop.stop_requested()) return {};
     entries_[index] = std::move(entry);
     return *entries_[index];
 }
@@ -83,7 +85,7 @@ ActionDefect actionDefect(const System& system, const Discretization& discretiza
     const DiscreteLagrangian<double> Ld(system.mechanics(),
                                         tableOf(discretization.space, discretization.quadrature));
     for (int i = 0; i < mostSteps && !stop.stop_requested(); ++i) {
-        const ExactActions::Entry known = exact.at(i);
+        const ExactActions::Entry known = exact.at(i, stop);
         if (!known.isKnown) continue;
         const auto found = Ld(startTime, known.h, known.q0, known.q1);
         if (found.outcome != Outcome::converged) continue;

@@ -29,7 +29,8 @@ public:
     /// The steps h_i = largest / sqrt(2)^i.
     ExactActions(const System& system, const State& start, double largest)
         : system_(system), start_(start), largest_(largest) {}
-    Entry at(int i);
+    /// Not known where it was asked to stop; asked again it begins anew.
+    Entry at(int i, const std::stop_token& stop);
 
 private:
     const System& system_;

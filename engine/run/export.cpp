@@ -1,6 +1,8 @@
 #include "engine/run/export.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 
 #include "engine/core/known_value.hpp"
@@ -12,6 +14,8 @@
 
 namespace extremal {
 namespace {
+
+constexpr const char* referenceCopy = "reference.csv";
 
 /// Appends the columns row by row, handing the text over in blocks so that no whole file is held in memory.
 template <class Sink>
@@ -255,10 +259,30 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
             {slug + ".action-defect.csv", [defect](FileBatch& batch) { batch.append(defectCsv(*defect)); }});
 }
 
+/// The scene, and a copy of the file that it is compared with, so that the folder can be taken anywhere;
+/// without the copy where that file is gone.
+std::vector<ExportFile> sceneFiles(const Scene& scene) {
+    std::error_code ignored;
+    const std::string path = scene.reference.path;
+    if (path.empty() || !std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path))
+        return {{"scene.json", [&scene](FileBatch& batch) { batch.append(writeScene(scene)); }}};
+    const auto writeNamed = [&scene](FileBatch& batch) {
+        Scene named = scene;
+        named.reference.path = referenceCopy;
+        batch.append(writeScene(named));
+    };
+    const auto copy = [path](FileBatch& batch) {
+        std::ifstream in(path, std::ios::binary);
+        std::string block(1 << 16, '\0');
+        while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
+            batch.append(block.substr(0, static_cast<std::size_t>(in.gcount())));
+    };
+    return {{"scene.json", writeNamed}, {referenceCopy, copy}};
+}
+
 /// All but summary.csv and summary.json.
 std::vector<ExportFile> filesOf(const Comparison& comparison) {
-    std::vector<ExportFile> files{
-        {"scene.json", [&](FileBatch& batch) { batch.append(writeScene(comparison.scene)); }}};
+    std::vector<ExportFile> files = sceneFiles(comparison.scene);
     const std::vector<std::string> csv = csvNames(comparison);
     for (std::size_t i = 0; i < csv.size(); ++i) {
         const SchemeResult& scheme = *comparison.schemes[i];
@@ -293,6 +317,7 @@ std::vector<std::string> csvNames(const Comparison& comparison) {
     std::vector<std::string> names;
     for (const auto& scheme : comparison.schemes) names.push_back(scheme->summary.label);
     std::vector<std::string> taken{"summary"};
+    if (!comparison.scene.reference.path.empty()) taken.emplace_back("reference");
     for (const auto& [file, maps] : mapFiles(comparison)) taken.push_back(file.substr(0, file.size() - 4));
     names = uniqueSlugs(names, taken);
     for (std::string& n : names) n += ".csv";

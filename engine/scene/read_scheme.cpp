@@ -253,6 +253,11 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
             spec.label = *text;
             if (text->find_first_not_of(' ') == std::string::npos)
                 reader.error(place, "is empty", "omit it for the default");
+            else if (std::string_view("=+-@").find(text->front()) != std::string_view::npos)
+                reader.error(place,
+                             "begins with " + text->substr(0, 1) +
+                                 ", which a spreadsheet takes for a formula: " + describeValue(*label),
+                             "begin with a letter");
         }
     }
     const auto readFlag = [&](const char* key, bool& target) {

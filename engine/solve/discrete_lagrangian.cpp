@@ -55,7 +55,8 @@ ActionBetween<T> DiscreteLagrangian<T>::operator()(const T& t0, const T& h, cons
 }
 
 template <class T>
-ActionBetween<T> DiscreteLagrangian<T>::between(const T& t0, const T& h, const Matrix& guess) const {
+ActionBetween<T> DiscreteLagrangian<T>::between(const T& t0, const T& h, const Matrix& guess,
+                                                const std::stop_token& stop) const {
     const int d = kernel_.dimension(), N = static_cast<int>(guess.cols()) - 1, inner = interior() * d;
     ActionBetween<T> result;
     result.interior = Matrix::Zero(inner, N);
@@ -71,6 +72,7 @@ ActionBetween<T> DiscreteLagrangian<T>::between(const T& t0, const T& h, const M
         result.action = T(0);
         isSolved = true;
         for (int k = 0; k < N && isSolved; ++k) {
+            if (stop.stop_requested()) return isSolved = false;
             const Vector last = start.col(k);
             const auto element = (*this)(t0 + h * k, h, result.nodes.col(k), result.nodes.col(k + 1), &last);
             isSolved = element.outcome == Outcome::converged;
@@ -96,6 +98,7 @@ ActionBetween<T> DiscreteLagrangian<T>::between(const T& t0, const T& h, const M
     result.outcome = solveNewton<T>(x, assemble, guess.cwiseAbs().maxCoeff());
     Vector F;
     if (result.outcome == Outcome::converged && !assemble(x, F, nullptr)) result.outcome = Outcome::diverged;
+    if (stop.stop_requested()) result.outcome = Outcome::stopped;
     return result;
 }
 
@@ -133,7 +136,8 @@ Matrix refined(const Matrix& path, int N) {
 
 template <class T>
 ActionBetween<T> exactDiscreteLagrangian(const Mechanics<T>& mechanics, const T& t0, const T& h,
-                                         const typename ActionBetween<T>::Matrix& guess, double tolerance) {
+                                         const typename ActionBetween<T>::Matrix& guess, double tolerance,
+                                         const std::stop_token& stop) {
     constexpr int degree = 12, mostElements = 256, mostWithoutSolution = 32;
     static const Table<T> table =
         makeTable(polynomialSpace<T>(degree, PolynomialBasis::lobatto), gauss<T>(degree));
@@ -144,7 +148,8 @@ ActionBetween<T> exactDiscreteLagrangian(const Mechanics<T>& mechanics, const T&
     bool hasCoarse = false;
     T coarse{};
     for (int N = 2; N <= mostElements; N *= 2) {
-        ActionBetween<T> fine = Ld.between(t0, h / T(N), refined(path, N));
+        ActionBetween<T> fine = Ld.between(t0, h / T(N), refined(path, N), stop);
+        if (fine.outcome == Outcome::stopped) return fine;
         if (fine.outcome != Outcome::converged) {
             // A coarse path may not be solvable where a finer one is; from a solved one on, this is the end.
             if (hasCoarse || N >= mostWithoutSolution) break;
@@ -175,10 +180,11 @@ ActionBetween<T> exactDiscreteLagrangian(const Mechanics<T>& mechanics, const T&
 template class DiscreteLagrangian<double>;
 template class DiscreteLagrangian<boost::multiprecision::float128>;
 template ActionBetween<double> exactDiscreteLagrangian(const Mechanics<double>&, const double&, const double&,
-                                                       const ActionBetween<double>::Matrix&, double);
+                                                       const ActionBetween<double>::Matrix&, double,
+                                                       const std::stop_token&);
 template ActionBetween<boost::multiprecision::float128> exactDiscreteLagrangian(
     const Mechanics<boost::multiprecision::float128>&, const boost::multiprecision::float128&,
     const boost::multiprecision::float128&, const ActionBetween<boost::multiprecision::float128>::Matrix&,
-    double);
+    double, const std::stop_token&);
 
 }  // namespace extremal

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <stop_token>
 #include <vector>
 
 #include "engine/action/element_kernel.hpp"
@@ -51,8 +52,10 @@ public:
                                 const Vector* interior = nullptr) const;
 
     /// N elements of length h between the first and the last of `guess`, d x (N + 1), from t0: nodal
-    /// assembly. The discrete Euler-Lagrange equations hold at the inner nodes.
-    ActionBetween<T> between(const T& t0, const T& h, const Matrix& guess) const;
+    /// assembly. The discrete Euler-Lagrange equations hold at the inner nodes. Asked to stop it gives up,
+    /// with Outcome::stopped.
+    ActionBetween<T> between(const T& t0, const T& h, const Matrix& guess,
+                             const std::stop_token& stop = {}) const;
 
     /// The residual of the discrete Euler-Lagrange equations at the inner nodes, d x (N - 1); empty if an
     /// element has none.
@@ -66,9 +69,11 @@ private:
 
 /// The exact discrete Lagrangian, resolved: Gauss collocation of degree 12 on 2, 4, 8, ... elements until the
 /// action of two of them agrees to `tolerance` relative to the mean size of L times h, at most 256 elements.
-/// `guess`: positions at equal times from q_0 to q_1, d x at least 2; between them straight lines.
+/// `guess`: positions at equal times from q_0 to q_1, d x at least 2; between them straight lines. Asked to
+/// stop it gives up, with Outcome::stopped.
 template <class T>
 ActionBetween<T> exactDiscreteLagrangian(const Mechanics<T>& mechanics, const T& t0, const T& h,
-                                         const typename ActionBetween<T>::Matrix& guess, double tolerance);
+                                         const typename ActionBetween<T>::Matrix& guess, double tolerance,
+                                         const std::stop_token& stop = {});
 
 }  // namespace extremal

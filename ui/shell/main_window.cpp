@@ -205,6 +205,7 @@ void MainWindow::makePages() {
 void MainWindow::connectState() {
     connect(workspace_, &Workspace::sceneChanged, this, &MainWindow::showScene);
     connect(workspace_, &Workspace::fileChanged, this, &MainWindow::showScene);
+    connect(workspace_, &Workspace::agreedToRead, this, [this](const QString& name) { open(name, true); });
     connect(notices_, &Notices::logRequested, this, &MainWindow::showLog);
     connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);
     connect(playback_, &Playback::timeChanged, this, &MainWindow::showValues);
@@ -221,9 +222,9 @@ void MainWindow::connectState() {
 
 void MainWindow::offerUnsaved() { startPage_->offer(autosave_->unsaved()); }
 
-bool MainWindow::open(const QString& scene) {
+bool MainWindow::open(const QString& scene, bool isTrusted) {
     if (!mayLeaveScene()) return false;
-    const bool isOpen = workspace_->open(scene);
+    const bool isOpen = workspace_->open(scene, isTrusted);
     stack_->setCurrentIndex(workspace_->hasScene() ? 1 : 0);
     return isOpen;
 }

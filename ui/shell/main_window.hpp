@@ -40,7 +40,7 @@ public:
     ~MainWindow() override;
 
     /// A path or "preset:NAME". Asks first what becomes of changes that are not saved.
-    bool open(const QString& scene);
+    bool open(const QString& scene, bool isTrusted = false);
     void setTheme(const Theme& theme);
     /// Everything into a folder: files as `extremal run`, the figures, and the command that makes them again.
     bool exportEverything(const QString& folder);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/scene/codec.hpp"
+#include "engine/scene/own_folder.hpp"
 #include "ui/shell/notices.hpp"
 
 namespace extremal {
@@ -144,7 +145,7 @@ void Workspace::report(const QString& name, const std::vector<Problem>& problems
                    hints.join("; "), std::move(choices)});
 }
 
-bool Workspace::open(const QString& name) {
+bool Workspace::open(const QString& name, bool isTrusted) {
     std::string text;
     try {
         text = loadSceneText(name.toStdString());
@@ -157,6 +158,15 @@ bool Workspace::open(const QString& name) {
     ReadScene read = readScene(std::string_view(text), {}, directoryOf(path));
     if (!read.errors.empty()) {
         report(isPreset ? name : QFileInfo(name).fileName(), read.errors);
+        return false;
+    }
+    if (const std::string file = fileOutside(read.scene, directoryOf(path)); !isTrusted && !file.empty()) {
+        notices_.post({Notice::Kind::warning,
+                       "open",
+                       tr("%1 wants to read a file outside its folder: %2")
+                           .arg(QFileInfo(name).fileName(), QString::fromStdString(file)),
+                       tr("read it only if you trust who made the scene"),
+                       {{tr("Read it"), [this, name] { emit agreedToRead(name); }}}});
         return false;
     }
     notices_.dismiss("open");
@@ -202,7 +212,7 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
 bool Workspace::save() { return !path_.isEmpty() && saveAs(path_); }
 
 bool Workspace::saveAs(const QString& path) {
-    const std::string text = writeScene(scene_);
+    const std::string text = writeScene(namedFrom(directoryOf(path), scene_));
     QSaveFile file(path);
     const bool isWritten =
         file.open(QIODevice::WriteOnly) &&

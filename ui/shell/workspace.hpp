@@ -46,8 +46,9 @@ public:
     void undo();
     void redo();
 
-    /// Opens a path or "preset:NAME". False, with a notice, if that cannot be done.
-    bool open(const QString& name);
+    /// Opens a path or "preset:NAME". False, with a notice, if that cannot be done, or where the scene names
+    /// a file outside its own folder and the user has not agreed to read it.
+    bool open(const QString& name, bool isTrusted = false);
     /// Takes a whole document, as for a new scene or a recovered one; it counts as unsaved.
     bool adopt(const Value& document, const QString& path = {}, const QString& origin = {});
     /// Why the last scene could not be opened.
@@ -67,6 +68,8 @@ signals:
     void draftsChanged();
     void fileChanged();  ///< path or dirty state
     void opened();       ///< another scene altogether
+    void agreedToRead(
+        const QString& name);  ///< files outside the folder of this scene, which is not open yet
     void selectionChanged();
 
 private:

@@ -5,6 +5,7 @@
 
 #include "engine/run/exact_actions.hpp"
 #include "engine/run/kkt_pattern.hpp"
+#include "engine/solve/discrete_lagrangian.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/test.hpp"
 
@@ -133,6 +134,20 @@ private slots:
         const ActionDefect d = actionDefect(pendulum_, polynomialPair(12, {"gauss", {}, {}}), 0, exact, {});
         QVERIFY(d.failure.empty() && d.h.size() >= 3);
         QCOMPARE(d.order, 0.0);
+    }
+    void exactActionsGiveUpWhenAskedTo() {
+        // A boundary-value problem over fifteen periods: seconds. Given up it is not known, and not kept as
+        // such.
+        ExactActions exact(pendulum_, pendulumStart_, 100);
+        std::stop_source stop;
+        stop.request_stop();
+        QVERIFY(!exact.at(0, stop.get_token()).isKnown);
+        QVERIFY(!exact.at(16, stop.get_token()).isKnown);
+        QVERIFY(exact.at(16, {}).isKnown);
+        ActionBetween<double>::Matrix path(1, 2);
+        path << 1, 1.1;
+        QVERIFY(exactDiscreteLagrangian<double>(pendulum_.mechanics(), 0, 1, path, 1e-15, stop.get_token())
+                    .outcome == Outcome::stopped);
     }
     void theDefectOfAWrongRuleHasAnotherOrder() {
         // Degree 2 with the two nodes of the trapezoid: order 2, not 4. The measurement must tell.

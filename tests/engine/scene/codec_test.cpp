@@ -97,6 +97,11 @@ private slots:
             "galerkin-gauss-2");
         row("/schemes/0/label=SV", "/schemes/1/label", "is the label of /schemes/0 already");
         row("/schemes/0/label=", "/schemes/0/label", "is empty");
+        row("/schemes/0/label==1+1", "/schemes/0/label",
+            "begins with =, which a spreadsheet takes for a formula");
+        row("/schemes/0/label=@SUM(A1)", "/schemes/0/label", "begins with @");
+        row("/schemes/0/label=\"-1\"", "/schemes/0/label", "begins with -");
+        row("/schemes/0/label=\"+1\"", "/schemes/0/label", "begins with +");
         row("/schemes/0/label=\"a\\u001b[2J\"", "/schemes/0/label", "without control characters");
         row("/schemes/0/enabled=1", "/schemes/0/enabled", "must be true or false, got 1");
         row("/schemes/0/space/degree=25", "/schemes/0/space/degree",

@@ -13,6 +13,7 @@
 #include <QTest>
 #include <QTimer>
 
+#include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/card.hpp"
@@ -195,6 +196,33 @@ private slots:
         const QString text = log->findChild<QPlainTextEdit*>()->toPlainText();
         for (const Problem& p : window.workspace().openProblems())
             QVERIFY2(text.contains(QString::fromStdString(p.message)), p.message.c_str());
+    }
+    void aFileOutsideTheFolderIsReadAfterAClick() {
+        QTemporaryDir folder;
+        QVERIFY(QDir(folder.path()).mkdir("scene"));
+        const auto write = [&](const QString& name, const QByteArray& text) {
+            QFile file(folder.filePath(name));
+            return file.open(QIODevice::WriteOnly) && file.write(text) == text.size();
+        };
+        QVERIFY(write("outside.csv", "t,q.theta,p.theta\n0,1,0\n1,0.5,-0.5\n"));
+        QVERIFY(
+            write("scene/scene.json",
+                  R"({"extremal": 1, "model": {"type": "pendulum"}, "initial": {"q": [1]}, "time": {"end": 1},
+"schemes": [{"scheme": "midpoint", "step": 0.1}], "reference": {"type": "file", "path": "../outside.csv"}})"));
+        MainWindow window(Theme::light(), false);
+        window.show();
+        QVERIFY(!window.open(folder.filePath("scene/scene.json")));
+        QPushButton* read = nullptr;
+        for (QPushButton* button : window.findChildren<QPushButton*>())
+            if (button->text() == "Read it" && button->isVisible()) read = button;
+        QVERIFY(read);
+        read->click();
+        QCOMPARE(window.workspace().fileName(), QString("scene.json"));
+        QVERIFY(waitForResults(window));
+        // Saved elsewhere, with the file beside it, it needs no question.
+        QVERIFY(window.workspace().saveAs(folder.filePath("saved.json")));
+        QVERIFY(tests::contentOf(folder.filePath("saved.json")).contains("\"path\": \"outside.csv\""));
+        QVERIFY(window.open(folder.filePath("saved.json")));
     }
     void aStoppedRunSaysSo() {
         MainWindow window(Theme::light(), false);
