@@ -30,4 +30,15 @@ void equidistribute(const std::vector<double>& x, const std::vector<double>& M, 
     }
 }
 
+void smoothDensity(std::vector<double>& M) {
+    for (int pass = 0; pass < 3; ++pass) {
+        double left = M.front();
+        for (std::size_t e = 0; e < M.size(); ++e) {
+            const double own = M[e], right = e + 1 < M.size() ? M[e + 1] : own;
+            M[e] = (left + 2 * own + right) / 4;
+            left = own;
+        }
+    }
+}
+
 }  // namespace extremal

@@ -11,6 +11,10 @@ namespace extremal {
 /// (de Boor): the ends stay. As many nodes as `nodes` has room for.
 void equidistribute(const std::vector<double>& x, const std::vector<double>& M, std::vector<double>& nodes);
 
+/// Three passes of (1 2 1)/4 over the elements, with the end elements repeated: neighbours then differ
+/// little.
+void smoothDensity(std::vector<double>& M);
+
 /// Second differences of the values u over x, at all nodes; at the ends those of their neighbours.
 void curvatures(const double* x, const double* u, std::size_t n, std::vector<double>& u_xx);
 

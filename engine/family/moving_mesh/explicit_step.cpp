@@ -20,7 +20,7 @@ ExplicitStep::ExplicitStep(const NodeSpace& space, const Monitor& monitor, doubl
     const std::size_t n = space_.n;
     for (auto* each : {&z1_, &v1_, &p0_}) each->assign(2 * n, 0);
     for (auto* each : {&y_, &residual_, &X_, &equal_}) each->assign(n, 0);
-    for (auto* each : {&M_, &smooth_}) each->assign(n - 1, 0);
+    M_.assign(n - 1, 0);
 }
 
 void ExplicitStep::moveMesh(const std::vector<double>& z, const std::vector<double>& v, double h) {
@@ -35,11 +35,7 @@ void ExplicitStep::moveMesh(const std::vector<double>& z, const std::vector<doub
         const double speed = (v[2 * e + 1] + v[2 * e + 3]) / 2;
         M_[e] = monitor_(s, (u_xx_[e] + u_xx_[e + 1]) / 2, (v[2 * e] + v[2 * e + 2]) / 2 - s * speed, speed);
     }
-    for (int pass = 0; pass < 3; ++pass) {
-        smooth_ = M_;
-        for (std::size_t e = 0; e + 1 < n; ++e)
-            M_[e] = (smooth_[e > 0 ? e - 1 : 0] + 2 * smooth_[e] + smooth_[std::min(e + 1, n - 2)]) / 4;
-    }
+    smoothDensity(M_);
     equidistribute(X_, M_, equal_);
     double farthest = 0;
     for (std::size_t i = 0; i < n; ++i) farthest = std::max(farthest, std::abs(equal_[i] - X_[i]));

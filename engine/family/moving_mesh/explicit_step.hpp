@@ -45,7 +45,7 @@ private:
     SlabAction action_;
     BandLu lu_;
     std::vector<double> z1_, v1_, p0_, residual_;
-    std::vector<double> y_, X_, equal_, M_, smooth_, u_xx_;
+    std::vector<double> y_, X_, equal_, M_, u_xx_;
     double slabEnergy_ = 0;
 };
 

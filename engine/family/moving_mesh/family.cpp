@@ -19,9 +19,13 @@
 namespace extremal::family {
 namespace {
 
+/// With more, round-off in the places of the nodes, eps |X| / h, is no longer small beside the accuracy to
+/// which the constraint is solved, and a scene is no longer checked at once.
+constexpr int mostNodes = 100000;
+
 SpaceEntry movingMeshSpace() {
     SpaceEntry e;
-    FieldInfo nodes = integerField("nodes", "N", 3, 1e6, nullptr,
+    FieldInfo nodes = integerField("nodes", "N", 3, mostNodes, nullptr,
                                    "Number of nodes that move, between the two ends; default: one less than "
                                    "the cells of the model.");
     nodes.isOptional = true;
@@ -109,6 +113,11 @@ bool startsExplicitly(const Settings& space, const ProfileTable& table) {
 /// With alpha as a number.
 State startOf(const System& system, Discretization& d, const Settings& initial, double t) {
     const NodeSpace space(problemOf(system));
+    if (space.n > mostNodes + 2)
+        throw InvalidScene("/cells",
+                           "a moving mesh has at most " + std::to_string(mostNodes) +
+                               " nodes, and as many as the model has cells if it does not say how many",
+                           "\"nodes\" in the space, or fewer cells");
     const FieldProfile profile = fieldProfile(initial, *space.problem, t);
     if (!profile.at)
         throw InvalidScene("", "a moving mesh places its own nodes, and the initial data are given at nodes",
@@ -196,9 +205,10 @@ void checkConstraint(const SchemeCase& scheme, Findings& findings) {
         if (space.flag("fallback"))
             findings.warning(
                 "/space",
-                "takes all its steps explicitly, each marked as mesh-fallback: less than half of "
-                "the variation of u is held by the values at the ends, so that u may become flat, "
-                "and a mesh that equidistributes it would have to become uniform at once",
+                "takes all its steps explicitly, each marked as mesh-fallback: its start is not on the "
+                "constraint. Either less than half of the variation of u is held by the values at the ends, "
+                "so that u may become flat, and a mesh that equidistributes it would have to become uniform "
+                "at once; or no mesh was found that equidistributes it",
                 "\"method\": \"explicit\", or \"fallback\": false for the constraint all the same");
         return;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "engine/family/moving_mesh/constraint.hpp"
 #include "engine/family/moving_mesh/dyadic_mesh.hpp"
@@ -50,6 +51,14 @@ BandLu alongProfile(const MeshConstraint& constraint, const FieldProfile& profil
     return lu;
 }
 
+/// That of an element's length, relative to it: shares cannot be equal to less.
+double roundOffOf(const std::vector<double>& X) {
+    double smallest = X.back() - X.front();
+    for (std::size_t e = 0; e + 1 < X.size(); ++e) smallest = std::min(smallest, X[e + 1] - X[e]);
+    return std::numeric_limits<double>::epsilon() * std::max(std::abs(X.front()), std::abs(X.back())) /
+           smallest;
+}
+
 /// Newton's method for g(u(X), X) = 0 in X. False: it does not get there.
 bool improve(const NodeSpace& space, const Monitor& monitor, const FieldProfile& profile, double t,
              std::vector<double>& X) {
@@ -76,7 +85,7 @@ bool improve(const NodeSpace& space, const Monitor& monitor, const FieldProfile&
         }
         if (!(next < residual)) {  // round-off, or no way down
             X = before;
-            return residual < 1e-11;
+            return residual < std::max(1e-11, 16 * roundOffOf(X));
         }
         residual = next;
     }
@@ -95,6 +104,35 @@ std::vector<double> densityOf(const Monitor& monitor, const ProfileTable& table)
 std::vector<double> placeNodes(const NodeSpace& space, const Monitor& monitor, const ProfileTable& table) {
     std::vector<double> X(space.n);
     equidistribute(table.x, densityOf(monitor, table), X);
+    return X;
+}
+
+/// Places that the explicit step (explicit_step.hpp) would leave as they are: X equidistributes the smoothed
+/// monitor of its own elements, with u_t of the profile in their middles. From any other mesh the first steps
+/// would carry the nodes away from the front and back, and their speed spoils the solution: a kink and an
+/// antikink on 31 nodes end with an error of 0.7 in place of 0.5, a steep front of 63 with 0.017 in place of
+/// 0.012.
+std::vector<double> placeFollowingNodes(const NodeSpace& space, const Monitor& monitor,
+                                        const FieldProfile& profile, const ProfileTable& table, double t) {
+    constexpr double tolerance = 1e-12, mostWork = 2e6;
+    const std::size_t n = space.n;
+    const int most = std::clamp(static_cast<int>(mostWork / static_cast<double>(n)), 1, 100);
+    std::vector<double> X = placeNodes(space, monitor, table), y(n), M(n - 1), next(n), u_xx;
+    for (int iteration = 0; iteration < most; ++iteration) {
+        double u, u_t;
+        for (std::size_t i = 0; i < n; ++i) profile.at(X[i], t, &y[i], &u_t);
+        curvatures(X.data(), y.data(), n, u_xx);
+        for (std::size_t e = 0; e + 1 < n; ++e) {
+            profile.at((X[e] + X[e + 1]) / 2, t, &u, &u_t);
+            M[e] = monitor((y[e + 1] - y[e]) / (X[e + 1] - X[e]), (u_xx[e] + u_xx[e + 1]) / 2, u_t, 0);
+        }
+        smoothDensity(M);
+        equidistribute(X, M, next);
+        double farthest = 0;
+        for (std::size_t i = 0; i < n; ++i) farthest = std::max(farthest, std::abs(next[i] - X[i]));
+        X.swap(next);
+        if (!(farthest > tolerance * space.problem->mesh.length())) break;
+    }
     return X;
 }
 
@@ -131,7 +169,7 @@ double heldVariation(const ProfileTable& table) {
 
 std::vector<double> startAtRest(const NodeSpace& space, const Monitor& monitor, const FieldProfile& profile,
                                 const ProfileTable& table, double t) {
-    const std::vector<double> X = placeNodes(space, monitor, table);
+    const std::vector<double> X = placeFollowingNodes(space, monitor, profile, table, t);
     return stateAt(space, profile, t, X, std::vector<double>(space.n, 0), std::vector<double>(space.n, 0));
 }
 

@@ -20,7 +20,7 @@ struct ProfileTable {
 /// rest may vanish, as it does where a kink meets an antikink. 0 of a u that does not vary.
 double heldVariation(const ProfileTable& table);
 
-/// x = (y, y', X, X') on a mesh that equidistributes the monitor of the table, at rest: y' = u_t.
+/// x = (y, y', X, X') on a mesh that the explicit step would leave as it is, at rest: y' = u_t.
 std::vector<double> startAtRest(const NodeSpace& space, const Monitor& monitor, const FieldProfile& profile,
                                 const ProfileTable& table, double t);
 

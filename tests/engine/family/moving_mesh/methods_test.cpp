@@ -14,6 +14,7 @@ namespace {
 
 using moving::Case;
 using moving::collision;
+using moving::front;
 using moving::go;
 using moving::kink;
 using moving::Result;
@@ -65,35 +66,65 @@ class MethodsTest : public QObject {
     Q_OBJECT
 private slots:
     void explicitMeshIsThatOfTheTable_data() {
+        QTest::addColumn<QString>("what");
         QTest::addColumn<int>("nodes");
         QTest::addColumn<double>("alpha");
         QTest::addColumn<double>("step");
         QTest::addColumn<double>("relaxation");
+        QTest::addColumn<double>("beta");
         QTest::addColumn<double>("error");
+        QTest::addColumn<double>("other");
         QTest::addColumn<double>("energy");
-        QTest::newRow("63") << 63 << 1.0 << 0.025 << 0.1 << 0.0699 << 1.4e-2;
-        QTest::newRow("63, step 0.05") << 63 << 1.0 << 0.05 << 0.1 << 0.0698 << 1.4e-2;
-        QTest::newRow("63, step 0.1") << 63 << 1.0 << 0.1 << 0.1 << 0.0746 << 1.4e-2;
-        QTest::newRow("63, alpha 2") << 63 << 2.0 << 0.025 << 0.1 << 0.129 << 1.4e-2;
-        QTest::newRow("63, slow mesh") << 63 << 1.0 << 0.025 << 0.5 << 0.25 << 5e-2;
-        QTest::newRow("127") << 127 << 1.0 << 0.025 << 0.1 << 0.0384 << 7e-3;
+        const auto row = [](const char* what, int nodes, double alpha, double step, double relaxation,
+                            double beta, double error, double other, double energy) {
+            QTest::addRow("%s, %d, %g, %g, %g", what, nodes, alpha, step, relaxation)
+                << what << nodes << alpha << step << relaxation << beta << error << other << energy;
+        };
+        // error: of a first prototype. other: of a second one, in Python and from the equations alone, with
+        // the rates of the values from momenta; with those from increments it has the first one's .133,
+        // .0301, .519, .0699, .0384, .0372, .0275, .0118, .0718, .0480, and .0698, .0747, .138, .246 for the
+        // others.
+        row("collision", 31, 1, 0.025, 0.1, 1, 0.519, 0.5218, 2e-2);
+        row("collision", 63, 1, 0.025, 0.1, 1, 0.0699, 0.06967, 1.4e-2);
+        row("collision", 127, 1, 0.025, 0.1, 1, 0.0384, 0.03736, 7e-3);
+        row("collision", 63, 1, 0.05, 0.1, 1, 0.0698, 0.06880, 1.4e-2);
+        row("collision", 63, 1, 0.1, 0.1, 1, 0.0746, 0.07102, 1.4e-2);
+        row("collision", 63, 2, 0.025, 0.1, 1, 0.129, 0.1342, 1.4e-2);
+        row("collision", 63, 1, 0.025, 0.5, 1, 0.25, 0.2459, 5e-2);
+        row("slow collision", 31, 1, 0.025, 0.1, 1, 0.133, 0.1315, 5e-3);
+        row("slow collision", 63, 1, 0.025, 0.1, 1, 0.0294, 0.03005, 2e-3);
+        row("kink", 31, 2, 0.05, 0.05, 0, 0.072, 0.07159, 8e-3);
+        row("kink", 63, 2, 0.025, 0.1, 0, 0.048, 0.04797, 6e-3);
+        row("phi4", 31, 6, 0.05, 0.1, 1, 0.0372, 0.03693, 1.2e-2);
+        row("front", 31, 1, 0.005, 0.02, 1, 0.0275, 0.02749, 1.8e-2);
+        row("front", 63, 1, 0.005, 0.02, 1, 0.0118, 0.01179, 1.1e-2);
     }
-    /// A kink meets an antikink. Energy is lost by the lag of the mesh, whatever the step.
+    /// The start counts most: a mesh that the first step leaves as it is. Energy is lost by the lag of the
+    /// mesh, whatever the step.
     void explicitMeshIsThatOfTheTable() {
+        QFETCH(QString, what);
         QFETCH(int, nodes);
         QFETCH(double, alpha);
         QFETCH(double, step);
         QFETCH(double, relaxation);
+        QFETCH(double, beta);
         QFETCH(double, error);
+        QFETCH(double, other);
         QFETCH(double, energy);
-        Case c = collision("kink-antikink", nodes, alpha);
+        Case c = what.endsWith("collision") ? collision("kink-antikink", nodes, alpha)
+                 : what == "front"          ? front(nodes)
+                                            : kink(nodes, alpha, step);
+        if (what == "phi4") c.potential = "phi4";
+        if (what == "slow collision") c.initial[1].second = 0.5;
         c.method = "explicit";
         c.step = step;
         c.relaxation = relaxation;
+        c.beta = beta;
         const Result r = go(c);
-        qInfo("error %.4f of %.4f, energy %.1e of %.1e", r.error, error, r.nodal, energy);
+        qInfo("error %.5f of %.4f and %.5f, energy %.1e of %.1e", r.error, error, other, r.nodal, energy);
         QCOMPARE(r.outcome, Outcome::converged);
-        QVERIFY(std::abs(r.error / error - 1) < 0.1);
+        QVERIFY(std::abs(r.error / error - 1) < 0.06);   // 4.9 % with long steps, else 4.0 %
+        QVERIFY(std::abs(r.error / other - 1) < 0.002);  // 3e-4: the digits shown
         QVERIFY(r.nodal < 3 * energy && r.nodal > energy / 3);
     }
     void twoOtherStepsAreWorse_data() {

@@ -44,6 +44,18 @@ inline Case collision(const char* profile, int nodes, double alpha) {
     c.alpha = alpha;
     return c;
 }
+inline Case front(int nodes) {
+    Case c;
+    c.potential = "none";
+    c.left = -1;
+    c.right = 1;
+    c.initial = {{"profile", "front"}, {"v", 1.0}, {"x0", -0.5}, {"width", 0.05}};
+    c.end = 1;
+    c.step = 0.005;
+    c.nodes = nodes;
+    c.alpha = 1.0;
+    return c;
+}
 
 struct Run {
     System system;

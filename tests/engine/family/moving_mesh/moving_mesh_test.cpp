@@ -17,6 +17,7 @@ namespace {
 
 using moving::Case;
 using moving::collision;
+using moving::front;
 using moving::go;
 using moving::kink;
 using moving::Result;
@@ -34,19 +35,6 @@ J elementLagrangian(const std::array<J, 8>& q) {
         W += (1.0 - cos(u)) * rule.b[k];
     }
     return h * (left * left + left * right + right * right) / 6.0 - h * s * s * (1.44 / 2) - h * W;
-}
-
-Case front(int nodes) {
-    Case c;
-    c.potential = "none";
-    c.left = -1;
-    c.right = 1;
-    c.initial = {{"profile", "front"}, {"v", 1.0}, {"x0", -0.5}, {"width", 0.05}};
-    c.end = 1;
-    c.step = 0.005;
-    c.nodes = nodes;
-    c.alpha = 1.0;
-    return c;
 }
 
 }  // namespace
@@ -163,6 +151,20 @@ private slots:
               static_cast<double>(r.iterations) / 100);
         QVERIFY(r.residual < 1e-13);                      // 1e-14
         QVERIFY(r.smallest > 0.1 && r.smallest < 0.105);  // 0.1024: constant, as the nodes ride on the kink
+    }
+    void fineMeshesStartOnTheConstraintToo() {
+        // Lengths of elements are known to eps |X| / h alone, 1e-10 of them with the most nodes there are.
+        const Run run(kink(100000, 3, 0.1));
+        const std::size_t n = 100002;
+        std::vector<double> z(2 * n);
+        for (std::size_t i = 0; i < n; ++i) {
+            z[2 * i] = run.state.x[i];
+            z[2 * i + 1] = run.state.x[2 * n + i];
+        }
+        const double residual = MeshConstraint({Monitor::Kind::arclength, 3, 0, 1}, n).residual(z.data());
+        qInfo("residual %.1e", residual);
+        QVERIFY(residual < 1e-9);  // 2.8e-11
+        QVERIFY_THROWS_EXCEPTION(InvalidScene, Run(kink(100001, 3, 0.1)));
     }
     void kinkIsThatOfTheTable_data() {
         QTest::addColumn<int>("nodes");
