@@ -161,7 +161,8 @@ private slots:
         const Other penalty = goOther(true, box, 1), prescribed = goOther(false, box, 0);
         qInfo("penalty ends at %.1f; prescribed: energy %.2f, at the end %.3f", penalty.failedAt,
               prescribed.energy, prescribed.drift);
-        QVERIFY(!penalty.isDone && penalty.failedAt < 22.5);               // 11.8: before the first wall
+        // Before the first wall, and at the step at which an independent program in Python ends (11.80).
+        QVERIFY(!penalty.isDone && std::abs(penalty.failedAt - 11.8) < 0.3);
         QVERIFY(!prescribed.isDone || std::abs(prescribed.drift) > 0.03);  // 0.095
         Case fast = kink(31, 3, 0.05);
         fast.initial = {{"profile", "kink"}, {"v", 0.99}};
