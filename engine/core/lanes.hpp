@@ -2,7 +2,7 @@
 ///
 /// Plain loops of fixed length, which the compiler turns into the vector instructions of whatever it compiles
 /// for: the same operations in the same order on every machine, so results do not depend on it. Elementary
-/// functions other than sqrt are computed one lane after the other.
+/// functions other than sqrt, sin and cos (lanes_trigonometry.hpp) are computed one lane after the other.
 #pragma once
 
 #include <array>
@@ -61,12 +61,6 @@ inline Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a) /= b; }
 
 inline Lanes sqrt(const Lanes& a) {
     return a.map([](double v) { return __builtin_sqrt(v); });
-}
-inline Lanes sin(const Lanes& a) {
-    return a.map([](double v) { return std::sin(v); });
-}
-inline Lanes cos(const Lanes& a) {
-    return a.map([](double v) { return std::cos(v); });
 }
 inline Lanes exp(const Lanes& a) {
     return a.map([](double v) { return std::exp(v); });

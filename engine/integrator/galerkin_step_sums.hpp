@@ -129,10 +129,16 @@ bool GalerkinStep<T, D>::evaluateHessians(const T& t) {
             for (int j = 0; j < size; ++j) hessians_(i, j) = jetHessian_(j);
         }
     }
-    if (isVectorised_)
-        for (int j = 0; j < size; ++j)
-            isPresent_[static_cast<std::size_t>(j)] = (hessians_.col(j).array() != T(0)).any();
-    return !isVectorised_ || hessians_.allFinite();
+    if (!isVectorised_) return true;
+    for (int i = 0; i < 2 * d(); ++i)
+        for (int j = 0; j <= i; ++j) {
+            const int entry = i * 2 * d() + j, mirrored = j * 2 * d() + i;
+            const T sum = hessians_.col(entry).cwiseAbs().sum();
+            if (!(sum <= std::numeric_limits<T>::max())) return false;
+            isPresent_[static_cast<std::size_t>(entry)] = isPresent_[static_cast<std::size_t>(mirrored)] =
+                sum != T(0);
+        }
+    return true;
 }
 
 /// applied_(i, c) = w_i (L_{x_k q_l} phi_c + L_{x_k v_l} phi_c') for x = q or v.

@@ -8,54 +8,101 @@
 namespace extremal {
 namespace {
 
-/// Eight doubles, in as many registers as the machine needs.
+/// The registers of an instruction set. Wider vectors than the machine has are no substitute: the compiler
+/// takes those apart in memory, at four times the cost.
+using Two = double __attribute__((vector_size(16)));
+using Four = double __attribute__((vector_size(32)));
 using Eight = double __attribute__((vector_size(64)));
 
-/// Eight rows from r of `width` columns from c.
-template <int width>
+template <class Pack>
+constexpr int lanes = sizeof(Pack) / sizeof(double);
+
+/// Adds the first `count` of `sum`.
+template <class Pack>
+inline void addTo(double* C, const Pack& sum, int count) {
+    if (count < lanes<Pack>) {
+        for (int i = 0; i < count; ++i) C[i] += sum[i];
+        return;
+    }
+    Pack before;
+    std::memcpy(&before, C, sizeof before);
+    before += sum;
+    std::memcpy(C, &before, sizeof before);
+}
+
+// Every entry is a sum of its own in the order of the terms, whatever the tile. An addition has to wait for
+// the one before: tiles have several sums that do not wait for each other.
+
+/// One register of rows from r, of `width` columns from c.
+template <class Pack, int width>
 inline void tile(const SmallProduct& p, int r, int c) {
-    Eight sum[width];
-    for (int j = 0; j < width; ++j) sum[j] = Eight{};
+    Pack sum[width];
+    for (int j = 0; j < width; ++j) sum[j] = Pack{};
     const double* A = p.A + r;
     const double* B = p.B + static_cast<long>(c) * p.strideB;
     for (int i = 0; i < p.depth; ++i, A += p.stride) {
-        Eight a;
+        Pack a;
         std::memcpy(&a, A, sizeof a);
         for (int j = 0; j < width; ++j) sum[j] += a * B[static_cast<long>(j) * p.strideB + i];
     }
-    const int count = p.rows - r < 8 ? p.rows - r : 8;
-    for (int j = 0; j < width; ++j) {
-        double* C = p.C + static_cast<long>(c + j) * p.strideC + r;
-        for (int i = 0; i < count; ++i) C[i] += sum[j][i];
+    for (int j = 0; j < width; ++j) addTo(p.C + static_cast<long>(c + j) * p.strideC + r, sum[j], p.rows - r);
+}
+
+/// The last columns, fewer than `width`.
+template <class Pack, int width>
+inline void narrow(const SmallProduct& p, int r, int c) {
+    if constexpr (width > 1) {
+        if (p.columns - c == width - 1) return tile<Pack, width - 1>(p, r, c);
+        narrow<Pack, width - 1>(p, r, c);
     }
 }
 
-template <int width>
+/// `height` registers of rows from r, of the only column.
+template <class Pack, int height>
+inline void strip(const SmallProduct& p, int r) {
+    Pack sum[height];
+    for (int k = 0; k < height; ++k) sum[k] = Pack{};
+    const double* A = p.A + r;
+    for (int i = 0; i < p.depth; ++i, A += p.stride)
+        for (int k = 0; k < height; ++k) {
+            Pack a;
+            std::memcpy(&a, A + k * lanes<Pack>, sizeof a);
+            sum[k] += a * p.B[i];
+        }
+    for (int k = 0; k < height; ++k) addTo(p.C + r + k * lanes<Pack>, sum[k], p.rows - r - k * lanes<Pack>);
+}
+
+template <class Pack>
 inline void product(const SmallProduct& p) {
-    for (int r = 0; r < p.rows; r += 8) {
+    constexpr int width = 8, height = 4;
+    int r = 0;
+    if (p.columns == 1)
+        for (; r + height * lanes<Pack> <= p.rows; r += height * lanes<Pack>) strip<Pack, height>(p, r);
+    for (; r < p.rows; r += lanes<Pack>) {
         int c = 0;
-        for (; c + width <= p.columns; c += width) tile<width>(p, r, c);
-        for (; c < p.columns; ++c) tile<1>(p, r, c);
+        for (; c + width <= p.columns; c += width) tile<Pack, width>(p, r, c);
+        narrow<Pack, width>(p, r, c);
     }
 }
 
 /// Knuth's exact sums: what each addition loses is added up beside.
+template <class Pack>
 inline void sumOfTwo(const SumOfTwo& p) {
-    for (int r = 0; r < p.rows; r += 8) {
-        Eight sum{}, lost{};
+    for (int r = 0; r < p.rows; r += lanes<Pack>) {
+        Pack sum{}, lost{};
         for (const auto& [A, a] : {std::pair{p.A, p.a}, std::pair{p.B, p.b}}) {
             const double* column = A + r;
             for (int i = 0; i < p.depth; ++i, column += p.stride) {
-                Eight term;
+                Pack term;
                 std::memcpy(&term, column, sizeof term);
                 term *= a[i];
-                const Eight next = sum + term, back = next - sum;
+                const Pack next = sum + term, back = next - sum;
                 lost += (sum - (next - back)) + (term - back);
                 sum = next;
             }
         }
         sum += lost;
-        const int count = p.rows - r < 8 ? p.rows - r : 8;
+        const int count = p.rows - r < lanes<Pack> ? p.rows - r : lanes<Pack>;
         for (int i = 0; i < count; ++i) p.c[r + i] = sum[i];
     }
 }
@@ -68,7 +115,8 @@ inline void combine(const double* p, const double* x, const double* q, const dou
 }  // namespace
 
 NodeSums nodeSums() {
-    return {ForThisMachine<&product<8>, &product<4>, &product<2>>::call(), ForThisMachine<&sumOfTwo>::call(),
+    return {ForThisMachine<&product<Eight>, &product<Four>, &product<Two>>::call(),
+            ForThisMachine<&sumOfTwo<Eight>, &sumOfTwo<Four>, &sumOfTwo<Two>>::call(),
             ForThisMachine<&combine>::call()};
 }
 

@@ -11,6 +11,7 @@
 #include "engine/core/instruction_set.hpp"
 #include "engine/core/jet.hpp"
 #include "engine/core/lanes.hpp"
+#include "engine/core/lanes_trigonometry.hpp"
 
 namespace extremal {
 
