@@ -37,6 +37,9 @@ struct PointResult {
     double step = 0, tolerance = 0;  ///< where it was measured: of the point, or what a search found
     Reduction reduction = {};
     double unreducedWork = unknown;  ///< of a reduced scheme: what the error takes of the scheme as it is
+    /// Of a search that was given up: the evaluations that the wanted error takes, over those of the cheapest
+    /// scheme; at least so many.
+    double timesCheapest = unknown;
     long long steps = 0;
     Cost cost = {};
     double cpuSeconds = unknown;        ///< median

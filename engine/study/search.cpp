@@ -114,10 +114,10 @@ private:
 }  // namespace
 
 PointResult searchPoint(const ResolvedScene& scene, const StudyPoint& own, double wanted, int repeat,
-                        const std::function<PointResult(const StudyPoint&, int repeat)>& run) {
-    constexpr double most = 1e7;
+                        const std::function<PointResult(const StudyPoint&, int repeat)>& run,
+                        double mostSteps) {
     const ResolvedScheme& scheme = scene.schemes[own.scheme];
-    const PointResult whole = Search(scene, scheme, own, wanted, most, run).find();
+    const PointResult whole = Search(scene, scheme, own, wanted, mostSteps, run).find();
     if (!whole.isDone()) return whole;
     const Reduction has = richnessOf(scheme);
     const double work = workOf(whole, has.nodes);

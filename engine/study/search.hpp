@@ -16,8 +16,9 @@
 namespace extremal {
 
 /// `run(point, repeat)`: as runPoint. The point found, timed `repeat` times; where none reaches the error
-/// within 10^7 steps, or errors stop falling, the nearest one, with status `failed`.
+/// within `mostSteps`, or errors stop falling, the nearest one, with status `failed`.
 PointResult searchPoint(const ResolvedScene& scene, const StudyPoint& own, double wanted, int repeat,
-                        const std::function<PointResult(const StudyPoint&, int repeat)>& run);
+                        const std::function<PointResult(const StudyPoint&, int repeat)>& run,
+                        double mostSteps = 1e7);
 
 }  // namespace extremal

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
+#include "engine/core/pool.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/map_reference.hpp"
@@ -100,22 +102,51 @@ void Sweep::run(const std::function<void(const ReferenceInfo&)>& onReference,
         if (point.step == 0 && scheme.make && !run.ownSystem) return scheme.make();
         return reference.at(point.row, scene_, run);
     };
+    const Run run = [&](const StudyPoint& at, int repeat) {
+        return runPoint(scene_, at, metric_, referenceOf(at), repeat, stop);
+    };
+    const bool isSearch = options_.wantedError > 0;
+    const std::vector<Prospect> all = isSearch ? prospects(run, stop) : std::vector<Prospect>{};
+    const double least = leastWork(all);
     const auto compute = [&](std::size_t i) {
         const StudyPoint& point = rows_[i].point;
-        const auto run = [&](const StudyPoint& at, int repeat) {
-            return runPoint(scene_, at, metric_, referenceOf(at), repeat, stop);
-        };
-        const bool isSearch = options_.wantedError > 0;
-        PointResult result = isSearch ? searchPoint(scene_, point, options_.wantedError, options_.repeat, run)
-                                      : run(point, options_.repeat);
-        if (isSearch && result.isDone())
-            result.predictedSeconds = predictSeconds(scene_, schemeAt(scene_, point.scheme, result));
-        return result;
+        return isSearch ? search(point, all[i], least, run) : run(point, options_.repeat);
     };
     progress_.run(wanted, options_.threads, stop, compute, [&](std::size_t i, PointResult result) {
         rows_[i].result = std::move(result);
         if (onPoint) onPoint(i, rows_[i].result);
     });
+}
+
+/// Of all schemes, whatever the shard: each shard has to drop the same.
+std::vector<Prospect> Sweep::prospects(const Run& run, const std::stop_token& stop) const {
+    std::vector<Prospect> all(rows_.size());
+    if (all.size() < 2) return all;
+    std::vector<std::size_t> every(rows_.size());
+    std::iota(every.begin(), every.end(), std::size_t{0});
+    forEachInPool(every, options_.threads, stop, [&](std::size_t i) {
+        const StudyPoint& point = rows_[i].point;
+        all[i] = prospectOf(scene_.schemes[point.scheme], run(point, 0), options_.wantedError);
+    });
+    return all;
+}
+
+/// The largest step with the wanted error, sought only where it may be the cheapest.
+PointResult Sweep::search(const StudyPoint& point, const Prospect& prospect, double least,
+                          const Run& run) const {
+    constexpr double most = 1e7;
+    const double budget = mostTimesTheLeast * least,
+                 steps = prospect.perStep > 0 ? std::min(most, budget / prospect.perStep) : most;
+    const bool isHopeless = prospect.work > budget;
+    PointResult result = isHopeless ? run(point, 0)
+                                    : searchPoint(scene_, point, options_.wantedError, options_.repeat, run,
+                                                  std::max(1.0, std::floor(steps)));
+    if (isHopeless && result.isDone()) result.status = RunStatus::failed;
+    if (result.status == RunStatus::failed && steps < most)
+        result.timesCheapest = std::max(prospect.work / least, mostTimesTheLeast);
+    if (result.isDone())
+        result.predictedSeconds = predictSeconds(scene_, schemeAt(scene_, point.scheme, result));
+    return result;
 }
 
 std::vector<SchemeRows> bySchemes(const Sweep& sweep) {

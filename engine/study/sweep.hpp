@@ -18,6 +18,7 @@
 #include "engine/study/metric.hpp"
 #include "engine/study/point.hpp"
 #include "engine/study/progress.hpp"
+#include "engine/study/prospect.hpp"
 
 namespace extremal {
 
@@ -73,6 +74,9 @@ public:
 private:
     void addOwnPoint(std::size_t scheme);
     void addLadder(std::size_t scheme);
+    using Run = std::function<PointResult(const StudyPoint&, int repeat)>;
+    std::vector<Prospect> prospects(const Run& run, const std::stop_token& stop) const;
+    PointResult search(const StudyPoint& point, const Prospect& prospect, double least, const Run& run) const;
 
     ResolvedScene scene_;
     SweepOptions options_;

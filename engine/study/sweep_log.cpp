@@ -19,11 +19,11 @@ std::string pointLine(std::size_t index, const PointResult& r) {
         line += ',' + std::to_string(value);
     line += cellsText({r.cpuSeconds, r.cpuSpread, r.predictedSeconds, r.step, r.tolerance});
     line += ',' + std::to_string(r.reduction.degree) + ',' + std::to_string(r.reduction.nodes);
-    return line + cellsText({r.unreducedWork});
+    return line + cellsText({r.unreducedWork, r.timesCheapest});
 }
 
 std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
-    if (cells.size() != 19) return {};
+    if (cells.size() != 20) return {};
     PointResult r;
     r.status = cells[2] == name(RunStatus::done) ? RunStatus::done : RunStatus::failed;
     r.cause = outcomeOf(cells[3]);
@@ -38,6 +38,7 @@ std::optional<PointResult> pointOf(const std::vector<std::string>& cells) {
     r.tolerance = cellNumber(cells[15]);
     r.reduction = {static_cast<int>(count(cells[16])), static_cast<int>(count(cells[17]))};
     r.unreducedWork = cellNumber(cells[18]);
+    r.timesCheapest = cellNumber(cells[19]);
     return r;
 }
 

@@ -43,6 +43,9 @@ std::string keptOf(const Sweep& sweep, const SweepRow& row) {
 /// What of the scene it does without: degrees, nodes, steps, and observables that the metric does not need;
 /// and what the smaller scheme saves, against the largest step of the scheme as it is.
 std::string leftOutOf(const Sweep& sweep, const SweepRow& row) {
+    if (row.result.timesCheapest > 0)
+        return "given up: would take " + formatNumber(std::floor(row.result.timesCheapest)) +
+               " times the evaluations of the cheapest, or more";
     if (!row.result.isDone()) return "";
     std::vector<std::string> all;
     if (const Reduction kept = row.result.reduction; kept) {
@@ -82,7 +85,10 @@ std::vector<Value::Array> rowsOfPrices(const Sweep& sweep) {
 
 std::vector<Value::Array> summaryOfPrices(const Sweep& sweep) {
     std::vector<Value::Array> all = rowsOfPrices(sweep);
-    for (Value::Array& row : all) row.erase(row.begin() + 8);  // what is left out is long
+    for (Value::Array& row : all) {
+        if (row[7].asString().empty()) row[7] = row[8];  // why nothing is kept
+        row.erase(row.begin() + 8);                      // what is left out is long
+    }
     return all;
 }
 
