@@ -88,6 +88,7 @@ void addStudy(CLI::App& app, Arguments& arguments) {
         ->type_name("POINTER=FROM:TO:N[:log]");
     verb.add_option("--y", study.y, "a second one")->type_name("POINTER=FROM:TO:N[:log]");
     verb.add_flag("--limit", study.findsLimits, "bisect the limit along --x to four digits");
+    verb.add_flag("--long", study.isLong, "for extremes: also the runs of 10^9 steps, which take minutes");
     verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
     verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
         ->type_name("R");

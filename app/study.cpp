@@ -60,6 +60,7 @@ void refuseStrangers(const StudyEntry& entry, const StudyOptions& study) {
     refuse(!study.x.empty(), Over::numbers, "--x", "stability");
     refuse(!study.y.empty(), Over::numbers, "--y", "stability");
     refuse(study.findsLimits, Over::numbers, "--limit", "stability");
+    refuse(study.isLong, Over::extremes, "--long", "extremes");
     for (const auto& [isGiven, option] :
          {std::pair{!study.steps.empty(), "--steps"}, {study.from != 0, "--from"}, {study.to != 0, "--to"}})
         refuse(isGiven, Over::steps, option, "convergence");
@@ -263,7 +264,8 @@ int studyVerb(const std::string& scene, const StudyOptions& options, const Commo
         refuseStrangers(study, options);
         if (study.over == StudyEntry::Over::extremes) {
             const Shard shard = options.shard.empty() ? Shard{} : parseShard(options.shard);
-            return runStudy(study, ExtremesStudy(shard, common.threads), nullptr, options, common);
+            return runStudy(study, ExtremesStudy(shard, common.threads, options.isLong), nullptr, options,
+                            common);
         }
         if (scene.empty()) throw InvalidScene("arguments", "SCENE is required", "see extremal study --help");
         const ReadScene read = loadScene(scene, common);
@@ -295,8 +297,11 @@ int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
         const std::filesystem::path first = options.folders.front();
         const Value what = parseJson(head);
         const StudyEntry& study = knownStudy(what.find("study")->asString());
-        if (study.over == StudyEntry::Over::extremes)
-            return mergeLogs(study, ExtremesStudy(), nullptr, options, common);
+        if (study.over == StudyEntry::Over::extremes) {
+            const Value* const withLong = what.find("options")->find("long");
+            return mergeLogs(study, ExtremesStudy({}, 0, withLong && withLong->asBool()), nullptr, options,
+                             common);
+        }
         const ReadScene read = readScene(textOf(first / "scene.json"), {}, first.string());
         if (!read.resolved) {
             printProblems((first / "scene.json").string(), read.errors);

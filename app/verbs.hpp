@@ -31,7 +31,7 @@ struct WisdomOptions {
 
 struct StudyOptions {
     std::string kind, out, metric = "error", shard, x, y;
-    bool isFinal = false, isResumed = false, isPlotted = true, findsLimits = false;
+    bool isFinal = false, isResumed = false, isPlotted = true, findsLimits = false, isLong = false;
     std::vector<double> steps;
     double from = 0, to = 0, error = 0;
     int points = 0, repeat = 5;

@@ -32,6 +32,9 @@ ExtremeAxis axisOf(const Preset& file) {
                   : metric == "norm" ? ExtremeAxis::Metric::norm
                                      : ExtremeAxis::Metric::energy;
     for (const Value& value : document.find("values")->asArray()) axis.values.push_back(value.asString());
+    axis.usual = axis.values.size();
+    if (const Value* late = document.find("long"))
+        for (const Value& value : late->asArray()) axis.values.push_back(value.asString());
     axis.schemes = document.find("schemes")->asArray();
     return axis;
 }
@@ -77,11 +80,12 @@ std::string ExtremeCase::text() const {
     return replaced(parseNumber(at) ? replaced(text, "\"$\"", at) : text, "$", at);
 }
 
-std::vector<ExtremeCase> extremeCases() {
+std::vector<ExtremeCase> extremeCases(bool withLong) {
     std::vector<ExtremeCase> all;
     for (const ExtremeAxis& axis : extremeAxes())
         for (std::size_t s = 0; s < axis.schemes.size(); ++s)
-            for (std::size_t v = 0; v < axis.values.size(); ++v) all.push_back({&axis, v, s});
+            for (std::size_t v = 0; v < (withLong ? axis.values.size() : axis.usual); ++v)
+                all.push_back({&axis, v, s});
     return all;
 }
 

@@ -31,6 +31,7 @@ struct ExtremeAxis {
     Value scene;        ///< without schemes
     Metric metric = Metric::energy;
     std::vector<std::string> values;
+    std::size_t usual = 0;  ///< the first so many of them; runs of the others take minutes
     std::vector<Value> schemes;
     const std::string& label(std::size_t scheme) const { return schemes[scheme].find("label")->asString(); }
 };
@@ -42,8 +43,8 @@ struct ExtremeCase {
     std::size_t value = 0, scheme = 0;
     std::string text() const;  ///< of the scene
 };
-/// Axis by axis, scheme by scheme, value by value.
-std::vector<ExtremeCase> extremeCases();
+/// Axis by axis, scheme by scheme, value by value. `withLong`: those that take minutes as well.
+std::vector<ExtremeCase> extremeCases(bool withLong = false);
 
 struct ExtremeResult {
     std::string kind;  ///< the class; empty: not known yet

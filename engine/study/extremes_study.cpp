@@ -7,9 +7,10 @@
 
 namespace extremal {
 
-ExtremesStudy::ExtremesStudy(Shard shard, unsigned threads) : shard_(shard), threads_(threads) {
+ExtremesStudy::ExtremesStudy(Shard shard, unsigned threads, bool withLong)
+    : shard_(shard), threads_(threads), withLong_(withLong) {
     requireShard(shard_);
-    for (const ExtremeCase& each : extremeCases()) rows_.push_back({each});
+    for (const ExtremeCase& each : extremeCases(withLong)) rows_.push_back({each});
 }
 
 bool ExtremesStudy::isComplete() const {
@@ -28,7 +29,7 @@ void ExtremesStudy::run(const std::function<void(std::size_t)>& onCase, const st
 std::string headOf(const std::string& study, const ExtremesStudy& extremes) {
     std::string all;
     for (const ExtremesStudy::Row& row : extremes.rows()) all += row.at.text();
-    return headOf(study, Value(Value::Object{}), all);
+    return headOf(study, Value(Value::Object{{"long", extremes.hasLong()}}), all);
 }
 
 std::optional<std::size_t> takeLine(const std::string& line, ExtremesStudy& extremes) {

@@ -1,7 +1,7 @@
 /// The study "extremes": every case of extremes.hpp. It has no scene. Its lines in the log:
 ///
-///     {"extremal": 1, "study": "extremes", "options": {}, "scene": "<fingerprint of all cases>"}
-///     case,<index>,<class>,<measure>,<failed_at>
+///     {"extremal": 1, "study": "extremes", "options": {"long": false}, "scene": "<fingerprint of all
+///     cases>"} case,<index>,<class>,<measure>,<failed_at>
 #pragma once
 
 #include <functional>
@@ -24,8 +24,11 @@ public:
         bool isKnown() const { return !result.kind.empty(); }
     };
 
-    /// `threads`: 0 for as many as the machine has cores. Throws InvalidScene ("--shard").
-    explicit ExtremesStudy(Shard shard = {}, unsigned threads = 0);
+    /// `threads`: 0 for as many as the machine has cores. `withLong`: also the runs that take
+    /// minutes. Throws InvalidScene ("--shard").
+    explicit ExtremesStudy(Shard shard = {}, unsigned threads = 0, bool withLong = false);
+
+    bool hasLong() const { return withLong_; }
 
     const std::vector<Row>& rows() const { return rows_; }
     std::size_t size() const { return rows_.size(); }
@@ -39,6 +42,7 @@ public:
 private:
     Shard shard_;
     unsigned threads_;
+    bool withLong_;
     std::vector<Row> rows_;
     StudyProgress progress_;
 };
