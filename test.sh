@@ -5,6 +5,10 @@
 # ./test.sh --strict checks what a build does not: it compiles everything in build-strict without precompiled headers and
 # without batches of files, so that each file shows what it fails to include, with all warnings, those of memory errors
 # included; and it checks the formatting of all sources and the rules of the source tree.
+#
+# ./test.sh --sanitize address,undefined (or thread) builds everything with these sanitizers of the compiler, in a folder of
+# its own, and runs all tests; the first report of one is a failure. What is not ours to mend is suppressed by name, with the
+# reason, in tests/sanitizers. Takes an hour or more.
 set -euo pipefail
 root=$(cd -P "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$root/.ci/prepare.sh"
@@ -18,7 +22,26 @@ strict() {
     ctest --test-dir build-strict --output-on-failure -L tree "$@"
 }
 
+sanitize() {
+    local sanitizers=$1 folder="build-${1//,/-}" lists="$root/tests/sanitizers"
+    configure "$folder" -DEXTREMAL_SANITIZE="$sanitizers" -DEXTREMAL_UNITY=ON -DEXTREMAL_BENCH=OFF
+    ninja -C "$root/$folder" >&2
+    export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1"
+    export LSAN_OPTIONS="suppressions=$lists/leaks.txt:print_suppressions=0"
+    export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
+    export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$lists/races.txt"
+    ctest --test-dir "$root/$folder" --parallel 2 --output-on-failure --timeout 3000 "${@:2}"
+}
+
 install_packages
+if [ "${1:-}" = "--sanitize" ]; then
+    [[ "${2:-}" =~ ^(address|undefined|thread)(,(address|undefined))*$ ]] || {
+        say "./test.sh --sanitize needs sanitizers: address,undefined or thread"
+        exit 2
+    }
+    sanitize "${@:2}"
+    exit
+fi
 if [ "${1:-}" = "--strict" ]; then
     strict "${@:2}"
     exit
