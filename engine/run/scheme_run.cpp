@@ -336,10 +336,12 @@ struct SchemeRun::Recording {
         const MarchGrid grid = marchGrid(scene, scheme, step);
         const auto fresh = isTimed ? integrator->clone() : nullptr;
         warmUp(*integrator, state, grid, stop);
-        Judge judge(system, initialNode, step);
+        const Judge freshJudge(system, initialNode, step);
+        Judge judge = freshJudge;
         MarchReport report = march(*integrator, state, grid, sinks, stop, &judge);
-        if (fresh && report.outcome == Outcome::converged && report.cpuSeconds < shortRuns)
-            if (const Timing timing = timeRuns(*fresh, initialNode, grid, report.cpuSeconds, shortRun, stop);
+        if (fresh && report.outcome != Outcome::stopped && report.cpuSeconds < shortRuns)
+            if (const Timing timing = timeRuns(*fresh, initialNode, grid, report.cpuSeconds, shortRun, stop,
+                                               report.outcome == Outcome::lost ? &freshJudge : nullptr);
                 std::isfinite(timing.fastest))
                 report.cpuSeconds = timing.fastest;
         if (!isLastNodeRow)

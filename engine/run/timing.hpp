@@ -3,19 +3,21 @@
 /// A single short run says little: the clock of a thread has a grain, caches and branches are cold, and a
 /// page of memory that is met for the first time costs more than many a step. Repetitions of one measurement
 /// follow each other until it is long enough. Of several measurements the median says what a run costs as the
-/// machine is, and the fastest what it costs by itself: other work on the machine can only add to it.
+/// machine is, and the fastest run what it costs by itself: other work on the machine, and an unlucky place
+/// in memory, can only add to it.
 #pragma once
 
 #include <limits>
 #include <stop_token>
 
+#include "engine/run/judge.hpp"
 #include "engine/run/march.hpp"
 
 namespace extremal {
 
 struct Timing {
     double seconds = std::numeric_limits<double>::quiet_NaN();  ///< of one run: the median
-    double fastest = seconds;                                   ///< of one run: the fastest measurement
+    double fastest = seconds;                                   ///< of the fastest of all runs
     double spread = seconds;  ///< half the distance between the fastest and the slowest measurement
 };
 
@@ -27,8 +29,8 @@ struct TimingPlan {
 };
 
 /// CPU seconds of the steps. `integrator` is as it was before a run, and stays so. `first`: about what a run
-/// takes. Unknown where it was stopped.
+/// takes. Unknown where it was stopped. `judge`: as it is before a run that it may end; each has a copy.
 Timing timeRuns(const Integrator& integrator, const State& start, const MarchGrid& grid, double first,
-                const TimingPlan& plan, const std::stop_token& stop);
+                const TimingPlan& plan, const std::stop_token& stop, const Judge* judge = nullptr);
 
 }  // namespace extremal
