@@ -1,9 +1,12 @@
 #include "app/load.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
+#include "engine/family/kept.hpp"
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typeset.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/scene/resolve.hpp"
+#include "engine/symmetry/symmetry.hpp"
 
 namespace extremal::app {
 namespace {
@@ -17,6 +20,25 @@ Value equationsValue(const Scene& scene) {
     return lines;
 }
 
+/// The symmetries of the system, and which discretizations of the scene keep their momenta.
+Value symmetriesValue(const ResolvedScene& resolved) {
+    Value::Array all;
+    for (const Symmetry& s : *symmetriesOf(*resolved.system)) {
+        Value each;
+        each.set("name", s.name);
+        each.set("title", s.title);
+        each.set("generator", s.generator);
+        each.set("defect", s.defect);
+        each.set("dependent", s.isDependent);
+        Value::Array kept;
+        for (const ResolvedScheme& scheme : resolved.schemes)
+            if (scheme.family && keeps(scheme.discretization, s)) kept.emplace_back(scheme.spec.label);
+        each.set("kept_by", std::move(kept));
+        all.push_back(std::move(each));
+    }
+    return all;
+}
+
 }  // namespace
 
 int checkVerb(const std::string& scene, const CommonOptions& options) {
@@ -28,10 +50,17 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
         document.set("valid", isValid);
         document.set("errors", problemsValue(read.errors));
         document.set("warnings", problemsValue(read.warnings));
-        if (isValid) document.set("equations", equationsValue(read.scene));
+        if (isValid) {
+            document.set("equations", equationsValue(read.scene));
+            document.set("symmetries", symmetriesValue(resolve(read.scene)));
+        }
         return print(writeJson(document), code);
     }
-    return isValid && !options.isQuiet ? print(sceneName(scene) + ": valid\n", code) : code;
+    if (!isValid || options.isQuiet) return code;
+    std::string text = sceneName(scene) + ": valid\n";
+    if (const ResolvedScene resolved = resolve(read.scene); isMechanical(*resolved.system))
+        text += "symmetries: " + symmetryText(*resolved.system) + "\n";
+    return print(text, code);
 }
 
 }  // namespace extremal::app

@@ -12,6 +12,7 @@
 #include "engine/scene/json.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"
+#include "ui/panels/symmetry_line.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -106,6 +107,7 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     body()->addWidget(model_);
     body()->addWidget(parameters_);
     body()->addWidget(lagrangian_);
+    body()->addWidget(new SymmetryLine(workspace));
     initialTitle_ = sectionLabel(tr("Initial data"));
     timeTitle_ = sectionLabel(tr("Time"));
     body()->addWidget(initialTitle_);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "engine/figure/against.hpp"
+#include "engine/symmetry/conserved.hpp"
 
 namespace extremal::recipes {
 namespace {
@@ -9,8 +10,10 @@ namespace {
 Figure makeMomentum(const FigureContext& context) {
     Figure figure = startFigure(context, "Momentum error");
     std::string symbol = "‖J − J(0)‖", unit = columnInfo(context, "momentum_error").unit;
-    if (context.system && context.system->momenta.size() == 1) {
-        const MomentumMap& only = context.system->momenta.front();
+    const std::vector<ConservedMomentum> momenta =
+        context.system ? momentaOf(*context.system) : std::vector<ConservedMomentum>();
+    if (momenta.size() == 1) {
+        const ConservedMomentum& only = momenta.front();
         symbol = "|" + only.symbol + " − " + only.symbol + "(0)|";
         unit = only.unit;
     }
@@ -29,8 +32,7 @@ Figure makeMomentum(const FigureContext& context) {
                              return s.y.size() > 1 && maxMagnitude(s.y) == 0;
                          });
     if (isExact) figure.message = "Kept to the last bit by every scheme";
-    if (context.system && context.system->momenta.empty())
-        figure.message = "This model has no conserved momentum";
+    if (context.system && momenta.empty()) figure.message = "This model has no conserved momentum";
     if (figure.message.empty()) addChance(figure, context);
     finishFigure(figure, context,
                  "Momentum error " + againstText(context.view) + ", " +

@@ -1,32 +1,36 @@
-/// The momenta that Noether's theorem conserves, and the Euclidean norm of their change. A momentum that is a
-/// column of the state already is not written twice.
+/// The momenta that Noether's theorem conserves, those of the system or of the symmetries that are found, and
+/// the Euclidean norm of their change. A momentum that is a column of the state already is not written twice.
+/// Those whose symmetry moves time are not in the norm where there are others: steps of a fixed length do not
+/// keep them.
 #include <algorithm>
 #include <cmath>
 
 #include "engine/observe/measured.hpp"
+#include "engine/symmetry/conserved.hpp"
 
 namespace extremal::observables {
 ObservableEntry momentum() {
     ObservableEntry e;
     e.item = {"momentum",
               "momentum",
-              "Conserved momenta and the norm of their change; for systems with a symmetry.",
+              "Conserved momenta and the norm of their change; for systems with a symmetry, which is found.",
               {},
               {},
               "a symmetry"};
-    e.applies = [](const System& system) { return !system.momenta.empty() || measureOf(system, "momentum"); };
+    e.applies = [](const System& system) { return measureOf(system, "momentum") || hasMomenta(system); };
     e.bind = [](const ObserveContext& context) {
         if (const Measure* mean = measureOf(context.system, "momentum"))
             return bindMeasure(*mean, context.initial);
         Observer o;
-        const auto& momenta = context.system.momenta;
-        const auto d = static_cast<std::size_t>(context.system.dimension());
+        const std::vector<ConservedMomentum> momenta = momentaOf(context.system);
+        const bool isTimeCounted =
+            std::all_of(momenta.begin(), momenta.end(), [](const auto& each) { return each.movesTime; });
         const auto state = stateColumns(context.system);
         std::vector<double> start;
         std::vector<bool> isWritten;
-        for (const MomentumMap& map : momenta) {
+        for (const ConservedMomentum& map : momenta) {
             const std::string name = "momentum." + map.name;
-            start.push_back(map.value(context.initial.x.data(), context.initial.x.data() + d));
+            start.push_back(map.value(context.initial.t, context.initial.x.data()));
             isWritten.push_back(
                 std::none_of(state.begin(), state.end(), [&](const Quantity& q) { return q.name == name; }));
             if (isWritten.back()) o.columns.push_back({name, map.symbol, map.unit, {}, {}});
@@ -38,15 +42,15 @@ ObservableEntry momentum() {
                              momenta.empty() ? "" : momenta[0].unit,
                              {},
                              {}});
-        o.evaluate = [momenta, start, isWritten, d](const NodeBlock& nodes, double* values,
-                                                    std::size_t stride) {
+        o.evaluate = [momenta, start, isWritten, isTimeCounted](const NodeBlock& nodes, double* values,
+                                                                std::size_t stride) {
             for (std::size_t node = 0; node < nodes.size(); ++node, values += stride) {
                 double sum = 0;
                 std::size_t column = 0;
                 for (std::size_t i = 0; i < momenta.size(); ++i) {
-                    const double now = momenta[i].value(nodes.x(node), nodes.x(node) + d);
+                    const double now = momenta[i].value(nodes.t(node), nodes.x(node));
                     if (isWritten[i]) values[column++] = now;
-                    sum += (now - start[i]) * (now - start[i]);
+                    if (isTimeCounted || !momenta[i].movesTime) sum += (now - start[i]) * (now - start[i]);
                 }
                 values[column] = std::sqrt(sum);
             }

@@ -1,4 +1,5 @@
 /// Norm of the change of the conserved momenta, on a logarithmic axis.
+#include "engine/symmetry/conserved.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -12,7 +13,7 @@ ViewEntry momentum() {
             .scales = logAgainstTime,
             .observable = "momentum",
             .missing = [](const View&, const System& system) {
-                return std::string(system.momenta.empty() ? "a conserved momentum" : "");
+                return std::string(hasMomenta(system) ? "" : "a conserved momentum");
             }};
 }
 

@@ -1,0 +1,33 @@
+/// The momenta of a system that Noether's theorem conserves: its own, and, where it has none or is typed by a
+/// user, those of the symmetries that are found (symmetry.hpp).
+///
+/// Columns: momentum.<name>, name as in MomentumMap of the system; of a cyclic coordinate its name; else
+/// translation.<direction>, rotation.<plane>, boost.<direction>, and linear, time or scaling for others. The
+/// energy is no momentum, and momenta that depend on others are left out.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+struct ConservedMomentum {
+    std::string name;  ///< column "momentum.<name>"
+    std::string symbol;
+    std::string unit;
+    /// At (t, x), x as in State.
+    std::function<double(double t, const double* x)> value;
+    /// Its symmetry moves time: with fixed steps it is as little conserved as the energy, and it is no part
+    /// of momentum_error where there are others.
+    bool movesTime = false;
+};
+
+std::vector<ConservedMomentum> momentaOf(const System& system);
+
+/// The same question without a search for systems that have some of their own.
+bool hasMomenta(const System& system);
+
+}  // namespace extremal

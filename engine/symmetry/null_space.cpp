@@ -1,0 +1,172 @@
+#include "engine/symmetry/null_space.hpp"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace extremal {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Index = Eigen::Index;
+
+/// Where the unknowns are: b, A, tau0, tau1, c, then the terms of F. It is the order of pivots.
+class Unknowns {
+public:
+    explicit Unknowns(int d) : d_(d) {
+        for (int power = 0; power <= 1; ++power)
+            for (int i = 0; i < d; ++i) {
+                terms_.push_back({i, -1, -1, power, 0});
+                for (int j = i; j < d; ++j) terms_.push_back({i, j, -1, power, 0});
+            }
+        if (d <= 3)
+            for (int i = 0; i < d; ++i)
+                for (int j = i; j < d; ++j)
+                    for (int k = j; k < d; ++k) terms_.push_back({i, j, k, 0, 0});
+        for (int power = 1; power <= 3; ++power) terms_.push_back({-1, -1, -1, power, 0});
+    }
+    Index size() const { return firstTerm() + static_cast<Index>(terms_.size()); }
+
+    /// The coefficient of every unknown in the condition at a state.
+    void fillRow(const SampledState& s, Eigen::Ref<VectorXd> row) const {
+        const auto at = [](const std::vector<double>& v, int i) { return v[static_cast<std::size_t>(i)]; };
+        double vp = 0;
+        for (int i = 0; i < d_; ++i) {
+            const double force = at(s.gradient, i), momentum = at(s.gradient, d_ + i);
+            vp += momentum * at(s.v, i);
+            row[i] = force;
+            for (int j = 0; j < d_; ++j) row[d_ + i * d_ + j] = force * at(s.q, j) + momentum * at(s.v, j);
+            row[tau() + 2 + i] = force * s.t + momentum;
+        }
+        row[tau()] = s.Lt;
+        row[tau() + 1] = s.Lt * s.t + s.L - vp;
+        for (std::size_t n = 0; n < terms_.size(); ++n)
+            row[firstTerm() + static_cast<Index>(n)] = -rate(terms_[n], s);
+    }
+    Symmetry symmetryOf(const VectorXd& u) const {
+        Symmetry s;
+        s.dimension = d_;
+        s.b.assign(u.data(), u.data() + d_);
+        s.A.assign(u.data() + d_, u.data() + d_ + d_ * d_);
+        s.tau0 = u[tau()];
+        s.tau1 = u[tau() + 1];
+        s.c.assign(u.data() + tau() + 2, u.data() + tau() + 2 + d_);
+        for (std::size_t n = 0; n < terms_.size(); ++n) {
+            GaugeTerm term = terms_[n];
+            term.coefficient = u[firstTerm() + static_cast<Index>(n)];
+            if (term.coefficient != 0) s.F.push_back(term);
+        }
+        return s;
+    }
+
+private:
+    Index tau() const { return d_ + d_ * d_; }
+    Index firstTerm() const { return tau() + 2 + d_; }
+
+    /// d/dt of q_i q_j q_k t^power.
+    static double rate(const GaugeTerm& term, const SampledState& s) {
+        const double power = term.power;
+        double product = 1, slope = 0;
+        for (const int index : {term.i, term.j, term.k}) {
+            if (index < 0) continue;
+            const auto i = static_cast<std::size_t>(index);
+            slope = slope * s.q[i] + product * s.v[i];
+            product *= s.q[i];
+        }
+        const double time = std::pow(s.t, power);
+        return slope * time + (term.power > 0 ? product * power * std::pow(s.t, power - 1) : 0);
+    }
+    int d_;
+    std::vector<GaugeTerm> terms_;
+};
+
+/// M <- R M C with positive diagonal R and C, so that the maximum of every row and column is near 1. Returns
+/// C.
+VectorXd equilibrate(MatrixXd& M) {
+    VectorXd scales = VectorXd::Ones(M.cols());
+    for (int sweep = 0; sweep < 6; ++sweep) {
+        for (Index i = 0; i < M.rows(); ++i)
+            if (const double most = M.row(i).cwiseAbs().maxCoeff(); most > 0) M.row(i) /= std::sqrt(most);
+        for (Index j = 0; j < M.cols(); ++j)
+            if (const double most = M.col(j).cwiseAbs().maxCoeff(); most > 0) {
+                M.col(j) /= std::sqrt(most);
+                scales[j] /= std::sqrt(most);
+            }
+    }
+    return scales;
+}
+
+/// Columns N <- reduced echelon form, pivots in the order of the rows. Returns the pivots. Entries below
+/// `small` are dropped.
+std::vector<Index> echelon(MatrixXd& N, double small) {
+    constexpr double leastPivot = 1e-5;
+    std::vector<Index> pivots;
+    Index done = 0;
+    for (Index row = 0; row < N.rows() && done < N.cols(); ++row) {
+        Index best = done;
+        for (Index k = done; k < N.cols(); ++k)
+            if (std::abs(N(row, k)) > std::abs(N(row, best))) best = k;
+        if (std::abs(N(row, best)) < leastPivot) continue;
+        N.col(done).swap(N.col(best));
+        N.col(done) /= N(row, done);
+        for (Index k = 0; k < N.cols(); ++k)
+            if (k != done) N.col(k) -= N(row, k) * N.col(done);
+        pivots.push_back(row);
+        ++done;
+    }
+    for (Index k = 0; k < N.cols(); ++k) {
+        const double most = N.col(k).cwiseAbs().maxCoeff();
+        for (double& entry : N.col(k))
+            if (std::abs(entry) < small * most) entry = 0;
+    }
+    return pivots;
+}
+
+}  // namespace
+
+std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampler& from) {
+    constexpr double exact = 1e-12, almost = 1e-6;
+    const int d = system.dimension();
+    const Unknowns unknowns(d);
+    const Index m = unknowns.size(), rows = 3 * m + 20;
+    StateSampler sampler = from;
+    MatrixXd M(rows, m);
+    VectorXd row(m);
+    SampledState state;
+    for (Index i = 0; i < rows; ++i) {
+        if (!sampler.next(state)) return {};
+        unknowns.fillRow(state, row);
+        M.row(i) = row;
+    }
+    const VectorXd scales = equilibrate(M);
+    if (!M.allFinite()) return {};
+    const MatrixXd R = Eigen::HouseholderQR<MatrixXd>(M).matrixQR().topRows(m).triangularView<Eigen::Upper>();
+    const Eigen::BDCSVD<MatrixXd> svd(R, Eigen::ComputeFullV);
+    const VectorXd& sigma = svd.singularValues();
+    const double limit = exact * (system.mechanics().isTimeDependent ? 100 : 1);
+    std::vector<Symmetry> found;
+    Index first = m;  // of the null space
+    while (first > 0 && sigma[first - 1] < limit * sigma[0]) --first;
+    const double gap = first > 0 ? sigma[first - 1] / sigma[0] : 1;
+    MatrixXd N = svd.matrixV().rightCols(m - first);
+    const std::vector<Index> pivots = echelon(N, std::max(1e-12, 1e-14 / std::max(gap, 1e-12)));
+    for (Index k = 0; k < N.cols(); ++k) found.push_back(unknowns.symmetryOf(N.col(k).cwiseProduct(scales)));
+
+    Index firstNear = first;
+    while (firstNear > 0 && sigma[firstNear - 1] < almost * sigma[0]) --firstNear;
+    MatrixXd near = svd.matrixV().middleCols(firstNear, first - firstNear);
+    for (Index k = 0; k < near.cols(); ++k)
+        for (std::size_t n = 0; n < pivots.size(); ++n)
+            near.col(k) -= near(pivots[n], k) * N.col(static_cast<Index>(n));
+    if (near.cols() > 0) echelon(near, 1e-5);
+    for (Index k = 0; k < near.cols(); ++k) {
+        found.push_back(unknowns.symmetryOf(near.col(k).cwiseProduct(scales)));
+        found.back().defect = sigma[firstNear] / sigma[0];
+    }
+    return found;
+}
+
+}  // namespace extremal

@@ -1,0 +1,15 @@
+/// The null space of the symmetry condition over random states.
+#pragma once
+
+#include <vector>
+
+#include "engine/symmetry/sample.hpp"
+#include "engine/symmetry/symmetry.hpp"
+
+namespace extremal {
+
+/// Exact ones to round-off, then those that are nearly symmetries, with the singular value as their defect.
+/// Neither named nor verified.
+std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampler& sampler);
+
+}  // namespace extremal

@@ -1,0 +1,93 @@
+#include "engine/symmetry/sample.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace extremal {
+
+StateSampler::StateSampler(const Mechanical& mechanics, unsigned seed)
+    : mechanics_(&mechanics), random_(seed) {
+    const auto d = static_cast<std::size_t>(mechanics.dimension);
+    gradient_.resize(2 * d);
+    hessian_.resize(4 * d * d);
+    // The time of a motion across the sampled places, as the median of some.
+    std::vector<double> periods;
+    SampledState state;
+    for (int k = 0; k < 15; ++k) {
+        draw(state);
+        double q = 0, v = 0;
+        for (std::size_t i = 0; i < d; ++i) {
+            q = std::max(q, std::abs(state.q[i]));
+            v = std::max(v, std::abs(state.v[i]));
+        }
+        if (v > 0 && std::isfinite(q / v)) periods.push_back(q / v);
+    }
+    if (periods.empty()) return;
+    std::nth_element(periods.begin(), periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2),
+                     periods.end());
+    period_ = periods[periods.size() / 2];
+}
+
+double StateSampler::value(double t, const double* q, const double* v) const {
+    double L = 0;
+    mechanics_->jet(mechanics_->model.get(), t, q, v, &L, gradient_.data(), hessian_.data());
+    return L;
+}
+
+double StateSampler::timeDerivative(double t, const double* q, const double* v) const {
+    if (!mechanics_->isTimeDependent) return 0;
+    constexpr std::array<double, 4> weights = {4. / 5, -1. / 5, 4. / 105, -1. / 280};
+    double best = 0, least = INFINITY, last = NAN, step = period_;
+    for (int k = 0; k < 12; ++k, step /= 2) {
+        double sum = 0;
+        for (std::size_t j = 0; j < weights.size(); ++j) {
+            const double delta = static_cast<double>(j + 1) * step;
+            sum += weights[j] * (value(t + delta, q, v) - value(t - delta, q, v));
+        }
+        const double now = sum / step, change = std::abs(now - last);
+        if (change < least) {
+            least = change;
+            best = now;
+        }
+        last = now;
+    }
+    return best;
+}
+
+void StateSampler::draw(SampledState& state) {
+    const auto d = static_cast<std::size_t>(mechanics_->dimension);
+    state.q.resize(d);
+    state.v.assign(d, 0);
+    state.gradient.resize(2 * d);
+    const double size = std::pow(10.0, 0.75 * uniform() + 0.25);
+    for (double& q : state.q) q = size * uniform();
+    state.t = period_ * uniform();
+    value(state.t, state.q.data(), state.v.data());
+    double force = 0;
+    for (std::size_t i = 0; i < d; ++i) force = std::max(force, std::abs(gradient_[i]));
+    const auto alone = static_cast<std::size_t>(random_() % d);
+    const bool isSparse = drawn_++ % 2 == 1;
+    for (std::size_t i = 0; i < d; ++i) {
+        const double mass = std::abs(hessian_[(d + i) * 2 * d + d + i]);
+        const double speed = force > 0 && mass > 0 ? std::sqrt(force * size / mass) : size;
+        const double v = speed * uniform();
+        if (!isSparse || i == alone) state.v[i] = v;
+    }
+}
+
+bool StateSampler::next(SampledState& state) {
+    for (int attempt = 0; attempt < 50; ++attempt) {
+        draw(state);
+        mechanics_->jet(mechanics_->model.get(), state.t, state.q.data(), state.v.data(), &state.L,
+                        state.gradient.data(), hessian_.data());
+        state.Lt = timeDerivative(state.t, state.q.data(), state.v.data());
+        if (std::isfinite(state.L) && std::isfinite(state.Lt) &&
+            std::all_of(state.gradient.begin(), state.gradient.end(),
+                        [](double g) { return std::isfinite(g); }))
+            return true;
+    }
+    return false;
+}
+
+}  // namespace extremal

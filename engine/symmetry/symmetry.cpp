@@ -1,0 +1,254 @@
+#include "engine/symmetry/symmetry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/core/memo_cache.hpp"
+#include "engine/core/text.hpp"
+#include "engine/symmetry/candidates.hpp"
+#include "engine/symmetry/null_space.hpp"
+#include "engine/symmetry/sample.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr int mostCoordinates = 8;  ///< of the search by linear algebra
+
+/// The product of the coordinates of a term, and its derivative along `direction` (may be null).
+struct Product {
+    double value = 1, slope = 0;
+    Product(const GaugeTerm& term, const double* q, const double* direction) {
+        for (const int i : {term.i, term.j, term.k}) {
+            if (i < 0) continue;
+            if (direction) slope = slope * q[i] + value * direction[i];
+            value *= q[i];
+        }
+    }
+};
+
+/// The nearest fraction with a small denominator, where it is one to the accuracy of a null vector.
+double snapped(double x) {
+    for (int denominator = 1; denominator <= 64; ++denominator) {
+        const double n = std::round(x * denominator);
+        if (n != 0 && std::abs(x * denominator - n) < 1e-9 * std::abs(n)) return n / denominator;
+    }
+    return x;
+}
+
+template <class Change>
+void changeAll(Symmetry& s, Change&& change) {
+    for (auto* values : {&s.b, &s.A, &s.c})
+        for (double& x : *values) x = change(x);
+    s.tau0 = change(s.tau0);
+    s.tau1 = change(s.tau1);
+    for (GaugeTerm& term : s.F) term.coefficient = change(term.coefficient);
+}
+
+/// Divides by the entry that a reader expects to be 1; of a rotation, positive in the sense from the first
+/// coordinate to the second.
+void normalise(Symmetry& s) {
+    double leading = s.tau0;
+    const auto largest = [&](const std::vector<double>& values) {
+        for (const double x : values)
+            if (leading == 0 || (std::abs(x) > 1.000001 * std::abs(leading))) leading = x;
+    };
+    if (leading == 0) {
+        largest(s.A);
+        // Below the diagonal first.
+        for (int i = 0; i < s.dimension && leading != 0; ++i)
+            for (int j = 0; j < i; ++j)
+                if (std::abs(std::abs(s.a(i, j)) - std::abs(leading)) < 1e-9 * std::abs(leading)) {
+                    leading = s.a(i, j);
+                    i = s.dimension;
+                    break;
+                }
+    }
+    if (leading == 0) largest(s.c);
+    if (leading == 0) {
+        for (const double x : s.b)
+            if (leading == 0) leading = x;
+    }
+    if (leading == 0) leading = s.tau1;
+    if (leading == 0) return;
+    changeAll(s, [&](double x) { return x / leading; });
+}
+
+/// The largest violation over fresh states; infinity where there are none.
+double worstViolation(const Mechanical& mechanics, const Symmetry& s) {
+    constexpr int states = 40;
+    StateSampler sampler(mechanics, 2718);
+    SampledState state;
+    double worst = 0;
+    for (int i = 0; i < states; ++i) {
+        if (!sampler.next(state)) return std::numeric_limits<double>::infinity();
+        worst = std::max(worst, s.violation(mechanics, state.t, state.q.data(), state.v.data()));
+    }
+    return worst;
+}
+
+/// dJ/d(q, p) at fixed t, entries times the sizes of q and p.
+std::vector<double> gradientOf(const Symmetry& s, const SampledState& state, double sizeQ, double sizeP) {
+    const auto d = static_cast<std::size_t>(s.dimension);
+    const double* p = state.gradient.data() + d;
+    std::vector<double> g(2 * d), unit(d, 0);
+    for (std::size_t j = 0; j < d; ++j) {
+        for (std::size_t i = 0; i < d; ++i) g[j] += p[i] * s.A[i * d + j];
+        unit[j] = 1;
+        for (const GaugeTerm& term : s.F)
+            g[j] -= term.coefficient * std::pow(state.t, term.power) *
+                    Product(term, state.q.data(), unit.data()).slope;
+        unit[j] = 0;
+        g[j] *= sizeQ;
+    }
+    s.displacement(state.t, state.q.data(), g.data() + d);
+    for (std::size_t i = 0; i < d; ++i) g[d + i] *= sizeP;
+    return g;
+}
+
+/// Marks those whose gradient is a combination of those before it, by Gram-Schmidt at a random state.
+void markDependent(const Mechanical& mechanics, std::vector<Symmetry>& all) {
+    StateSampler sampler(mechanics, 1687);
+    SampledState state;
+    if (!sampler.next(state) || !sampler.next(state) || !sampler.next(state)) return;
+    const auto size = [](auto from, auto to) {
+        double most = 0;
+        for (; from != to; ++from) most = std::max(most, std::abs(*from));
+        return most > 0 ? most : 1.0;
+    };
+    const auto d = static_cast<std::ptrdiff_t>(mechanics.dimension);
+    const double sizeQ = size(state.q.begin(), state.q.end()),
+                 sizeP = size(state.gradient.begin() + d, state.gradient.end());
+    const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+        return sum;
+    };
+    std::vector<std::vector<double>> basis;
+    for (Symmetry& s : all) {
+        if (s.movesTime() || !s.isExact()) continue;
+        std::vector<double> g = gradientOf(s, state, sizeQ, sizeP);
+        const double before = std::sqrt(dot(g, g));
+        for (int pass = 0; pass < 2; ++pass)
+            for (const auto& e : basis) {
+                const double along = dot(e, g);
+                for (std::size_t i = 0; i < g.size(); ++i) g[i] -= along * e[i];
+            }
+        const double left = std::sqrt(dot(g, g));
+        s.isDependent = !(left > 1e-9 * before);
+        if (s.isDependent) continue;
+        for (double& x : g) x /= left;
+        basis.push_back(std::move(g));
+    }
+}
+
+std::vector<Symmetry> search(const System& system) {
+    constexpr double exact = 1e-10, almost = 1e-4;
+    const Mechanical& mechanics = system.mechanics();
+    const bool isSmall = system.dimension() <= mostCoordinates;
+    std::vector<Symmetry> found;
+    for (Symmetry& s : isSmall ? symmetriesOnSamples(system, StateSampler(mechanics)) : candidates(system)) {
+        normalise(s);
+        Symmetry rounded = s;
+        changeAll(rounded, snapped);
+        const double limit = s.isExact() ? exact : almost;
+        if (worstViolation(mechanics, rounded) < limit)
+            found.push_back(std::move(rounded));
+        else if (worstViolation(mechanics, s) < limit)
+            found.push_back(std::move(s));
+    }
+    nameAll(system, found);
+    std::stable_sort(found.begin(), found.end(), [](const Symmetry& a, const Symmetry& b) {
+        return std::pair(!a.isExact(), a.kind) < std::pair(!b.isExact(), b.kind);
+    });
+    markDependent(mechanics, found);
+    return found;
+}
+
+}  // namespace
+
+int Symmetry::gaugeDegree() const {
+    int most = -1;
+    for (const GaugeTerm& term : F) most = std::max(most, (term.i >= 0) + (term.j >= 0) + (term.k >= 0));
+    return most;
+}
+
+void Symmetry::displacement(double t, const double* q, double* xi) const {
+    const auto d = static_cast<std::size_t>(dimension);
+    for (std::size_t i = 0; i < d; ++i) {
+        xi[i] = b[i] + c[i] * t;
+        for (std::size_t j = 0; j < d; ++j) xi[i] += A[i * d + j] * q[j];
+    }
+}
+
+double Symmetry::gauge(double t, const double* q) const {
+    double sum = 0;
+    for (const GaugeTerm& term : F)
+        sum += term.coefficient * std::pow(t, term.power) * Product(term, q, nullptr).value;
+    return sum;
+}
+
+double Symmetry::violation(const Mechanical& mechanics, double t, const double* q, const double* v) const {
+    const auto d = static_cast<std::size_t>(dimension);
+    std::vector<double> gradient(2 * d), hessian(4 * d * d), xi(d);
+    double L = 0, sum = 0, size = 0;
+    mechanics.jet(mechanics.model.get(), t, q, v, &L, gradient.data(), hessian.data());
+    displacement(t, q, xi.data());
+    const auto add = [&](double term) {
+        sum += term;
+        size += std::abs(term);
+    };
+    for (std::size_t i = 0; i < d; ++i) {
+        const double p = gradient[d + i];
+        add(gradient[i] * xi[i]);
+        add(p * c[i]);
+        for (std::size_t j = 0; j < d; ++j) add(p * A[i * d + j] * v[j]);
+        add(-p * tau1 * v[i]);
+    }
+    if (movesTime()) {
+        add(StateSampler(mechanics).timeDerivative(t, q, v) * (tau0 + tau1 * t));
+        add(L * tau1);
+    }
+    for (const GaugeTerm& term : F) {
+        const Product product(term, q, v);
+        const double power = term.power;
+        if (term.power > 0) add(-term.coefficient * product.value * power * std::pow(t, power - 1));
+        add(-term.coefficient * product.slope * std::pow(t, power));
+    }
+    return size > 0 ? std::abs(sum) / size : 0;
+}
+
+double Symmetry::momentum(const Mechanical& mechanics, double t, const double* q, const double* p) const {
+    const auto d = static_cast<std::size_t>(dimension);
+    double J = -gauge(t, q);
+    for (std::size_t i = 0; i < d; ++i) {
+        double xi = b[i] + c[i] * t;
+        for (std::size_t j = 0; j < d; ++j) xi += A[i * d + j] * q[j];
+        J += p[i] * xi;
+    }
+    if (movesTime()) J -= (tau0 + tau1 * t) * mechanics.energy(mechanics.model.get(), t, q, p);
+    return J;
+}
+
+std::shared_ptr<const std::vector<Symmetry>> symmetriesOf(const System& system) {
+    using All = std::shared_ptr<const std::vector<Symmetry>>;
+    if (!isMechanical(system)) return std::make_shared<const std::vector<Symmetry>>();
+    const auto make = [&]() -> All { return std::make_shared<const std::vector<Symmetry>>(search(system)); };
+    const std::shared_ptr<const void>& model = system.mechanics().model;
+    if (!model) return make();
+    static MemoCache<std::shared_ptr<const void>, All> known(16);
+    return known.get(model, make);
+}
+
+std::string symmetryText(const System& system) {
+    std::string text;
+    for (const Symmetry& s : *symmetriesOf(system)) {
+        if (!text.empty()) text += ", ";
+        if (!s.isExact()) text += "almost (" + formatNumber(s.defect, 1) + ") ";
+        text += s.title;
+        if (s.isDependent) text += " (dependent)";
+    }
+    return text.empty() ? "none found" : text;
+}
+
+}  // namespace extremal

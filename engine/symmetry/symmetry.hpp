@@ -1,0 +1,70 @@
+/// Affine symmetries of a Lagrangian and the momenta of Noether's theorem, found by linear algebra.
+///
+/// q -> q + e xi, t -> t + e tau with
+///     xi = A q + b + c t,   tau = tau0 + tau1 t
+/// changes L by a total derivative dF/dt if
+///     L_q.xi + L_v.(A v + c - tau1 v) + L_t tau + L tau1 - F_t - F_q.v = 0      for all (t, q, v),
+/// and then J = p.xi - tau H - F is constant along the motion. F is a polynomial: of degree 2 in q (3 where
+/// there are at most 3 coordinates), of degree 1 in t with it and 3 without. The condition is linear in (A,
+/// b, c, tau0, tau1, F): the symmetries are the null space of a matrix with one row per random state. Found
+/// in milliseconds for up to 8 coordinates; of more, translations, rotations and boosts of all bodies
+/// together are tried by name.
+/// Not found: symmetries that are not affine in these coordinates (a translation in polar coordinates),
+/// hidden ones (Runge-Lenz), and what differs from L outside the sampled states only.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/model/system.hpp"
+
+namespace extremal {
+
+/// coefficient * q_i q_j q_k t^power; -1 in place of an index: no factor.
+struct GaugeTerm {
+    int i = -1, j = -1, k = -1;
+    int power = 0;
+    double coefficient = 0;
+};
+
+enum class SymmetryKind { translation, rotation, boost, linear, scaling, time };
+
+struct Symmetry {
+    SymmetryKind kind = SymmetryKind::linear;
+    int dimension = 0;
+    std::vector<double> A;  ///< d x d, row after row
+    std::vector<double> b, c;
+    double tau0 = 0, tau1 = 0;
+    std::vector<GaugeTerm> F;
+
+    /// 0: to round-off. Else L is only nearly invariant: the largest |sum| / sum |terms| of the condition.
+    double defect = 0;
+    /// Its momentum is a function of those of the symmetries before it.
+    bool isDependent = false;
+    std::string name;       ///< of its column, without "momentum."; "rotation.x-y"
+    std::string title;      ///< "rotation in the plane x-y about (5, -3)"
+    std::string generator;  ///< "x: -y - 3, y: x - 5; F = y/2"
+
+    double& a(int i, int j) { return A[static_cast<std::size_t>(i * dimension + j)]; }
+    double a(int i, int j) const { return A[static_cast<std::size_t>(i * dimension + j)]; }
+    bool isExact() const { return defect == 0; }
+    bool movesTime() const { return tau0 != 0 || tau1 != 0; }
+    /// The degree of F in q; 0: F depends on t alone or is not there, -1: F = 0.
+    int gaugeDegree() const;
+    /// xi, and F, at (t, q).
+    void displacement(double t, const double* q, double* xi) const;
+    double gauge(double t, const double* q) const;
+    /// |sum| / sum |terms| of the condition at a state.
+    double violation(const Mechanical& mechanics, double t, const double* q, const double* v) const;
+    /// J = p.xi - tau H - F.
+    double momentum(const Mechanical& mechanics, double t, const double* q, const double* p) const;
+};
+
+/// All of them, exact ones first. Remembered for the last few systems.
+std::shared_ptr<const std::vector<Symmetry>> symmetriesOf(const System& system);
+
+/// "rotation in the plane x-y, energy", "none found".
+std::string symmetryText(const System& system);
+
+}  // namespace extremal

@@ -1,0 +1,72 @@
+#include "ui/panels/symmetry_line.hpp"
+
+#include <QApplication>
+#include <QPointer>
+
+#include "engine/core/contained.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/model/system.hpp"
+#include "engine/symmetry/symmetry.hpp"
+#include "ui/shell/background.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr int debounceMs = 250;
+
+/// Empty for systems without coordinates.
+std::string textFor(const Settings& model) {
+    std::string text;
+    try {
+        contained("/model", [&] {
+            const ModelEntry* entry = findModel(model.type);
+            const System system = entry ? entry->make(model) : System();
+            if (isMechanical(system)) text = symmetryText(system);
+        });
+    } catch (const InvalidScene&) {
+        text.clear();
+    }
+    return text;
+}
+
+}  // namespace
+
+SymmetryLine::SymmetryLine(Workspace& workspace, QWidget* parent) : QLabel(parent), workspace_(workspace) {
+    setObjectName("symmetries");
+    setProperty("role", "body");
+    setAccessibleName(tr("Symmetries of the Lagrangian"));
+    setToolTip(
+        tr("The affine symmetries of the Lagrangian. Noether's theorem gives each a momentum, which the "
+           "observable momentum measures. Handbook: What is kept, and how one sees it."));
+    setWordWrap(true);
+    setTextFormat(Qt::PlainText);
+    setTextInteractionFlags(Qt::TextSelectableByMouse);
+    hide();
+    debounce_.setSingleShot(true);
+    debounce_.setInterval(debounceMs);
+    connect(&debounce_, &QTimer::timeout, this, &SymmetryLine::search);
+    connect(&workspace_, &Workspace::sceneChanged, &debounce_, qOverload<>(&QTimer::start));
+}
+
+void SymmetryLine::search() {
+    if (!workspace_.hasScene() || workspace_.scene().model == shown_) return;
+    runInBackground([self = QPointer(this), model = workspace_.scene().model] {
+        const QString text = QString::fromStdString(textFor(model));
+        QMetaObject::invokeMethod(
+            qApp,
+            [self, model, text] {
+                if (self) self->take(model, text);
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void SymmetryLine::take(const Settings& model, const QString& text) {
+    if (!workspace_.hasScene() || !(workspace_.scene().model == model)) return;
+    shown_ = model;
+    setText(tr("Symmetries: %1").arg(text));
+    setVisible(!text.isEmpty());
+}
+
+}  // namespace extremal
