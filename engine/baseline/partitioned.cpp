@@ -28,7 +28,8 @@ public:
     /// Separable systems: the same maps on local copies, without a call per step.
     StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock) override {
         count = std::min(count, nodes.capacity() - nodes.size());
-        if (!this->mechanics_.isSeparable || this->mechanics_.isTimeDependent || count < 2)
+        if (!this->mechanics_.isSeparable || this->mechanics_.isTimeDependent || count < 2 ||
+            nodes.measuresQuantities())
             return Base::advanceBlock(state, nodes, count, clock);
         const auto d = static_cast<std::size_t>(this->d());
         StepReport report;
@@ -61,6 +62,31 @@ public:
         if (isForceFresh) forceAt_ = q;
         // The last one on the common path, which leaves the dense output behind.
         return Base::advanceBlock(state, nodes, 1, clock);
+    }
+
+    /// The action of the step of a separable system, whose differential is p_1 dq_1 - p_0 dq_0: s T for a
+    /// drift over s, -s V for a kick.
+    std::span<const Quantity> quantities() const override {
+        static const Quantity action{"action", "", "S", ""};
+        const bool exists = this->mechanics_.isSeparable && !this->mechanics_.isTimeDependent;
+        return {&action, exists ? 1u : 0u};
+    }
+    void measure(const State&, double* values) const override {
+        const auto& m = this->mechanics_;
+        const Vector zero = Vector::Zero(this->d());
+        Vector q = this->q0_, p = this->p0_, force = zero;
+        values[0] = 0;
+        for (const PartitionedStage& stage : stages_) {
+            const double s = stage.fraction * this->h();
+            if (stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit) {
+                m.force(m.model.get(), this->startTime_, q.data(), force.data());
+                p += s * force;
+                values[0] -= s * m.energy(m.model.get(), this->startTime_, q.data(), zero.data());
+            } else {
+                q += (s * inverseMass_).cwiseProduct(p);
+                values[0] += 0.5 * s * inverseMass_.dot(p.cwiseAbs2());
+            }
+        }
     }
 
 private:

@@ -76,6 +76,7 @@ public:
     std::span<const double> quantities(std::size_t i) const {
         return {quantities_.data() + i * quantityCount_, quantityCount_};
     }
+    bool measuresQuantities() const { return quantityCount_ > 0; }
     /// Where the quantities of the node pushed last belong; null where there are none.
     double* lastQuantities() {
         return quantityCount_ > 0 ? quantities_.data() + (size_ - 1) * quantityCount_ : nullptr;

@@ -81,6 +81,23 @@ public:
                            [&](const auto& scheme) { return scheme->applyTangent(W); });
     }
 
+    /// The actions of the parts add.
+    std::span<const Quantity> quantities() const override {
+        const std::span<const Quantity> all = schemes_.front()->quantities();
+        const auto action = indexOf(all, "action");
+        return action ? all.subspan(*action, 1) : std::span<const Quantity>();
+    }
+    void measure(const State&, double* values) const override {
+        const std::span<const Quantity> all = schemes_.front()->quantities();
+        const std::size_t action = *indexOf(all, "action");
+        std::vector<double> each(all.size());
+        values[0] = 0;
+        for (const auto& scheme : schemes_) {
+            scheme->measure(end_, each.data());
+            values[0] += each[action];
+        }
+    }
+
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Composition>(*this); }
 
 private:

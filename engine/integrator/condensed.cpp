@@ -1,6 +1,7 @@
 #include "engine/integrator/condensed.hpp"
 
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -55,11 +56,11 @@ public:
         return step_.applyTangent(start_, W.data(), static_cast<int>(W.size() / tangentSize()));
     }
 
-    /// E_d = -dS/dh at the solution; not where the functions change with the step, or L with time.
+    /// E_d = -dS/dh at the solution, and S; not where the functions change with the step, or L with time.
     std::span<const Quantity> quantities() const override {
-        static const Quantity energy{"discrete_energy", "", "E_d", ""};
+        static const Quantity known[] = {{"discrete_energy", "", "E_d", ""}, {"action", "", "S", ""}};
         const bool exists = periods_ == 0 && !mechanics_.isTimeDependent;
-        return {&energy, exists ? 1u : 0u};
+        return {known, exists ? std::size(known) : 0};
     }
     void measure(const State& state, double* values) const override {
         const int d = mechanics_.dimension;
@@ -76,6 +77,7 @@ public:
         ElementDerivatives<double> S;
         const bool isFinite = kernel_->evaluate(state.t - h_, h_, z, DerivativeOrder::first, S);
         values[0] = isFinite ? -S.byStep : std::numeric_limits<double>::quiet_NaN();
+        values[1] = isFinite ? S.action : std::numeric_limits<double>::quiet_NaN();
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Condensed>(*this); }
 

@@ -31,6 +31,9 @@ struct ObserveContext {
     /// What the integrator can say of each step. An observer that reads them finds their values in
     /// NodeBlock::quantities.
     std::span<const Quantity> quantities = {};
+    /// That of the run, to be cloned for a trial; null where only the columns are asked for.
+    const Integrator* integrator = nullptr;
+    int order = 0;  ///< that the scheme claims; 0: none
 
     /// Where the quantity of a name is among them.
     std::optional<std::size_t> quantity(std::string_view name) const { return indexOf(quantities, name); }
@@ -49,6 +52,10 @@ struct Observer {
     int extreme = -1;
     /// Whether it reads NodeBlock::quantities: they are measured only then.
     bool readsQuantities = false;
+    /// Its values are those of the node so many nodes before the one that it is shown: it looks at nodes on
+    /// both sides. The last nodes of a run remain unknown, and what is no node.
+    long long delay = 0;
+    std::string about = {};  ///< what it chose for this run, for people
 };
 
 /// An observer of a quantity that the integrator says of each step, and of its change from the first known

@@ -63,6 +63,7 @@ struct Summary {
     }
     int orderClaimed = 0;  ///< 0: no claim
     double orderMeasured = unknown;
+    double opensAt = unknown;  ///< t from which the error by a companion is too large to be true
     std::string advice;  ///< after a failure: what to try; for the window, not exported
     std::string about;   ///< how the scheme solves its equations, where that was a choice; not exported
     std::string
@@ -81,11 +82,15 @@ struct SchemeResult {
 };
 
 struct ReferenceInfo {
-    std::string type = "none";  ///< "exact", "computed", "scheme", "file", "none"
+    std::string type = "none";  ///< "exact", "computed", "scheme", "file", "companion", "none"
     double estimatedError = Summary::unknown;
     std::string description;             ///< "Gauss(12), h = 0.01": for the window
     std::vector<Problem> problems = {};  ///< why there is none although the scene asks for one
 };
+
+inline ReferenceInfo companionInfo() {
+    return {"companion", Summary::unknown, "each scheme with one degree more", {}};
+}
 
 /// Immutable once published; shared between threads by pointer. Holds only enabled schemes.
 struct Comparison {

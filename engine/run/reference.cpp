@@ -12,6 +12,7 @@
 #include "engine/run/reference_file.hpp"
 #include "engine/run/shared_solution.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/companion.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -300,6 +301,23 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (const Family* const family = familyOnMeshes(system); family && system.at)
         return computedOnMesh(resolved, *family, stop);
     return computed(scene, system, initial, stop);
+}
+
+Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme& scheme,
+                             const std::stop_token& stop) {
+    const System& system = *systemOf(resolved, scheme);
+    const double step = scheme.spec.step.value;
+    const State start = schemeStart(resolved, scheme, step);
+    Reference reference;
+    reference.info = companionInfo();
+    reference.make = stepped(
+        [companion = companionOf(scheme, system), system, step, start, stop] {
+            auto integrator = companion.make(system, step, start);
+            integrator->setStop(stop);
+            return integrator;
+        },
+        start, resolved.scene.end.value);
+    return reference;
 }
 
 Reference referenceFor(const Reference& reference, const ResolvedScene& resolved,

@@ -4,7 +4,8 @@
 /// agree, evaluated on its dense output; where a run has many fast periods of a frequency that the model
 /// knows, steps over many periods in the same way, if they agree to 1e-11, so that the cost does not grow
 /// with the stiffness; for fields elements of high degree on a mesh that is finer than that of the scene;
-/// scheme: a scheme of the user's choice; file: rows of a CSV, known only at their times.
+/// scheme: a scheme of the user's choice; file: rows of a CSV, known only at their times; companion: of each
+/// scheme the same with one degree more (scene/companion.hpp).
 #pragma once
 
 #include <functional>
@@ -43,9 +44,14 @@ struct Reference {
 Reference referenceFor(const Reference& reference, const ResolvedScene& resolved,
                        const ResolvedScheme& scheme);
 
-/// Prepares the reference a scene asks for. Takes time for computed ones; gives up with kind none when
+/// Prepares the reference a scene asks for; in place of companions, which are for single runs, the automatic
+/// one. Takes time for computed ones; gives up with kind none when
 /// stopped. Throws InvalidScene for a file that cannot be used.
 Reference makeReference(const ResolvedScene& resolved, const std::stop_token& stop);
+
+/// The run of the scheme's companion, over the same steps.
+Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme& scheme,
+                             const std::stop_token& stop);
 
 /// Makes all solutions of a computed reference readers of one, at the nodes of the scene's schemes, where
 /// memory allows.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace extremal {
 
@@ -40,5 +41,13 @@ private:
     long long nextNode_;  ///< the next row without `every`
     double next_ = 1;     ///< the next multiple with it; node 0 is always a row
 };
+
+/// Every m-th value from the first, and the last.
+inline std::vector<double> thinned(const std::vector<double>& values, std::size_t m) {
+    std::vector<double> kept;
+    for (std::size_t r = 0; r < values.size(); r += m) kept.push_back(values[r]);
+    if ((values.size() - 1) % m != 0) kept.push_back(values.back());
+    return kept;
+}
 
 }  // namespace extremal

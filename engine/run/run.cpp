@@ -73,7 +73,9 @@ struct Run::Impl {
 
     void work(const std::stop_token& stop) {
         Reference ref;
-        if (needsSchemes && needsReference()) {
+        if (scene.reference.kind == ReferenceSpec::Kind::companion) {
+            if (needsReference()) ref.info = companionInfo();
+        } else if (needsSchemes && needsReference()) {
             isPreparing = true;
             try {
                 contained("/reference", [&] {

@@ -13,11 +13,13 @@
 #include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/advice.hpp"
+#include "engine/run/delayed_rows.hpp"
 #include "engine/run/equations.hpp"
 #include "engine/run/error_floor.hpp"
 #include "engine/run/inside_step.hpp"
 #include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"
+#include "engine/run/open_bar.hpp"
 #include "engine/run/reuse.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/run/timing.hpp"
@@ -29,14 +31,6 @@ namespace {
 /// Of runs too short to be timed by themselves.
 constexpr TimingPlan shortRun{5, 1e-3, 6e-3, 100};
 constexpr double shortRuns = 3e-3;  ///< seconds: below it
-
-/// Every m-th value from the first, and the last.
-std::vector<double> thinned(const std::vector<double>& values, std::size_t m) {
-    std::vector<double> kept;
-    for (std::size_t r = 0; r < values.size(); r += m) kept.push_back(values[r]);
-    if ((values.size() - 1) % m != 0) kept.push_back(values.back());
-    return kept;
-}
 
 void growTo(double& extreme, double value) {
     if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
@@ -74,8 +68,9 @@ struct SchemeRun::Recording {
     long long maxRows = 0;  ///< of those: rows kept at most; more sets hasOverflown
     bool hasOverflown = false;
     bool isTimed = false;  ///< what it costs is shown
-    ProductPlan plan;      ///< products to make
-    Observer denseError;   ///< measured along the dense output as well, where it is in the plan
+    bool hasCompanion = false;
+    ProductPlan plan;     ///< products to make
+    Observer denseError;  ///< measured along the dense output as well, where it is in the plan
     std::unique_ptr<Integrator> integrator;
     FrameKeeper frames;
     RowSampler sampler;
@@ -84,7 +79,8 @@ struct SchemeRun::Recording {
     State initialNode, state;
     bool isLastNodeRow = false;
     long long nextMultiple = 1;  ///< of output.every, for dense rows
-    std::vector<double> values;
+    std::vector<double> values, kept;
+    DelayedRows delayed;
     std::size_t stateWidth = 0;  ///< entries of the state that every row holds
 
     Recording(const ResolvedScene& resolved, const ResolvedScheme& scheme_, const State& initial,
@@ -122,7 +118,8 @@ struct SchemeRun::Recording {
             const ObservableEntry* entry = findObservable(id);
             if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
             Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{},
-                                 scheme.plain(), step, integrator->quantities()}),
+                                 scheme.plain(), step, integrator->quantities(), integrator.get(),
+                                 scheme.claims.order}),
                     result.trajectory.columns.size(), none, nullptr};
             // What is not conserved has no error.
             if (b.observer.extreme >= 0 && (id != "energy" || conservesEnergy(system))) {
@@ -133,10 +130,12 @@ struct SchemeRun::Recording {
             }
             for (const Column& c : b.observer.columns) result.trajectory.columns.push_back(c);
             for (const Column& c : b.observer.rowColumns) result.trajectory.columns.push_back(c);
+            if (!b.observer.about.empty())
+                summary.about += (summary.about.empty() ? "" : "; ") + b.observer.about;
+            delayed.add({b.firstColumn, b.observer.columns.size(), b.observer.delay});
             observers.push_back(std::move(b));
         }
     }
-
     /// Evaluates every observer at the nodes of a block; row i of `values` belongs to node i.
     void evaluate(const NodeBlock& nodes) {
         const std::size_t width = result.trajectory.columns.size();
@@ -166,7 +165,9 @@ struct SchemeRun::Recording {
             if (b.observer.evaluateRow)
                 b.observer.evaluateRow(nodes.t(i), nodes.x(i),
                                        row + b.firstColumn + b.observer.columns.size());
-        for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(row[c]);
+        kept.assign(row, row + width);
+        delayed.blank(kept);
+        for (std::size_t c = 0; c < width; ++c) result.trajectory.columns[c].values.push_back(kept[c]);
         result.trajectory.nodes.push_back(done);
         if (system.field && plan.has(Product::frames)) recordFrame(nodes.t(i), nodes.x(i), false);
         if (system.caution && result.summary.caution.empty()) {
@@ -202,8 +203,11 @@ struct SchemeRun::Recording {
         }
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             isLastNodeRow = !isDense && sampler.isRow(nodes.node(i), nodes.t(i), nodes.report(i).step);
-            if (isLastNodeRow) record(nodes, i, static_cast<double>(nodes.node(i)));
+            if (!isLastNodeRow) continue;
+            delayed.wait(result.trajectory.rows(), nodes.node(i));
+            record(nodes, i, static_cast<double>(nodes.node(i)));
         }
+        delayed.fill(nodes, values.data(), result.trajectory.columns.size(), result.trajectory);
         if (isDense) recordInside(stretch);
     }
     /// Rows exactly at the multiples of output.every inside the last step, from dense output.
@@ -251,6 +255,7 @@ struct SchemeRun::Recording {
         if (!hasOverflown) return;
         for (Column& c : result.trajectory.columns) c.values.clear();
         result.trajectory.nodes.clear();
+        delayed.clear();
         result.products.drop<FieldFrames>();
     }
     void account(const MarchReport& report, const State& at) {
@@ -284,6 +289,7 @@ struct SchemeRun::Recording {
                 result.products.make<StepRecords>().add(record);
             }
         }
+        if (hasCompanion) judgeBar(result, system, initialNode);
         const Column* energy = result.trajectory.find("energy_error");
         if (energy && conservesEnergy(system))
             s.energyDrift = lineThrough(result.trajectory.columns[0].values, energy->values).slope;
@@ -401,7 +407,9 @@ void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::st
 }
 
 void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
-    const Reference reference = referenceFor(ofScene, resolved_, scheme_);
+    const bool hasCompanion = ofScene.info.type == "companion";
+    const Reference reference = hasCompanion ? companionReference(resolved_, scheme_, stop)
+                                             : referenceFor(ofScene, resolved_, scheme_);
     const System& system = *systemOf(resolved_, scheme_);
     const int style = latest()->style;
     using Clock_ = std::chrono::steady_clock;
@@ -410,6 +418,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
         const State own = schemeStart(resolved_, scheme_, spec_.step.value);
         Recording p(resolved_, scheme_, own, reference, scene_.observe, spec_.step.value, stride, style,
                     stop);
+        p.hasCompanion = hasCompanion;
         p.maxRows = maxRows;
         p.isTimed = true;
         p.plan = plan_;
@@ -450,7 +459,8 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
         const State own = schemeStart(resolved_, scheme_, spec_.step.value);
         addEquations(result, plan_, resolved_, scheme_, own, exact, stop);
     }
-    if (wantsOrder && result.summary.status == RunStatus::done && !scheme_.isAdaptive() && reference.make)
+    if (wantsOrder && !hasCompanion && result.summary.status == RunStatus::done && !scheme_.isAdaptive() &&
+        reference.make)
         measureOrder(result, reference, ofScene, stop);
     publish(result);
 }

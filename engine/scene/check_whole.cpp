@@ -5,6 +5,7 @@
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/companion.hpp"
 #include "engine/scene/cost.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
@@ -187,6 +188,30 @@ void checkScheme(Reader& reader, const ResolvedScene& scene, const ResolvedSchem
         tryToMake(reader, scene, scheme, pointer);
 }
 
+/// Whether the scheme has a companion, where companions are the reference.
+void checkCompanion(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
+                    const std::string& pointer) {
+    if (scene.scene.reference.kind != ReferenceSpec::Kind::companion || !scheme.spec.isEnabled) return;
+    const System& system = *systemOf(scene, scheme);
+    try {
+        contained("", [&] {
+            (void)companionOf(scheme, system).make(system, scheme.spec.step.value, initialOf(scene, scheme));
+        });
+    } catch (const InvalidScene& e) {
+        for (const Problem& p : e.problems()) reader.error(pointer, p.message, p.hint);
+        return;
+    }
+    // Measured over the presets: where steps are longer, a third of the bars is off by more than a factor
+    // of 3.
+    const double longest = system.fast.frequency > 0 ? 0.5 : 2;
+    const double turned = highestFrequency(system, initialOf(scene, scheme)) * scheme.spec.step.value;
+    if (isMechanical(system) && turned > longest)
+        reader.warning(pointer,
+                       "may have an error bar that is far off: its step is " + formatNumber(turned, 2) +
+                           " rad of the fastest motion, which neither it nor its companion needs to follow",
+                       "use \"auto\" as the reference");
+}
+
 /// The state at the start. False: the system cannot start from the initial data.
 bool checkStart(Reader& reader, ResolvedScene& scene) {
     const ModelEntry* entry = findModel(scene.scene.model.type);
@@ -228,6 +253,8 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
     }
     for (std::size_t i = 0; i < resolved.schemes.size(); ++i)
         checkScheme(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
+    for (std::size_t i = 0; i < resolved.schemes.size() && resolved.system && reader.errors.empty(); ++i)
+        checkCompanion(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
     for (const ResolvedScheme& scheme : resolved.reference)
         checkScheme(reader, resolved, scheme, "/reference/scheme");
     if (!resolved.system || !reader.errors.empty() || scene.reference.kind != ReferenceSpec::Kind::exact)

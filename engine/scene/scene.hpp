@@ -51,7 +51,7 @@ struct Initial {
 };
 
 struct ReferenceSpec {
-    enum class Kind { automatic, exact, none, scheme, file };
+    enum class Kind { automatic, exact, none, scheme, file, companion };
     Kind kind = Kind::automatic;
     std::vector<SchemeSpec> scheme;  ///< one entry for Kind::scheme
     std::string path;                ///< Kind::file

@@ -201,10 +201,10 @@ Value initialData() {
 
 Value referenceChoice() {
     Value p{Value::Object{}};
-    p.set("type", enumeration({"auto", "exact", "none", "scheme", "file"}));
+    p.set("type", enumeration({"auto", "exact", "none", "scheme", "file", "companion"}));
     p.set("scheme", reference("scheme"));
     p.set("path", typed("string", "A CSV file with t and the state columns, relative to the scene."));
-    return anyOf({object(p, {"type"}), enumeration({"auto", "exact", "none"})});
+    return anyOf({object(p, {"type"}), enumeration({"auto", "exact", "none", "companion"})});
 }
 
 Value definitions() {

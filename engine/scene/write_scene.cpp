@@ -27,7 +27,7 @@ Value initialValue(const Initial& initial) {
 }
 
 Value referenceValue(const ReferenceSpec& reference) {
-    constexpr const char* kinds[] = {"auto", "exact", "none", "scheme", "file"};
+    constexpr const char* kinds[] = {"auto", "exact", "none", "scheme", "file", "companion"};
     Value value(Value::Object{{"type", kinds[static_cast<int>(reference.kind)]}});
     for (const SchemeSpec& scheme : reference.scheme) value.set("scheme", schemeValue(scheme));
     if (reference.kind == ReferenceSpec::Kind::file) value.set("path", reference.path);

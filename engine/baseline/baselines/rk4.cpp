@@ -18,10 +18,31 @@ public:
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Rk4>(*this); }
 
+    /// h sum b (p.q' - H) over the stages: the method has no generating function, this is the nearest to one.
+    std::span<const Quantity> quantities() const override {
+        static const Quantity action{"action", "", "S", ""};
+        return {&action, 1};
+    }
+    void measure(const State&, double* values) const override {
+        const auto& m = this->mechanics_;
+        Vector q = this->q0_, p = this->p0_, dq = q, dp = p;
+        values[0] = 0;
+        for (int i = 0; i < 4; ++i) {
+            if (i > 0) {
+                q = this->q0_ + node[i] * this->h() * dq;
+                p = this->p0_ + node[i] * this->h() * dp;
+            }
+            const double t = this->startTime_ + node[i] * this->h();
+            m.flow(m.model.get(), t, q.data(), p.data(), dq.data(), dp.data());
+            values[0] += this->h() * weight[i] * (p.dot(dq) - m.energy(m.model.get(), t, q.data(), p.data()));
+        }
+    }
+
 private:
+    static constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+
     void step(double t) override {
         const double h = this->h();
-        constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
         q_ = this->q0_;
         p_ = this->p0_;
         sumQ_.setZero();

@@ -1,5 +1,6 @@
 /// Distance to the reference on a logarithmic axis, with the floor below which the reference itself is no
 /// better.
+#include <algorithm>
 #include <cmath>
 
 #include "engine/figure/against.hpp"
@@ -37,6 +38,17 @@ Figure makeError(const FigureContext& context) {
     if (reference.estimatedError > 0 && std::isfinite(reference.estimatedError)) {
         figure.put(RoundOffFloor{std::max(floorOf(figure), reference.estimatedError)});
         figure.put(DoubtfulBand{10 * reference.estimatedError});
+    }
+    for (const auto& scheme : context.comparison.schemes) {
+        const double opensAt = scheme->summary.opensAt;
+        if (!std::isfinite(opensAt) || isAgainstSteps(context.view)) continue;
+        const std::span<const double> t = scheme->trajectory["t"], error = scheme->trajectory["error"];
+        const auto row = std::lower_bound(t.begin(), t.end(), opensAt) - t.begin();
+        figure.add(EventMarks{scheme->spec.label,
+                              scheme->style,
+                              "open from t = " + shortNumber(opensAt) + " on",
+                              {opensAt},
+                              {error[static_cast<std::size_t>(row)]}});
     }
     if (reference.type == "none") figure.message = "Without a reference there is no error to show";
     finishFigure(figure, context,

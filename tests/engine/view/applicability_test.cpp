@@ -124,7 +124,8 @@ private slots:
         const std::string has =
             "; kepler has curve-error, discrete-energy, discrete-lagrangian, energy, error, floquet, "
             "lyapunov, "
-            "megno, mesh, momentum, monitor, multiplier, parameter-map, phase, section, solvability, "
+            "megno, mesh, modified-energy, momentum, monitor, multiplier, parameter-map, phase, section, "
+            "solvability, "
             "sparsity, "
             "stage, step, symplecticity, symplecticity-accumulated, trajectory, volume and work-precision";
         QCOMPARE(hint("carpet"), "it needs a field or a wave function" + has);

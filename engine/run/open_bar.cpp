@@ -1,0 +1,32 @@
+#include "engine/run/open_bar.hpp"
+
+#include <cmath>
+
+#include "engine/core/text.hpp"
+
+namespace extremal {
+
+void judgeBar(SchemeResult& result, const System& system, const State& initial) {
+    constexpr double open = 0.05;
+    const Trajectory& rows = result.trajectory;
+    const Column* error = rows.find("error");
+    if (!error || rows.rows() == 0) return;
+    double scale = errorMeasure(system, initial).scale;
+    if (const auto d = static_cast<std::size_t>(system.dimension()); d > 0) {
+        double sum = 0;
+        for (std::size_t i = 0; i < d; ++i)
+            for (const double q : rows.columns[1 + i].values) sum += q * q;
+        scale = std::sqrt(sum / static_cast<double>(rows.rows()));
+    }
+    const std::vector<double>& t = rows.columns.front().values;
+    for (std::size_t r = 0; r < t.size(); ++r) {
+        if (error->values[r] <= open * scale) continue;
+        result.summary.opensAt = t[r];
+        result.summary.caution =
+            "the error bar is open from t = " + formatNumber(t[r], 3) +
+            " on: the difference from the companion is above 0.05 of the size of the state";
+        return;
+    }
+}
+
+}  // namespace extremal

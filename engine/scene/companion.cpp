@@ -1,0 +1,94 @@
+#include "engine/scene/companion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/integrator/composition.hpp"
+
+namespace extremal {
+namespace {
+
+constexpr const char* remedy = "use \"auto\" as the reference";
+
+[[noreturn]] void refuse(const std::string& what) {
+    throw InvalidScene("", "has no companion with one degree more: " + what, remedy);
+}
+
+Value* keyOf(Settings& settings, std::string_view key) {
+    for (auto& [name, value] : settings.keys)
+        if (name == key) return &value;
+    return nullptr;
+}
+
+/// One more, within the range of the catalogue.
+void raise(Value& value, const CatalogItem& item, std::string_view key) {
+    if (!value.isNumber()) refuse("its " + std::string(key) + " is not a number");
+    const double raised = value.asNumber() + 1;
+    for (const FieldInfo& field : item.parameters)
+        if (field.key == key && raised > field.max)
+            refuse("the " + std::string(key) + " of " + item.id + " is at most " + formatNumber(field.max));
+    value = raised;
+}
+
+SchemeSpec ofFamily(const ResolvedScheme& scheme) {
+    SchemeSpec spec = scheme.spec;
+    spec.kind = SchemeSpec::Kind::discretization;
+    spec.named.clear();
+    spec.space = scheme.discretization.space;
+    spec.quadrature = scheme.discretization.quadrature;
+    spec.solver = scheme.discretization.solver;
+    Value* degree = keyOf(spec.space, "degree");
+    if (!degree) refuse("the space " + spec.space.type + " has no degree");
+    for (const SpaceEntry& entry : scheme.family->spaces)
+        if (entry.item.id == spec.space.type) raise(*degree, entry.item, "degree");
+    if (Value* nodes = keyOf(spec.quadrature, "nodes"); nodes && nodes->isNumber())
+        *nodes = nodes->asNumber() + 1;
+    else
+        spec.quadrature = {};  // of one degree only, as the midpoint rule: what is usual for the degree
+    return spec;
+}
+
+SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
+    SchemeSpec spec = scheme.spec;
+    const int order = scheme.claims.order;
+    if (scheme.isAdaptive()) {
+        spec.tolerance = std::max(1e-14, spec.tolerance.value_or(1e-6) / 100);
+        if (!(*spec.tolerance < scheme.spec.tolerance)) refuse("its tolerance is at round-off");
+        return spec;
+    }
+    if (Value* stages = keyOf(spec.baseline, "stages")) {
+        raise(*stages, scheme.baseline->item, "stages");
+        return spec;
+    }
+    std::string hint;
+    const Claims own = claimsOf(*scheme.baseline, spec.baseline, &system);
+    Settings composition{"yoshida", {{"order", static_cast<double>(order + 2)}}, {}};
+    if (scheme.isComposed()) composition.type = spec.composition.type;
+    if (compositionRefusal(composition, own, hint).empty()) {
+        spec.composition = composition;
+        return spec;
+    }
+    if (!isMechanical(system)) refuse(spec.baseline.type + " is not symmetric, and cannot be composed");
+    const int stages = std::max(2, order);
+    spec.baseline = {"gauss-collocation", {{"stages", static_cast<double>(stages)}}, {}};
+    spec.composition = {};
+    return spec;
+}
+
+}  // namespace
+
+ResolvedScheme companionOf(const ResolvedScheme& scheme, const System& system) {
+    const int inSpace = scheme.baseline ? scheme.baseline->orderInSpace : scheme.properties.orderInSpace;
+    if (inSpace > 0 || isField(system))
+        refuse("its error in space is that of the mesh, which both would share");
+    const SchemeSpec spec = scheme.family ? ofFamily(scheme) : ofBaseline(scheme, system);
+    ResolvedScheme companion = resolve(spec, &system);
+    companion.spec.label = "companion of " + scheme.spec.label;
+    if (!companion.properties.refusal.empty()) refuse(companion.properties.refusal);
+    if (!companion.fits(system)) refuse("the higher degree does not fit " + system.id);
+    return companion;
+}
+
+}  // namespace extremal
