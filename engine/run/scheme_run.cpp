@@ -29,8 +29,8 @@ namespace extremal {
 namespace {
 
 /// Of runs too short to be timed by themselves.
-constexpr TimingPlan shortRun{5, 1e-3, 6e-3, 100};
-constexpr double shortRuns = 3e-3;  ///< seconds: below it
+constexpr TimingPlan shortRun{5, 1e-3, 3e-2, 100};
+constexpr double shortRuns = 1.5e-2;  ///< seconds: below it
 
 void growTo(double& extreme, double value) {
     if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
@@ -349,7 +349,7 @@ struct SchemeRun::Recording {
             if (const Timing timing = timeRuns(*fresh, initialNode, grid, report.cpuSeconds, shortRun, stop,
                                                report.outcome == Outcome::lost ? &freshJudge : nullptr);
                 std::isfinite(timing.fastest))
-                report.cpuSeconds = timing.fastest;
+                report.cpuSeconds = std::min(report.cpuSeconds, timing.fastest);
         if (!isLastNodeRow)
             recordAlone(state, report.last, report.lastQuantities, static_cast<double>(state.node));
         if (system.field && plan.has(Product::frames)) recordFrame(state.t, state.x.data(), true);
