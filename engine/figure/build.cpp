@@ -9,6 +9,7 @@
 
 #include "engine/figure/fit_axes.hpp"
 #include "engine/figure/sample.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/view/axes.hpp"
 
 namespace extremal {
@@ -53,7 +54,7 @@ Axis timeAxis(const FigureContext& context) {
     Axis axis;
     axis.title = axisTitle(t.symbol, t.unit);
     axis.isTime = true;
-    const double start = context.comparison.scene.start.value, end = context.comparison.scene.end.value;
+    const auto [start, end] = timeSpan(context.comparison.scene);
     if (std::isfinite(start) && std::isfinite(end) && end > start) axis.range = {start, end};
     return axis;
 }

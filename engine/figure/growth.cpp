@@ -11,9 +11,9 @@ Figure growthFigure(const FigureContext& context, const std::string& column, Tak
     Figure figure = startFigure(context, context.entry.item.title);
     figure.x = logAxis(timeAxis(context).title);
     addAgainstTime(figure, context, column, take);
+    const double start = context.comparison.scene.start.value;
     double first = 0, last = 0;
     for (Series& s : figure.series()) {
-        const double start = s.x.empty() ? 0 : s.x.front();
         for (double& t : s.x) {
             t = std::abs(t - start);
             if (t > 0) first = first > 0 ? std::min(first, t) : t;

@@ -66,6 +66,7 @@ Observer observeQuantity(const ObserveContext& context, std::string_view quantit
 struct ObservableEntry {
     CatalogItem item;
     bool needsReference = false;
+    bool needsWayBack = false;      ///< the run goes back from its end, which needs a fixed step
     VariationPlan variations = {};  ///< which variations of the state the run must carry along for it
     /// Whether the system has it; the default is every system.
     std::function<bool(const System&)> applies;

@@ -17,7 +17,8 @@ namespace {
 
 constexpr const char* referenceCopy = "reference.csv";
 
-/// Appends the columns row by row, handing the text over in blocks so that no whole file is held in memory.
+/// Appends the columns row by row, from the start of the run on, handing the text over in blocks so that no
+/// whole file is held in memory.
 template <class Sink>
 void writeRows(const Trajectory& trajectory, Sink&& sink) {
     constexpr std::size_t blockSize = 1 << 16;
@@ -27,7 +28,11 @@ void writeRows(const Trajectory& trajectory, Sink&& sink) {
         block += csvCell(c == 0 ? trajectory.columns[c].symbol : trajectory.columns[c].name);
     }
     block += '\n';
-    for (std::size_t r = 0; r < trajectory.rows(); ++r) {
+    const std::size_t rows = trajectory.rows();
+    const std::vector<double>& nodes = trajectory.nodes;
+    const bool isBackwards = rows > 1 && nodes.size() == rows && nodes.front() > nodes.back();
+    for (std::size_t i = 0; i < rows; ++i) {
+        const std::size_t r = isBackwards ? rows - 1 - i : i;
         for (std::size_t c = 0; c < trajectory.columns.size(); ++c) {
             if (c > 0) block += ',';
             const double value = trajectory.columns[c].values[r];

@@ -79,12 +79,13 @@ void InsideStep::start(const State& state) {
 
 /// More points where the curve oscillates, and in steps that belong to a part that is shown.
 int InsideStep::pointsIn(double start, double end, double periods) const {
+    const double first = std::min(start, end), last = std::max(start, end);
     double most = points_;
     if (const double all = pointsPerPeriod * periods; all * static_cast<double>(steps_) <= mostPoints)
         most = std::max(most, all);
     for (const auto& [low, high] : parts_)
-        if (start < high && end > low)
-            most = std::max(most, pointsPerPart * std::min(1.0, (end - start) / (high - low)));
+        if (first < high && last > low)
+            most = std::max(most, pointsPerPart * std::min(1.0, (last - first) / (high - low)));
     return static_cast<int>(std::ceil(most));
 }
 

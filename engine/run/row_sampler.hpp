@@ -19,12 +19,13 @@ public:
         while (steps / m + 1 + (steps % m != 0 ? 1 : 0) > maxRows) ++m;
         return m;
     }
+    /// `every`: negative where time runs backwards.
     RowSampler(double start, std::optional<double> every, long long stride)
         : start_(start), every_(every.value_or(0)), stride_(stride), nextNode_(stride) {}
 
     /// Whether this node, not the first, is a row. Call it once per node, in order.
     bool isRow(long long node, double t, double step) {
-        if (every_ <= 0) {
+        if (every_ == 0) {
             if (node < nextNode_) return false;
             nextNode_ += stride_;
             return true;

@@ -23,6 +23,8 @@
 #include "engine/run/reuse.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/run/timing.hpp"
+#include "engine/run/way_back.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -45,6 +47,27 @@ VariationPlan variationsFor(const std::vector<std::string>& observe) {
             plan.vector = plan.vector || entry->variations.vector;
         }
     return plan;
+}
+
+bool wantsWayBack(const std::vector<std::string>& observe) {
+    return std::any_of(observe.begin(), observe.end(), [](const std::string& id) {
+        const ObservableEntry* entry = findObservable(id);
+        return entry && entry->needsWayBack;
+    });
+}
+
+/// Whoever shows a run goes from row to row as time goes.
+void turnToForwards(SchemeResult& result) {
+    const auto turn = [](Trajectory& trajectory) {
+        for (Column& c : trajectory.columns) std::reverse(c.values.begin(), c.values.end());
+        std::reverse(trajectory.nodes.begin(), trajectory.nodes.end());
+    };
+    turn(result.trajectory);
+    if (result.products.find<DenseOutput>()) turn(result.products.make<DenseOutput>().points);
+    if (result.products.find<FieldFrames>()) {
+        auto& frames = result.products.make<FieldFrames>().all;
+        std::reverse(frames.begin(), frames.end());
+    }
 }
 
 }  // namespace
@@ -93,7 +116,8 @@ struct SchemeRun::Recording {
           stop(std::move(stop_)),
           step(step_),
           frames(system.field.y.empty() ? FrameKeeper::usual : FrameKeeper::large),
-          sampler(initial.t, scene.every ? std::optional<double>(scene.every->value) : std::nullopt, stride),
+          sampler(initial.t,
+                  scene.every ? std::optional(signedStep(scene, scene.every->value)) : std::nullopt, stride),
           initialNode(initial),
           state(initial) {
         steps = marchGrid(scene, scheme, step).steps;
@@ -212,23 +236,26 @@ struct SchemeRun::Recording {
     }
     /// Rows exactly at the multiples of output.every inside the last step, from dense output.
     void recordInside(const Stretch& stretch) {
-        const double every = scene.every->value, start = scene.start.value;
+        const double every = signedStep(scene, scene.every->value), start = scene.start.value,
+                     ahead = isBackwards(scene) ? -1 : 1;
         const double before = stretch.before.t, after = stretch.state.t;
         State at;
         for (;; ++nextMultiple) {
             const double t = start + static_cast<double>(nextMultiple) * every;
-            if (t > after + 1e-12 * step || t > scene.end.value + 1e-9 * every) break;
+            if (ahead * (t - after) > 1e-12 * ahead * step ||
+                ahead * (t - scene.end.value) > 1e-9 * ahead * every)
+                break;
             at.node = stretch.state.node;
             at.x = stretch.state.x;
             double done = static_cast<double>(stretch.state.node);
-            if (std::abs(t - after) > 1e-12 * (after - before)) {
+            if (std::abs(t - after) > 1e-12 * std::abs(after - before)) {
                 const double part = (t - before) / (after - before);
                 stretch.integrator.denseOutput(part, at.x);
                 done += part - 1;
             }
             at.t = t;
             recordAlone(at, stretch.soFar.last, stretch.soFar.lastQuantities, done);
-            isLastNodeRow = t >= after - 1e-12 * (after - before);
+            isLastNodeRow = ahead * (t - after) >= -1e-12 * std::abs(after - before);
         }
     }
     /// Every step, where times are unknowns: their file and the picture of the mesh show what no row does.
@@ -265,7 +292,7 @@ struct SchemeRun::Recording {
         s.tEnd = at.t;
         s.steps = at.node;
         const double length = scene.end.value - scene.start.value;
-        result.fraction = length > 0 ? std::clamp((at.t - scene.start.value) / length, 0.0, 1.0) : 1;
+        result.fraction = length != 0 ? std::clamp((at.t - scene.start.value) / length, 0.0, 1.0) : 1;
     }
 
     void finish(const MarchReport& report) {
@@ -280,7 +307,7 @@ struct SchemeRun::Recording {
             s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
-            s.advice = adviceFor(outcome, scheme, step, system, initialNode, state);
+            s.advice = adviceFor(outcome, scheme, std::abs(step), system, initialNode, state);
             if (recordsSteps() && outcome != Outcome::stopped) {
                 StepRecord record;
                 record.k = state.node;
@@ -385,7 +412,8 @@ std::shared_ptr<const SchemeResult> SchemeRun::latest() const {
 }
 
 void SchemeRun::publish(const SchemeResult& result) {
-    auto copy = std::make_shared<const SchemeResult>(result);
+    auto copy = std::make_shared<SchemeResult>(result);
+    if (isBackwards(scene_)) turnToForwards(*copy);
     const std::lock_guard lock(mutex_);
     latest_ = std::move(copy);
 }
@@ -412,19 +440,19 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
                                              : referenceFor(ofScene, resolved_, scheme_);
     const System& system = *systemOf(resolved_, scheme_);
     const int style = latest()->style;
+    const double step = signedStep(scene_, spec_.step.value);
     using Clock_ = std::chrono::steady_clock;
     constexpr long long heldRows = 60000;
     auto record = [&](long long stride, long long maxRows) {
-        const State own = schemeStart(resolved_, scheme_, spec_.step.value);
-        Recording p(resolved_, scheme_, own, reference, scene_.observe, spec_.step.value, stride, style,
-                    stop);
+        const State own = schemeStart(resolved_, scheme_, step);
+        Recording p(resolved_, scheme_, own, reference, scene_.observe, step, stride, style, stop);
         p.hasCompanion = hasCompanion;
         p.maxRows = maxRows;
         p.isTimed = true;
         p.plan = plan_;
         const ObservableEntry* error = findObservable("error");
         if (plan_.has(Product::denseError) && reference.make && error)
-            p.denseError = error->bind({system, own, reference.make(), nullptr, spec_.step.value, {}});
+            p.denseError = error->bind({system, own, reference.make(), nullptr, step, {}});
         auto last = Clock_::now();
         auto pause = std::chrono::milliseconds(30);
         p.run([&] {
@@ -439,7 +467,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
         return p;
     };
     const bool isUnplanned = !scheme_.isFixed() && !scene_.every;
-    const long long planned = marchGrid(scene_, scheme_, spec_.step.value).steps;
+    const long long planned = marchGrid(scene_, scheme_, step).steps;
     Recording p = record(isUnplanned ? 1 : RowSampler::stride(planned), isUnplanned ? heldRows : 0);
     SchemeResult result = std::move(p.result);
     if (isUnplanned) {
@@ -451,6 +479,10 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
                 c.values = thinned(c.values, static_cast<std::size_t>(m));
             result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
         }
+    }
+    if (wantsWayBack(scene_.observe) && result.summary.status == RunStatus::done && scheme_.isFixed()) {
+        publish(result);
+        addWayBack(result, *scheme_.make(system, -step, p.state), p.state, stop);
     }
     const bool wantsOrder =
         std::find(scene_.observe.begin(), scene_.observe.end(), "order") != scene_.observe.end();
@@ -473,7 +505,7 @@ void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference, c
     const double scale = largestEntry(initialOf(resolved_, scheme_));
     std::vector<double> x, y;
     for (const double divisor : {1.0, 2.0, 4.0}) {
-        const double step = spec_.step.value / divisor;
+        const double step = signedStep(scene_, spec_.step.value) / divisor;
         ResolvedScheme finer = scheme_;
         if (divisor > 1) try {
                 finer = refined(scheme_, resolved_, static_cast<int>(divisor));
@@ -490,7 +522,7 @@ void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference, c
             std::max(roundOffFloor(scale, p.result.summary.steps), referenceFloor(reference.info));
         if (p.result.summary.status != RunStatus::done || !(error > floor)) break;
         const double mean = (p.result.summary.tEnd - own.t) / static_cast<double>(p.result.summary.steps);
-        x.push_back(std::log(scheme_.isFixed() ? step : mean));
+        x.push_back(std::log(std::abs(scheme_.isFixed() ? step : mean)));
         y.push_back(std::log(error));
     }
     if (x.size() >= 2) result.summary.orderMeasured = lineThrough(x, y).slope;

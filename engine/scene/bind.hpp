@@ -15,6 +15,20 @@ State initialState(const Scene& scene, const System& system);
 /// The exact solution through the start of the scene; empty where none is known.
 ExactSolution exactSolution(const Scene& scene, const System& system, const State& initial);
 
+/// A run goes from the start to the end, which may be before it: steps are then taken backwards.
+inline bool isBackwards(const Scene& scene) { return scene.end.value < scene.start.value; }
+/// The step of a scheme with its sign.
+inline double signedStep(const Scene& scene, double step) { return isBackwards(scene) ? -step : step; }
+/// The times between, the earlier first.
+struct TimeSpan {
+    double first, last;
+    double length() const { return last - first; }
+};
+inline TimeSpan timeSpan(const Scene& scene) {
+    return isBackwards(scene) ? TimeSpan{scene.end.value, scene.start.value}
+                              : TimeSpan{scene.start.value, scene.end.value};
+}
+
 /// Number of whole steps from start to the last node not after end + 1e-9 step.
 long long stepCount(double start, double end, double step);
 

@@ -21,7 +21,7 @@ void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme
                     const std::string& pointer) {
     const double h = scheme.step.value, start = scene.start.value, end = scene.end.value;
     if (scheme.tolerance) return;
-    const double steps = (end - start) / h;
+    const double length = timeSpan(scene).length(), steps = length / h;
     const double largest = std::max(std::fabs(start), std::fabs(end));
     if (steps > scene.maxSteps)
         reader.error(pointer + "/step",
@@ -31,13 +31,13 @@ void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme
     else if (largest + h == largest)
         reader.error(pointer + "/step",
                      "is too small to change t near " + formatNumber(largest) + ", got " + formatNumber(h));
-    else if (h > (end - start) * (1 + 1e-9) + 1e-9 * h)
+    else if (h > length * (1 + 1e-9) + 1e-9 * h)
         reader.warning(pointer + "/step", "is longer than the run: no step is taken, got " + formatNumber(h));
 }
 
 void checkRows(Reader& reader, const Scene& scene) {
     if (!scene.every) return;
-    const double rows = (scene.end.value - scene.start.value) / scene.every->value;
+    const double rows = timeSpan(scene).length() / scene.every->value;
     if (rows > maxRows)
         reader.error("/output/every",
                      "asks for " + formatNumber(rows, 3) + " rows, the limit is " + formatNumber(maxRows),
@@ -109,7 +109,7 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
     const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
     const double slowestStep =
         family && family->slowestStep ? family->slowestStep(*systemOf(scene, scheme)) : 5e-3;
-    const double duration = scene.scene.end.value - scene.scene.start.value;
+    const double duration = timeSpan(scene.scene).length();
     const SchemeSpec& spec = scheme.spec;
     if (!spec.isEnabled || (!scheme.isAdaptive() && duration / spec.step.value * slowestStep < longest))
         return;
@@ -160,14 +160,27 @@ void checkTangent(Reader& reader, const Scene& scene, const Integrator& integrat
                        "another scheme, or do not observe them");
 }
 
+/// What is observed on the way back from the end, where the scheme has none.
+void checkWayBack(Reader& reader, const Scene& scene, const ResolvedScheme& scheme,
+                  const std::string& pointer) {
+    if (scheme.isFixed()) return;
+    for (const std::string& id : scene.observe)
+        if (const ObservableEntry* entry = findObservable(id); entry && entry->needsWayBack)
+            reader.warning(
+                pointer,
+                "chooses its steps, and " + id + " needs the same steps backwards: its column stays empty",
+                "a scheme with a fixed step, or do not observe it");
+}
+
 /// The makers know best what they cannot do.
 void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     try {
-        const double step = scheme.spec.step.value;
+        const double step = signedStep(scene.scene, scheme.spec.step.value);
         contained("", [&] {
             const auto integrator = scheme.make(*systemOf(scene, scheme), step, initialOf(scene, scheme));
             checkTangent(reader, scene.scene, *integrator, pointer);
+            checkWayBack(reader, scene.scene, scheme, pointer);
             schemeStart(scene, scheme, step);
             checkStep(reader, scene, scheme, pointer);
         });
@@ -181,7 +194,10 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
 void checkScheme(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                  const std::string& pointer) {
     const std::size_t errorsBefore = reader.errors.size();
-    const bool isTimeKnown = scene.scene.end.value > scene.scene.start.value;
+    const bool isTimeKnown = scene.scene.end.value != scene.scene.start.value;
+    if (isBackwards(scene.scene) && !scheme.isFixed())
+        reader.error(pointer, "cannot run backwards in time, because it chooses its steps forwards",
+                     "a scheme with a fixed step, or an end after the start");
     if (isTimeKnown) checkStepCount(reader, scene.scene, scheme.spec, pointer);
     if (scheme.family && !checkDiscretization(reader, scheme.spec, scheme.properties, pointer)) return;
     if (scene.system && isTimeKnown && reader.errors.size() == errorsBefore)
@@ -235,12 +251,34 @@ void checkCaution(Reader& reader, const ResolvedScene& scene) {
     if (!caution.empty()) reader.warning("/initial", "is " + caution, "raise /model/modes");
 }
 
+/// Exact solutions go either way in time; others are computed forwards.
+void checkReference(Reader& reader, const ResolvedScene& resolved) {
+    const Scene& scene = resolved.scene;
+    using Kind = ReferenceSpec::Kind;
+    const Kind kind = scene.reference.kind;
+    const bool isWanted = std::any_of(scene.observe.begin(), scene.observe.end(), [](const std::string& id) {
+        const ObservableEntry* entry = findObservable(id);
+        return entry && entry->needsReference;
+    });
+    const bool needsForwards =
+        isBackwards(scene) && isWanted && (kind == Kind::automatic || kind == Kind::scheme);
+    if (kind != Kind::exact && !needsForwards) return;
+    if (kind != Kind::scheme && exactSolution(scene, *resolved.system, resolved.initial)) return;
+    if (needsForwards)
+        reader.error("/reference", "is computed forwards in time, and this run goes backwards",
+                     "take none, or an end after the start");
+    else
+        reader.error("/reference",
+                     "no exact solution of " + scene.model.type + " is known for these initial data",
+                     "take auto");
+}
+
 }  // namespace
 
 void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::size_t>& places) {
     const Scene& scene = resolved.scene;
     if (resolved.system && !checkStart(reader, resolved)) return;
-    if (scene.end.value > scene.start.value) checkRows(reader, scene);
+    if (scene.end.value != scene.start.value) checkRows(reader, scene);
     if (resolved.system) checkCaution(reader, resolved);
     for (std::size_t i = 0; i < resolved.schemes.size() && resolved.system; ++i) {
         if (!resolved.schemes[i].properties.refusal.empty()) continue;
@@ -257,12 +295,8 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
         checkCompanion(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
     for (const ResolvedScheme& scheme : resolved.reference)
         checkScheme(reader, resolved, scheme, "/reference/scheme");
-    if (!resolved.system || !reader.errors.empty() || scene.reference.kind != ReferenceSpec::Kind::exact)
-        return;
-    if (!exactSolution(scene, *resolved.system, resolved.initial))
-        reader.error("/reference",
-                     "no exact solution of " + scene.model.type + " is known for these initial data",
-                     "take auto");
+    if (!resolved.system || !reader.errors.empty()) return;
+    checkReference(reader, resolved);
 }
 
 }  // namespace extremal

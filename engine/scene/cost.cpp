@@ -1,13 +1,15 @@
 #include "engine/scene/cost.hpp"
 
 #include "engine/core/thread_clock.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
 double predictSeconds(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     constexpr double budget = 3e-3;
     constexpr int largestBlock = 1024;
-    const double start = scene.scene.start.value, end = scene.scene.end.value;
+    const double start = scene.scene.start.value,
+                 end = start + timeSpan(scene.scene).length();  // as much backwards
     const auto integrator =
         scheme.make(*systemOf(scene, scheme), scheme.spec.step.value, initialOf(scene, scheme));
     State state = schemeStart(scene, scheme, scheme.spec.step.value);

@@ -4,6 +4,7 @@
 
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/cost.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/pointer.hpp"
@@ -168,6 +169,8 @@ void checkColumn(Reader& reader, const std::string& pointer, const View& view, c
 
 void readMap(Reader& reader, const Value& object, const std::string& pointer,
              const std::vector<std::string>& others, const System& system, const Scene& scene, View& view) {
+    if (isBackwards(scene))
+        reader.error(pointer, "needs a run forwards in time", "an end after the start, or no such view");
     if (!(scene.end.value > scene.start.value)) return;
     if (!readFields(reader, completed(object, scene, system), pointer, mapFields(), others, view.keys))
         return;

@@ -68,8 +68,8 @@ void readTime(Reader& reader, const Value& document, Scene& scene) {
     if (!from || !to) return;
     scene.start = *from;
     scene.end = *to;
-    if (!(to->value > from->value))
-        reader.error("/time/end", "must be after the start " + formatNumber(scene.start.value) + ", got " +
+    if (to->value == from->value)
+        reader.error("/time/end", "must differ from the start " + formatNumber(scene.start.value) + ", got " +
                                       formatNumber(scene.end.value));
 }
 

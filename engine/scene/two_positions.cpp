@@ -121,6 +121,7 @@ State schemeStart(const ResolvedScene& resolved, const ResolvedScheme& scheme, d
         return scheme.family->startThrough(system, scheme.discretization, step, initial, second);
     }
     if (scene.initial.second != Initial::Second::position || !scheme.isFixed()) return initial;
+    step = std::abs(step);  // the momentum at the start is the same
     const double at = scene.initial.at->value, steps = at / step;
     const int n = static_cast<int>(std::lround(std::min(steps, 1e6)));
     if (n < 1 || std::abs(steps - n) > 1e-9 * n)

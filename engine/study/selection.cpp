@@ -4,6 +4,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/scene/bind.hpp"
 
 namespace extremal {
 
@@ -14,6 +15,9 @@ void requireShard(const Shard& shard) {
 }
 
 std::vector<std::size_t> chosenSchemes(const Scene& scene, const std::vector<std::string>& only) {
+    if (isBackwards(scene))
+        throw InvalidScene("/time/end", "is before the start, and studies go forwards in time",
+                           "an end after the start");
     std::vector<std::string> labels;
     for (const SchemeSpec& s : scene.schemes) labels.push_back(s.label);
     for (const std::string& label : only)

@@ -162,6 +162,127 @@ private slots:
         QCOMPARE(broken, 0);
     }
 
+    /// Of fields the momenta M v are known to the scheme alone: differences see what a change of the values
+    /// does to the values, and the form sees the rest.
+    void fieldsKeepTheFormAndMoveTheirValues_data() {
+        QTest::addColumn<QString>("boundary");
+        QTest::newRow("periodic") << "periodic";
+        QTest::newRow("Dirichlet") << "dirichlet";
+    }
+    void fieldsKeepTheFormAndMoveTheirValues() {
+        QFETCH(QString, boundary);
+        const ReadScene read = readScene(
+            R"({"extremal":1,"model":{"type":"field","potential":"sine-gordon","domain":[-5,5],"cells":13,
+             "boundary":")" +
+            boundary.toStdString() + R"("},
+             "initial":{"u":"2*exp(-x^2) ","u_t":"0.3*x*exp(-x^2) "},"time":{"end":2},
+             "schemes":[{"scheme":"multisymplectic-1","step":0.1}]})");
+        if (!read.errors.empty()) qFatal("%s", read.errors.front().message.c_str());
+        const System system = makeSystem(read.scene);
+        const State start = initialState(read.scene, system);
+        const SymplecticForm form(system);
+        double worstDifference = 0, worstDefect = 0, least = 1e300;
+        int schemes = 0;
+        for (const CatalogueScheme& c : everythingOn(system, start, 0.1)) {
+            const auto integrator = c.make(system, 0.1, start);
+            const std::size_t n = integrator->tangentSize();
+            if (n == 0) continue;
+            State state = start;
+            integrator->begin(state);
+            if (advance(*integrator, state).outcome != Outcome::converged) continue;
+            const State before = state;
+            if (advance(*integrator, state).outcome != Outcome::converged) continue;
+            const auto M = tangentMap(*integrator);
+            QVERIFY2(M, c.name.c_str());
+            ++schemes;
+            const std::size_t half = n / 2, all = start.x.size() / 2, first = half < all ? 1 : 0;
+            const double size = M->cwiseAbs().maxCoeff(),
+                         defect = formDefect(form, before.x.data(), state.x.data(), *M) / (size * size);
+            double difference = 0;
+            for (std::size_t j = 0; j < half; ++j) {
+                std::vector<double> column(half, 0.0);
+                for (int k = 1; k <= 3; ++k)
+                    for (const int sign : {1, -1}) {
+                        const auto fresh = c.make(system, 0.1, start);
+                        State from = before;
+                        from.x[first + j] += sign * k * 1e-3;
+                        fresh->begin(from);
+                        if (advance(*fresh, from).outcome != Outcome::converged) qFatal("a step failed");
+                        for (std::size_t i = 0; i < half; ++i)
+                            column[i] += sign * centralDifferences[static_cast<std::size_t>(k - 1)] *
+                                         from.x[first + i] / 1e-3;
+                    }
+                for (std::size_t i = 0; i < half; ++i)
+                    difference =
+                        std::max(difference,
+                                 std::abs(column[i] - (*M)(static_cast<int>(i), static_cast<int>(j))) / size);
+            }
+            worstDifference = std::max(worstDifference, difference);
+            // The mass of the midpoint rule in space is nearly singular: 2e-14.
+            const double digits = c.name.find("midpoint.") != std::string::npos ? 10 : 1;
+            if (c.claims().isSymplectic)
+                worstDefect = std::max(worstDefect, defect / digits);
+            else
+                least = std::min(least, defect);
+            if (difference > 1e-8 || (c.claims().isSymplectic && defect > 1e-14))
+                qWarning("%s: M - differences %.1e, defect %.1e", c.name.c_str(), difference, defect);
+        }
+        qInfo(
+            "%d schemes: M - differences up to %.1e, defect of symplectic ones up to %.1e, of others from "
+            "%.1e",
+            schemes, worstDifference, worstDefect, least);
+        QVERIFY(schemes >= 10);
+        QVERIFY(worstDifference < 1e-8);
+        QVERIFY(worstDefect < 1e-14);
+        QVERIFY(least > 1e-10);  // RK4
+    }
+    /// In (t, q, -E, p), where steps are unknowns: the energy of the steps is in the memory of the state.
+    void stepsAsUnknownsKeepTheExtendedForm_data() {
+        QTest::addColumn<int>("degree");
+        QTest::newRow("degree 1") << 1;
+        QTest::newRow("degree 2") << 2;
+    }
+    void stepsAsUnknownsKeepTheExtendedForm() {
+        QFETCH(int, degree);
+        const System kepler = systemNamed("kepler");
+        const Discretization sem = *namedScheme("sem-" + std::to_string(degree));
+        const auto make = [&] { return makeIntegrator(kepler, sem, {0, 0.05}); };
+        using Point = Eigen::Matrix<double, 6, 1>;
+        const auto pointOf = [](const State& s) {
+            Point z;
+            z << s.t, s.x[0], s.x[1], -s.memory[0], s.x[2], s.x[3];
+            return z;
+        };
+        const auto integrator = make();
+        QCOMPARE(integrator->tangentSize(), std::size_t(6));
+        State state = keplerStart;
+        integrator->begin(state);
+        for (int k = 0; k < 3; ++k) QCOMPARE(integrator->advance(state, 100).outcome, Outcome::converged);
+        const State before = state;
+        const StepReport report = integrator->advance(state, 100);
+        QVERIFY(report.outcome == Outcome::converged && report.event == StepEvent::none);
+        const auto M = tangentMap(*integrator);
+        Eigen::MatrixXd D = Eigen::MatrixXd::Zero(6, 6);
+        // Where M is large differences are of short distances.
+        const double delta = 2e-3 / M->cwiseAbs().maxCoeff();
+        for (int j = 0; j < 6; ++j)
+            for (int k = 1; k <= 3; ++k)
+                for (const int sign : {1, -1}) {
+                    State from = before;
+                    const Point z = pointOf(before) + Point::Unit(j) * (sign * k * delta);
+                    from.t = z(0);
+                    from.x = {z(1), z(2), z(4), z(5)};
+                    from.memory[0] = -z(3);
+                    QCOMPARE(make()->advance(from, 100).outcome, Outcome::converged);
+                    D.col(j) +=
+                        pointOf(from) * (sign * centralDifferences[static_cast<std::size_t>(k - 1)] / delta);
+                }
+        const double size = M->cwiseAbs().maxCoeff(), off = (*M - D).cwiseAbs().maxCoeff() / size, unused = 0,
+                     defect = formDefect(SymplecticForm(kepler), &unused, &unused, *M) / (size * size);
+        qInfo("|M| %.0e, M - differences %.1e, defect %.1e", size, off, defect);
+        QVERIFY(off < 1e-7);
+        QVERIFY(defect < 1e-14);
+    }
     void rungeKuttaDoesNotKeepTheForm() {
         const System kepler = systemNamed("kepler");
         for (const CatalogueScheme& c : everythingOn(kepler, keplerStart, 0.05))

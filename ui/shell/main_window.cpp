@@ -253,8 +253,7 @@ void MainWindow::showScene() {
     const Scene& scene = workspace_->scene();
     setWindowTitle(tr("%1[*] - Extremal").arg(workspace_->fileName()));
     setWindowModified(workspace_->isDirty());
-    if (playback_->start() != scene.start.value || playback_->end() != scene.end.value)
-        playback_->setRange(scene.start.value, scene.end.value);
+    playback_->setRange(timeSpan(scene).first, timeSpan(scene).last);
     timeline_->setUnit(QString::fromStdString(makeSystem(scene).timeUnit));
     QString notes = QString::fromStdString("# " + scene.title + "\n\n");
     if (!scene.lesson.empty()) notes += "*" + QString::fromStdString(scene.lesson) + "*\n\n";

@@ -85,7 +85,7 @@ bool areSame(const Discretization& a, const Discretization& b) {
 
 double sensibleStep(const Scene& scene, int order, double stabilityLimit) {
     const ModelEntry* entry = findModel(scene.model.type);
-    double step = entry ? entry->exampleStep : (scene.end.value - scene.start.value) / 200;
+    double step = entry ? entry->exampleStep : timeSpan(scene).length() / 200;
     for (const SchemeSpec& spec : scene.schemes)
         if (spec.kind == SchemeSpec::Kind::discretization && spec.step.value > 0 &&
             describe(spec.space, spec.quadrature).claims.order == order)

@@ -1,6 +1,7 @@
 /// Method of lines for fields: second differences in space (the mass at the nodes), and the classical
 /// Runge-Kutta method of order 4 in time.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
@@ -41,7 +42,43 @@ private:
         return Outcome::converged;
     }
 
+    /// The stages of the variational equation du' = M^{-1} dp, dp' = -H du.
+    bool hasVariations() const override { return true; }
+    bool linearise() override {
+        std::vector<double> at(before()), acceleration(n());
+        const double* const x = before().data();
+        for (std::size_t stage = 0; stage < 4; ++stage) {
+            hessians_[stage] = hessianAt(at.data());
+            std::fill(acceleration.begin(), acceleration.end(), 0.0);
+            form().addForce(at.data(), 1, acceleration.data());
+            const double ahead = stage < 2 ? h() / 2 : h();
+            for (std::size_t i = 0; i < n(); ++i) {
+                at[i] = x[i] + ahead * at[n() + i];
+                at[n() + i] = x[n() + i] + ahead * acceleration[i] * inverse_[i];
+            }
+        }
+        return true;
+    }
+    void vary(std::vector<double>& du, std::vector<double>& dp) override {
+        constexpr double weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+        const std::vector<double> u = du, p = dp;
+        std::vector<double> atU = du, atP = dp, force(n());
+        for (std::size_t stage = 0; stage < 4; ++stage) {
+            std::fill(force.begin(), force.end(), 0.0);
+            addForceChange(hessians_[stage], atU.data(), 1, force.data());
+            const double ahead = stage < 2 ? h() / 2 : h();
+            for (std::size_t i = 0; i < n(); ++i) {
+                const double rate = inverse_[i] * atP[i], kick = inverse_[i] > 0 ? force[i] : 0;
+                du[i] += weight[stage] * h() * rate;
+                dp[i] += weight[stage] * h() * kick;
+                atU[i] = u[i] + ahead * rate;
+                atP[i] = p[i] + ahead * kick;
+            }
+        }
+    }
+
     std::vector<double> inverse_, at_, rate_;
+    std::array<std::vector<double>, 4> hessians_;
 };
 
 constexpr double limit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2

@@ -68,6 +68,26 @@ private:
         std::copy_n(u, n(), of_.begin());
         isKnown_ = true;
     }
+    bool hasVariations() const override { return true; }
+    bool linearise() override {
+        const std::size_t size = n();
+        const double* const u = before().data();
+        std::vector<double> a(size, 0.0), next(size);
+        form().addForce(u, 1, a.data());
+        mass_.solve(a.data());
+        for (std::size_t i = 0; i < size; ++i) next[i] = u[i] + h() * (u[size + i] + h() / 2 * a[i]);
+        atStart_ = hessianAt(u);
+        atEnd_ = hessianAt(next.data());
+        return true;
+    }
+    /// Kick, drift, kick: dp += h/2 df, du += h M^{-1} dp.
+    void vary(std::vector<double>& du, std::vector<double>& dp) override {
+        addForceChange(atStart_, du.data(), h() / 2, dp.data());
+        rate_ = dp;
+        mass_.solve(rate_.data());
+        for (std::size_t i = 0; i < n(); ++i) du[i] += h() * rate_[i];
+        addForceChange(atEnd_, du.data(), h() / 2, dp.data());
+    }
     double slabEnergy(const double* x, const double* next) const override {
         std::vector<double> velocity(n());
         for (std::size_t i = 0; i < n(); ++i) velocity[i] = (next[i] - x[i]) / h();
@@ -77,7 +97,8 @@ private:
     MassMatrix mass_;
     bool isStreamed_ = false, isKnown_ = false;
     LeapfrogKernel kernel_;
-    std::vector<double> acceleration_, of_;  ///< a, and the values it belongs to
+    std::vector<double> atStart_, atEnd_, rate_;  ///< of the tangent map
+    std::vector<double> acceleration_, of_;       ///< a, and the values it belongs to
 };
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "engine/family/field/mass_matrix.hpp"
+
 namespace extremal {
 namespace {
 
@@ -40,6 +42,49 @@ StepReport FieldMarch::advance(State& state, double until) {
     state.t = until;
     ++state.node;
     return report;
+}
+
+const std::vector<std::size_t>& FieldMarch::freeNodes() const {
+    if (freeNodes_.empty())
+        for (int i = 0; i < form().size(); ++i)
+            if (!form().problem().isFixed(i)) freeNodes_.push_back(static_cast<std::size_t>(i));
+    return freeNodes_;
+}
+
+bool FieldMarch::applyTangent(std::span<double> W) {
+    const std::vector<std::size_t>& places = freeNodes();
+    const std::size_t half = places.size();
+    if (!linearise()) return false;
+    for (std::size_t column = 0; column + 2 * half <= W.size(); column += 2 * half) {
+        double* const w = W.data() + column;
+        du_.assign(n_, 0);
+        dp_.assign(n_, 0);
+        for (std::size_t i = 0; i < half; ++i) {
+            du_[places[i]] = w[i];
+            dp_[places[i]] = w[half + i];
+        }
+        vary(du_, dp_);
+        for (std::size_t i = 0; i < half; ++i) {
+            w[i] = du_[places[i]];
+            w[half + i] = dp_[places[i]];
+        }
+    }
+    return true;
+}
+
+std::vector<double> FieldMarch::hessianAt(const double* u) const {
+    const auto width = static_cast<std::size_t>(form().width());
+    std::vector<double> H(static_cast<std::size_t>(form().problem().mesh.elements()) * width * width);
+    form().hessians(u, H.data());
+    return H;
+}
+
+void FieldMarch::addForceChange(const std::vector<double>& hessian, const double* du, double scale,
+                                double* df) const {
+    const int width = form().width();
+    forEachPair(form().problem().nodes, [&](int i, int j, int a, int b, int e) {
+        df[i] -= scale * hessian[static_cast<std::size_t>((e * width + a) * width + b)] * du[j];
+    });
 }
 
 std::span<const Quantity> FieldStep::quantities() const {

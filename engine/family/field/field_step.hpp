@@ -26,7 +26,20 @@ public:
     /// A shorter step from the level before, made on each use.
     void denseOutput(double tau, std::span<double> x) const final;
 
+    /// Of the values at nodes that are not fixed, and of their momenta M v.
+    std::size_t tangentSize() const final { return hasVariations() ? 2 * freeNodes().size() : 0; }
+    bool applyTangent(std::span<double> W) final;
+
 protected:
+    /// Whether a step has a tangent map: then linearise() prepares that of the last one, and vary() moves one
+    /// variation (du, dp) by it, n() numbers each and 0 at fixed nodes. False where it is singular.
+    virtual bool hasVariations() const { return false; }
+    virtual bool linearise() { return false; }
+    virtual void vary(std::vector<double>& /*du*/, std::vector<double>& /*dp*/) {}
+    /// The Hessian of U at u, by elements; and df -= scale H du.
+    std::vector<double> hessianAt(const double* u) const;
+    void addForceChange(const std::vector<double>& hessian, const double* du, double scale, double* df) const;
+
     /// From level x to level `next`, u then v each. Called after prepare(). What is not finite is found
     /// afterwards, unless the step says that it looked itself.
     virtual Outcome step(const double* x, double* next, StepReport& report) = 0;
@@ -44,7 +57,11 @@ private:
     std::shared_ptr<const SpatialForm> form_;
     std::size_t n_;
     double h_;
+    const std::vector<std::size_t>& freeNodes() const;
+
     bool isPrepared_ = false, isChecked_ = false;
+    mutable std::vector<std::size_t> freeNodes_;  ///< of variations, made when they are asked for
+    std::vector<double> du_, dp_;
     std::vector<double> other_;  ///< the next level during a step, the one before after it
 };
 

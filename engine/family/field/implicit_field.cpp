@@ -69,7 +69,8 @@ private:
             if (stop().stop_requested()) return Outcome::stopped;
             evaluate(u, report.cost);
             if (!hasJacobian_) {
-                if (!factorise(u)) return Outcome::singular;
+                hasJacobian_ = factorise(u, lu_);
+                if (!hasJacobian_) return Outcome::singular;
                 policy.jacobianIsNew();
                 ++report.cost.linearSolves;
             }
@@ -117,17 +118,17 @@ private:
             cost.evaluations += form().evaluations();
         }
     }
-    bool factorise(const double* u) {
+    bool factorise(const double* u, BandLu& lu) {
         const int s = time_.degree(), width = form().width();
         const FieldNodes& nodes = form().problem().nodes;
-        lu_.clear();
+        lu.clear();
         const auto row = [&](int node, int l) {
             return order_.place[static_cast<std::size_t>(node)] * s + l;
         };
         forEachPair(nodes, [&](int i, int j, int a, int b, int e) {
             const double m = form().elementSize(e) * form().elementMass(e)[a * width + b];
             for (int l = 0; l < s; ++l)
-                for (int k = 1; k <= s; ++k) lu_.add(row(i, l), row(j, k - 1), time_.mass(l, k) / h() * m);
+                for (int k = 1; k <= s; ++k) lu.add(row(i, l), row(j, k - 1), time_.mass(l, k) / h() * m);
         });
         for (int q = 0; q < time_.points(); ++q) {
             placeAt(u, q);
@@ -136,14 +137,13 @@ private:
                 const double H = hessian_[static_cast<std::size_t>((e * width + a) * width + b)];
                 for (int l = 0; l < s; ++l)
                     for (int k = 1; k <= s; ++k)
-                        lu_.add(row(i, l), row(j, k - 1),
-                                -h() * time_.weight(q) * time_.value(q, l) * time_.value(q, k) * H);
+                        lu.add(row(i, l), row(j, k - 1),
+                               -h() * time_.weight(q) * time_.value(q, l) * time_.value(q, k) * H);
             });
         }
         for (std::size_t i = 0; i < isFixed_.size(); ++i)
-            for (int l = 0; l < s && isFixed_[i]; ++l) lu_.fix(row(static_cast<int>(i), l));
-        hasJacobian_ = lu_.factorise();
-        return hasJacobian_;
+            for (int l = 0; l < s && isFixed_[i]; ++l) lu.fix(row(static_cast<int>(i), l));
+        return lu.factorise();
     }
     /// One correction of all levels; its size relative to the changes in the slab.
     double correct(const double* u) {
@@ -204,6 +204,56 @@ private:
         if (!form().isLumped()) ++cost.linearSolves;
         for (std::size_t i = 0; i < size; ++i) nextV[i] = isFixed_[i] ? 0 : work_[i] + force_[i];
     }
+    /// The equations of the levels at the solution, linearised; the factors of the iteration are those of its
+    /// beginning.
+    bool hasVariations() const override { return true; }
+    bool linearise() override {
+        const int s = time_.degree();
+        if (hessians_.empty()) {
+            tangent_ = BandLu(form().size() * s, order_.reach * s + s - 1);
+            hessians_.resize(static_cast<std::size_t>(time_.points()));
+        }
+        for (int q = 0; q < time_.points(); ++q) {
+            placeAt(before().data(), q);
+            hessians_[static_cast<std::size_t>(q)] = hessianAt(at_.data());
+        }
+        return factorise(before().data(), tangent_);
+    }
+    void vary(std::vector<double>& du, std::vector<double>& dp) override {
+        const std::size_t size = n();
+        const int s = time_.degree();
+        for (int l = 0; l < s; ++l) {
+            std::fill(force_.begin(), force_.end(), 0.0);
+            for (int q = 0; q < time_.points(); ++q)
+                addForceChange(hessians_[static_cast<std::size_t>(q)], du.data(),
+                               h() * time_.weight(q) * time_.value(q, l), force_.data());
+            for (std::size_t i = 0; i < size; ++i)
+                unknowns_[static_cast<std::size_t>(order_.place[i] * s + l)] =
+                    isFixed_[i] ? 0 : -(force_[i] + (l == 0 ? dp[i] : 0));
+        }
+        tangent_.solve(unknowns_.data());
+        const auto level = [&](int m, std::size_t i) {
+            return unknowns_[static_cast<std::size_t>(order_.place[i] * s + m - 1)];
+        };
+        if (time_.isBalanced()) {
+            for (std::size_t i = 0; i < size; ++i) work_[i] = 2 / h() * level(s, i);
+            form().applyMass(work_.data(), force_.data());
+            for (std::size_t i = 0; i < size; ++i) dp[i] = isFixed_[i] ? 0 : force_[i] - dp[i];
+        } else {
+            std::fill(work_.begin(), work_.end(), 0.0);
+            for (int m = 1; m <= s; ++m)
+                for (std::size_t i = 0; i < size; ++i) work_[i] += time_.mass(s, m) / h() * level(m, i);
+            form().applyMass(work_.data(), dp.data());
+            for (int q = 0; q < time_.points(); ++q) {
+                at_ = du;
+                for (int m = 1; m <= s; ++m)
+                    for (std::size_t i = 0; i < size; ++i) at_[i] += time_.value(q, m) * level(m, i);
+                addForceChange(hessians_[static_cast<std::size_t>(q)], at_.data(),
+                               h() * time_.weight(q) * time_.value(q, s), dp.data());
+            }
+        }
+        for (std::size_t i = 0; i < size; ++i) du[i] += level(s, i);
+    }
     double slabEnergy(const double* u, const double*) const override {
         const std::size_t size = n();
         std::vector<double> at(size), velocity(size);
@@ -229,7 +279,8 @@ private:
     int maxIterations_;
     MassMatrix mass_;
     NodeOrder order_;
-    BandLu lu_;
+    BandLu lu_, tangent_;
+    std::vector<std::vector<double>> hessians_;  ///< at the points in time, of the tangent map
     bool hasJacobian_ = false;
     std::size_t s_;
     std::vector<double> change_;  ///< d_m, level after level

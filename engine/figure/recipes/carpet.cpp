@@ -6,6 +6,7 @@
 
 #include "engine/figure/build.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
+#include "engine/scene/bind.hpp"
 
 namespace extremal::recipes {
 namespace {
@@ -124,7 +125,7 @@ Figure makeCarpet(const FigureContext& context) {
     if (scheme && context.system && context.system->field) {
         const auto& time = context.comparison.scene;
         figure.title = "Carpet of " + scheme->spec.label;
-        figure.add(heatOf(systemOf(context, *scheme), *scheme, time.start.value, time.end.value));
+        figure.add(heatOf(systemOf(context, *scheme), *scheme, timeSpan(time).first, timeSpan(time).last));
         figure.y.range = {figure.heat()->bottom, figure.heat()->top};
         const FieldSampling& own = systemOf(context, *scheme).field;
         if (own.hasMovingNodes) figure.add(pathsOf(own, *framesOf(*scheme)));

@@ -16,7 +16,9 @@ ObservableEntry symplecticity() {
         {{"symplecticity", "max |MᵀJM − J|", "", {}, {}},
          {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
         {.map = true}, true);
-    e.applies = [](const System& system) { return isMechanical(system) || isBody(system) || isWave(system); };
+    e.applies = [](const System& system) {
+        return isMechanical(system) || isBody(system) || isWave(system) || isField(system);
+    };
     return e;
 }
 

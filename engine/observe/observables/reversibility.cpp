@@ -1,0 +1,32 @@
+/// How far from its rows a run comes by on the way back from its end, with the opposite step: nothing but
+/// round-off where the scheme is symmetric. The run fills the column when it is done.
+#include <cmath>
+
+#include "engine/observe/catalog.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry reversibility() {
+    ObservableEntry e;
+    e.item = {"reversibility",
+              "reversibility",
+              "Distance of the state at each row from the state that a run from the end back to this row "
+              "reaches, with the opposite step. Costs a second run.",
+              {},
+              {},
+              "a scheme with a fixed step"};
+    e.needsWayBack = true;
+    e.applies = [](const System& system) { return isMechanical(system) || isBody(system); };
+    e.bind = [](const ObserveContext&) {
+        Observer o;
+        o.columns = {{"reversibility", "|x back − x|", "", {}, {}}};
+        o.extreme = 0;
+        o.evaluate = [](const NodeBlock& nodes, double* values, std::size_t stride) {
+            for (std::size_t i = 0; i < nodes.size(); ++i) values[i * stride] = std::nan("");
+        };
+        return o;
+    };
+    return e;
+}
+
+}  // namespace extremal::observables
