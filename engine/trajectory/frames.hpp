@@ -32,7 +32,7 @@ public:
                std::vector<Frame>& frames) {
         const bool isRegular = wantsNext();
         if (isRegular || isLast) {
-            if (frames.empty() || frames.back().t < t) frames.push_back({t, make()});
+            if (frames.empty() || frames.back().t != t) frames.push_back({t, make()});
             if (isRegular) thin(frames);
         }
         ++offered_;

@@ -94,6 +94,18 @@ private slots:
             ran(scene(R"({"start":5,"end":0})", gauss, energy + R"(,"output":{"every":1})"));
         QCOMPARE(nodes.schemes[0]->trajectory.rows(), std::size_t(6));
     }
+    void fieldsHaveTheirFrames() {
+        const Comparison back =
+            ran(scene(R"({"start":5,"end":-5})", R"([{"scheme":"multisymplectic-1","step":0.1}])",
+                      R"("observe":["error"],"views":["carpet"])", R"({"profile":"breather","omega":0.9})",
+                      R"({"type":"field","potential":"sine-gordon","domain":[-20,20],
+                                              "boundary":"periodic","cells":80})"));
+        const FieldFrames* const frames = back.schemes[0]->products.find<FieldFrames>();
+        QVERIFY(frames && frames->all.size() == 101);
+        QVERIFY(std::is_sorted(frames->all.begin(), frames->all.end(),
+                               [](const Frame& a, const Frame& b) { return a.t < b.t; }));
+        QVERIFY(back.schemes[0]->summary.maxError < 0.05);
+    }
     void timeAxesGoForwards() {
         const Comparison back =
             ran(scene(R"({"start":5,"end":0})", gauss, energy + R"(,"views":["energy"])"));
