@@ -49,27 +49,6 @@ VariationPlan variationsFor(const std::vector<std::string>& observe) {
     return plan;
 }
 
-bool wantsWayBack(const std::vector<std::string>& observe) {
-    return std::any_of(observe.begin(), observe.end(), [](const std::string& id) {
-        const ObservableEntry* entry = findObservable(id);
-        return entry && entry->needsWayBack;
-    });
-}
-
-/// Whoever shows a run goes from row to row as time goes.
-void turnToForwards(SchemeResult& result) {
-    const auto turn = [](Trajectory& trajectory) {
-        for (Column& c : trajectory.columns) std::reverse(c.values.begin(), c.values.end());
-        std::reverse(trajectory.nodes.begin(), trajectory.nodes.end());
-    };
-    turn(result.trajectory);
-    if (result.products.find<DenseOutput>()) turn(result.products.make<DenseOutput>().points);
-    if (result.products.find<FieldFrames>()) {
-        auto& frames = result.products.make<FieldFrames>().all;
-        std::reverse(frames.begin(), frames.end());
-    }
-}
-
 }  // namespace
 
 /// One march over the time interval with fixed sampling, and what it records.

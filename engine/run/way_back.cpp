@@ -3,9 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/observe/catalog.hpp"
 #include "engine/run/march.hpp"
 
 namespace extremal {
+
+bool wantsWayBack(const std::vector<std::string>& observe) {
+    return std::any_of(observe.begin(), observe.end(), [](const std::string& id) {
+        const ObservableEntry* entry = findObservable(id);
+        return entry && entry->needsWayBack;
+    });
+}
 
 void addWayBack(SchemeResult& result, Integrator& back, const State& end, const std::stop_token& stop) {
     const std::string name = "reversibility";
@@ -38,6 +46,19 @@ void addWayBack(SchemeResult& result, Integrator& back, const State& end, const 
     State state{end.t, 0, end.x, {}};
     const MarchGrid grid{Clock{end.t, back.stepSize()}, end.node, 0};
     (void)march(back, state, grid, {&sink, 1}, stop);
+}
+
+void turnToForwards(SchemeResult& result) {
+    const auto turn = [](Trajectory& trajectory) {
+        for (Column& c : trajectory.columns) std::reverse(c.values.begin(), c.values.end());
+        std::reverse(trajectory.nodes.begin(), trajectory.nodes.end());
+    };
+    turn(result.trajectory);
+    if (result.products.find<DenseOutput>()) turn(result.products.make<DenseOutput>().points);
+    if (result.products.find<FieldFrames>()) {
+        auto& frames = result.products.make<FieldFrames>().all;
+        std::reverse(frames.begin(), frames.end());
+    }
 }
 
 }  // namespace extremal
