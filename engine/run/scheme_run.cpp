@@ -23,6 +23,7 @@
 #include "engine/run/reuse.hpp"
 #include "engine/run/row_sampler.hpp"
 #include "engine/run/timing.hpp"
+#include "engine/run/variations_for.hpp"
 #include "engine/run/way_back.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -36,17 +37,6 @@ constexpr double shortRuns = 1.5e-2;  ///< seconds: below it
 
 void growTo(double& extreme, double value) {
     if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
-}
-
-/// Which variations of the state the observables need.
-VariationPlan variationsFor(const std::vector<std::string>& observe) {
-    VariationPlan plan;
-    for (const std::string& id : observe)
-        if (const ObservableEntry* entry = findObservable(id)) {
-            plan.map = plan.map || entry->variations.map;
-            plan.vector = plan.vector || entry->variations.vector;
-        }
-    return plan;
 }
 
 }  // namespace

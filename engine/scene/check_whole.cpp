@@ -261,9 +261,11 @@ void checkReference(Reader& reader, const ResolvedScene& resolved) {
         return entry && entry->needsReference;
     });
     const bool needsForwards =
-        isBackwards(scene) && isWanted && (kind == Kind::automatic || kind == Kind::scheme);
+        isBackwards(scene) && isWanted && kind != Kind::exact && kind != Kind::none && kind != Kind::file;
     if (kind != Kind::exact && !needsForwards) return;
-    if (kind != Kind::scheme && exactSolution(scene, *resolved.system, resolved.initial)) return;
+    if (kind != Kind::scheme && kind != Kind::companion &&
+        exactSolution(scene, *resolved.system, resolved.initial))
+        return;
     if (needsForwards)
         reader.error("/reference", "is computed forwards in time, and this run goes backwards",
                      "take none, or an end after the start");

@@ -124,7 +124,8 @@ private slots:
         const std::string has =
             "; kepler has curve-error, discrete-energy, discrete-lagrangian, energy, error, floquet, "
             "lyapunov, "
-            "megno, mesh, modified-energy, momentum, monitor, multiplier, parameter-map, phase, reversibility, "
+            "megno, mesh, modified-energy, momentum, monitor, multiplier, parameter-map, phase, "
+            "reversibility, "
             "section, "
             "solvability, "
             "sparsity, "

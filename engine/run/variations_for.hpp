@@ -1,0 +1,23 @@
+/// What a run carries along for its observables.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/integrator/with_variations.hpp"
+#include "engine/observe/catalog.hpp"
+
+namespace extremal {
+
+/// Which variations of the state the observables need.
+inline VariationPlan variationsFor(const std::vector<std::string>& observe) {
+    VariationPlan plan;
+    for (const std::string& id : observe)
+        if (const ObservableEntry* entry = findObservable(id)) {
+            plan.map = plan.map || entry->variations.map;
+            plan.vector = plan.vector || entry->variations.vector;
+        }
+    return plan;
+}
+
+}  // namespace extremal
