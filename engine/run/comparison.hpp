@@ -64,8 +64,8 @@ struct Summary {
     int orderClaimed = 0;  ///< 0: no claim
     double orderMeasured = unknown;
     double opensAt = unknown;  ///< t from which the error by a companion is too large to be true
-    std::string advice;  ///< after a failure: what to try; for the window, not exported
-    std::string about;   ///< how the scheme solves its equations, where that was a choice; not exported
+    std::string advice;        ///< after a failure: what to try; for the window, not exported
+    std::string about;         ///< how the scheme solves its equations, where that was a choice; not exported
     std::string
         caution;  ///< what is doubtful in a result that looks sound ("under-resolved: .."); not exported
 };
