@@ -72,7 +72,8 @@ void Form::refresh() {
         const Value* draft = workspace_.draftAt(row.field.pointer);
         const Value* value = draft ? draft : valueAt(workspace_.document(), row.field.pointer);
         row.edit->show(value ? *value : row.field.info.fallback);
-        const std::vector<Problem> problems = workspace_.problemsAt(row.field.pointer);
+        const std::vector<Problem> problems =
+            workspace_.problemsAt(row.field.place.empty() ? row.field.pointer : row.field.place);
         const bool isWrong = !problems.empty() && draft;
         row.edit->setInvalid(isWrong);
         row.problem->setVisible(isWrong);

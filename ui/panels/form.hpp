@@ -24,6 +24,7 @@ struct FormField {
     QString label;        ///< rich text; empty: title and symbol of the descriptor
     /// The edits that a new value means; empty: the value goes to `pointer`.
     std::function<std::vector<Edit>(const Value&)> edits;
+    std::string place = {};  ///< where its problems are reported; empty: at `pointer`
 };
 
 class Form : public QWidget {

@@ -1,6 +1,7 @@
 #include "ui/panels/scene_panel.hpp"
 
 #include <QComboBox>
+#include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QVBoxLayout>
@@ -79,6 +80,26 @@ std::vector<FormField> initialFields(const Workspace& workspace, const System& s
     return fields;
 }
 
+/// The references that need no more than their name, and the one there is.
+FormField referenceField(const Workspace& workspace, const std::string& now) {
+    std::vector<std::string> kinds{"auto", "exact", "companion", "none"};
+    if (std::find(kinds.begin(), kinds.end(), now) == kinds.end()) kinds.push_back(now);
+    const auto edits = [&workspace](const Value& type) {
+        std::vector<Edit> all{{"/reference/type", type}};
+        for (const char* key : {"/reference/scheme", "/reference/path"})
+            if (valueAt(workspace.document(), key)) all.push_back({key, std::nullopt});
+        return all;
+    };
+    return {choiceField(
+                "type", "reference", std::move(kinds),
+                "What errors are measured against. auto: the exact solution where it is known, else a far "
+                "more accurate run; companion: of each scheme itself with one degree more."),
+            "/reference/type",
+            {},
+            edits,
+            "/reference"};
+}
+
 QLabel* sectionLabel(const QString& text) {
     QLabel* label = makeLabel(text, "strong");
     label->setContentsMargins(0, 4, 0, 0);
@@ -104,6 +125,7 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     lagrangian_->hide();
     initial_ = new Form(workspace);
     time_ = new Form(workspace);
+    reference_ = new Form(workspace);
     body()->addWidget(model_);
     body()->addWidget(parameters_);
     body()->addWidget(lagrangian_);
@@ -114,6 +136,8 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     body()->addWidget(initial_);
     body()->addWidget(timeTitle_);
     body()->addWidget(time_);
+    body()->addWidget(sectionLabel(tr("Errors")));
+    body()->addWidget(reference_);
     menu()->addAction(tr("Reset parameters"), this, [this] {
         if (const ModelEntry* entry = findModel(workspace_.scene().model.type)) {
             std::vector<Edit> edits{{"/model", exampleModel(*entry)}};
@@ -126,12 +150,19 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     });
     menu()->addAction(tr("Start from two positions"), this, &ScenePanel::startFromTwoPositions);
     menu()->addAction(tr("Start from a momentum"), this, &ScenePanel::startFromMomentum);
+    menu()->addAction(tr("Compare with a file..."), this, &ScenePanel::compareWithFile);
+    menu()->addAction(tr("Compare with the selected scheme"), this, &ScenePanel::compareWithSelected);
     connect(&workspace_, &Workspace::sceneChanged, this, &ScenePanel::rebuild);
     connect(&workspace_, &Workspace::opened, this, [this] { shownModel_.clear(); });
 }
 
 void ScenePanel::rebuild() {
     const Scene& scene = workspace_.scene();
+    if (const Value* kind = valueAt(workspace_.document(), "/reference/type");
+        kind && kind->asString() != shownReference_) {
+        shownReference_ = kind->asString();
+        reference_->setFields({referenceField(workspace_, shownReference_)});
+    }
     std::string keys = std::to_string(static_cast<int>(scene.initial.second));
     for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
     if (const Value* names = scene.model.find("coordinates")) keys += writeCompactJson(*names);
@@ -191,6 +222,22 @@ void ScenePanel::startFromMomentum() {
     initial.set("q", Value::Array(start.x.begin(), half));
     initial.set("p", Value::Array(half, start.x.end()));
     workspace_.edit({{"/initial", initial}}, tr("Start from a momentum"));
+}
+
+void ScenePanel::compareWithFile() {
+    const QString path = QFileDialog::getOpenFileName(
+        this, tr("Compare with a file"), {}, tr("Tables with t and the state (*.csv);;All files (*)"));
+    if (path.isEmpty()) return;
+    const Value reference(Value::Object{{"type", "file"}, {"path", path.toStdString()}});
+    workspace_.edit({{"/reference", reference}}, tr("Compare with a file"));
+}
+
+void ScenePanel::compareWithSelected() {
+    const int selected = workspace_.selectedScheme();
+    const Value* scheme = valueAt(workspace_.document(), "/schemes/" + std::to_string(selected));
+    if (selected < 0 || !scheme) return;
+    const Value reference(Value::Object{{"type", "scheme"}, {"scheme", *scheme}});
+    workspace_.edit({{"/reference", reference}}, tr("Compare with the selected scheme"));
 }
 
 void ScenePanel::changeModel(int index) {

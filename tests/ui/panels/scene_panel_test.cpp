@@ -1,10 +1,14 @@
 /// The form of a model whose potential is typed, driven as a user does, in the whole window.
+#include <QComboBox>
+#include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QTest>
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
 #include "ui/panels/format.hpp"
+#include "ui/panels/scene_panel.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/workspace.hpp"
@@ -43,6 +47,52 @@ private slots:
         enter(potential, "-mu*mass/sqrt(x^2+y^2+z^2) + k*Q33");
         QVERIFY(potential->property("invalid").toBool());
         QVERIFY(value("/model/potential")->asString().ends_with("k*R33"));
+    }
+    void theReferenceIsChosen() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:pendulum");
+        auto* panel = window.findChild<ScenePanel*>();
+        const auto box = [&]() -> QComboBox* {  // the newest: others wait for their end
+            const auto all = panel->findChildren<QComboBox*>("field.type");
+            return all.isEmpty() ? nullptr : all.last();
+        };
+        const auto kind = [&] {
+            return QString::fromStdString(
+                valueAt(window.workspace().document(), "/reference/type")->asString());
+        };
+        const auto choose = [&](const QString& name) {
+            const int index = box()->findText(name);
+            QVERIFY(index >= 0);
+            box()->setCurrentIndex(index);
+            emit box()->activated(index);
+            QCoreApplication::processEvents();
+        };
+        QTRY_VERIFY(box());
+        QCOMPARE(box()->currentText(), kind());
+        choose("companion");
+        QCOMPARE(kind(), QString("companion"));
+        // A scheme of the scene: one more choice, for as long as it is the reference.
+        QAction* selected = nullptr;
+        for (QAction* action : panel->menu()->actions())
+            if (action->text() == "Compare with the selected scheme") selected = action;
+        QVERIFY(selected);
+        selected->trigger();
+        QCoreApplication::processEvents();
+        QCOMPARE(kind(), QString("scheme"));
+        QVERIFY(valueAt(window.workspace().document(), "/reference/scheme/step"));
+        QCOMPARE(box()->currentText(), QString("scheme"));
+        choose("none");
+        QCOMPARE(kind(), QString("none"));
+        QVERIFY(!valueAt(window.workspace().document(), "/reference/scheme"));
+        QCOMPARE(box()->findText("scheme"), -1);
+        // What does not exist is refused at the field.
+        window.open("preset:double-pendulum");
+        QCoreApplication::processEvents();
+        const QString before = kind();
+        choose("exact");
+        QCOMPARE(kind(), before);
+        QVERIFY(panel->findChildren<QLabel*>("problem.type").last()->text().contains("no exact solution"));
     }
     void constantsAreReadAsTheyAreShown() {
         const Value value = constantsFrom(" a=1 , b = 2e3,c = pi/2");
