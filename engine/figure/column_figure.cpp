@@ -12,7 +12,8 @@ std::string titleOfColumn(const FigureContext& context, const std::string& colum
                     static_cast<char>(title[0] >= 'a' && title[0] <= 'z' ? title[0] - 'a' + 'A' : title[0]);
                 return title;
             }
-    return "Trajectory";
+    const std::string symbol = columnInfo(context, column).symbol;  // of an observable
+    return symbol.empty() ? "Trajectory" : symbol;
 }
 
 Figure columnFigure(const FigureContext& context, const std::string& x, const std::string& y) {

@@ -8,7 +8,8 @@
 
 namespace extremal {
 
-/// The title of a state column, its first letter a capital; "Trajectory" where none is known.
+/// The title of a state column, its first letter a capital; the symbol of others; "Trajectory" where none is
+/// known.
 std::string titleOfColumn(const FigureContext& context, const std::string& column);
 
 /// One curve per scheme, y against x ("t": on the common axis of times), finished. Momenta against time are
