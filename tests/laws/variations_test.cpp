@@ -1,5 +1,6 @@
 /// What is measured along a run with the tangent maps of its steps (integrator/with_variations.hpp), against
 /// known motions and the numbers of others.
+#include <Eigen/LU>
 #include <QTest>
 
 #include <algorithm>
