@@ -6,6 +6,7 @@
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
 #include "engine/core/text.hpp"
+#include "engine/run/event_files.hpp"
 #include "engine/run/export.hpp"
 #include "engine/scene/json.hpp"
 
@@ -30,15 +31,15 @@ std::string order(const Summary& s) {
 
 std::string summaryTable(const Comparison& comparison) {
     Table table;
-    table.isRightAligned = {false, false, true, true, true, true, true, true, true, true, false};
+    table.isRightAligned = {false, false, true, true, true, true, true, true, true, true, false, false};
     table.rows.push_back({"scheme", "status", "steps", "cpu", "evaluations", "energy error", "momentum error",
-                          "max error", "final error", "order", "solver"});
+                          "max error", "final error", "order", "events", "solver"});
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         table.rows.push_back({s.label, name(s.status), std::to_string(s.steps), duration(s.cpuSeconds),
                               std::to_string(s.cost.evaluations), number(s.maxEnergyError),
                               number(s.maxMomentumError), number(s.maxError), number(s.finalError), order(s),
-                              s.about});
+                              eventsText(*scheme), s.about});
     }
     // A column that no scheme fills says nothing.
     for (std::size_t c = table.rows[0].size(); c-- > 0;) {

@@ -136,6 +136,7 @@ void addAgainstTime(Figure& figure, const FigureContext& context, std::string_vi
 void addCurves(Figure& figure, const FigureContext& context, std::string_view xColumn,
                std::string_view yColumn) {
     for (const auto& scheme : context.comparison.schemes) {
+        if (!context.view.scheme.empty() && scheme->spec.label != context.view.scheme) continue;
         const DenseOutput* dense = scheme->products.find<DenseOutput>();
         const bool isDense =
             dense && dense->points.find(xColumn) && dense->points.find(yColumn) &&
@@ -214,16 +215,53 @@ EventMarks marksOn(const Series& curve, const SchemeResult& scheme, bool isTime)
     return marks;
 }
 
+/// The events of the scene on the curve of a scheme.
+EventMarks foundOn(const Series& curve, const FoundEvents& found, bool isTime) {
+    constexpr std::size_t most = 1000;
+    EventMarks marks;
+    marks.label = curve.label;
+    marks.style = curve.style;
+    const std::span<const double> times = found.rows["t"];
+    for (std::size_t i = 0; i < times.size(); i += times.size() / most + 1) {
+        const auto point = pointAt(curve, times[i]);
+        if (!point && !isTime) continue;
+        marks.x.push_back(point ? point->first : times[i]);
+        marks.y.push_back(point ? point->second : Summary::unknown);
+    }
+    for (const auto& event : found.all)
+        if (event.spec.action != EventSpec::Action::count && event.count > 0)
+            marks.text +=
+                (marks.text.empty() ? "" : ", ") + event.spec.title() + ": " + std::to_string(event.count);
+    return marks;
+}
+
+/// The first curve of a scheme, where it knows its times; else null.
+const Series* curveOf(const Figure& figure, const SchemeResult& scheme) {
+    for (const Series& s : figure.series())
+        if (s.label == scheme.spec.label && s.style == scheme.style && !s.shade)
+            return figure.x.isTime || !s.t.empty() ? &s : nullptr;
+    return nullptr;
+}
+
+/// The events that the scene looks for, on the curves of its schemes.
+void markFound(Figure& figure, const FigureContext& context) {
+    for (const auto& scheme : context.comparison.schemes) {
+        const FoundEvents* const found = scheme->products.find<FoundEvents>();
+        const Series* const own = found ? curveOf(figure, *scheme) : nullptr;
+        if (!own) continue;
+        EventMarks marks = foundOn(*own, *found, figure.x.isTime);
+        if (!marks.x.empty()) figure.add(std::move(marks));
+    }
+}
+
 /// On the first curve of each scheme that knows its times. The subtitle counts: "▽ energy unsolvable: 11
 /// (Reset), 110 (Keep)".
 void markEvents(Figure& figure, const FigureContext& context) {
     std::array<std::string, stepEventCount> counted;
     for (const auto& scheme : context.comparison.schemes) {
         if (scheme->events.marks.empty()) continue;
-        const Series* own = nullptr;
-        for (const Series& s : std::as_const(figure).series())
-            if (!own && s.label == scheme->spec.label && s.style == scheme->style) own = &s;
-        if (!own || (!figure.x.isTime && own->t.empty())) continue;
+        const Series* const own = curveOf(figure, *scheme);
+        if (!own) continue;
         EventMarks marks = marksOn(*own, *scheme, figure.x.isTime);
         if (marks.x.empty()) continue;
         figure.add(std::move(marks));
@@ -260,6 +298,7 @@ void finishFigure(Figure& figure, const FigureContext& context, std::string_view
     markFailures(figure, context);
     hideWhatAxesCannotShow(figure);
     markEvents(figure, context);
+    markFound(figure, context);
     fitAxes(figure, context.view, context.system ? axesOf(context.view, *context.system).variable : "t");
 
     const bool hasPoints =

@@ -55,7 +55,8 @@ std::string digest(const Figure& figure) {
                 (isParametric(s.kind) ? ", curve" : "") + (hasMarks(s.kind) ? ", markers" : "") +
                 (hasLine(s.kind) ? ", line" : "") + (s.kind == SeriesKind::cells ? ", cells" : "") +
                 (s.kind == SeriesKind::ticks ? ", ticks" : "") + (s.tone == Tone::pale ? ", pale" : "") +
-                ", x " + hash(s.x) + ", y " + hash(s.y) + ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";
+                (s.shade ? ", shade " + nineDigits(*s.shade) : "") + ", x " + hash(s.x) + ", y " + hash(s.y) +
+                ", largest " + nineDigits(maxMagnitude(s.y)) + "\n";
     }
     if (figure.heat())
         text += "heat " + std::to_string(figure.heat()->columns) + " x " +
@@ -68,6 +69,9 @@ std::string digest(const Figure& figure) {
     for (const EventMarks& m : figure.all<EventMarks>())
         text += "events " + std::to_string(m.style) + " " + m.label + ": " + m.text + ", " +
                 std::to_string(m.x.size()) + " marks, x " + hash(m.x) + ", y " + hash(m.y) + "\n";
+    if (const ColourScale* scale = figure.find<ColourScale>())
+        text += "colours " + scale->title + ", " + nineDigits(scale->low) + " .. " + nineDigits(scale->high) +
+                "\n";
     if (figure.find<RoundOffFloor>()) text += "floor " + nineDigits(floorOf(figure)) + "\n";
     if (const DoubtfulBand* band = figure.find<DoubtfulBand>())
         text += "doubtful below " + nineDigits(band->top) + "\n";

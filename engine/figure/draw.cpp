@@ -5,6 +5,7 @@
 
 #include "engine/figure/against.hpp"
 #include "engine/figure/column_figure.hpp"
+#include "engine/figure/starts.hpp"
 
 namespace extremal {
 namespace {
@@ -62,6 +63,7 @@ struct Draw {
         const ColumnInfo xInfo = columnInfo(context, x), yInfo = columnInfo(context, y);
         figure.x = x == "t" ? timeAxis(context) : Axis{axisTitle(xInfo.symbol, xInfo.unit), false, false, {}};
         figure.y.title = axisTitle(yInfo.symbol, yInfo.unit);
+        addStarts(figure, context);
         addCurves(figure, context, x, y);
         finishFigure(figure, context,
                      context.entry.item.title + " of " + yInfo.symbol + " over " + xInfo.symbol);

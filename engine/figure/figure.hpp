@@ -64,6 +64,15 @@ struct Series {
     bool isSparse = false;
     int hidden = 0;                      ///< values a log axis cannot show (<= 0) or that are not finite
     std::vector<std::size_t> rows = {};  ///< of a study: which of its rows each point is; else empty
+    /// Its place on the figure's ColourScale, from 0 to 1, which then gives its colour; empty: that of its
+    /// style.
+    std::optional<double> shade = {};
+};
+
+/// What the shades of series stand for: a linear scale beside the plot.
+struct ColourScale {
+    std::string title;
+    double low = 0, high = 1;
 };
 
 /// A faint line behind the series: a contour, an outline.
@@ -128,8 +137,8 @@ struct DoubtfulBand {
     double top = 0;
 };
 
-using Layer =
-    std::variant<Series, HeatMap, FailureMark, EventMarks, Guide, Area, Label, RoundOffFloor, DoubtfulBand>;
+using Layer = std::variant<Series, HeatMap, FailureMark, EventMarks, Guide, Area, Label, RoundOffFloor,
+                           DoubtfulBand, ColourScale>;
 
 enum class Aspect {
     free,

@@ -102,4 +102,9 @@ struct Comparison {
     bool isFinished = false;
 };
 
+/// Whether there are results besides those of its schemes, which change while these stay.
+inline bool hasFurtherProducts(const Comparison& comparison) {
+    return comparison.products.find<ParameterMaps>() || comparison.products.find<StartSets>();
+}
+
 }  // namespace extremal

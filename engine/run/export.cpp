@@ -7,7 +7,9 @@
 
 #include "engine/core/known_value.hpp"
 #include "engine/core/text.hpp"
+#include "engine/run/event_files.hpp"
 #include "engine/run/file_batch.hpp"
+#include "engine/run/starts_files.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
@@ -256,6 +258,9 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
                              [events = &sections->all[k].events](FileBatch& batch) {
                                  writeRows(*events, [&](const std::string& block) { batch.append(block); });
                              }});
+    if (const FoundEvents* found = scheme.products.find<FoundEvents>())
+        files.push_back(
+            {slug + ".events.csv", [found](FileBatch& batch) { batch.append(eventsCsv(*found)); }});
     if (const KktPattern* pattern = scheme.products.find<KktPattern>(); pattern && pattern->failure.empty())
         files.push_back(
             {slug + ".kkt.csv", [pattern](FileBatch& batch) { batch.append(patternCsv(*pattern)); }});
@@ -297,6 +302,11 @@ std::vector<ExportFile> filesOf(const Comparison& comparison) {
                          }});
         addProducts(files, csv[i].substr(0, csv[i].size() - 4), scheme, comparison.system);
     }
+    for (const auto& [name, set] : startFiles(comparison)) {
+        files.push_back({name + ".csv", [set = set](FileBatch& batch) { batch.append(startsCsv(*set)); }});
+        files.push_back(
+            {name + ".points.csv", [set = set](FileBatch& batch) { batch.append(startPointsCsv(*set)); }});
+    }
     for (const auto& [name, maps] : mapFiles(comparison))
         files.push_back({name, [maps = maps](FileBatch& batch) { batch.append(mapCsv(maps)); }});
     return files;
@@ -323,6 +333,7 @@ std::vector<std::string> csvNames(const Comparison& comparison) {
     for (const auto& scheme : comparison.schemes) names.push_back(scheme->summary.label);
     std::vector<std::string> taken{"summary"};
     if (!comparison.scene.reference.path.empty()) taken.emplace_back("reference");
+    for (const auto& [file, set] : startFiles(comparison)) taken.push_back(file);
     for (const auto& [file, maps] : mapFiles(comparison)) taken.push_back(file.substr(0, file.size() - 4));
     names = uniqueSlugs(names, taken);
     for (std::string& n : names) n += ".csv";
@@ -355,6 +366,8 @@ Value summaryValue(const Comparison& comparison) {
         for (const Summary::Extreme& e : scheme->summary.extremes)
             extremes.set(e.column, knownNumber(e.value));
         row.set("extremes", extremes);
+        if (const FoundEvents* found = scheme->products.find<FoundEvents>())
+            row.set("events", eventsValue(*found));
     }
     for (const ExportFile& file : filesOf(comparison)) files.emplace_back(file.name);
     for (const char* file : {"summary.csv", "summary.json"}) files.emplace_back(file);

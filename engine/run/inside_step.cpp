@@ -1,12 +1,12 @@
 #include "engine/run/inside_step.hpp"
 
-#include <boost/math/tools/toms748_solve.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "engine/run/crossing.hpp"
 #include "engine/view/axes.hpp"
+#include "engine/view/plane.hpp"
 
 namespace extremal {
 namespace {
@@ -38,12 +38,6 @@ std::vector<Column> leadingColumns(const System& system) {
     return columns;
 }
 
-std::string sectionColumn(const View& view, const System& system) {
-    if (!view.at.empty()) return view.at;
-    const std::vector<Quantity> columns = stateColumns(system);
-    return columns.empty() ? std::string() : columns.front().name;
-}
-
 InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const ProductPlan& plan,
                        const System& system, bool isUnplanned, long long steps, Observer error)
     : result_(result), error_(std::move(error)), steps_(steps) {
@@ -53,7 +47,7 @@ InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const ProductPl
     width_ = columns.size() - 1;
     for (const View& view : scene.views) {
         if (!needs(view, Product::sections)) continue;
-        const std::string name = sectionColumn(view, system);
+        const std::string name = planeOf(view, system).value_or(ViewPlane{}).at;
         const auto found =
             std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; });
         if (found == columns.end() || found == columns.begin()) continue;
@@ -125,20 +119,11 @@ void InsideStep::cross(const Integrator& integrator, const State& before, const 
     for (const Section& section : sections_) {
         const double first = before.x[section.column], last = after.x[section.column];
         Trajectory& events = result_.products.make<Sections>().all[section.index].events;
-        if (!(first < 0 && last >= 0) || events.rows() >= mostPoints) continue;
-        const auto value = [&](double tau) {
-            integrator.denseOutput(tau, at_.x);
+        if (!passesUpwards(first, last) || events.rows() >= mostPoints) continue;
+        const double tau = crossingOf(last, [&](double part) {
+            integrator.denseOutput(part, at_.x);
             return at_.x[section.column];
-        };
-        double tau = 1;
-        // The curve meets the nodes to round-off only: an end that is on the plane to round-off is the place.
-        if (last > 0 && value(0) < 0 && value(1) > 0) {
-            std::uintmax_t evaluations = 100;
-            const auto found =
-                boost::math::tools::toms748_solve(value, 0.0, 1.0, value(0), value(1),
-                                                  boost::math::tools::eps_tolerance<double>(), evaluations);
-            tau = (found.first + found.second) / 2;
-        }
+        });
         integrator.denseOutput(tau, at_.x);
         append(events, before.t + tau * (after.t - before.t), at_.x, width_);
     }

@@ -2,9 +2,7 @@
 /// distance from the reference, and the events of sections. Where a view shows a part of the time axis its
 /// steps have more points.
 ///
-/// A section is the set of states where one column passes zero upwards: the sign is seen at the nodes, the
-/// place is found on the curve, to round-off of tau. An event that passes zero twice within one step is not
-/// seen.
+/// A section is the set of states where one column passes zero upwards (run/crossing.hpp).
 #pragma once
 
 #include <vector>
@@ -17,9 +15,6 @@ namespace extremal {
 
 /// t and the state, as columns without values.
 std::vector<Column> leadingColumns(const System& system);
-
-/// The column whose zeros make a section: the view's own, or the first coordinate.
-std::string sectionColumn(const View& view, const System& system);
 
 class InsideStep {
 public:

@@ -10,8 +10,10 @@
 
 #include "engine/core/element_clocks.hpp"
 #include "engine/run/action_defect.hpp"
+#include "engine/run/found_events.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/run/parameter_map.hpp"
+#include "engine/run/start_sets.hpp"
 #include "engine/run/step_records.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/trajectory/frames.hpp"
@@ -71,7 +73,7 @@ public:
 
 private:
     using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, ElementClocks, KktPattern,
-                               ActionDefect, ParameterMaps>;
+                               ActionDefect, ParameterMaps, StartSets, FoundEvents>;
     std::vector<Value> all_;
 };
 

@@ -17,8 +17,8 @@ SchemeSpec asComputed(SchemeSpec spec) {
 
 bool isSameProblem(const Scene& a, const Scene& b) {
     return a.model == b.model && a.initial == b.initial && a.start == b.start && a.end == b.end &&
-           a.reference == b.reference && a.observe == b.observe && a.every == b.every &&
-           a.isDense == b.isDense && a.maxSteps == b.maxSteps;
+           a.reference == b.reference && a.observe == b.observe && a.events == b.events &&
+           a.every == b.every && a.isDense == b.isDense && a.maxSteps == b.maxSteps;
 }
 
 /// Whether what `wanted` needs from inside the steps is among what another view needed.

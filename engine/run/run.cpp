@@ -15,13 +15,14 @@
 #include "engine/run/map_run.hpp"
 #include "engine/run/reference.hpp"
 #include "engine/run/scheme_run.hpp"
+#include "engine/run/starts_run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
-/// One coordinator prepares the reference, then a pool takes the schemes in turn, and after them the columns
-/// of maps: each is one task, so results do not depend on the number of threads.
+/// One coordinator prepares the reference, then a pool takes the schemes in turn, and after them the starts
+/// of views and the columns of maps: each is one task, so results do not depend on the number of threads.
 struct Run::Impl {
     ResolvedScene resolved;
     const Scene& scene = resolved.scene;
@@ -31,6 +32,7 @@ struct Run::Impl {
     unsigned threads;
     std::vector<std::unique_ptr<SchemeRun>> tasks;
     MapRun maps;
+    StartsRun starts;
     bool needsSchemes = false;  ///< not all results are known
     mutable std::mutex mutex;
     ReferenceInfo reference;  ///< guarded by mutex
@@ -38,7 +40,7 @@ struct Run::Impl {
     std::jthread coordinator;
 
     Impl(ResolvedScene r, const RunOptions& options)
-        : resolved(std::move(r)), plan(resolved), maps(resolved.scene) {
+        : resolved(std::move(r)), plan(resolved), maps(resolved.scene), starts(resolved) {
         for (const Product product : options.products) plan.add(product);
         threads = options.threads;
         for (std::size_t i = 0; i < scene.schemes.size(); ++i)
@@ -92,11 +94,13 @@ struct Run::Impl {
             reference = ref.info;
         }
         const std::shared_ptr<ExactActions> exact = needsSchemes ? exactActionsOf(resolved, plan) : nullptr;
-        std::vector<std::size_t> all(tasks.size() + maps.tasks());
+        std::vector<std::size_t> all(tasks.size() + starts.tasks() + maps.tasks());
         std::iota(all.begin(), all.end(), std::size_t{0});
         // A task that has not begun when a stop is requested still reports that it was stopped.
         forEachInPool(all, threads, {}, [&](std::size_t i) {
-            i < tasks.size() ? tasks[i]->run(ref, exact.get(), stop) : maps.run(i - tasks.size(), stop);
+            if (i < tasks.size()) return tasks[i]->run(ref, exact.get(), stop);
+            i -= tasks.size();
+            i < starts.tasks() ? starts.run(i, stop) : maps.run(i - starts.tasks(), stop);
         });
         isFinished = true;
         isFinished.notify_all();
@@ -131,6 +135,7 @@ Comparison Run::latest() const {
     c.isFinished = impl_->isFinished;
     for (const auto& task : impl_->tasks) c.schemes.push_back(task->latest());
     if (impl_->plan.has(Product::parameterMap)) c.products.make<ParameterMaps>().all = impl_->maps.latest();
+    if (impl_->starts.tasks() > 0) c.products.make<StartSets>() = impl_->starts.latest();
     const std::lock_guard lock(impl_->mutex);
     c.reference = impl_->reference;
     return c;
@@ -141,7 +146,8 @@ bool Run::isPreparing() const { return impl_->isPreparing; }
 double Run::fraction() const {
     double sum = 0;
     for (const auto& task : impl_->tasks) sum += task->latest()->fraction;
-    const double schemes = impl_->tasks.empty() ? 1 : sum / static_cast<double>(impl_->tasks.size());
+    double schemes = impl_->tasks.empty() ? 1 : sum / static_cast<double>(impl_->tasks.size());
+    if (impl_->starts.tasks() > 0) schemes = 0.5 * schemes + 0.5 * impl_->starts.fraction();
     return impl_->maps.tasks() > 0 ? 0.3 * schemes + 0.7 * impl_->maps.fraction() : schemes;
 }
 

@@ -36,7 +36,6 @@ public:
     std::shared_ptr<const SchemeResult> latest() const;
 
 private:
-    struct Recording;
     void compute(const Reference& reference, ExactActions* exact, const std::stop_token& stop);
     void publish(const SchemeResult& result);
     void measureOrder(SchemeResult& result, const Reference& reference, const Reference& ofScene,

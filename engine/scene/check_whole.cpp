@@ -299,6 +299,7 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
         checkScheme(reader, resolved, scheme, "/reference/scheme");
     if (!resolved.system || !reader.errors.empty()) return;
     checkReference(reader, resolved);
+    checkStarts(reader, resolved);
 }
 
 }  // namespace extremal

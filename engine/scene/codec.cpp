@@ -46,6 +46,7 @@ ReadScene readParts(const Value& document, const std::string& directory) {
     readReference(reader, document, directory, scene);
     readOutput(reader, document, scene);
     readObserve(reader, document, model, scene);
+    readEvents(reader, document, model, scene);
     readViews(reader, document, model, scene);
     ResolvedScene resolved;
     resolved.scene = scene;

@@ -6,15 +6,19 @@
 
 namespace extremal::format {
 
-inline const std::vector<std::string> root = {"$schema",   "extremal", "title",   "source", "lesson",
-                                              "notes",     "model",    "initial", "time",   "schemes",
-                                              "reference", "observe",  "output",  "views",  "limits"};
+inline const std::vector<std::string> root = {
+    "$schema", "extremal", "title",     "source",  "lesson", "notes",  "model", "initial",
+    "time",    "schemes",  "reference", "observe", "events", "output", "views", "limits"};
 inline const std::vector<std::string> time = {"start", "end"};
 inline const std::vector<std::string> initial = {"q", "p", "v", "q1", "at"};
+inline const std::vector<std::string> directions = {"both", "up", "down"};
+inline const std::vector<std::string> actions = {"write", "count", "stop"};
+inline const std::vector<std::string> event = {"expression", "label", "direction", "action"};
 inline const std::vector<std::string> output = {"every", "dense"};
 inline const std::vector<std::string> limits = {"steps"};
 inline const std::vector<std::string> reference = {"type", "scheme", "path"};
-inline const std::vector<std::string> view = {"view", "x", "y", "at", "scheme", "node", "range", "curve"};
+inline const std::vector<std::string> view = {"view", "x",     "y",     "at",     "scheme",
+                                              "node", "range", "curve", "starts", "spread"};
 inline const std::vector<std::string> range = {"x", "y"};
 inline const std::vector<std::string> scheme = {"label",  "enabled",        "step",        "tolerance",
                                                 "space",  "quadrature",     "baseline",    "scheme",

@@ -33,16 +33,23 @@ Value ruleValue(const Settings& rule);
 /// Gives the schemes without a label one made from their parts, unique among all.
 void fillLabels(std::vector<SchemeSpec>& schemes);
 
-/// Reference, output, observables and views.
+/// Reference, output, observables, events and views.
 void readReference(Reader& reader, const Value& document, const std::string& directory, Scene& scene);
 void readTime(Reader& reader, const Value& document, Scene& scene);
 void readOutput(Reader& reader, const Value& document, Scene& scene);
 void readObserve(Reader& reader, const Value& document, const System* system, Scene& scene);
+void readEvents(Reader& reader, const Value& document, const System* system, Scene& scene);
 void readViews(Reader& reader, const Value& document, const System* system, Scene& scene);
 
 /// The keys of a view "parameter-map", with those it leaves out; `others` are keys read elsewhere.
 void readMap(Reader& reader, const Value& object, const std::string& pointer,
              const std::vector<std::string>& others, const System& system, const Scene& scene, View& view);
+
+/// The starts of a view, and whether its plane can have any. Whether the energy admits each of them is a
+/// warning, once the start of the scene is known.
+void readStarts(Reader& reader, const Value& object, const std::string& pointer, const System* system,
+                View& view);
+void checkStarts(Reader& reader, const ResolvedScene& resolved);
 
 /// What needs several parts at once: numbers of steps and rows, refused and unstable discretizations,
 /// stability limits, cost. A scene whose model is wrong has no system. Fills in the state at the start.

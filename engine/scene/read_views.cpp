@@ -230,6 +230,7 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
             const ViewAxes axes = axesOf(view, *system);
             parts.readRanges(view, axes);
             parts.readCurve(view, axes);
+            readStarts(reader, object, pointer, system, view);
             if (isMap) readMap(reader, object, pointer, format::view, *system, scene, view);
             parts.warnIfNotObserved(view);
         }

@@ -43,17 +43,17 @@ void Reader::warning(std::string pointer, std::string message, std::string hint,
 
 namespace {
 
-/// The value of a text at one value of its variable (if it has one); a mistake in it is recorded.
+/// The value of a text where its variables (if it has any) are 1; a mistake in it is recorded.
 std::optional<double> valueOfText(Reader& reader, const std::string& text, const std::string& pointer,
-                                  const std::string& variable) {
+                                  const std::vector<std::string>& variables) {
     std::vector<std::string> known{"pi"};
-    if (!variable.empty()) known.push_back(variable);
+    known.insert(known.end(), variables.begin(), variables.end());
     for (const auto& [name, value] : reader.parameters) known.push_back(name);
     bool dependsOnWrong = false;
     try {
         const Expression expression = parseExpression(text);
         const double value = evaluate(expression, [&](std::string_view name) -> std::optional<double> {
-            if (!variable.empty() && name == variable) return 1;
+            if (std::find(variables.begin(), variables.end(), name) != variables.end()) return 1;
             const auto there = reader.parameters.find(name);
             if (there == reader.parameters.end() && !reader.hasUnknownModel) return {};
             dependsOnWrong = dependsOnWrong || there == reader.parameters.end() || !there->second;
@@ -82,11 +82,18 @@ std::optional<double> Reader::evaluateText(const std::string& text, const std::s
 
 std::optional<ViewCurve> Reader::curve(const std::string& text, const std::string& pointer,
                                        const std::string& variable) {
-    if (!valueOfText(*this, text, pointer, variable)) return {};
-    ViewCurve result{text, {}};
+    const auto values = function(text, pointer, {variable});
+    return values ? std::optional(ViewCurve{text, *values}) : std::nullopt;
+}
+
+std::optional<std::vector<std::pair<std::string, double>>> Reader::function(
+    const std::string& text, const std::string& pointer, const std::vector<std::string>& variables) {
+    if (!valueOfText(*this, text, pointer, variables)) return {};
+    std::vector<std::pair<std::string, double>> values;
     for (const std::string& name : parseExpression(text).names())
-        if (name != variable) result.values.emplace_back(name, *parameters.find(name)->second);
-    return result;
+        if (std::find(variables.begin(), variables.end(), name) == variables.end())
+            values.emplace_back(name, *parameters.find(name)->second);
+    return values;
 }
 
 std::optional<Number> Reader::number(const Value& value, const std::string& pointer, const Limits& limits) {

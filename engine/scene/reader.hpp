@@ -66,6 +66,10 @@ public:
     /// it is wrong.
     std::optional<ViewCurve> curve(const std::string& text, const std::string& pointer,
                                    const std::string& variable);
+    /// The values of the parameters in an expression in several variables and the parameters, which those
+    /// hide; empty as above.
+    std::optional<std::vector<std::pair<std::string, double>>> function(
+        const std::string& text, const std::string& pointer, const std::vector<std::string>& variables);
 };
 
 /// Defaults of keys whose descriptor has none because they follow from something else (nodes from the

@@ -58,6 +58,19 @@ struct ReferenceSpec {
     bool operator==(const ReferenceSpec&) const = default;
 };
 
+/// Something to look for along every motion: where an expression in the state passes zero.
+struct EventSpec {
+    enum class Direction { both, up, down };
+    enum class Action { write, count, stop };
+    std::string expression;
+    std::string label;  ///< empty: the expression
+    Direction direction = Direction::both;
+    Action action = Action::write;
+    std::vector<std::pair<std::string, double>> values = {};  ///< of the model's parameters in it
+    const std::string& title() const { return label.empty() ? expression : label; }
+    bool operator==(const EventSpec&) const = default;
+};
+
 struct Scene {
     std::string title, source, lesson, notes;
     Settings model;
@@ -66,6 +79,7 @@ struct Scene {
     std::vector<SchemeSpec> schemes;
     ReferenceSpec reference;
     std::vector<std::string> observe;
+    std::vector<EventSpec> events;
     std::optional<Number> every;  ///< output.every
     bool isDense = false;         ///< output.dense
     std::vector<View> views;

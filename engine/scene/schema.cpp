@@ -10,6 +10,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/scene/format.hpp"
 #include "engine/view/catalog.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
@@ -236,6 +237,7 @@ Value viewChoice() {
     p.set("range",
           object(range, {}, "The part that the plot shows at first: two increasing numbers for an axis."));
     p.set("curve", typed("string", "An expression in the variable along x, drawn for comparison."));
+    p.set("starts", arrayOf(ends));
     for (const CatalogItem& item : viewCatalog())
         for (const FieldInfo& field : item.parameters)
             if (!p.find(field.key)) p.set(field.key, property(field));
@@ -262,6 +264,12 @@ Value rootProperties() {
     p.set("schemes", schemes);
     p.set("reference", referenceChoice());
     p.set("observe", arrayOf(enumeration(idsOf(observableCatalog()))));
+    Value event{Value::Object{}};
+    event.set("expression", typed("string", "An expression in the state: coordinates by name, p_<name>, t."));
+    event.set("label", typed("string", "What it is called; by default the expression."));
+    event.set("direction", enumeration(format::directions));
+    event.set("action", enumeration(format::actions));
+    p.set("events", arrayOf(anyOf({typed("string"), object(event, {"expression"})})));
     p.set("output", object(output, {}));
     p.set("views", arrayOf(viewChoice()));
     p.set("limits", object(limits, {}));

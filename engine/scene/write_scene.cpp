@@ -1,4 +1,5 @@
 #include "engine/scene/codec.hpp"
+#include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/reader.hpp"
 #include "engine/scene/read_parts.hpp"
@@ -50,10 +51,23 @@ Value viewValue(const View& view) {
     if (view.yRange) range.set("y", rangeValue(*view.yRange));
     if (!range.asObject().empty()) value.set("range", range);
     if (!view.curve.expression.empty()) value.set("curve", view.curve.expression);
+    Value::Array starts;
+    for (const auto& [x, y] : view.starts.points)
+        starts.push_back(Value::Array{numberValue(x), numberValue(y)});
+    if (!starts.empty()) value.set("starts", starts);
+    if (view.starts.spread > 0) value.set("spread", view.starts.spread);
     const Value keys = settingsValue(view.keys);
     for (const auto& [key, member] : keys.asObject())
         if (key != "type") value.set(key, member);
     return value.asObject().size() == 1 ? Value(view.id) : value;
+}
+
+Value eventValue(const EventSpec& event) {
+    Value value(Value::Object{{"expression", event.expression}});
+    if (!event.label.empty()) value.set("label", event.label);
+    value.set("direction", format::directions[static_cast<std::size_t>(event.direction)]);
+    value.set("action", format::actions[static_cast<std::size_t>(event.action)]);
+    return value;
 }
 
 template <class Items, class ToValue>
@@ -108,6 +122,7 @@ Value toValue(const Scene& scene) {
     value.set("schemes", listOf(scene.schemes, schemeValue));
     value.set("reference", referenceValue(scene.reference));
     value.set("observe", listOf(scene.observe, [](const std::string& name) { return Value(name); }));
+    if (!scene.events.empty()) value.set("events", listOf(scene.events, eventValue));
     if (scene.every)
         value.set("output",
                   Value(Value::Object{{"every", numberValue(*scene.every)}, {"dense", scene.isDense}}));

@@ -28,6 +28,7 @@ enum class Product {
     elementClocks,  ///< steps and updates of the elements of asynchronous schemes
     steps,          ///< every step, of schemes whose times are unknowns
     parameterMap,   ///< errors over a grid of a parameter and the step
+    starts,         ///< the motions from the starts of a view
 };
 
 /// What stands along the x axis of a view.
@@ -51,6 +52,7 @@ struct ViewKeys {
     bool hasZeros = false;     ///< `at`
     bool hasNode = false;      ///< `node`
     bool hasScheme = false;    ///< `scheme`: pictures of one scheme
+    bool hasStarts = false;    ///< `starts` and `spread`
 };
 
 /// How many pictures a view without the key `scheme` makes.

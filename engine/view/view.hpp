@@ -25,6 +25,15 @@ struct ViewCurve {
     bool operator==(const ViewCurve&) const = default;
 };
 
+/// Starts besides that of the scene, in the plane of the view's two columns: of a section, where it passes
+/// upwards with the energy of the scene's start; of a phase portrait, with the other columns of that start.
+struct ViewStarts {
+    std::vector<std::pair<Number, Number>> points;
+    int spread = 0;  ///< that many more, spread evenly
+    bool isEmpty() const { return points.empty() && spread == 0; }
+    bool operator==(const ViewStarts&) const = default;
+};
+
 struct View {
     std::string id;                   ///< "energy", "phase", ...
     std::string x, y;                 ///< columns of a phase portrait or trajectory; empty: default
@@ -33,6 +42,7 @@ struct View {
     std::optional<Number> node = {};  ///< of a shape function; empty: the one in the middle
     std::optional<ViewRange> xRange = {}, yRange = {};
     ViewCurve curve = {};
+    ViewStarts starts = {};
     Settings keys = {};  ///< of views with keys of their own (CatalogItem::parameters); type empty
     bool operator==(const View&) const = default;
 };

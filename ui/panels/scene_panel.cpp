@@ -9,6 +9,8 @@
 
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/event_names.hpp"
+#include "engine/scene/format.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/json.hpp"
 #include "ui/panels/form.hpp"
@@ -100,6 +102,35 @@ FormField referenceField(const Workspace& workspace, const std::string& now) {
             "/reference"};
 }
 
+/// Expression, direction and action of each event.
+std::vector<FormField> eventFields(const Scene& scene) {
+    std::vector<FormField> fields;
+    for (std::size_t i = 0; i < scene.events.size(); ++i) {
+        const std::string place = "/events/" + std::to_string(i);
+        const QString number = QString::number(i + 1);
+        fields.push_back(
+            {textField("expression", "event", nullptr,
+                       "Where this passes zero: coordinates by their names, momenta as p_<name>, t "
+                       "and the parameters of the model."),
+             place + "/expression",
+             QObject::tr("event %1").arg(number),
+             {}});
+        fields.push_back(
+            {choiceField("direction", "direction", format::directions, "Which way it passes zero."),
+             place + "/direction",
+             QObject::tr("direction %1").arg(number),
+             {}});
+        fields.push_back(
+            {choiceField("action", "action", format::actions,
+                         "write: with time and state into a file, and as marks; count: how often; stop: "
+                         "the run ends there."),
+             place + "/action",
+             QObject::tr("action %1").arg(number),
+             {}});
+    }
+    return fields;
+}
+
 QLabel* sectionLabel(const QString& text) {
     QLabel* label = makeLabel(text, "strong");
     label->setContentsMargins(0, 4, 0, 0);
@@ -138,6 +169,10 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     body()->addWidget(time_);
     body()->addWidget(sectionLabel(tr("Errors")));
     body()->addWidget(reference_);
+    eventsTitle_ = sectionLabel(tr("Events"));
+    events_ = new Form(workspace);
+    body()->addWidget(eventsTitle_);
+    body()->addWidget(events_);
     menu()->addAction(tr("Reset parameters"), this, [this] {
         if (const ModelEntry* entry = findModel(workspace_.scene().model.type)) {
             std::vector<Edit> edits{{"/model", exampleModel(*entry)}};
@@ -150,6 +185,11 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     });
     menu()->addAction(tr("Start from two positions"), this, &ScenePanel::startFromTwoPositions);
     menu()->addAction(tr("Start from a momentum"), this, &ScenePanel::startFromMomentum);
+    menu()->addAction(tr("Watch for an event"), this, &ScenePanel::addEvent);
+    menu()->addAction(tr("Remove the last event"), this, [this] {
+        if (const std::size_t count = workspace_.scene().events.size(); count > 0)
+            workspace_.edit({{"/events/" + std::to_string(count - 1), std::nullopt}}, tr("Remove an event"));
+    });
     menu()->addAction(tr("Compare with a file..."), this, &ScenePanel::compareWithFile);
     menu()->addAction(tr("Compare with the selected scheme"), this, &ScenePanel::compareWithSelected);
     connect(&workspace_, &Workspace::sceneChanged, this, &ScenePanel::rebuild);
@@ -163,6 +203,12 @@ void ScenePanel::rebuild() {
         shownReference_ = kind->asString();
         reference_->setFields({referenceField(workspace_, shownReference_)});
     }
+    if (shownEvents_ != scene.events.size()) {
+        shownEvents_ = scene.events.size();
+        events_->setFields(eventFields(scene));
+    }
+    eventsTitle_->setVisible(shownEvents_ > 0);
+    events_->setVisible(shownEvents_ > 0);
     std::string keys = std::to_string(static_cast<int>(scene.initial.second));
     for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
     if (const Value* names = scene.model.find("coordinates")) keys += writeCompactJson(*names);
@@ -222,6 +268,18 @@ void ScenePanel::startFromMomentum() {
     initial.set("q", Value::Array(start.x.begin(), half));
     initial.set("p", Value::Array(half, start.x.end()));
     workspace_.edit({{"/initial", initial}}, tr("Start from a momentum"));
+}
+
+/// Of the first coordinate, to be changed.
+void ScenePanel::addEvent() {
+    const Scene& scene = workspace_.scene();
+    std::vector<std::string> parameters;
+    for (const auto& [key, value] : scene.model.keys) parameters.push_back(key);
+    const auto names = stateNames(makeSystem(scene), parameters);
+    std::string first = names.size() > 1 ? names[1].name : names.front().name;
+    for (const StateName& name : names)
+        if (name.column == 0) first = name.name;  // the shortest name comes last
+    workspace_.edit({{"/events/-", Value(Value::Object{{"expression", first}})}}, tr("Watch for an event"));
 }
 
 void ScenePanel::compareWithFile() {

@@ -1,5 +1,5 @@
-/// The scene's card: the model, its parameters, the initial data, the end of time and the reference, as forms
-/// from descriptors.
+/// The scene's card: the model, its parameters, the initial data, the end of time, the reference and the
+/// events, as forms from descriptors.
 #pragma once
 
 #include "ui/panels/card.hpp"
@@ -23,17 +23,19 @@ private:
     void changeModel(int index);
     void startFromTwoPositions();
     void startFromMomentum();
+    void addEvent();
     void compareWithFile();
     void compareWithSelected();
 
     Workspace& workspace_;
     QComboBox* model_;
-    Form *parameters_, *initial_, *time_, *reference_;
-    QLabel *initialTitle_, *timeTitle_;
+    Form *parameters_, *initial_, *time_, *reference_, *events_;
+    QLabel *initialTitle_, *timeTitle_, *eventsTitle_;
     LagrangianEditor* lagrangian_;
     std::string shownModel_;
     std::string shownInitial_;  ///< which keys of the initial data are shown
     std::string shownReference_;
+    std::size_t shownEvents_ = 0;
 };
 
 }  // namespace extremal

@@ -1,5 +1,7 @@
 #include "ui/panels/scheme_card.hpp"
 
+#include "engine/run/event_files.hpp"
+
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -31,6 +33,11 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     makeHeader();
     parts_ = makeElidedLabel({}, "caption");
     layout_->addWidget(parts_);
+    events_ = makeLabel({}, "caption");
+    events_->setObjectName("events");
+    events_->setWordWrap(true);
+    events_->hide();
+    layout_->addWidget(events_);
     caution_ = makeLabel({}, "caption");
     caution_->setObjectName("caution");
     caution_->setWordWrap(true);
@@ -258,6 +265,9 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
     steps_.value->setText(summary.steps > 0 ? QString::number(summary.steps) : QStringLiteral("–"));
     for (QLabel* label : {cost_.value, error_.value, order_.value, steps_.value}) label->setEnabled(!isStale);
     showFailure(summary);
+    const std::string events = result ? eventsText(*result) : std::string();
+    events_->setVisible(!events.empty());
+    events_->setText(QString::fromStdString(events));
 }
 
 void SchemeCard::setSelected(bool isSelected) {

@@ -71,7 +71,7 @@ private:
     const Theme* theme_;
     QVBoxLayout* layout_;
     LineSample* line_;
-    QLabel *name_, *step_, *parts_, *caution_, *failure_, *advice_;
+    QLabel *name_, *step_, *parts_, *caution_, *events_, *failure_, *advice_;
     QPushButton* remedy_;
     QLineEdit *nameEdit_, *stepEdit_;
     QWidget* figures_;

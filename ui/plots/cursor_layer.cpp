@@ -25,6 +25,7 @@ void CursorLayer::draw(QCPPainter* painter) {
         painter->setBrush(Qt::NoBrush);
     }
     if (c.level) drawLevel(*painter, map);
+    if (c.handle) drawHandle(*painter, map);
     if (!c.hoverText.isEmpty()) drawHover(*painter);
     if (c.hasFocus) {
         painter->setPen(QPen(shared_.theme.accent, 1, Qt::DotLine));
@@ -77,6 +78,18 @@ void CursorLayer::drawLevel(QCPPainter& painter, const PixelMap& map) const {
     const double top = y - height - 4 < map.rect.top() ? y + 4 : y - height - 4;
     drawPill(painter, {map.rect.right() - width - 4, top}, shared_.cursors.levelText, font, theme.panel,
              theme.accent, theme.accent);
+}
+
+/// A ring, that shows what it is over.
+void CursorLayer::drawHandle(QCPPainter& painter, const PixelMap& map) const {
+    const QPointF at = map(shared_.cursors.handle->x(), shared_.cursors.handle->y());
+    if (!std::isfinite(at.x()) || !std::isfinite(at.y()) || !map.rect.adjusted(-1, -1, 1, 1).contains(at))
+        return;
+    painter.setBrush(Qt::NoBrush);
+    painter.setPen(QPen(shared_.theme.panel, 4));
+    painter.drawEllipse(at, 5.5, 5.5);
+    painter.setPen(QPen(shared_.theme.accent, 1.8));
+    painter.drawEllipse(at, 5.5, 5.5);
 }
 
 void CursorLayer::drawHover(QCPPainter& painter) const {

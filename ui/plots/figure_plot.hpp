@@ -29,6 +29,7 @@ struct PlotCursors {
     std::optional<QRectF> hoverCell;  ///< of a map: outlined in place of the point
     std::optional<double> level;      ///< a value of y marked by a line across, which the user moves
     QString levelText;                ///< beside that line
+    std::optional<QPointF> handle;    ///< a point that the user drags, in the values of the axes
     std::optional<QRectF> box;        ///< the zoom box being drawn
     bool hasFocus = false;            ///< reached with the keyboard
 };

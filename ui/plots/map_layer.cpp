@@ -1,8 +1,10 @@
 #include "ui/plots/map_layer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "engine/figure/build.hpp"
 #include "ui/plots/tickers.hpp"
 #include "ui/plots/value_colour.hpp"
 
@@ -50,9 +52,22 @@ std::vector<int> decadesOf(const HeatMap& heat, double height, double each) {
     return all;
 }
 
+/// At the lower end, in the middle and at the upper end.
+std::array<QString, 3> ticksOf(const ColourScale& scale) {
+    const auto text = [](double value) { return QString::fromStdString(shortNumber(value)); };
+    return {text(scale.low), text((scale.low + scale.high) / 2), text(scale.high)};
+}
+
 }  // namespace
 
 int scaleWidth(const Figure& figure, const Theme& theme) {
+    if (const ColourScale* scale = figure.find<ColourScale>()) {
+        const QFontMetricsF metrics(scaleFont(theme));
+        double widest = 0;
+        for (const QString& text : ticksOf(*scale))
+            widest = std::max(widest, metrics.horizontalAdvance(text));
+        return static_cast<int>(barLeft + barWidth + tickLength + 3 + widest + metrics.height() + 5);
+    }
     if (!figure.heat() || figure.heat()->scale.empty()) return 0;
     const QFontMetricsF metrics(scaleFont(theme));
     return static_cast<int>(barLeft + barWidth + tickLength + 3 + metrics.horizontalAdvance(powerOfTen(-10)) +
@@ -132,6 +147,36 @@ void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Sh
     painter.save();
     painter.setPen(theme.text);
     painter.translate(left + barWidth + tickLength + 6 + widest + line, top + height / 2);
+    painter.rotate(-90);
+    painter.drawText(QPointF(-metrics.horizontalAdvance(title) / 2, -metrics.descent()), title);
+    painter.restore();
+}
+
+void drawColourScale(QCPPainter& painter, const PixelMap& map, const Theme& theme, const ColourScale& scale) {
+    const QFont font = scaleFont(theme);
+    const QFontMetricsF metrics(font);
+    painter.setFont(font);
+    const double left = map.rect.right() + barLeft, top = map.rect.top(), height = map.rect.height();
+    if (height < 2 * metrics.height()) return;
+    QLinearGradient colours(0, map.rect.bottom(), 0, top);
+    for (int i = 0; i <= 24; ++i) colours.setColorAt(i / 24.0, valueColour(i / 24.0));
+    painter.fillRect(QRectF(left, top, barWidth, height), colours);
+    const auto ticks = ticksOf(scale);
+    double widest = 0;
+    for (std::size_t k = 0; k < ticks.size(); ++k) {
+        const double y = std::round(map.rect.bottom() - height * static_cast<double>(k) / 2) + 0.5;
+        painter.setPen(QPen(theme.line, 1));
+        painter.drawLine(QPointF(left + barWidth, y), QPointF(left + barWidth + tickLength, y));
+        painter.setPen(theme.muted);
+        const double base =
+            std::clamp(y + metrics.ascent() / 2 - 1, top + metrics.ascent() - 2, map.rect.bottom() + 2);
+        painter.drawText(QPointF(left + barWidth + tickLength + 3, base), ticks[k]);
+        widest = std::max(widest, metrics.horizontalAdvance(ticks[k]));
+    }
+    const QString title = QString::fromStdString(scale.title);
+    painter.save();
+    painter.setPen(theme.text);
+    painter.translate(left + barWidth + tickLength + 6 + widest + metrics.height(), top + height / 2);
     painter.rotate(-90);
     painter.drawText(QPointF(-metrics.horizontalAdvance(title) / 2, -metrics.descent()), title);
     painter.restore();

@@ -1,4 +1,5 @@
-/// A heat map with a scale: its cells, and the scale in the right margin of the plot.
+/// A heat map with a scale: its cells, and the scale in the right margin of the plot; and the scale of the
+/// colours of series.
 #pragma once
 
 #include "ui/plots/plot_layers.hpp"
@@ -9,6 +10,7 @@ namespace extremal {
 int scaleWidth(const Figure& figure, const Theme& theme);
 
 void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared);
+void drawColourScale(QCPPainter& painter, const PixelMap& map, const Theme& theme, const ColourScale& scale);
 void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared);
 
 }  // namespace extremal

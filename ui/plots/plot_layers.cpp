@@ -10,6 +10,7 @@
 #include "ui/plots/map_layer.hpp"
 #include "ui/plots/phase_colour.hpp"
 #include "ui/plots/pill.hpp"
+#include "ui/plots/value_colour.hpp"
 
 namespace extremal {
 
@@ -20,7 +21,14 @@ PixelMap FigurePlot::Shared::map() const {
 
 QColor FigurePlot::Shared::colorOf(int style) const {
     const QColor c = theme.series(style).color;
-    if (!isStale || style < 0) return c;
+    return !isStale || style < 0 ? c : mixed(c);
+}
+
+QColor FigurePlot::Shared::shaded(double shade) const {
+    return isStale ? mixed(valueColour(shade)) : valueColour(shade);
+}
+
+QColor FigurePlot::Shared::mixed(const QColor& c) const {
     const auto mix = [](int a, int b) { return (35 * a + 65 * b) / 100; };  // opaque: overlaps must not show
     return {mix(c.red(), theme.panel.red()), mix(c.green(), theme.panel.green()),
             mix(c.blue(), theme.panel.blue())};
@@ -265,13 +273,14 @@ void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
 void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const {
     const SeriesStyle style = shared_.theme.series(series.style);
     const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
-    const QColor color = series.tone == Tone::pale
+    const QColor color = series.shade ? shared_.shaded(*series.shade)
+                         : series.tone == Tone::pale
                              ? shared_.theme.pale(shared_.colorOf(series.style), paleLine)
                              : shared_.colorOf(series.style);
     if (hasLine(series.kind)) {
         const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
-        if (!style.dash.isEmpty()) pen.setDashPattern(style.dash);
+        if (!style.dash.isEmpty() && !series.shade) pen.setDashPattern(style.dash);
         const bool isCurve = isParametric(series.kind);
         const auto visible = isCurve ? visibleCurve : visibleLine;
         drawVisible(painter, pen,
@@ -292,7 +301,7 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
     }
     if (hasMarks(series.kind)) {
         constexpr std::size_t few = 100;  // more are dots: a cloud, not points to be told apart
-        const bool isCloud = series.x.size() > few && !hasLine(series.kind);
+        const bool isCloud = (series.shade || series.x.size() > few) && !hasLine(series.kind);
         painter.setPen(isCloud ? QPen(Qt::NoPen) : QPen(shared_.theme.panel, 1.2));
         painter.setBrush(color);
         const double radius = (isCloud ? 1.7 : 4.5) + (isHighlighted ? 1 : 0) * (isCloud ? 0.6 : 1.5);
@@ -324,6 +333,8 @@ void MarksLayer::draw(QCPPainter* painter) {
     drawEvents(*painter, map);
     drawFailures(*painter, map);
     if (shared_.figure.heat() && !shared_.figure.heat()->scale.empty()) drawMapScale(*painter, map, shared_);
+    if (const ColourScale* scale = shared_.figure.find<ColourScale>())
+        drawColourScale(*painter, map, shared_.theme, *scale);
     if (shared_.figure.message.empty()) return;
     painter->setFont(shared_.theme.caption());
     painter->setPen(shared_.theme.muted);

@@ -22,6 +22,8 @@ struct FigurePlot::Shared {
     PixelMap map() const;
     bool isShown(const Series& s) const { return !hidden.contains(QString::fromStdString(s.label)); }
     QColor colorOf(int style) const;
+    QColor shaded(double shade) const;    ///< of the figure's ColourScale
+    QColor mixed(const QColor& c) const;  ///< of results that are stale
 };
 
 /// Floor, doubtful band, guides and labels below the curves, curves, then marks of failures and the message
@@ -55,8 +57,9 @@ protected:
     void applyDefaultAntialiasingHint(QCPPainter* painter) const override { painter->setAntialiasing(true); }
     QRect clipRect() const override {
         const QRect rect = shared_.plot.axisRect()->rect().adjusted(-8, -8, 8, 8);
-        return shared_.figure.heat() ? rect.adjusted(0, 0, shared_.plot.axisRect()->margins().right(), 0)
-                                     : rect;
+        return shared_.figure.heat() || shared_.figure.find<ColourScale>()
+                   ? rect.adjusted(0, 0, shared_.plot.axisRect()->margins().right(), 0)
+                   : rect;
     }
     void draw(QCPPainter* painter) override;
 
@@ -81,6 +84,7 @@ private:
     void drawCursor(QCPPainter& painter, const PixelMap& map, double t, bool isPinned) const;
     void drawHover(QCPPainter& painter) const;
     void drawLevel(QCPPainter& painter, const PixelMap& map) const;
+    void drawHandle(QCPPainter& painter, const PixelMap& map) const;
     const FigurePlot::Shared& shared_;
 };
 

@@ -49,6 +49,11 @@ double drawHeader(QPainter& painter, const QRectF& rect, const Figure& figure, c
     return std::ceil(titleMetrics.height());
 }
 
+/// Others are named by the title, in the plot itself, or by a scale of colours.
+bool isInLegend(const Series& s) {
+    return s.kind != SeriesKind::cells && s.kind != SeriesKind::ticks && s.style >= 0 && !s.shade;
+}
+
 }  // namespace
 
 double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, const Theme& theme) {
@@ -57,8 +62,7 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
     const double rowHeight = std::ceil(metrics.height()) + 3, sample = 26, gap = 6, space = 16;
     double x = rect.left(), y = rect.top();
     for (const Series& s : figure.series()) {
-        if (s.kind == SeriesKind::cells || s.kind == SeriesKind::ticks || s.style < 0)
-            continue;  // named by the title, and in the plot itself
+        if (!isInLegend(s)) continue;
         const QString label = metrics.elidedText(QString::fromStdString(seriesName(s)), Qt::ElideRight,
                                                  rect.width() - sample - gap);
         const double width = sample + gap + metrics.horizontalAdvance(label);
@@ -88,9 +92,8 @@ double drawLegend(QPainter* painter, const QRectF& rect, const Figure& figure, c
         }
         x += width + space;
     }
-    const bool isNamed = std::any_of(figure.series().begin(), figure.series().end(), [](const Series& s) {
-        return s.kind != SeriesKind::cells && s.kind != SeriesKind::ticks && s.style >= 0;
-    });
+    const bool isNamed = std::any_of(figure.series().begin(), figure.series().end(),
+                                     [](const Series& s) { return isInLegend(s); });
     return isNamed ? y + rowHeight - rect.top() : 0;
 }
 

@@ -9,6 +9,7 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QSaveFile>
+#include <QTimer>
 #include <QVBoxLayout>
 
 #include <cmath>
@@ -16,11 +17,12 @@
 #include "engine/figure/sample.hpp"
 #include "ui/plots/figure_plot.hpp"
 #include "ui/plots/plot_renderer.hpp"
+#include "ui/plots/value_colour.hpp"
 
 namespace extremal {
 namespace {
 
-constexpr double hoverReach = 14, dragThreshold = 4, levelReach = 5;
+constexpr double hoverReach = 14, dragThreshold = 4, levelReach = 5, handleReach = 8;
 
 double valueAtPixel(const PixelMap& map, PlotAxis axis, QPointF pixel) {
     const bool isX = axis == PlotAxis::x;
@@ -51,9 +53,11 @@ struct PlotWidget::Impl {
     std::unique_ptr<FigurePlot> content;
     Theme theme;
     QPushButton* chip;
-    enum class Drag { none, maybe, pan, box, cursor, level } drag = Drag::none;
+    enum class Drag { none, maybe, pan, box, cursor, level, handle } drag = Drag::none;
     QPointF press, last;
     int leftMargin = 0;
+    bool isClickable = false;
+    int clicks = 0;                    ///< that chose a place, or the second of a double click
     std::optional<PlotRange> awaited;  ///< the time range of the group, until there is a figure
 
     explicit Impl(const Theme& t) : theme(t) {}
@@ -89,6 +93,25 @@ struct PlotWidget::Impl {
         if (!level || !map.rect.contains(pixel)) return false;
         const double y = map(map.x.low, *level).y();
         return std::abs(std::clamp(y, map.rect.top() + 2, map.rect.bottom() - 2) - pixel.y()) <= levelReach;
+    }
+    /// A double click fits the view, and chooses no place.
+    void waitForSecondClick(QPointF place, PlotWidget& widget) {
+        QTimer::singleShot(QApplication::doubleClickInterval(), &widget,
+                           [this, place, &widget, n = ++clicks] {
+                               if (n == clicks) emit widget.placeClicked(place.x(), place.y());
+                           });
+    }
+    bool isOnHandle(QPointF pixel) const {
+        const PixelMap map = content->pixelMap();
+        const std::optional<QPointF> handle = content->cursors().handle;
+        if (!handle || !map.rect.contains(pixel)) return false;
+        return QLineF(map(handle->x(), handle->y()), pixel).length() <= handleReach;
+    }
+    QPointF placeAt(QPointF pixel) const {
+        const PixelMap map = content->pixelMap();
+        const QPointF inside(std::clamp(pixel.x(), map.rect.left(), map.rect.right()),
+                             std::clamp(pixel.y(), map.rect.top(), map.rect.bottom()));
+        return {valueAtPixel(map, PlotAxis::x, inside), valueAtPixel(map, PlotAxis::y, inside)};
     }
     bool isTime() const { return content->figure().x.isTime; }
     /// Whether a pixel lies on the x axis, the y axis, or (neither) in the plot.
@@ -162,6 +185,15 @@ void PlotWidget::setLevel(std::optional<double> y, const QString& text) {
     cursors.levelText = text;
     impl_->replotCursor();
 }
+
+void PlotWidget::setHandle(std::optional<QPointF> at) {
+    PlotCursors& cursors = impl_->content->cursors();
+    if (cursors.handle == at || impl_->drag == Impl::Drag::handle) return;
+    cursors.handle = at;
+    impl_->replotCursor();
+}
+
+void PlotWidget::setClickable(bool isClickable) { impl_->isClickable = isClickable; }
 
 std::optional<double> PlotWidget::level() const { return impl_->content->cursors().level; }
 
@@ -304,6 +336,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             if (mouse->button() != Qt::LeftButton) return false;
             s.press = s.last = mouse->position();
             s.drag = mouse->modifiers() & Qt::ControlModifier ? Impl::Drag::box
+                     : s.isOnHandle(s.press)                  ? Impl::Drag::handle
                      : s.isOnLevel(s.press)                   ? Impl::Drag::level
                                                               : Impl::Drag::maybe;
             clearHover();
@@ -318,7 +351,12 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 s.drag = Impl::Drag::pan;
                 s.plot->setCursor(Qt::ClosedHandCursor);
             }
-            if (s.drag == Impl::Drag::level) {
+            if (s.drag == Impl::Drag::handle) {
+                const QPointF place = s.placeAt(at);
+                s.content->cursors().handle = place;
+                s.replotCursor();
+                emit handleMoved(place.x(), place.y());
+            } else if (s.drag == Impl::Drag::level) {
                 emit levelMoved(valueAtPixel(
                     map, PlotAxis::y, {at.x(), std::clamp(at.y(), map.rect.top(), map.rect.bottom())}));
             } else if (s.drag == Impl::Drag::pan) {
@@ -336,7 +374,9 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                 s.replotCursor();
             } else if (s.drag == Impl::Drag::none) {
                 PlotCursors& c = s.content->cursors();
-                s.plot->setCursor(s.isOnLevel(at) ? Qt::SizeVerCursor : Qt::ArrowCursor);
+                s.plot->setCursor(s.isOnHandle(at)  ? Qt::SizeAllCursor
+                                  : s.isOnLevel(at) ? Qt::SizeVerCursor
+                                                    : Qt::ArrowCursor);
                 if (const auto cell = s.cellAt(at)) {
                     c.hoverText = QString::fromStdString(cell->text);
                     c.hoverPoint = at;
@@ -356,7 +396,7 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                                   .arg(series.x[hit->row], 0, 'g', 6)
                                   .arg(series.y[hit->row], 0, 'g', 6);
                 c.hoverPoint = hit->at;
-                c.hoverColor = s.theme.series(series.style).color;
+                c.hoverColor = series.shade ? valueColour(*series.shade) : s.theme.series(series.style).color;
                 s.replotCursor();
             }
             return true;
@@ -389,15 +429,19 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                     emit cellChosen(cell->x, cell->y);
                 else if (const auto row = s.rowAt(mouse->position()))
                     emit rowChosen(*row);
-                else if (const auto hit = s.content->hit(mouse->position(), hoverReach);
+                else if (const auto hit =
+                             s.content->hit(mouse->position(), s.isClickable ? dragThreshold : hoverReach);
                          hit && figure().series()[hit->series].style >= 0)
                     emit pointClicked(figure().series()[hit->series].style);
+                else if (s.isClickable && map.rect.contains(mouse->position()))
+                    s.waitForSecondClick(s.placeAt(mouse->position()), *this);
                 if (s.isTime() && map.rect.contains(mouse->position()))
                     emit cursorMoved(valueAtPixel(map, PlotAxis::x, mouse->position()));
             }
             return true;
         }
         case QEvent::MouseButtonDblClick:
+            ++s.clicks;
             fit();
             return true;
         case QEvent::Leave:
@@ -420,6 +464,12 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
             }
             if (const auto row = s.rowAt(context->pos())) {
                 menu.addAction(tr("Load this run"), this, [this, row] { emit rowChosen(*row); });
+                menu.addSeparator();
+            }
+            if (s.isClickable && s.content->pixelMap().rect.contains(context->pos())) {
+                const QPointF place = s.placeAt(context->pos());
+                menu.addAction(tr("Start a motion here"), this,
+                               [this, place] { emit placeClicked(place.x(), place.y()); });
                 menu.addSeparator();
             }
             if (const auto cell = s.cellAt(context->pos())) {

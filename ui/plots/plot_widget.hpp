@@ -3,10 +3,12 @@
 /// Wheel: zoom at the pointer, on an axis only that axis; drag: pan; Ctrl+drag: zoom into a box; double
 /// click: fit; Backspace: previous view; right click: menu; a click on a cell of a map, or Return over it,
 /// chooses its case, and a click on a point with a row of a study that row; a line across (setLevel) is
-/// dragged, or moved with Up and Down. Once the user has zoomed, new data do not move the view; the "auto"
-/// chip gives that back. The cursor is a time, shared with other plots through PlotGroup.
+/// dragged, or moved with Up and Down; the handle (setHandle) is dragged; where places can be clicked
+/// (setClickable), a click beside the curves is one. Once the user has zoomed, new data do not move the view;
+/// the "auto" chip gives that back. The cursor is a time, shared with other plots through PlotGroup.
 #pragma once
 
+#include <QPointF>
 #include <QWidget>
 
 #include <memory>
@@ -35,6 +37,10 @@ public:
     /// A value of y as a line that the user can move; none removes it.
     void setLevel(std::optional<double> y, const QString& text = {});
     std::optional<double> level() const;
+    /// A point that the user can drag; none removes it. While it is dragged the user's place stays.
+    void setHandle(std::optional<QPointF> at);
+    /// Whether clicks choose places.
+    void setClickable(bool isClickable);
     void fit();      ///< to the part the view asks for, else to all data
     void showAll();  ///< all data, also where the view asks for a part
     void back();
@@ -61,6 +67,8 @@ signals:
     void cellChosen(double x, double y);  ///< of a map with a scale: what the cell stands for
     void rowChosen(std::size_t row);      ///< of a study: what the point stands for
     void levelMoved(double y);
+    void placeClicked(double x, double y);
+    void handleMoved(double x, double y);
     void pinRequested(std::optional<double> t);
     void timeRangeChanged(std::optional<PlotRange> range);
     void saveFailed(const QString& reason);

@@ -22,6 +22,7 @@
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/starting.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
 
@@ -205,13 +206,48 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     menu->addSeparator();
     addChoices(*menu, workspace_, view.id, [&slot] { return slot.view; });
     addNames(*menu, workspace_, view.id, [&slot] { return slot.view; });
+    addStartActions(*menu, workspace_, [&slot] { return slot.view; });
     menu->addSeparator();
     menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
     menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
     group_->add(plot);
     connect(plot, &PlotWidget::cellChosen, this,
             [this, &slot](double value, double step) { loadCase(slot.view, value, step); });
+    connectStarting(slot);
     return slot;
+}
+
+const System* CompareView::systemOfScene() const {
+    const auto results = run_.results();
+    const bool isOfScene =
+        results && system_ && workspace_.hasScene() && results->scene.model == workspace_.scene().model;
+    return isOfScene ? system_.get() : nullptr;
+}
+
+void CompareView::connectStarting(Slot& slot) {
+    connect(slot.plot, &PlotWidget::placeClicked, this, [this, &slot](double x, double y) {
+        const System* const system = systemOfScene();
+        if (!system) return;
+        const StartEdits start =
+            editsForStart(workspace_.scene(), slot.view, *system, roundedPlace({x, y}, *slot.plot));
+        if (!start.problem.isEmpty()) return emit startRefused(start.problem);
+        if (!start.edits.empty()) workspace_.edit(start.edits, tr("Add a start"));
+    });
+    connect(slot.plot, &PlotWidget::handleMoved, this, [this, &slot](double x, double y) {
+        const System* const system = systemOfScene();
+        if (!system) return;
+        const StartEdits move =
+            editsForMove(workspace_.scene(), slot.view, *system, roundedPlace({x, y}, *slot.plot));
+        if (!move.edits.empty()) workspace_.edit(move.edits, tr("Move the start"), QStringLiteral("start"));
+    });
+}
+
+void CompareView::showStarts() {
+    const System* const system = systemOfScene();
+    for (const auto& s : slots_) {
+        s->plot->setHandle(system ? startInView(workspace_.scene(), s->view, *system) : std::nullopt);
+        s->plot->setClickable(system && takesStarts(s->view, *system));
+    }
 }
 
 /// What the scene keeps of a plot; offered where it can be. The edits come after the menu has closed, as they
@@ -307,6 +343,7 @@ void CompareView::refresh() {
             arrange();
         }
     }
+    showStarts();
     startJob();
 }
 
@@ -375,6 +412,7 @@ void CompareView::take(FigureSet made) {
         stage_->setTime(playback_.time());
     }
     if (made.figures.empty()) return;
+    showStarts();
     QTimer::singleShot(0, this, &CompareView::alignMargins);
     emit figuresChanged();
 }

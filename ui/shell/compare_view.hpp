@@ -53,7 +53,8 @@ public:
 
 signals:
     void saveFailed(const QString& reason);
-    void caseLoaded(const QString& text);  ///< of a map, into the scene
+    void caseLoaded(const QString& text);      ///< of a map, into the scene
+    void startRefused(const QString& reason);  ///< no motion starts at a place that was chosen
     void figuresChanged();
 
 protected:
@@ -79,7 +80,11 @@ private:
     void take(FigureSet made);
     void alignMargins();
     void loadCase(const View& view, double value, double step);
-    void connectDrawing();  ///< of initial profiles, on the stage
+    void connectDrawing();             ///< of initial profiles, on the stage
+    void connectStarting(Slot& slot);  ///< of motions, in its plot
+    void showStarts();                 ///< the handles of the scene's start
+    /// The system of the scene; null until there are results with its model.
+    const System* systemOfScene() const;
 
     Workspace& workspace_;
     RunControl& run_;

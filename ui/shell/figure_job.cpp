@@ -16,8 +16,8 @@ FigureSet makeFigures(const FigureJob& job) {
 }
 
 bool isSameData(const Comparison& a, const Comparison& b) {
-    // What a map marks is in the scene.
-    if (a.products.find<ParameterMaps>() || b.products.find<ParameterMaps>()) return &a == &b;
+    // What a map marks, and where motions start, is in the scene.
+    if (hasFurtherProducts(a) || hasFurtherProducts(b)) return &a == &b;
     return a.schemes == b.schemes && a.isFinished == b.isFinished && a.scene.model == b.scene.model &&
            a.scene.start == b.scene.start && a.scene.end == b.scene.end &&
            a.scene.observe == b.scene.observe && a.reference.type == b.reference.type &&

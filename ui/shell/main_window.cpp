@@ -131,6 +131,13 @@ void MainWindow::makePages() {
         pages_->setCurrentIndex(page);
         timeline_->setVisible(page == 0);  // nothing else follows the time
     });
+    connect(compare_, &CompareView::startRefused, this, [this](const QString& reason) {
+        notices_->post({Notice::Kind::information,
+                        "start",
+                        tr("No motion starts there: %1.").arg(reason),
+                        tr("choose a place inside the region that the energy admits"),
+                        {}});
+    });
     connect(compare_, &CompareView::caseLoaded, this, [this](const QString& text) {
         notices_->post({Notice::Kind::information,
                         "case",

@@ -21,8 +21,10 @@ Scene shown(Scene scene) {
     return scene;
 }
 
-bool hasMaps(const Scene& scene) {
-    return std::any_of(scene.views.begin(), scene.views.end(), [](const View& v) { return v.id == mapView; });
+/// Views that are computed besides the schemes: maps, and starts.
+bool hasFurtherViews(const Scene& scene) {
+    return std::any_of(scene.views.begin(), scene.views.end(),
+                       [](const View& v) { return v.id == mapView || !v.starts.isEmpty(); });
 }
 
 /// The schemes that are not known, as a scene.
@@ -48,6 +50,19 @@ double mapStepsOf(const Scene& scene) {
             steps += static_cast<double>(grid.values.size()) * grid.duration / step;
     }
     return steps;
+}
+
+/// Steps from the starts of views, each with its own scheme.
+double startStepsOf(const Scene& scene, const SchemeSpec& spec) {
+    double motions = 0;
+    for (const View& view : scene.views) {
+        const auto first = std::find_if(scene.schemes.begin(), scene.schemes.end(), [&](const SchemeSpec& s) {
+            return s.isEnabled && (view.scheme.empty() || s.label == view.scheme);
+        });
+        if (first != scene.schemes.end() && first->label == spec.label)
+            motions += static_cast<double>(view.starts.points.size()) + view.starts.spread;
+    }
+    return motions * stepsOf(scene, spec);
 }
 
 /// The size that determines the cost of a step: the nodes of a wave function, relative to 64 modes.
@@ -79,7 +94,7 @@ bool hasNewSamples(const Comparison& comparison, const Scene& scene, const Resul
 
 bool isSame(const Comparison& a, const Comparison& b) {
     return a.schemes == b.schemes && a.isFinished == b.isFinished && a.scene == b.scene &&
-           !a.products.find<ParameterMaps>() && !b.products.find<ParameterMaps>();
+           !hasFurtherProducts(a) && !hasFurtherProducts(b);
 }
 
 }  // namespace
@@ -102,7 +117,8 @@ double CostModel::predict(const Scene& scene) const {
     const double inMaps = mapStepsOf(scene), size = sizeOf(scene.model);
     for (const SchemeSpec& spec : scene.schemes) {
         if (!spec.isEnabled) continue;
-        const double steps = stepsOf(scene, spec) + (spec.step.value > 0 ? inMaps : 0);
+        const double steps =
+            stepsOf(scene, spec) + (spec.step.value > 0 ? inMaps : 0) + startStepsOf(scene, spec);
         const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
             return k.model.type == scene.model.type && isSameMethod(k.spec, spec);
         });
@@ -153,7 +169,7 @@ void RunControl::setState(State state) {
 
 /// All results of a scene, if none is missing.
 std::optional<Comparison> RunControl::known(const Scene& scene) const {
-    if (!results_ || hasMaps(scene)) return {};
+    if (!results_ || hasFurtherViews(scene)) return {};
     Comparison comparison;
     comparison.scene = scene;
     comparison.reference = results_->reference;
@@ -174,7 +190,7 @@ std::optional<Comparison> RunControl::known(const Scene& scene) const {
 
 /// Whether the run that goes on computes what is missing.
 bool RunControl::isCoveredByRun(const Scene& scene) const {
-    if (!run_ || hasMaps(scene) || hasMaps(runScene_)) return false;
+    if (!run_ || hasFurtherViews(scene) || hasFurtherViews(runScene_)) return false;
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const SchemeSpec& spec = scene.schemes[i];
         if (!spec.isEnabled || store_.find(scene, i)) continue;

@@ -2,28 +2,15 @@
 /// scheme.
 #include "engine/figure/build.hpp"
 
-#include "engine/run/inside_step.hpp"
+#include "engine/figure/starts.hpp"
+#include "engine/view/plane.hpp"
 
 namespace extremal::recipes {
 namespace {
 
-/// By default the plane of the second coordinate; of a system with one, the momentum against time.
-void fillIn(const FigureContext& context, std::string& x, std::string& y) {
-    if (!context.system) return;
-    const auto& coordinates = context.system->coordinates;
-    if (coordinates.size() > 1) {
-        if (x.empty()) x = "q." + coordinates[1].name;
-        if (y.empty()) y = "p." + coordinates[1].name;
-    }
-    if (x.empty()) x = "t";
-    if (y.empty())
-        y = coordinates.empty() ? stateColumns(*context.system).back().name : "p." + coordinates.front().name;
-}
-
 Figure makeSection(const FigureContext& context) {
-    std::string x = context.view.x, y = context.view.y;
-    fillIn(context, x, y);
-    const std::string at = context.system ? sectionColumn(context.view, *context.system) : context.view.at;
+    const auto plane = context.system ? planeOf(context.view, *context.system) : std::nullopt;
+    const auto [x, y, at] = plane.value_or(ViewPlane{context.view.x, context.view.y, context.view.at});
     Figure figure = startFigure(context, "Section");
     const ColumnInfo xInfo = columnInfo(context, x), yInfo = columnInfo(context, y);
     figure.x = x == "t" ? timeAxis(context) : Axis{axisTitle(xInfo.symbol, xInfo.unit), false, false, {}};
@@ -32,7 +19,8 @@ Figure makeSection(const FigureContext& context) {
     std::size_t most = 0;
     for (const auto& scheme : context.comparison.schemes) {
         const Sections* sections = scheme->products.find<Sections>();
-        if (!sections) continue;
+        if (!sections || (!context.view.scheme.empty() && scheme->spec.label != context.view.scheme))
+            continue;
         for (const auto& section : sections->all) {
             if (section.column != at || section.events.rows() == 0) continue;
             const std::span<const double> xs = section.events[x], ys = section.events[y];
@@ -47,6 +35,7 @@ Figure makeSection(const FigureContext& context) {
             break;
         }
     }
+    addStarts(figure, context);
     if (figure.series().empty() && context.comparison.isFinished)
         figure.message = columnInfo(context, at).symbol + " never passes zero upwards in this run";
     finishFigure(figure, context,

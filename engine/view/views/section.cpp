@@ -1,6 +1,7 @@
 /// A Poincaré section: the states where one column passes zero upwards, found on the dense output of each
 /// scheme.
 #include "engine/view/catalog.hpp"
+#include "engine/view/plane.hpp"
 
 namespace extremal::views {
 
@@ -11,15 +12,18 @@ ViewEntry section() {
                 {textField("at", "at", "", "state column that passes zero, by default the first coordinate"),
                  textField("x", "x", "", "state column to the right, by default the second coordinate, or t"),
                  textField("y", "y", "",
-                           "state column upwards, by default the second momentum, or the first of one")}),
+                           "state column upwards, by default the second momentum, or the first of one"),
+                 textField("scheme", "scheme", "",
+                           "label of the scheme that integrates the starts, by default the first"),
+                 startsFields()[0], startsFields()[1]}),
             .recipe = OwnRecipe{"section"},
-            .products = {Product::sections},
+            .products = {Product::sections, Product::starts},
             .missing =
                 [](const View&, const System& system) {
                     const bool isMotion = !stateColumns(system).empty() && !kindOf<BoundaryProblem>(system);
                     return std::string(isMotion ? "" : "a motion of a few numbers");
                 },
-            .keys = {.hasColumns = true, .hasZeros = true}};
+            .keys = {.hasColumns = true, .hasZeros = true, .hasScheme = true, .hasStarts = true}};
 }
 
 }  // namespace extremal::views

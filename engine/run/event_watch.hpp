@@ -1,0 +1,43 @@
+/// Looks for the events of a scene in every step: their signs at the nodes, their places on the dense output
+/// (run/crossing.hpp). Two zeros of one expression within a step are not seen.
+///
+/// Events that a step has in common are in the order of their times; one that stops the run ends the motion
+/// there, and what comes later in the step has not happened.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/integrator/integrator.hpp"
+#include "engine/run/found_events.hpp"
+#include "engine/run/comparison.hpp"
+#include "engine/scene/event_names.hpp"
+
+namespace extremal {
+
+class EventWatch {
+public:
+    /// Writes into the product of the result.
+    EventWatch(SchemeResult& result, const Scene& scene, const System& system);
+
+    void start(const State& state);
+    /// The part of the step at which the run is to stop; none: it goes on.
+    std::optional<double> look(const Integrator& integrator, const State& before, const State& after);
+
+private:
+    struct Crossing {
+        double tau;
+        std::size_t event;
+        bool isUpwards;
+    };
+    double valueAt(std::size_t event, double t, const double* x) const { return functions_[event](t, x); }
+
+    SchemeResult& result_;
+    std::size_t width_;
+    std::vector<EventFunction> functions_;
+    std::vector<double> last_;  ///< values at the last node
+    std::vector<Crossing> found_;
+    State at_;
+};
+
+}  // namespace extremal

@@ -1,0 +1,183 @@
+/// Events: where expressions in the state pass zero along a run.
+#include <QTest>
+
+#include <boost/math/special_functions/ellint_1.hpp>
+
+#include <cmath>
+#include <numbers>
+
+#include "engine/run/event_files.hpp"
+#include "engine/run/export.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::events_test {
+namespace {
+
+std::string sceneText(const std::string& events, const std::string& scheme = "galerkin-gauss-6",
+                      const std::string& step = "0.1") {
+    return R"({"extremal": 1, "model": {"type": "pendulum", "m": 1, "l": 1, "g": 1}, "initial": {"q": [2], "p": [0]},
+        "time": {"end": 30}, "schemes": [{"label": "s", "step": )" +
+           step + ", \"scheme\": \"" + scheme + "\"}], \"observe\": [\"energy\"], \"views\": [\"energy\"], " +
+           "\"events\": " + events + "}";
+}
+Comparison resultOf(const std::string& events) {
+    const ReadScene read = readScene(sceneText(events));
+    if (!read.errors.empty()) qFatal("%s", read.errors[0].message.c_str());
+    return run(read.scene);
+}
+const FoundEvents& foundIn(const Comparison& comparison) {
+    return *comparison.schemes.at(0)->products.find<FoundEvents>();
+}
+
+}  // namespace
+
+class EventsTest : public QObject {
+    Q_OBJECT
+private slots:
+    void aPendulumPassesItsLowestPointAtQuartersOfItsPeriod() {
+        const Comparison result = resultOf(R"(["theta"])");
+        const FoundEvents& found = foundIn(result);
+        const double quarter = boost::math::ellint_1(std::sin(1.0));
+        const auto t = found.rows["t"], direction = found.rows["direction"], theta = found.rows["q.theta"];
+        QCOMPARE(t.size(), std::size_t(std::floor((30 / quarter + 1) / 2)));
+        double leastOfLines = 1;
+        for (std::size_t k = 0; k < t.size(); ++k) {
+            const double exact = quarter * static_cast<double>(2 * k + 1);
+            QVERIFY(std::abs(t[k] - exact) < 1e-12);  // measured: 1.5e-13
+            QCOMPARE(direction[k], k % 2 == 0 ? -1.0 : 1.0);
+            QVERIFY(std::abs(theta[k]) < 1e-14);
+            // The straight line between the nodes misses it by 9e-6 to 1.4e-5.
+            const auto nodes = result.schemes[0]->trajectory["t"],
+                       at = result.schemes[0]->trajectory["q.theta"];
+            std::size_t r = 1;
+            while (nodes[r] < t[k]) ++r;
+            const double line = nodes[r] - at[r] * (nodes[r] - nodes[r - 1]) / (at[r] - at[r - 1]);
+            leastOfLines = std::min(leastOfLines, std::abs(line - exact));
+        }
+        QVERIFY(leastOfLines > 5e-6);
+        QCOMPARE(found.all[0].count, static_cast<long long>(t.size()));
+        QCOMPARE(found.all[0].first, t.front());
+        QCOMPARE(found.all[0].last, t.back());
+    }
+    void directionsTellEventsApart() {
+        const Comparison result = resultOf(R"([{"expression": "theta"},
+            {"expression": "theta", "direction": "up", "action": "count"},
+            {"expression": "q_theta", "direction": "down", "action": "count", "label": "downwards"}])");
+        const FoundEvents& found = foundIn(result);
+        QCOMPARE(found.all[1].count + found.all[2].count, found.all[0].count);
+        QVERIFY(found.all[2].count - found.all[1].count <= 1 && found.all[1].count == 3);
+        QCOMPARE(static_cast<long long>(found.rows.rows()), found.all[0].count);  // counts have no rows
+        QCOMPARE(eventsText(*result.schemes[0]), std::string("theta: 7; theta: 3; downwards: 4"));
+    }
+    void theRunStopsAtAnEvent() {
+        const Comparison whole = resultOf("[]"),
+                         result = resultOf(R"([{"expression": "theta + 1", "action": "stop"}, "t - 50"])");
+        const SchemeResult& scheme = *result.schemes[0];
+        const auto t = scheme.trajectory["t"], theta = scheme.trajectory["q.theta"];
+        QVERIFY(scheme.summary.status == RunStatus::done);
+        QCOMPARE(scheme.fraction, 1.0);
+        QVERIFY(std::abs(theta.back() + 1) < 1e-14);
+        QCOMPARE(scheme.summary.tEnd, t.back());
+        QCOMPARE(scheme.summary.steps, static_cast<long long>(std::ceil(t.back() / 0.1)));
+        // All rows before are those of the whole run.
+        const auto same = whole.schemes[0]->trajectory["q.theta"];
+        for (std::size_t r = 0; r + 1 < theta.size(); ++r) QCOMPARE(theta[r], same[r]);
+        QVERIFY(theta[theta.size() - 2] > -1);
+        QCOMPARE(foundIn(result).stoppedBy, 0);
+        QVERIFY(std::abs(scheme.trajectory["energy_error"].back()) < 1e-11);
+    }
+    void whatComesLaterInTheStepThatStopsHasNotHappened() {
+        // Both within the first step; the later one is named first.
+        const Comparison result = resultOf(
+            R"([{"expression": "t - 0.07", "action": "count"}, {"expression": "t - 0.03", "action": "count"},
+                {"expression": "t - 0.05", "action": "stop"}])");
+        const FoundEvents& found = foundIn(result);
+        QCOMPARE(found.all[0].count, 0LL);
+        QCOMPARE(found.all[1].count, 1LL);
+        QVERIFY(std::abs(result.schemes[0]->summary.tEnd - 0.05) < 1e-15);
+        QCOMPARE(result.schemes[0]->trajectory.rows(), std::size_t(2));
+    }
+    void theFileHasARowPerEvent() {
+        const Comparison result = resultOf(R"([{"expression": "p_theta", "label": "turn, or not"}])");
+        const std::string csv = eventsCsv(foundIn(result));
+        QVERIFY2(csv.starts_with("event,direction,t,q.theta,p.theta\n\"turn, or not\",up,"), csv.c_str());
+        QCOMPARE(std::count(csv.begin(), csv.end(), '\n'), foundIn(result).all[0].count + 1);
+        const Value summary = summaryValue(result);
+        const Value& event = summary.find("schemes")->asArray()[0].find("events")->asArray()[0];
+        QCOMPARE(event.find("event")->asString(), std::string("turn, or not"));
+        std::string files = writeCompactJson(*summary.find("files"));
+        QVERIFY(files.find("s.events.csv") != std::string::npos);
+    }
+    void parametersOfTheModelMayBeInTheExpression() {
+        const Comparison result = resultOf(R"(["theta - l/2*g"])");
+        QVERIFY(std::abs(foundIn(result).rows["q.theta"].front() - 0.5) < 1e-14);
+    }
+    void whatIsWrongIsNamed_data() {
+        QTest::addColumn<QString>("events");
+        QTest::addColumn<QString>("pointer");
+        QTest::addColumn<QString>("message");
+        QTest::newRow("name") << R"(["thet"])"
+                              << "/events/0"
+                              << "unknown name \"thet\"";
+        QTest::newRow("syntax") << R"([{"expression": "theta +"}])"
+                                << "/events/0/expression"
+                                << "the expression";
+        QTest::newRow("state") << R"(["l - g"])"
+                               << "/events/0"
+                               << "has nothing of the state in it";
+        QTest::newRow("direction") << R"([{"expression": "theta", "direction": "left"}])"
+                                   << "/events/0/direction"
+                                   << "unknown direction";
+        QTest::newRow("action") << R"([{"expression": "theta", "action": "halt"}])"
+                                << "/events/0/action"
+                                << "unknown action";
+        QTest::newRow("key") << R"([{"expression": "theta", "stop": true}])"
+                             << "/events/0/stop"
+                             << "unknown key";
+        QTest::newRow("none") << R"([{"action": "stop"}])"
+                              << "/events/0/expression"
+                              << "is required";
+    }
+    void whatIsWrongIsNamed() {
+        QFETCH(QString, events);
+        QFETCH(QString, pointer);
+        QFETCH(QString, message);
+        const ReadScene read = readScene(sceneText(events.toStdString()));
+        QCOMPARE(read.errors.size(), std::size_t(1));
+        QCOMPARE(QString::fromStdString(read.errors[0].pointer), pointer);
+        QVERIFY2(read.errors[0].message.find(message.toStdString()) != std::string::npos,
+                 read.errors[0].message.c_str());
+    }
+    void fieldsHaveNoEvents() {
+        const ReadScene read = readScene(std::string(
+            R"({"extremal": 1, "model": {"type": "schrodinger", "modes": 16}, "time": {"end": 1}, "events": ["t - 1"],
+                "schemes": [{"step": 0.1, "scheme": "schrodinger-gauss-1"}]})"));
+        QCOMPARE(read.errors.size(), std::size_t(1));
+        QCOMPARE(read.errors[0].pointer, std::string("/events"));
+    }
+    void aSceneWithEventsIsWrittenAsItWasRead() {
+        const Scene scene =
+            readScene(sceneText(R"(["theta", {"expression": "p_theta/g", "label": "a", "action": "stop"}])"))
+                .scene;
+        QCOMPARE(scene.events.size(), std::size_t(2));
+        QVERIFY(readScene(writeScene(scene)).scene == scene);
+    }
+    void bodiesHaveNamesOfTheirColumns() {
+        const ReadScene read = readScene(std::string(
+            R"({"extremal": 1, "model": {"type": "rigid-body", "inertia": [1, 2, 3]}, "time": {"end": 20},
+                "initial": {"omega": [0.01, 1, 0]}, "observe": [], "views": [],
+                "schemes": [{"label": "s", "step": 0.05, "scheme": "lie-2"}], "events": ["momentum_body_2"]})"));
+        QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
+        const Comparison result = run(read.scene);
+        QVERIFY(foundIn(result).all[0].count >= 1);  // the racket turns over
+        for (const double value : foundIn(result).rows["momentum.body.2"]) QVERIFY(std::abs(value) < 1e-13);
+    }
+};
+
+EXTREMAL_TEST(EventsTest)
+}  // namespace extremal::events_test
+
+#include "events_test.moc"
