@@ -297,7 +297,7 @@ private:
 
 std::unique_ptr<Integrator> withVariations(std::unique_ptr<Integrator> scheme, const System& system,
                                            const VariationPlan& plan) {
-    if (plan.isEmpty() || scheme->tangentSize() == 0) return scheme;
+    if (!(plan.map || plan.vector) || scheme->tangentSize() == 0) return scheme;
     return std::make_unique<WithVariations>(std::move(scheme), system, plan);
 }
 

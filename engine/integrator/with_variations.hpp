@@ -31,7 +31,8 @@ namespace extremal {
 struct VariationPlan {
     bool map = false;     ///< those of M and P
     bool vector = false;  ///< lyapunov and megno
-    bool isEmpty() const { return !map && !vector; }
+    bool errors = false;  ///< those of integrator/with_local_errors.hpp
+    bool isEmpty() const { return !map && !vector && !errors; }
 };
 
 /// The same integrator where nothing is wanted, or it has no tangent map.

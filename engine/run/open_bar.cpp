@@ -29,4 +29,17 @@ void judgeBar(SchemeResult& result, const System& system, const State& initial) 
     }
 }
 
+void judgeCompanion(Summary& summary, const Reference& reference, const std::string& reason) {
+    constexpr double most = 0.02;
+    if (!reason.empty()) summary.caution = "there is no error bar: it " + reason;
+    if (!reference.counts || reference.counts->steps == 0 || summary.steps == 0) return;
+    if (static_cast<double>(reference.counts->events) <= most * static_cast<double>(reference.counts->steps))
+        return;
+    summary.caution =
+        "the error bar may be far off: " + std::to_string(reference.counts->events) + " of " +
+        std::to_string(reference.counts->steps) +
+        " steps of its companion had no root of the energy equation or did more than go on, and the "
+        "difference may be the error of the companion";
+}
+
 }  // namespace extremal

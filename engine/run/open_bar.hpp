@@ -2,11 +2,18 @@
 /// size of the state, of systems with coordinates the rms of |q| over the rows.
 #pragma once
 
+#include <string>
+
 #include "engine/run/comparison.hpp"
+#include "engine/run/reference.hpp"
 
 namespace extremal {
 
 /// Fills Summary::opensAt and the caution. `initial`: of the run.
 void judgeBar(SchemeResult& result, const System& system, const State& initial);
+
+/// Fills the caution where there is no bar, for the reason given, or where more than 2 % of the companion's
+/// steps had events (no root of the energy equation, ...): its own error may then be the larger one.
+void judgeCompanion(Summary& summary, const Reference& reference, const std::string& reason);
 
 }  // namespace extremal

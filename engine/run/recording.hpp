@@ -18,6 +18,7 @@
 #include "engine/run/event_watch.hpp"
 #include "engine/run/inside_step.hpp"
 #include "engine/run/judge.hpp"
+#include "engine/scene/local_errors.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/run/open_bar.hpp"
 #include "engine/run/reference.hpp"
@@ -96,6 +97,9 @@ struct Recording {
         result.trajectory.columns = leadingColumns(system);
         stateWidth = result.trajectory.columns.size() - 1;
         integrator = withVariations(scheme.make(system, step, initial), system, variationsFor(observe));
+        if (variationsFor(observe).errors &&
+            localErrorProblem(scheme, system, *scheme.make(system, step, initial)).empty())
+            integrator = measuringLocalErrors(std::move(integrator), scheme, system, step, initial);
         integrator->setStop(stop);
         result.summary.about = integrator->about();
         bindObservers(reference, observe, initial);

@@ -26,8 +26,9 @@ class SteppedSolution {
 public:
     using Make = std::function<std::unique_ptr<Integrator>()>;
 
-    SteppedSolution(Make make, State initial, double end)
-        : make_(std::move(make)), initial_(std::move(initial)), end_(end) {
+    /// `counts`: what happens in its steps; null: they are not counted.
+    SteppedSolution(Make make, State initial, double end, std::shared_ptr<StepCounts> counts)
+        : make_(std::move(make)), initial_(std::move(initial)), end_(end), counts_(std::move(counts)) {
         rewind();
     }
     void operator()(double t, std::span<double> x) {
@@ -38,6 +39,9 @@ public:
             const StepReport report =
                 integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : std::max(end_, t));
             hasFailed_ = report.outcome != Outcome::converged;
+            if (!counts_) continue;
+            ++counts_->steps;
+            counts_->events += report.event != StepEvent::none;
         }
         if (hasFailed_)
             std::fill(x.begin(), x.end(), unknown);
@@ -63,12 +67,14 @@ private:
     std::unique_ptr<Integrator> integrator_;
     double before_ = 0;
     bool hasFailed_ = false;
+    std::shared_ptr<StepCounts> counts_;
 };
 
 /// `end`: where error-controlled codes land, unless they are asked beyond it.
-std::function<ExactSolution()> stepped(SteppedSolution::Make make, const State& initial, double end) {
-    return [make = std::move(make), initial, end]() -> ExactSolution {
-        const auto solution = std::make_shared<SteppedSolution>(make, initial, end);
+std::function<ExactSolution()> stepped(SteppedSolution::Make make, const State& initial, double end,
+                                       const std::shared_ptr<StepCounts>& counts = nullptr) {
+    return [make = std::move(make), initial, end, counts]() -> ExactSolution {
+        const auto solution = std::make_shared<SteppedSolution>(make, initial, end, counts);
         return [solution](double t, std::span<double> x) { (*solution)(t, x); };
     };
 }
@@ -310,13 +316,14 @@ Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme
     const State start = schemeStart(resolved, scheme, step);
     Reference reference;
     reference.info = companionInfo();
+    reference.counts = std::make_shared<StepCounts>();
     reference.make = stepped(
         [companion = companionOf(scheme, system), system, step, start, stop] {
             auto integrator = companion.make(system, step, start);
             integrator->setStop(stop);
             return integrator;
         },
-        start, resolved.scene.end.value);
+        start, resolved.scene.end.value, reference.counts);
     return reference;
 }
 

@@ -27,6 +27,11 @@ struct MeshSolution {
     ExactSolution on(const std::shared_ptr<const System>& other) const;
 };
 
+/// Of the run of a companion, while it goes on.
+struct StepCounts {
+    long long steps = 0, events = 0;  ///< events: steps in which something happened besides going on
+};
+
 struct Reference {
     ReferenceInfo info;
     /// Makes a solution for one run: each keeps its own place in time. Empty where there is no reference. At
@@ -34,6 +39,7 @@ struct Reference {
     std::function<ExactSolution()> make;
     /// Where it has a mesh of its own. `make` is read off it.
     MeshSolution onMesh = {};
+    std::shared_ptr<StepCounts> counts = {};  ///< of a companion
 
     /// Computes the solution once for all its users, at these times. Not where its states at all of them are
     /// too many numbers. `width`: of the states of the scene.

@@ -21,6 +21,21 @@
 
 namespace extremal {
 
+namespace {
+
+/// A scheme without a companion has no error; the others of the scene have theirs.
+Reference companionOrReason(const ResolvedScene& resolved, const ResolvedScheme& scheme, std::string& reason,
+                            const std::stop_token& stop) {
+    try {
+        return companionReference(resolved, scheme, stop);
+    } catch (const InvalidScene& e) {
+        reason = e.problems().front().message;
+        return {companionInfo(), {}};
+    }
+}
+
+}  // namespace
+
 SchemeRun::SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan,
                      const std::shared_ptr<const SchemeResult>& known)
     : resolved_(scene),
@@ -70,7 +85,8 @@ void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::st
 
 void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
     const bool hasCompanion = ofScene.info.type == "companion";
-    const Reference reference = hasCompanion ? companionReference(resolved_, scheme_, stop)
+    std::string withoutBar;
+    const Reference reference = hasCompanion ? companionOrReason(resolved_, scheme_, withoutBar, stop)
                                              : referenceFor(ofScene, resolved_, scheme_);
     const System& system = *systemOf(resolved_, scheme_);
     const int style = latest()->style;
@@ -114,6 +130,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
             result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
         }
     }
+    if (hasCompanion) judgeCompanion(result.summary, reference, withoutBar);
     if (wantsWayBack(scene_.observe) && !p.stopped && result.summary.status == RunStatus::done &&
         scheme_.isFixed()) {
         publish(result);

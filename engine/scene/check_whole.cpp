@@ -7,6 +7,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/companion.hpp"
 #include "engine/scene/cost.hpp"
+#include "engine/scene/local_errors.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -160,6 +161,20 @@ void checkTangent(Reader& reader, const Scene& scene, const Integrator& integrat
                        "another scheme, or do not observe them");
 }
 
+/// Local errors, where they are observed and the scheme has none.
+void checkLocalErrors(Reader& reader, const Scene& scene, const ResolvedScheme& scheme, const System& system,
+                      const Integrator& integrator, const std::string& pointer) {
+    const bool isWanted = std::any_of(scene.observe.begin(), scene.observe.end(), [](const std::string& id) {
+        const ObservableEntry* entry = findObservable(id);
+        return entry && entry->variations.errors;
+    });
+    const std::string problem = localErrorProblem(scheme, system, integrator);
+    if (isWanted && !problem.empty() && integrator.tangentSize() > 0)
+        reader.warning(pointer,
+                       "has no local errors: it has " + problem + "; their columns stay empty for it",
+                       "another scheme, or do not observe them");
+}
+
 /// What is observed on the way back from the end, where the scheme has none.
 void checkWayBack(Reader& reader, const Scene& scene, const ResolvedScheme& scheme,
                   const std::string& pointer) {
@@ -180,6 +195,7 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
         contained("", [&] {
             const auto integrator = scheme.make(*systemOf(scene, scheme), step, initialOf(scene, scheme));
             checkTangent(reader, scene.scene, *integrator, pointer);
+            checkLocalErrors(reader, scene.scene, scheme, *systemOf(scene, scheme), *integrator, pointer);
             checkWayBack(reader, scene.scene, scheme, pointer);
             schemeStart(scene, scheme, step);
             checkStep(reader, scene, scheme, pointer);
@@ -206,15 +222,14 @@ void checkScheme(Reader& reader, const ResolvedScene& scene, const ResolvedSchem
 
 /// Whether the scheme has a companion, where companions are the reference.
 void checkCompanion(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
-                    const std::string& pointer) {
-    if (scene.scene.reference.kind != ReferenceSpec::Kind::companion || !scheme.spec.isEnabled) return;
+                    const std::string& pointer, std::vector<Problem>& lacking) {
     const System& system = *systemOf(scene, scheme);
     try {
         contained("", [&] {
             (void)companionOf(scheme, system).make(system, scheme.spec.step.value, initialOf(scene, scheme));
         });
     } catch (const InvalidScene& e) {
-        for (const Problem& p : e.problems()) reader.error(pointer, p.message, p.hint);
+        for (const Problem& p : e.problems()) lacking.push_back({pointer, p.message, p.hint});
         return;
     }
     // Measured over the presets: where steps are longer, a third of the bars is off by more than a factor
@@ -226,6 +241,22 @@ void checkCompanion(Reader& reader, const ResolvedScene& scene, const ResolvedSc
                        "may have an error bar that is far off: its step is " + formatNumber(turned, 2) +
                            " rad of the fastest motion, which neither it nor its companion needs to follow",
                        "use \"auto\" as the reference");
+}
+
+/// A scheme without a companion has no error bar, which is a warning as long as another has one.
+void checkCompanions(Reader& reader, const ResolvedScene& scene, const std::vector<std::size_t>& places) {
+    if (scene.scene.reference.kind != ReferenceSpec::Kind::companion) return;
+    std::vector<Problem> lacking;
+    std::size_t enabled = 0;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        if (!scene.schemes[i].spec.isEnabled) continue;
+        ++enabled;
+        checkCompanion(reader, scene, scene.schemes[i], childPointer("/schemes", places[i]), lacking);
+    }
+    const bool isRefused = lacking.size() >= enabled;
+    for (const Problem& p : lacking)
+        isRefused ? reader.error(p.pointer, p.message, p.hint)
+                  : reader.warning(p.pointer, p.message + "; there is no error bar for it", p.hint);
 }
 
 /// The state at the start. False: the system cannot start from the initial data.
@@ -293,8 +324,7 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
     }
     for (std::size_t i = 0; i < resolved.schemes.size(); ++i)
         checkScheme(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
-    for (std::size_t i = 0; i < resolved.schemes.size() && resolved.system && reader.errors.empty(); ++i)
-        checkCompanion(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
+    if (resolved.system && reader.errors.empty()) checkCompanions(reader, resolved, places);
     for (const ResolvedScheme& scheme : resolved.reference)
         checkScheme(reader, resolved, scheme, "/reference/scheme");
     if (!resolved.system || !reader.errors.empty()) return;

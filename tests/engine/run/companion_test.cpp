@@ -89,6 +89,32 @@ class CompanionTest : public QObject {
         QVERIFY2(read.errors[0].message.find(why.toStdString()) != std::string::npos,
                  read.errors[0].message.c_str());
     }
+    void oneSchemeWithoutACompanionLeavesTheOthersTheirs() {
+        const ReadScene read =
+            readScene(sceneText(R"({"label": "24", "step": 0.5, "scheme": "galerkin-gauss-24"},
+                                                      {"label": "2", "step": 0.05, "scheme": "galerkin-gauss-2"})",
+                                "companion", "2"));
+        QVERIFY(read.errors.empty());
+        QVERIFY(read.warnings.size() >= 1);
+        QCOMPARE(read.warnings[0].pointer, std::string("/schemes/0"));
+        QVERIFY(read.warnings[0].message.ends_with("there is no error bar for it"));
+        const Comparison result = run(read.scene);
+        QVERIFY(result.schemes[0]->summary.status == RunStatus::done);
+        QVERIFY(!(result.schemes[0]->summary.maxError > 0));
+        QVERIFY(result.schemes[0]->summary.caution.starts_with("there is no error bar: "));
+        QVERIFY(result.schemes[1]->summary.maxError > 1e-7);
+    }
+    void companionsWhoseStepsFailAreNamed() {
+        const std::string scene = R"~({"extremal": 1, "model": {"type": "lagrangian", "coordinates": ["x"],
+            "lagrangian": "x_t^2/2 - x^2/2 - x^4/4"}, "initial": {"q": [1.5], "p": [0]}, "time": {"end": 40},
+            "reference": "companion", "observe": ["error"], "schemes": [)~";
+        const auto cautionOf = [&](const std::string& scheme) {
+            return run(readScene(scene + scheme + "]}").scene).schemes.at(0)->summary.caution;
+        };
+        const std::string three = cautionOf(R"({"step": 0.2, "scheme": "sem-3"})");
+        QVERIFY2(three.starts_with("the error bar may be far off"), three.c_str());
+        QCOMPARE(cautionOf(R"({"step": 0.1, "scheme": "galerkin-gauss-2"})"), std::string());
+    }
     void meshesHaveNone() {
         const ReadScene read =
             readScene(std::string(R"~({"extremal": 1, "model": {"type": "field", "cells": 20},

@@ -122,14 +122,16 @@ private slots:
             return read.errors.size() == 1 ? read.errors[0].hint : "";
         };
         const std::string has =
-            "; kepler has curve-error, discrete-energy, discrete-lagrangian, energy, error, floquet, "
-            "lyapunov, "
+            "; kepler has amplification, curve-error, discrete-energy, discrete-lagrangian, energy, error, "
+            "floquet, "
+            "local-error, lyapunov, "
             "megno, mesh, modified-energy, momentum, monitor, multiplier, parameter-map, phase, "
             "reversibility, "
             "section, "
             "solvability, "
             "sparsity, "
-            "stage, step, symplecticity, symplecticity-accumulated, trajectory, volume and work-precision";
+            "stage, step, symplecticity, symplecticity-accumulated, trajectory, transported-error, volume "
+            "and work-precision";
         QCOMPARE(hint("carpet"), "it needs a field or a wave function" + has);
         QCOMPARE(hint("norm"), "it needs a wave function" + has);
         QCOMPARE(hint("polhode"), "it needs a rigid body" + has);
