@@ -29,6 +29,57 @@ std::size_t sequenceLength(std::string_view s) {
     return length;
 }
 
+/// A letter outside ASCII by those of ASCII; empty where it is not known.
+std::string_view transliterated(std::string_view letter) {
+    struct Row {
+        std::string_view letters, plain;  ///< each letter between blanks
+    };
+    static constexpr Row rows[] = {{" ä Ä æ Æ ", "ae"},
+                                   {" ö Ö ø Ø œ Œ ", "oe"},
+                                   {" ü Ü ", "ue"},
+                                   {" ß ", "ss"},
+                                   {" à á â ã å ā ą À Á Â Ã Å Ā Ą ", "a"},
+                                   {" ç ć č Ç Ć Č ", "c"},
+                                   {" ď đ Ď Đ ", "d"},
+                                   {" è é ê ë ē ę ě È É Ê Ë Ē Ę Ě ", "e"},
+                                   {" ğ Ğ ", "g"},
+                                   {" ì í î ï ī ı Ì Í Î Ï Ī İ ", "i"},
+                                   {" ł ľ Ł Ľ ", "l"},
+                                   {" ñ ń ň Ñ Ń Ň ", "n"},
+                                   {" ò ó ô õ ō ő Ò Ó Ô Õ Ō Ő ", "o"},
+                                   {" ř Ř ", "r"},
+                                   {" ś š ş Ś Š Ş ", "s"},
+                                   {" ť ţ Ť Ţ ", "t"},
+                                   {" ù ú û ū ů ű Ù Ú Û Ū Ů Ű ", "u"},
+                                   {" ý ÿ Ý ", "y"},
+                                   {" ź ż ž Ź Ż Ž ", "z"},
+                                   {" α Α ", "alpha"},
+                                   {" β Β ", "beta"},
+                                   {" γ Γ ", "gamma"},
+                                   {" δ Δ ", "delta"},
+                                   {" ε ϵ ", "epsilon"},
+                                   {" η ", "eta"},
+                                   {" θ Θ ϑ ", "theta"},
+                                   {" κ ", "kappa"},
+                                   {" λ Λ ", "lambda"},
+                                   {" μ µ ", "mu"},
+                                   {" ν ", "nu"},
+                                   {" ξ Ξ ", "xi"},
+                                   {" π Π ", "pi"},
+                                   {" ρ ", "rho"},
+                                   {" σ Σ ", "sigma"},
+                                   {" τ ", "tau"},
+                                   {" φ Φ ϕ ", "phi"},
+                                   {" χ ", "chi"},
+                                   {" ψ Ψ ", "psi"},
+                                   {" ω Ω ", "omega"},
+                                   {" ζ ", "zeta"}};
+    if (letter.size() < 2) return {};
+    for (const Row& row : rows)
+        if (row.letters.find(letter) != std::string_view::npos) return row.plain;
+    return {};
+}
+
 }  // namespace
 
 std::string formatNumber(double value) {
@@ -111,15 +162,22 @@ std::string suggestName(std::string_view name, const std::vector<std::string>& c
 std::string slug(std::string_view label) {
     std::string text;
     bool isGap = false;
-    for (const char raw : label) {
-        const char c = lower(raw);
-        if (!isSlugCharacter(c)) {
-            isGap = true;
-            continue;
-        }
+    const auto add = [&](std::string_view letters) {
         if (isGap && !text.empty()) text += '-';
         isGap = false;
-        text += c;
+        text += letters;
+    };
+    for (std::size_t i = 0; i < label.size();) {
+        const std::size_t length = std::max<std::size_t>(1, sequenceLength(label.substr(i)));
+        const std::string_view letter = label.substr(i, length);
+        i += length;
+        const char c = lower(letter.front());
+        if (isSlugCharacter(c))
+            add({&c, 1});
+        else if (const std::string_view plain = transliterated(letter); !plain.empty())
+            add(plain);
+        else
+            isGap = true;
     }
     return text;
 }

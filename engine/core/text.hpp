@@ -36,7 +36,8 @@ std::string suggestName(std::string_view name, const std::vector<std::string>& c
 /// "a, b and c".
 std::string joinNames(const std::vector<std::string>& names);
 
-/// A label in ASCII lower case, every run of other characters one '-', trimmed: "Galerkin 4" -> "galerkin-4".
+/// A label in ASCII lower case, letters with accents and Greek ones spelt out, every run of other characters
+/// one '-', trimmed: "Galerkin 4" -> "galerkin-4", "Störmer-Verlet" -> "stoermer-verlet".
 std::string slug(std::string_view label);
 
 /// One slug per label, equal ones told apart by "-2", "-3"; none is one of `taken`, and none is empty.
