@@ -8,7 +8,7 @@
 #include "engine/figure/sample.hpp"
 #include "ui/plots/dense_curve.hpp"
 #include "ui/plots/map_layer.hpp"
-#include "ui/plots/phase_colour.hpp"
+#include "engine/figure/phase_colour.hpp"
 #include "ui/plots/pill.hpp"
 #include "ui/plots/value_colour.hpp"
 

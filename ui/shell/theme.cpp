@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "engine/figure/figure.hpp"
+#include "engine/figure/palette.hpp"
 
 // The resources live in a static library: the linker keeps them only if somebody asks. Must be outside
 // namespaces.
@@ -35,7 +36,7 @@ Theme Theme::light() {
     t.errorGround = "#FEF1EF";
     t.errorLine = "#F0B5AE";
     t.good = "#0A7F5E";
-    t.seriesColors = {"#0B62D6", "#D1490C", "#0A8F6A", "#8E44AD", "#B7791F", "#2E9CCA", "#C2185B", "#5B6470"};
+    std::copy(lightSeries.begin(), lightSeries.end(), t.seriesColors.begin());
     return t;
 }
 
@@ -59,7 +60,7 @@ Theme Theme::dark() {
     t.errorGround = "#2D1A1A";
     t.errorLine = "#7A3B36";
     t.good = "#3FC79A";
-    t.seriesColors = {"#4C9AFF", "#FF7A3D", "#2FBF94", "#BB7FD9", "#E0A84A", "#5BBFE6", "#F0588F", "#9AA5B3"};
+    std::copy(darkSeries.begin(), darkSeries.end(), t.seriesColors.begin());
     return t;
 }
 

@@ -1,6 +1,6 @@
 #include "ui/stage/strokes.hpp"
 
-#include "ui/plots/phase_colour.hpp"
+#include "engine/figure/phase_colour.hpp"
 #include "ui/stage/stage_inset.hpp"
 
 #include <algorithm>
