@@ -1,160 +1,70 @@
 #include "app/arguments.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
 
+#include "app/interface.hpp"
 #include "app/report.hpp"
 #include "engine/core/text.hpp"
 
 namespace extremal::app {
 namespace {
 
-constexpr const char* sceneHelp = "a path, preset:NAME, or - for standard input";
-
-/// The options that every verb takes.
-void addCommon(CLI::App& verb, CommonOptions& options) {
-    verb.add_option("--set", options.overrides,
-                    "change a value of the scene: --set '/schemes/*/step=0.1'; repeatable")
-        ->type_name("POINTER=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    verb.add_flag("--json", options.isJson, "one JSON document on standard output");
-    verb.add_flag("--quiet", options.isQuiet, "errors only");
-    verb.add_flag("--trust", options.isTrusted, "read files that the scene names outside its own folder");
-    verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
-        ->type_name("N")
-        ->check(CLI::Range(1U, 1024U).description(""));
-    verb.set_help_flag("--help,-h", "this text");
+std::vector<std::string> optionsOf(const CLI::App& verb) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : verb.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
 }
 
-CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description,
-                  bool takesScene) {
-    CLI::App* verb = app.add_subcommand(name, description);
-    if (takesScene) verb->add_option("SCENE", arguments.scene, sceneHelp)->required()->type_name("");
-    verb->parse_complete_callback([&arguments, name] { arguments.verb = name; });
-    return *verb;
+/// The first option among the arguments that the verb does not have; empty: there is none.
+std::string unknownOption(const CLI::App& verb, int argc, char** argv) {
+    const std::vector<std::string> known = optionsOf(verb);
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        if (argument == "--") break;
+        const std::string name(argument.substr(0, argument.find('=')));
+        if (name.starts_with("--") && std::find(known.begin(), known.end(), name) == known.end()) return name;
+    }
+    return {};
 }
 
-void addSnapshot(CLI::App& app, Arguments& arguments) {
-    SnapshotOptions& snapshot = arguments.snapshot;
-    CLI::App& verb =
-        addVerb(app, arguments, "snapshot", "draw the contents of the window, without a display", true);
-    verb.add_option("--out", snapshot.out, "the picture: .png, .pdf or .svg")->required()->type_name("FILE");
-    verb.add_option("--size", snapshot.size, "pixels, sides 64 to 8192; 1200x800 by default")
-        ->type_name("WxH");
-    verb.add_option("--view", snapshot.view, "one view (extremal list views), or all")->type_name("NAME");
-    CLI::Option* time = verb.add_option("--time", snapshot.time, "the end by default")->type_name("T");
-    verb.add_option("--compare", snapshot.compareWith,
-                    "exit 1 if the picture differs, and write FILE.diff.png")
-        ->type_name("BASE.png");
-    verb.add_option("--tolerance", snapshot.tolerance,
-                    "percent of the pixels that may differ, of any tile 50 times as many")
-        ->type_name("PERCENT")
-        ->check(CLI::Range(0.0, 100.0).description(""));
-    addCommon(verb, arguments.common);
-    verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
-}
-
-/// `study KIND SCENE`, and `study merge DIR...`: one verb, whose first word decides.
-void addStudy(CLI::App& app, Arguments& arguments) {
-    StudyOptions& study = arguments.study;
-    CLI::App& verb =
-        addVerb(app, arguments, "study",
-                "measure convergence, cost or stability over many runs (extremal list studies)", false);
-    verb.add_option("KIND", study.kind, "a study, or merge to put shards together")
-        ->required()
-        ->type_name("");
-    verb.add_option("SCENE", study.folders,
-                    std::string(sceneHelp) + "; for merge the folders of the shards; none for extremes")
-        ->type_name("");
-    verb.add_option("--out", study.out, "folder for the files, created if missing")
-        ->required()
-        ->type_name("DIR");
-    verb.add_option("--metric", study.metric,
-                    "error (default), energy, momentum, norm, phase, or an observable")
-        ->type_name("NAME");
-    verb.add_flag("--final", study.isFinal,
-                  "the metric at the last node; its maximum over the run by default");
-    verb.add_option("--steps", study.steps, "the steps to run with, separated by commas")
-        ->delimiter(',')
-        ->type_name("A,B,C");
-    verb.add_option("--from", study.from, "the largest step")->type_name("H");
-    verb.add_option("--to", study.to, "the smallest step")->type_name("H");
-    verb.add_option("--points", study.points, "steps from --from to --to in equal ratios; 12 by default")
-        ->type_name("N");
-    verb.add_option("--x", study.x, "for stability: a number of the scene and its values")
-        ->type_name("POINTER=FROM:TO:N[:log]");
-    verb.add_option("--y", study.y, "a second one")->type_name("POINTER=FROM:TO:N[:log]");
-    verb.add_flag("--limit", study.findsLimits, "bisect the limit along --x to four digits");
-    verb.add_flag("--long", study.isLong, "for extremes: also the runs of 10^9 steps, which take minutes");
-    verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
-    verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
-        ->type_name("R");
-    verb.add_option("--only", study.only, "the label of a scheme; repeatable")
-        ->type_name("LABEL")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    verb.add_option("--shard", study.shard, "part I of N, to be merged later")->type_name("I/N");
-    verb.add_flag("--plot,!--no-plot", study.isPlotted, "draw KIND.svg and KIND.png as well (default)");
-    verb.add_flag("--resume", study.isResumed, "keep the points that the log in DIR has");
-    addCommon(verb, arguments.common);
-    verb.final_callback([&] {
-        if (study.kind == "merge")
-            arguments.verb = "study merge";
-        else if (study.folders.size() <= 1)
-            arguments.scene = study.folders.empty() ? "" : study.folders.front();
-        else
-            throw CLI::ExtrasError({study.folders.begin() + 1, study.folders.end()});
-    });
-}
-
-void addAtlas(CLI::App& app, Arguments& arguments) {
-    CLI::App& verb =
-        addVerb(app, arguments, "atlas",
-                "measure what every scheme claims, on a system of every kind; write a page", false);
-    verb.add_option("--out", arguments.atlas.out,
-                    "folder for index.html and its pictures, created if missing")
-        ->required()
-        ->type_name("DIR");
-    verb.add_option("--systems", arguments.atlas.systems,
-                    "presets in place of those of the atlas, with commas")
-        ->delimiter(',')
-        ->type_name("A,B,C");
-    verb.add_flag("--quick", arguments.atlas.isQuick, "low degrees, few steps, costs measured once");
-    verb.add_flag("--resume", arguments.atlas.isResumed, "keep the points that the logs in DIR have");
-    addCommon(verb, arguments.common);
-}
-
-void addWisdom(CLI::App& app, Arguments& arguments) {
-    CLI::App& verb =
-        addVerb(app, arguments, "wisdom",
-                "measure the fastest Fourier transforms of this machine, for EXTREMAL_WISDOM", false);
-    verb.add_option("--out", arguments.wisdom.out, "the file; an existing one is extended")
-        ->required()
-        ->type_name("FILE");
-    verb.add_option("--modes", arguments.wisdom.modes, "a number of modes, or NxM in the plane; repeatable")
-        ->required()
-        ->type_name("N")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    addCommon(verb, arguments.common);
+/// The verbs that have an option.
+std::vector<std::string> verbsWith(const CLI::App& app, const std::string& option) {
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+        const std::vector<std::string> options = optionsOf(*verb);
+        if (std::find(options.begin(), options.end(), option) != options.end())
+            verbs.push_back(verb->get_name());
+    }
+    return verbs;
 }
 
 /// What CLI11 says, as a sentence of ours.
-void printParseError(const CLI::App& app, const CLI::ParseError& error, const Arguments& arguments) {
+void printParseError(const CLI::App& app, const CLI::ParseError& error, const Arguments& arguments, int argc,
+                     char** argv) {
     std::vector<std::string> verbs;
     for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
         verbs.push_back(verb->get_name());
     std::string what = error.what(), hint = "see extremal --help";
     const auto parsed = app.get_subcommands();
-    if (!parsed.empty()) hint = "see extremal " + parsed.front()->get_name() + " --help";
+    const CLI::App& verb = parsed.empty() ? app : *parsed.front();
+    if (!parsed.empty()) hint = "see extremal " + verb.get_name() + " --help";
     // A mistyped verb is taken for a scene.
     const std::string near = nearestName(arguments.scene, verbs);
     if (parsed.empty() && !near.empty() && !std::filesystem::exists(arguments.scene)) {
         what = "unknown verb \"" + arguments.scene + "\"";
         hint = "did you mean \"" + near + "\"?";
+    } else if (const std::string option = unknownOption(verb, argc, argv); !option.empty()) {
+        what = "unknown option " + option + (parsed.empty() ? "" : " of " + verb.get_name());
+        const std::string meant = nearestName(option, optionsOf(verb));
+        if (const auto others = verbsWith(app, option); !others.empty())
+            hint = joinNames(others) + (others.size() > 1 ? " have it" : " has it");
+        else if (!meant.empty())
+            hint = "did you mean " + meant + "?";
     }
     printProblem("arguments", what, hint);
 }
@@ -163,41 +73,15 @@ void printParseError(const CLI::App& app, const CLI::ParseError& error, const Ar
 
 std::optional<Arguments> parseArguments(int argc, char** argv, int& exitCode) {
     Arguments arguments;
-    CLI::App app("Extremal compares variational integrators: a scene in; trajectories, plots and costs out.",
-                 "extremal");
-    app.set_version_flag("--version", "extremal " EXTREMAL_VERSION, "the version");
-    app.add_option("SCENE", arguments.scene, std::string(sceneHelp) + "; opens the window on it")
-        ->type_name("");
-    addCommon(app, arguments.common);
-    CLI::App& run =
-        addVerb(app, arguments, "run", "integrate every enabled scheme; write CSV files and a summary", true);
-    run.add_option("--out", arguments.folder, "folder for the files, created if missing")
-        ->required()
-        ->type_name("DIR");
-    addCommon(run, arguments.common);
-    addSnapshot(app, arguments);
-    addCommon(addVerb(app, arguments, "check", "report every error and warning of a scene", true),
-              arguments.common);
-    CLI::App& list = addVerb(app, arguments, "list", "list what a scene may contain", false);
-    list.add_option("KIND", arguments.kind,
-                    "models, spaces, quadratures, schemes, baselines, observables, studies, views, profiles "
-                    "or presets")
-        ->type_name("");
-    addCommon(list, arguments.common);
-    addStudy(app, arguments);
-    addAtlas(app, arguments);
-    addWisdom(app, arguments);
-    app.require_subcommand(0, 1);
-    for (const auto& [label, word] :
-         {std::pair{"SUBCOMMAND", "VERB"}, {"Subcommands", "Verbs"}, {"REQUIRED", "(required)"}})
-        app.get_formatter()->label(label, word);
+    const std::unique_ptr<CLI::App> interface = makeInterface(arguments);
+    CLI::App& app = *interface;
     try {
         app.parse(argc, argv);
         return arguments;
     } catch (const CLI::ParseError& error) {
         exitCode = unusable;
         if (error.get_exit_code() != 0) {
-            printParseError(app, error, arguments);
+            printParseError(app, error, arguments, argc, argv);
         } else {
             std::ostringstream text;
             exitCode = app.exit(error, text);

@@ -11,6 +11,7 @@ namespace extremal::app {
 struct Arguments {
     std::string verb;  ///< empty: the window
     std::string scene, folder, kind;
+    bool isVersion = false, isVerbose = false;
     CommonOptions common;
     SnapshotOptions snapshot;
     StudyOptions study;

@@ -19,6 +19,9 @@ int dispatch(int argc, char** argv) {
     int exitCode = done;
     const auto arguments = parseArguments(argc, argv, exitCode);
     if (!arguments) return exitCode;
+    if (arguments->isVersion) return versionVerb(arguments->isVerbose);
+    if (arguments->verb == "completion") return completionVerb(arguments->kind);
+    if (arguments->verb == "manual") return manualVerb();
     if (arguments->verb == "wisdom") return wisdomVerb(arguments->wisdom, arguments->common);
     if (const char* file = std::getenv("EXTREMAL_WISDOM"); file && *file) {
         try {

@@ -16,6 +16,7 @@
 #include "engine/run/export.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/study/catalog.hpp"
+#include "engine/study/request.hpp"
 #include "engine/study/stability_study.hpp"
 #include "engine/study/study_log.hpp"
 #include "engine/study/sweep_log.hpp"
@@ -28,84 +29,11 @@ std::filesystem::path logOf(const std::filesystem::path& folder, const std::stri
     return folder / (study + ".log");
 }
 
-const StudyEntry& knownStudy(const std::string& id) {
-    std::vector<std::string> names;
-    for (const StudyEntry& e : studyEntries()) names.push_back(e.item.id);
-    const StudyEntry* study = findStudy(id);
-    if (!study) throw InvalidScene("arguments", "there is no study \"" + id + "\"", suggestName(id, names));
-    return *study;
-}
-
-/// "2/4".
-Shard parseShard(const std::string& text) {
-    const std::size_t slash = text.find('/');
-    const auto index = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(0, slash)),
-               count = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(slash + 1));
-    if (!index || !count || *index != std::floor(*index) || *count != std::floor(*count) || *count > 1e6 ||
-        *index < 1 || *index > *count)
-        throw InvalidScene("--shard", "must be I/N with I from 1 to N, got \"" + text + "\"",
-                           "for example 1/4");
-    return {static_cast<int>(*index), static_cast<int>(*count)};
-}
-
-/// Options that belong to another study are errors, so that none is silently ignored.
-void refuseStrangers(const StudyEntry& entry, const StudyOptions& study) {
-    using Over = StudyEntry::Over;
-    const auto refuse = [&](bool isGiven, Over over, const char* option, const char* whose) {
-        if (isGiven && entry.over != over)
-            throw InvalidScene(option, "is not an option of " + entry.item.id,
-                               std::string(whose) + " has it");
-    };
-    refuse(study.error != 0, Over::wantedError, "--error", "cheapest");
-    refuse(!study.x.empty(), Over::numbers, "--x", "stability");
-    refuse(!study.y.empty(), Over::numbers, "--y", "stability");
-    refuse(study.findsLimits, Over::numbers, "--limit", "stability");
-    refuse(study.isLong, Over::extremes, "--long", "extremes");
-    for (const auto& [isGiven, option] :
-         {std::pair{!study.steps.empty(), "--steps"}, {study.from != 0, "--from"}, {study.to != 0, "--to"}})
-        refuse(isGiven, Over::steps, option, "convergence");
-    if (entry.over == Over::wantedError && study.error == 0)
-        throw InvalidScene("--error", "is required for " + entry.item.id, "for example --error 1e-6");
-    if (entry.over == Over::numbers && study.x.empty())
-        throw InvalidScene("--x", "is required for " + entry.item.id,
-                           "for example '/schemes/*/step=0.01:1:50:log'");
-}
-
-Sweep sweepOf(const ResolvedScene& scene, const StudyOptions& study, const CommonOptions& common) {
-    SweepOptions options;
-    options.wantedError = study.error;
-    options.metric = study.metric;
-    options.isAtEnd = study.isFinal;
-    options.ladder = {study.steps, study.from, study.to, study.points};
-    if (study.steps.empty() && (study.from != 0 || study.to != 0) && study.points == 0)
-        options.ladder.points = 12;
-    if (study.points > 0 && study.from == 0 && study.to == 0)
-        throw InvalidScene("--points", "needs --from and --to");
-    options.repeat = study.repeat;
-    options.only = study.only;
-    if (!study.shard.empty()) options.shard = parseShard(study.shard);
-    options.threads = common.threads;
-    return {scene, options};
-}
-
-StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyOptions& study,
-                           const CommonOptions& common) {
-    StabilityOptions options;
-    options.x = parseAxis(study.x, "--x");
-    if (!study.y.empty()) options.y = parseAxis(study.y, "--y");
-    options.findsLimits = study.findsLimits;
-    options.only = study.only;
-    if (!study.shard.empty()) options.shard = parseShard(study.shard);
-    options.threads = common.threads;
-    return {scene, options};
-}
-
-LinearStudy linearOf(const ResolvedScene& scene, const StudyOptions& study, const CommonOptions& common) {
-    LinearOptions options;
-    options.only = study.only;
-    if (!study.shard.empty()) options.shard = parseShard(study.shard);
-    options.threads = common.threads;
-    return {scene, options};
+/// Of a log, which knows what was asked for.
+const StudyEntry& entryOf(const std::string& id) {
+    if (const StudyEntry* const study = findStudy(id)) return *study;
+    throw InvalidScene("arguments", "the log is of an unknown study \"" + id + "\"",
+                       "a folder that extremal study has written");
 }
 
 template <class Study>
@@ -260,22 +188,19 @@ int mergeLogs(const StudyEntry& study, Study work, const Scene* scene, const Stu
 
 int studyVerb(const std::string& scene, const StudyOptions& options, const CommonOptions& common) {
     return guarded(sceneName(scene), [&] {
-        const StudyEntry& study = knownStudy(options.kind);
-        refuseStrangers(study, options);
-        if (study.over == StudyEntry::Over::extremes) {
-            const Shard shard = options.shard.empty() ? Shard{} : parseShard(options.shard);
-            return runStudy(study, ExtremesStudy(shard, common.threads, options.isLong), nullptr, options,
-                            common);
+        const StudyEntry& study = knownStudy(options);
+        ReadScene read;
+        const bool hasScene = study.over != StudyEntry::Over::extremes && !scene.empty();
+        if (hasScene) {
+            read = loadScene(scene, common);
+            if (!reportScene(scene, read, common)) return static_cast<int>(unusable);
         }
-        if (scene.empty()) throw InvalidScene("arguments", "SCENE is required", "see extremal study --help");
-        const ReadScene read = loadScene(scene, common);
-        if (!reportScene(scene, read, common)) return static_cast<int>(unusable);
-        if (study.over == StudyEntry::Over::numbers)
-            return runStudy(study, stabilityOf(*read.resolved, options, common), &read.scene, options,
-                            common);
-        if (study.over == StudyEntry::Over::testEquation)
-            return runStudy(study, linearOf(*read.resolved, options, common), &read.scene, options, common);
-        return runStudy(study, sweepOf(*read.resolved, options, common), &read.scene, options, common);
+        return std::visit(
+            [&](auto&& work) {
+                return runStudy(study, std::forward<decltype(work)>(work), hasScene ? &read.scene : nullptr,
+                                options, common);
+            },
+            makeStudy(study, options, hasScene ? read.resolved.get() : nullptr, common.threads));
     });
 }
 
@@ -296,7 +221,7 @@ int mergeVerb(const StudyOptions& options, const CommonOptions& common) {
         }
         const std::filesystem::path first = options.folders.front();
         const Value what = parseJson(head);
-        const StudyEntry& study = knownStudy(what.find("study")->asString());
+        const StudyEntry& study = entryOf(what.find("study")->asString());
         if (study.over == StudyEntry::Over::extremes) {
             const Value* const withLong = what.find("options")->find("long");
             return mergeLogs(study, ExtremesStudy({}, 0, withLong && withLong->asBool()), nullptr, options,

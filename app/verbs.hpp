@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/study/request.hpp"
+
 namespace extremal::app {
 
 /// 0 done; 1 a scheme failed numerically, or a comparison differs; 2 unusable input or arguments; 3 the
@@ -29,13 +31,9 @@ struct WisdomOptions {
     std::vector<std::string> modes;  ///< "256" or "256x256"
 };
 
-struct StudyOptions {
-    std::string kind, out, metric = "error", shard, x, y;
-    bool isFinal = false, isResumed = false, isPlotted = true, findsLimits = false, isLong = false;
-    std::vector<double> steps;
-    double from = 0, to = 0, error = 0;
-    int points = 0, repeat = 5;
-    std::vector<std::string> only;
+struct StudyOptions : StudyRequest {
+    std::string out;
+    bool isResumed = false, isPlotted = true;
     std::vector<std::string> folders;  ///< of `study merge`
 };
 
@@ -54,5 +52,11 @@ int studyVerb(const std::string& scene, const StudyOptions& study, const CommonO
 int atlasVerb(const AtlasRunOptions& atlas, const CommonOptions& options);
 int mergeVerb(const StudyOptions& study, const CommonOptions& options);
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options);
+
+/// The version; with `isVerbose` also the commit, the libraries, the instruction set and what draws.
+int versionVerb(bool isVerbose);
+/// The completions of bash, zsh or fish, and the manual page, made from the options.
+int completionVerb(const std::string& shell);
+int manualVerb();
 
 }  // namespace extremal::app

@@ -22,15 +22,16 @@ function(extremal_catalogue namespace folders type header function)
     endforeach()
     set(out ${CMAKE_CURRENT_BINARY_DIR}/${namespace}_catalogue.cpp)
     file(CONFIGURE OUTPUT ${out} CONTENT
-"#include \"${header}\"
+"#include \"engine/core/own_entries.hpp\"
+#include \"${header}\"
 
 namespace extremal {
 namespace ${namespace} {
 ${declarations}}  // namespace ${namespace}
 
 const std::vector<${type}>& ${function}() {
-    static const std::vector<${type}> all = {
-${entries}    };
+    static const std::vector<${type}> all = OwnEntries<${type}>::joined({
+${entries}    });
     return all;
 }
 }  // namespace extremal

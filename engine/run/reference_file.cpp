@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <memory>
@@ -155,6 +157,18 @@ Reference readReference(std::istream& in, const std::string& name, const System&
 }
 
 Reference readReference(const std::string& path, const System& system) {
+    // A scene may come from a stranger, with files that never end: pipes are not opened, and lines without an
+    // end are not read.
+    constexpr std::uintmax_t most = std::uintmax_t{2} << 30;
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        throw InvalidScene("/reference/path", "\"" + path + "\" is not a regular file", whatIsWanted);
+    if (const auto size = std::filesystem::file_size(path, error); !error && size > most)
+        throw InvalidScene(
+            "/reference/path",
+            "\"" + path + "\" is larger than 2 GB: " + formatCount(static_cast<double>(size)) + " bytes",
+            "fewer rows");
     std::ifstream in(path);
     return readReference(in, path, system);
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
 #include <numeric>
 #include <stop_token>
 #include <thread>
@@ -37,6 +39,7 @@ struct Run::Impl {
     mutable std::mutex mutex;
     ReferenceInfo reference;  ///< guarded by mutex
     std::atomic<bool> isFinished{false}, isPreparing{false};
+    std::condition_variable finished;
     std::jthread coordinator;
 
     Impl(ResolvedScene r, const RunOptions& options)
@@ -102,8 +105,12 @@ struct Run::Impl {
             i -= tasks.size();
             i < starts.tasks() ? starts.run(i, stop) : maps.run(i - starts.tasks(), stop);
         });
-        isFinished = true;
+        {
+            const std::lock_guard lock(mutex);
+            isFinished = true;
+        }
         isFinished.notify_all();
+        finished.notify_all();
     }
 };
 
@@ -124,6 +131,11 @@ void Run::stop() { impl_->coordinator.request_stop(); }
 
 void Run::wait() {
     if (impl_->coordinator.joinable()) impl_->isFinished.wait(false);
+}
+
+bool Run::waitFor(std::chrono::milliseconds time) {
+    std::unique_lock lock(impl_->mutex);
+    return impl_->finished.wait_for(lock, time, [&] { return impl_->isFinished.load(); });
 }
 
 bool Run::isFinished() const { return impl_->isFinished; }

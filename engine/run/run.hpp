@@ -8,6 +8,7 @@
 /// steps.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -36,6 +37,8 @@ public:
     void start();
     void stop();  ///< returns at once; workers end within 50 ms and keep their partial result
     void wait();
+    /// Waits so long at most; true: it is finished.
+    bool waitFor(std::chrono::milliseconds time);
     bool isFinished() const;
     /// What there is so far, at most some 30 ms old while running; cheap, callable from any thread.
     Comparison latest() const;

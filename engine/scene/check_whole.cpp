@@ -17,6 +17,10 @@ namespace {
 
 /// Rows of one scheme that fit in memory with ease; a larger file is hardly what was meant.
 constexpr double maxRows = 2e7;
+/// Of all schemes together: a scene may come from a stranger, and has to fit in memory as a whole.
+constexpr double maxRowsTogether = 5e7;
+/// Of a scheme in a scene that does not say how often.
+constexpr double usualRows = 2000;
 
 void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme,
                     const std::string& pointer) {
@@ -37,12 +41,18 @@ void checkStepCount(Reader& reader, const Scene& scene, const SchemeSpec& scheme
 }
 
 void checkRows(Reader& reader, const Scene& scene) {
-    if (!scene.every) return;
-    const double rows = timeSpan(scene).length() / scene.every->value;
+    const auto schemes = static_cast<double>(std::count_if(scene.schemes.begin(), scene.schemes.end(),
+                                                           [](const SchemeSpec& s) { return s.isEnabled; }));
+    const double rows = scene.every ? timeSpan(scene).length() / scene.every->value : usualRows;
     if (rows > maxRows)
         reader.error("/output/every",
                      "asks for " + formatNumber(rows, 3) + " rows, the limit is " + formatNumber(maxRows),
                      "a larger interval");
+    else if (rows * schemes > maxRowsTogether)
+        reader.error(scene.every ? "/output/every" : "/schemes",
+                     "asks for " + formatNumber(rows * schemes, 3) +
+                         " rows of all schemes together, the limit is " + formatNumber(maxRowsTogether),
+                     scene.every ? "a larger interval, or fewer schemes" : "fewer schemes");
 }
 
 void checkStability(Reader& reader, const SchemeCase& scheme, const Family* family, double stabilityLimit,

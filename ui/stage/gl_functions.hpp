@@ -65,6 +65,7 @@ namespace extremal {
     X(PFNGLGETPROGRAMIVPROC, GetProgramiv)                       \
     X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog)               \
     X(PFNGLGETSHADERIVPROC, GetShaderiv)                         \
+    X(PFNGLGETSTRINGPROC, GetString)                             \
     X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation)           \
     X(PFNGLLINKPROGRAMPROC, LinkProgram)                         \
     X(PFNGLPIXELSTOREIPROC, PixelStorei)                         \

@@ -11,6 +11,15 @@ std::unique_ptr<Surface> makeHeadlessSurface() {
     return wanted && std::string_view(wanted) == "egl" ? makeEglSurface() : makeOsmesaSurface();
 }
 
+std::string describeSurface(Surface& surface) {
+    surface.begin(64, 64);
+    const auto textOf = [&](unsigned name) {
+        const auto* const text = reinterpret_cast<const char*>(surface.functions().GetString(name));
+        return std::string(text ? text : "unknown");
+    };
+    return textOf(GL_RENDERER) + ", OpenGL " + textOf(GL_VERSION);
+}
+
 StagePainter::StagePainter(std::unique_ptr<Surface> surface) : surface_(std::move(surface)) {}
 
 StagePainter::~StagePainter() {

@@ -8,6 +8,7 @@
 #include <QImage>
 
 #include <memory>
+#include <string>
 
 #include "ui/stage/camera.hpp"
 #include "ui/stage/gl_functions.hpp"
@@ -31,6 +32,8 @@ std::unique_ptr<Surface> makeOsmesaSurface();
 std::unique_ptr<Surface> makeEglSurface();
 /// OSMesa; EGL if the environment variable EXTREMAL_SURFACE says "egl".
 std::unique_ptr<Surface> makeHeadlessSurface();
+/// "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 3.3": renderer and version as OpenGL names them.
+std::string describeSurface(Surface& surface);
 
 /// A renderer with its surface: makes pictures without a display. Use it from one thread.
 class StagePainter {

@@ -37,7 +37,7 @@ const char* equationOf(Kind kind) {
 
 /// One named profile: its keys with their defaults, what it solves, and how it is made.
 struct Named {
-    const char* name;
+    const char *name, *title;
     std::vector<std::pair<const char*, double>> keys;
     std::vector<Kind> solves;  ///< empty: any equation, as initial data alone
     At (*make)(const std::vector<double>& keys, const FieldProblem& problem);
@@ -112,27 +112,32 @@ At front(const std::vector<double>& keys, const FieldProblem&) {
 const std::vector<Named>& namedProfiles() {
     static const std::vector<Named> all = {
         {"kink",
+         "kink, u rises",
          {{"v", 0.5}, {"x0", 0}},
          {Kind::sineGordon, Kind::phi4},
          [](const auto& k, const FieldProblem& p) { return kinkOf(k, p, 1); }},
         {"antikink",
+         "antikink, u falls",
          {{"v", 0.5}, {"x0", 0}},
          {Kind::sineGordon, Kind::phi4},
          [](const auto& k, const FieldProblem& p) { return kinkOf(k, p, -1); }},
         {"kink-kink",
+         "two kinks that meet",
          {{"v", 0.5}},
          {Kind::sineGordon},
          [](const auto& k, const FieldProblem& p) { return collision(k, p, true); }},
         {"kink-antikink",
+         "a kink and an antikink that meet",
          {{"v", 0.5}},
          {Kind::sineGordon},
          [](const auto& k, const FieldProblem& p) { return collision(k, p, false); }},
-        {"breather", {{"omega", 0.5}, {"phase", 0}, {"x0", 0}}, {Kind::sineGordon}, breather},
+        {"breather", "breather", {{"omega", 0.5}, {"phase", 0}, {"x0", 0}}, {Kind::sineGordon}, breather},
         {"plane-wave",
+         "plane wave of a field",
          {{"wave_number", 1}, {"amplitude", 1}, {"phase", 0}},
          {Kind::none, Kind::kleinGordon},
          planeWave},
-        {"front", {{"v", 0}, {"x0", 0}, {"width", 1}}, {}, front}};
+        {"front", "front", {{"v", 0}, {"x0", 0}, {"width", 1}}, {}, front}};
     return all;
 }
 
@@ -359,6 +364,26 @@ FieldProfile fromValues(const Settings& initial, const FieldProblem& problem) {
 }
 
 }  // namespace
+
+std::vector<CatalogItem> fieldProfiles() {
+    const std::vector<FieldInfo> fields = fieldStartFields();
+    std::vector<CatalogItem> items;
+    for (const Named& named : namedProfiles()) {
+        CatalogItem item{named.name, named.title, "", {}, {}, "a field"};
+        for (const Kind kind : named.solves)
+            item.description +=
+                (item.description.empty() ? "Solves " : " and ") + std::string(equationOf(kind));
+        item.description += named.solves.empty() ? "Initial data of any field." : ".";
+        for (const auto& [key, fallback] : named.keys)
+            for (const FieldInfo& field : fields)
+                if (field.key == key) {
+                    item.parameters.push_back(field);
+                    item.parameters.back().fallback = fallback;
+                }
+        items.push_back(std::move(item));
+    }
+    return items;
+}
 
 std::vector<FieldInfo> fieldStartFields() {
     const auto optionalNumber = [](const char* key, const char* title, const char* text) {

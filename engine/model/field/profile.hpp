@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/catalog.hpp"
 #include "engine/core/field.hpp"
 #include "engine/core/settings.hpp"
 #include "engine/model/exact_solution.hpp"
@@ -40,6 +41,9 @@ struct FieldProfile {
 
 /// The keys of /initial of a field.
 std::vector<FieldInfo> fieldStartFields();
+
+/// The profiles that have names, with their keys.
+std::vector<CatalogItem> fieldProfiles();
 
 /// `start`: the time of expressions in x alone; profiles by name have their own. Throws InvalidScene with
 /// pointers relative to /initial, also where a profile solves another problem.

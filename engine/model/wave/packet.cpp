@@ -225,7 +225,7 @@ std::vector<Complex> packet(const Context& context, const Value& psi, const std:
         return c;
     }
     if (name == "eigenstate") return eigenstate(context, psi);
-    const std::vector<std::string> names{"gaussian", "periodic-gaussian", "eigenstate", "plane-wave"};
+    const std::vector<std::string> names = idsOf(packets());
     throw InvalidScene(context.pointer + "/packet", "unknown packet \"" + name + "\"",
                        suggestName(name, names));
 }
@@ -251,6 +251,44 @@ std::vector<Complex> dispatch(const Context& context, const Value& psi) {
 }
 
 }  // namespace
+
+std::vector<CatalogItem> packets() {
+    const auto key = [](const char* name, const char* title, const char* description) {
+        FieldInfo field = numberField(name, title, "", 0, description);
+        field.fallback = nullptr;
+        return field;
+    };
+    const FieldInfo centre = key("centre", "centre", "The middle of the domain by default."),
+                    width = key("width", "width", "A twentieth of the domain by default."),
+                    wave =
+                        numberField("wave_number", "wave number", "", 0, "Of the phase, per unit of length.");
+    FieldInfo kappa = positive("kappa", "concentration", "", 20, "Large for narrow packets.");
+    const std::string psi = "a wave function";
+    return {{"gaussian",
+             "Gaussian packet",
+             "exp(-(x - centre)^2/(4 width^2) + i wave_number x).",
+             {centre, width, wave},
+             {},
+             psi},
+            {"periodic-gaussian",
+             "periodic Gaussian packet",
+             "exp(-kappa (1 - cos(x - centre)) + i wave_number x), on periodic domains.",
+             {kappa, centre, wave},
+             {},
+             psi},
+            {"eigenstate",
+             "eigenstate",
+             "Of a potential that does not depend on time.",
+             {integerField("n", "n", 0, 1e6, 0.0, "Number of the state, from 0.")},
+             {},
+             psi},
+            {"plane-wave",
+             "plane wave of a wave function",
+             "exp(i wave_number x), on periodic domains.",
+             {wave},
+             {},
+             psi}};
+}
 
 std::vector<Complex> makePacket(const Value& psi, const std::string& pointer, bool isNormalised,
                                 const std::shared_ptr<const Hamiltonian>& hamiltonian,

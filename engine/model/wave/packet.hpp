@@ -17,9 +17,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/catalog.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 
 namespace extremal::wave {
+
+/// The packets that have names, with their keys.
+std::vector<CatalogItem> packets();
 
 /// Coefficients c, of norm 1 if wanted. Throws InvalidScene with pointers that start with `pointer`.
 std::vector<Complex> makePacket(const Value& psi, const std::string& pointer, bool isNormalised,

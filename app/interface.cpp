@@ -1,0 +1,217 @@
+#include "app/interface.hpp"
+
+#include <string>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+
+namespace extremal::app {
+namespace {
+
+constexpr const char* sceneHelp = "a path, preset:NAME, or - for standard input";
+
+/// The options that every verb takes.
+void addCommon(CLI::App& verb, CommonOptions& options) {
+    verb.add_option("--set", options.overrides,
+                    "change a value of the scene: --set '/schemes/*/step=0.1'; repeatable")
+        ->type_name("POINTER=VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_flag("--json", options.isJson, "one JSON document on standard output");
+    verb.add_flag("--quiet", options.isQuiet, "errors only");
+    verb.add_flag("--trust", options.isTrusted, "read files that the scene names outside its own folder");
+    verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
+        ->type_name("N")
+        ->check(CLI::Range(1U, 1024U).description(""));
+    verb.set_help_flag("--help,-h", "this text");
+}
+
+CLI::App& addVerb(CLI::App& app, Arguments& arguments, const char* name, const char* description,
+                  bool takesScene) {
+    CLI::App* verb = app.add_subcommand(name, description);
+    if (takesScene) verb->add_option("SCENE", arguments.scene, sceneHelp)->required()->type_name("");
+    verb->parse_complete_callback([&arguments, name] { arguments.verb = name; });
+    return *verb;
+}
+
+void addSnapshot(CLI::App& app, Arguments& arguments) {
+    SnapshotOptions& snapshot = arguments.snapshot;
+    CLI::App& verb =
+        addVerb(app, arguments, "snapshot", "draw the contents of the window, without a display", true);
+    verb.add_option("--out", snapshot.out, "the picture: .png, .pdf or .svg")->required()->type_name("FILE");
+    verb.add_option("--size", snapshot.size, "pixels, sides 64 to 8192; 1200x800 by default")
+        ->type_name("WxH");
+    verb.add_option("--view", snapshot.view, "one view (extremal list views), or all")->type_name("NAME");
+    CLI::Option* time = verb.add_option("--time", snapshot.time, "the end by default")->type_name("T");
+    verb.add_option("--compare", snapshot.compareWith,
+                    "exit 1 if the picture differs, and write FILE.diff.png")
+        ->type_name("BASE.png");
+    verb.add_option("--tolerance", snapshot.tolerance,
+                    "percent of the pixels that may differ, of any tile 50 times as many")
+        ->type_name("PERCENT")
+        ->check(CLI::Range(0.0, 100.0).description(""));
+    addCommon(verb, arguments.common);
+    verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
+}
+
+/// `study KIND SCENE`, and `study merge DIR...`: one verb, whose first word decides.
+void addStudy(CLI::App& app, Arguments& arguments) {
+    StudyOptions& study = arguments.study;
+    CLI::App& verb =
+        addVerb(app, arguments, "study",
+                "measure convergence, cost or stability over many runs (extremal list studies)", false);
+    verb.add_option("KIND", study.kind, "a study, or merge to put shards together")
+        ->required()
+        ->type_name("");
+    verb.add_option("SCENE", study.folders,
+                    std::string(sceneHelp) + "; for merge the folders of the shards; none for extremes")
+        ->type_name("");
+    verb.add_option("--out", study.out, "folder for the files, created if missing")
+        ->required()
+        ->type_name("DIR");
+    verb.add_option("--metric", study.metric,
+                    "error (default), energy, momentum, norm, phase, or an observable")
+        ->type_name("NAME");
+    verb.add_flag("--final", study.isFinal,
+                  "the metric at the last node; its maximum over the run by default");
+    verb.add_option("--steps", study.steps, "the steps to run with, separated by commas")
+        ->delimiter(',')
+        ->type_name("A,B,C");
+    verb.add_option("--from", study.from, "the largest step")->type_name("H");
+    verb.add_option("--to", study.to, "the smallest step")->type_name("H");
+    verb.add_option("--points", study.points, "steps from --from to --to in equal ratios; 12 by default")
+        ->type_name("N");
+    verb.add_option("--x", study.x, "for stability: a number of the scene and its values")
+        ->type_name("POINTER=FROM:TO:N[:log]");
+    verb.add_option("--y", study.y, "a second one")->type_name("POINTER=FROM:TO:N[:log]");
+    verb.add_flag("--limit", study.findsLimits, "bisect the limit along --x to four digits");
+    verb.add_flag("--long", study.isLong, "for extremes: also the runs of 10^9 steps, which take minutes");
+    verb.add_option("--error", study.error, "for cheapest: the error to be reached")->type_name("E");
+    verb.add_option("--repeat", study.repeat, "timed runs per point, 5 by default; 0: no times")
+        ->type_name("R");
+    verb.add_option("--only", study.only, "the label of a scheme; repeatable")
+        ->type_name("LABEL")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("--shard", study.shard, "part I of N, to be merged later")->type_name("I/N");
+    verb.add_flag("--plot,!--no-plot", study.isPlotted, "draw KIND.svg and KIND.png as well (default)");
+    verb.add_flag("--resume", study.isResumed, "keep the points that the log in DIR has");
+    addCommon(verb, arguments.common);
+    verb.final_callback([&] {
+        if (study.kind == "merge")
+            arguments.verb = "study merge";
+        else if (study.folders.size() <= 1)
+            arguments.scene = study.folders.empty() ? "" : study.folders.front();
+        else
+            throw CLI::ExtrasError({study.folders.begin() + 1, study.folders.end()});
+    });
+}
+
+void addAtlas(CLI::App& app, Arguments& arguments) {
+    CLI::App& verb =
+        addVerb(app, arguments, "atlas",
+                "measure what every scheme claims, on a system of every kind; write a page", false);
+    verb.add_option("--out", arguments.atlas.out,
+                    "folder for index.html and its pictures, created if missing")
+        ->required()
+        ->type_name("DIR");
+    verb.add_option("--systems", arguments.atlas.systems,
+                    "presets in place of those of the atlas, with commas")
+        ->delimiter(',')
+        ->type_name("A,B,C");
+    verb.add_flag("--quick", arguments.atlas.isQuick, "low degrees, few steps, costs measured once");
+    verb.add_flag("--resume", arguments.atlas.isResumed, "keep the points that the logs in DIR have");
+    addCommon(verb, arguments.common);
+}
+
+void addWisdom(CLI::App& app, Arguments& arguments) {
+    CLI::App& verb =
+        addVerb(app, arguments, "wisdom",
+                "measure the fastest Fourier transforms of this machine, for EXTREMAL_WISDOM", false);
+    verb.add_option("--out", arguments.wisdom.out, "the file; an existing one is extended")
+        ->required()
+        ->type_name("FILE");
+    verb.add_option("--modes", arguments.wisdom.modes, "a number of modes, or NxM in the plane; repeatable")
+        ->required()
+        ->type_name("N")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    addCommon(verb, arguments.common);
+}
+
+}  // namespace
+
+const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() {
+    static const std::vector<std::pair<std::string, std::vector<std::string>>> all = {
+        {"", {"extremal preset:kepler", "extremal run preset:kepler --out kepler", "extremal run --help"}},
+        {"run",
+         {"extremal run preset:pendulum --out pendulum",
+          "extremal run preset:kepler --set '/schemes/*/step=0.1' --set /time/end=20 --out kepler"}},
+        {"snapshot",
+         {"extremal snapshot preset:pendulum --out pendulum.png",
+          "extremal snapshot preset:kepler --view energy --size 900x600 --out energy.svg"}},
+        {"check",
+         {"extremal check preset:kepler",
+          "extremal check preset:kepler --set '/schemes/-={\"scheme\": \"galerkin-gauss-4\", \"step\": "
+          "0.2}'"}},
+        {"list", {"extremal list schemes", "extremal list models --json"}},
+        {"study",
+         {"extremal study convergence preset:pendulum --repeat 0 --out orders",
+          "extremal study cheapest preset:pendulum --error 1e-4 --repeat 1 --out cheapest",
+          "extremal study stability preset:pendulum --x '/schemes/*/step=0.1:1:4' --out stability"}},
+        {"atlas",
+         {"extremal atlas --quick --out atlas", "extremal atlas --systems kepler,pendulum --out atlas"}},
+        {"wisdom", {"extremal wisdom --modes 256 --out wisdom.fftw"}},
+        {"completion",
+         {"extremal completion bash > extremal.bash", "extremal completion fish > extremal.fish"}},
+        {"manual", {"extremal manual > extremal.1"}}};
+    return all;
+}
+
+std::unique_ptr<CLI::App> makeInterface(Arguments& arguments) {
+    auto interface = std::make_unique<CLI::App>(
+        "Extremal compares variational integrators: a scene in; trajectories, plots and costs out.",
+        "extremal");
+    CLI::App& app = *interface;
+    app.add_flag("--version", arguments.isVersion, "the version; with --verbose also of every library");
+    app.add_flag("--verbose", arguments.isVerbose, "for --version")->needs("--version");
+    app.add_option("SCENE", arguments.scene, std::string(sceneHelp) + "; opens the window on it")
+        ->type_name("");
+    addCommon(app, arguments.common);
+    CLI::App& run =
+        addVerb(app, arguments, "run", "integrate every enabled scheme; write CSV files and a summary", true);
+    run.add_option("--out", arguments.folder, "folder for the files, created if missing")
+        ->required()
+        ->type_name("DIR");
+    addCommon(run, arguments.common);
+    addSnapshot(app, arguments);
+    addCommon(addVerb(app, arguments, "check", "report every error and warning of a scene", true),
+              arguments.common);
+    CLI::App& list = addVerb(app, arguments, "list", "list what a scene may contain", false);
+    list.add_option(
+            "KIND", arguments.kind,
+            "models, spaces, quadratures, schemes, baselines, compositions, observables, studies, views, "
+            "profiles or presets")
+        ->type_name("");
+    addCommon(list, arguments.common);
+    addStudy(app, arguments);
+    addAtlas(app, arguments);
+    addWisdom(app, arguments);
+    CLI::App& completion = addVerb(app, arguments, "completion", "the completions of a shell", false);
+    completion.add_option("SHELL", arguments.kind, "bash, zsh or fish")->required()->type_name("");
+    addCommon(completion, arguments.common);
+    addCommon(addVerb(app, arguments, "manual", "this help as a manual page, for man -l -", false),
+              arguments.common);
+    for (const auto& [verb, lines] : examples()) {
+        std::string text = "Examples:";
+        for (const std::string& line : lines) text.append("\n  ").append(line);
+        (verb.empty() ? &app : app.get_subcommand(verb))->footer(text);
+    }
+    app.require_subcommand(0, 1);
+    for (const auto& [label, word] :
+         {std::pair{"SUBCOMMAND", "VERB"}, {"Subcommands", "Verbs"}, {"REQUIRED", "(required)"}})
+        app.get_formatter()->label(label, word);
+    return interface;
+}
+
+}  // namespace extremal::app

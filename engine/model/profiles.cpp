@@ -1,0 +1,17 @@
+#include "engine/model/profiles.hpp"
+
+#include "engine/model/field/profile.hpp"
+#include "engine/model/wave/packet.hpp"
+
+namespace extremal {
+
+const std::vector<CatalogItem>& profileCatalog() {
+    static const std::vector<CatalogItem> all = [] {
+        std::vector<CatalogItem> items = fieldProfiles();
+        for (CatalogItem& packet : wave::packets()) items.push_back(std::move(packet));
+        return items;
+    }();
+    return all;
+}
+
+}  // namespace extremal

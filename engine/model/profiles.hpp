@@ -1,0 +1,14 @@
+/// The initial data that have names: profiles of fields (the key `profile`) and packets of wave functions
+/// (the key `packet` of `psi`).
+#pragma once
+
+#include <vector>
+
+#include "engine/core/catalog.hpp"
+
+namespace extremal {
+
+/// Of fields, then of wave functions; `needs` says which. Both have a `plane-wave`.
+const std::vector<CatalogItem>& profileCatalog();
+
+}  // namespace extremal

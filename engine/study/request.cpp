@@ -1,0 +1,104 @@
+#include "engine/study/request.hpp"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+
+namespace extremal {
+namespace {
+
+/// "2/4".
+Shard parseShard(const std::string& text) {
+    if (text.empty()) return {};
+    const std::size_t slash = text.find('/');
+    const auto index = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(0, slash)),
+               count = slash == std::string::npos ? std::nullopt : parseNumber(text.substr(slash + 1));
+    if (!index || !count || *index != std::floor(*index) || *count != std::floor(*count) || *count > 1e6 ||
+        *index < 1 || *index > *count)
+        throw InvalidScene("--shard", "must be I/N with I from 1 to N, got \"" + text + "\"",
+                           "for example 1/4");
+    return {static_cast<int>(*index), static_cast<int>(*count)};
+}
+
+void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
+    using Over = StudyEntry::Over;
+    const auto refuse = [&](bool isGiven, Over over, const char* option, const char* whose) {
+        if (isGiven && entry.over != over)
+            throw InvalidScene(option, "is not an option of " + entry.item.id,
+                               std::string(whose) + " has it");
+    };
+    refuse(study.error != 0, Over::wantedError, "--error", "cheapest");
+    refuse(!study.x.empty(), Over::numbers, "--x", "stability");
+    refuse(!study.y.empty(), Over::numbers, "--y", "stability");
+    refuse(study.findsLimits, Over::numbers, "--limit", "stability");
+    refuse(study.isLong, Over::extremes, "--long", "extremes");
+    for (const auto& [isGiven, option] :
+         {std::pair{!study.steps.empty(), "--steps"}, {study.from != 0, "--from"}, {study.to != 0, "--to"}})
+        refuse(isGiven, Over::steps, option, "convergence");
+    if (entry.over == Over::wantedError && study.error == 0)
+        throw InvalidScene("--error", "is required for " + entry.item.id, "for example --error 1e-6");
+    if (entry.over == Over::numbers && study.x.empty())
+        throw InvalidScene("--x", "is required for " + entry.item.id,
+                           "for example '/schemes/*/step=0.01:1:50:log'");
+}
+
+Sweep sweepOf(const ResolvedScene& scene, const StudyRequest& study, unsigned threads) {
+    SweepOptions options;
+    options.wantedError = study.error;
+    options.metric = study.metric;
+    options.isAtEnd = study.isFinal;
+    options.ladder = {study.steps, study.from, study.to, study.points};
+    if (study.steps.empty() && (study.from != 0 || study.to != 0) && study.points == 0)
+        options.ladder.points = 12;
+    if (study.points > 0 && study.from == 0 && study.to == 0)
+        throw InvalidScene("--points", "needs --from and --to");
+    options.repeat = study.repeat;
+    options.only = study.only;
+    options.shard = parseShard(study.shard);
+    options.threads = threads;
+    return {scene, options};
+}
+
+StabilityStudy stabilityOf(const ResolvedScene& scene, const StudyRequest& study, unsigned threads) {
+    StabilityOptions options;
+    options.x = parseAxis(study.x, "--x");
+    if (!study.y.empty()) options.y = parseAxis(study.y, "--y");
+    options.findsLimits = study.findsLimits;
+    options.only = study.only;
+    options.shard = parseShard(study.shard);
+    options.threads = threads;
+    return {scene, options};
+}
+
+}  // namespace
+
+const StudyEntry& knownStudy(const StudyRequest& request) {
+    std::vector<std::string> names;
+    for (const StudyEntry& e : studyEntries()) names.push_back(e.item.id);
+    const StudyEntry* study = findStudy(request.kind);
+    if (!study)
+        throw InvalidScene("arguments", "there is no study \"" + request.kind + "\"",
+                           suggestName(request.kind, names));
+    refuseStrangers(*study, request);
+    return *study;
+}
+
+AnyStudy makeStudy(const StudyEntry& entry, const StudyRequest& request, const ResolvedScene* scene,
+                   unsigned threads) {
+    if (entry.over == StudyEntry::Over::extremes)
+        return ExtremesStudy(parseShard(request.shard), threads, request.isLong);
+    if (!scene) throw InvalidScene("arguments", "SCENE is required", "see extremal study --help");
+    switch (entry.over) {
+        case StudyEntry::Over::numbers:
+            return stabilityOf(*scene, request, threads);
+        case StudyEntry::Over::testEquation:
+            return LinearStudy(*scene, {request.only, parseShard(request.shard), threads});
+        default:
+            return sweepOf(*scene, request, threads);
+    }
+}
+
+}  // namespace extremal

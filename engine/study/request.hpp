@@ -1,0 +1,31 @@
+/// A study as it is asked for, by the words of the command line, and made from them.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/study/catalog.hpp"
+
+namespace extremal {
+
+struct StudyRequest {
+    std::string kind, metric = "error", shard, x, y;
+    bool isFinal = false, findsLimits = false, isLong = false;
+    std::vector<double> steps;
+    double from = 0, to = 0, error = 0;
+    int points = 0, repeat = 5;
+    std::vector<std::string> only;
+};
+
+using AnyStudy = std::variant<Sweep, StabilityStudy, LinearStudy, ExtremesStudy>;
+
+/// The entry of its kind. Throws InvalidScene where there is none, and where the request has options that
+/// belong to another study, or lacks one: none is silently ignored.
+const StudyEntry& knownStudy(const StudyRequest& request);
+
+/// `scene`: null of a study that has none. Throws InvalidScene, with options as pointers ("--error").
+AnyStudy makeStudy(const StudyEntry& entry, const StudyRequest& request, const ResolvedScene* scene,
+                   unsigned threads);
+
+}  // namespace extremal
