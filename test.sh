@@ -16,7 +16,7 @@ source "$root/.ci/prepare.sh"
 strict() {
     configure build-strict -DEXTREMAL_PCH=OFF -DEXTREMAL_UNITY=OFF
     cd "$root"
-    find engine ui app tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
+    find engine library ui app tests -name '*.[ch]pp' -print0 | xargs -0 clang-format --dry-run -Werror
     cmake -DROOT="$root" -P tests/tree/check_tree.cmake
     ninja -C build-strict all bench >&2
     ctest --test-dir build-strict --output-on-failure -L tree "$@"

@@ -1,8 +1,11 @@
 /// Scenes from strangers read nothing outside their own folder before the user agrees; what a run writes can
 /// be taken anywhere.
 #include <QDir>
+#include <QDirIterator>
 #include <QTemporaryDir>
 #include <QTest>
+
+#include <sys/stat.h>
 
 #include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
@@ -90,7 +93,70 @@ private slots:
         QCOMPARE(contentOf(at("second/reference.csv")), orbit);
     }
 
+    void labelsStayInTheFolder() {
+        const QString scene = at("scene/scene.json");
+        write(at("scene/inside.csv"), orbit);
+        for (const QByteArray& label :
+             {QByteArray("../../evil"), QByteArray("/etc/evil"), QByteArray("..\\\\evil")}) {
+            write(scene, sceneWith("inside.csv")
+                             .replace("\"reference\", \"scheme\"", "\"" + label + "\", \"scheme\""));
+            QVERIFY(QDir(at("kept")).removeRecursively());
+            const QStringList before = filesBelow(folder_.path());
+            QCOMPARE(runProgram({"run", scene, "--quiet", "--out", at("kept")}).code, 0);
+            for (const QString& file : filesBelow(folder_.path()))
+                QVERIFY2(before.contains(file) || file.startsWith(at("kept/")), qPrintable(file));
+            QCOMPARE(QDir(at("kept")).entryList({"*evil.csv"}).size(), 1);
+        }
+    }
+
+    void whatNeverEndsIsNotRead() {
+        const QString scene = at("scene/scene.json");
+        QCOMPARE(mkfifo(qPrintable(at("scene/pipe.csv")), 0600), 0);
+        QFile huge(at("scene/huge.csv"));
+        QVERIFY(huge.open(QIODevice::WriteOnly) &&
+                huge.resize(qint64{50} << 30));  // takes no place on the disk
+        huge.close();
+        write(scene, sceneWith("pipe.csv"));
+        QVERIFY(runProgram({"check", scene, "--quiet"}).err.contains("/reference/path: "));
+        write(scene, sceneWith("huge.csv"));
+        QVERIFY(runProgram({"check", scene, "--quiet"}).err.contains("is larger than 2 GB"));
+        QVERIFY(huge.remove());
+    }
+
+    void whatWouldFillTheMemoryIsAnError_data() {
+        QTest::addColumn<QString>("scene");
+        QTest::addColumn<QString>("change");
+        QTest::addColumn<QString>("said");
+        const auto row = [](const char* scene, const char* change, const char* said) {
+            QTest::newRow(change) << scene << change << said;
+        };
+        row("preset:pendulum", "/output={\"every\": 1e-7}", "rows, the limit is 2e+07");
+        row("preset:pendulum", "/output={\"every\": 4e-6}",
+            "rows of all schemes together, the limit is 5e+07");
+        row("preset:pendulum", "/schemes/0/step=1e-300", "steps from 0 to");
+        row("preset:wave", "/model/cells=1e9", "must be an integer from 2 to");
+        row("preset:schrodinger-seed", "/model/modes=1e9", "must be an integer from 8 to 65536");
+        row("preset:fput-chain", "/model/n=1e8", "must be an integer from 1 to 64");
+        row("preset:elliptic", "/model/elements=1e9", "must be an integer from 2 to");
+        row("preset:kink-moving-mesh", "/schemes/0/space/nodes=1e9", "must be an integer from 3 to");
+    }
+    void whatWouldFillTheMemoryIsAnError() {
+        QFETCH(QString, scene);
+        QFETCH(QString, change);
+        QFETCH(QString, said);
+        const Answer answer = runProgram({"run", scene, "--quiet", "--set", change, "--out", at("refused")});
+        QCOMPARE(answer.code, 2);
+        QVERIFY2(answer.err.contains(said), qPrintable(answer.err));
+        QVERIFY(!QDir(at("refused")).exists());
+    }
+
 private:
+    static QStringList filesBelow(const QString& folder) {
+        QStringList files;
+        for (QDirIterator all(folder, QDir::Files, QDirIterator::Subdirectories); all.hasNext();)
+            files << all.next();
+        return files;
+    }
     QString at(const QString& name) const { return folder_.filePath(name); }
 
     QTemporaryDir folder_;

@@ -9,7 +9,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/definitions.cmake)
 # A folder may include itself and every folder before it.
 set(levels
     core mesh group quadrature model symmetry space action solve integrator family baseline trajectory observe view scene run study figure
-    ui app)
+    library ui app)
 set(max_lines 500)
 
 # What belongs to one family: the types of its spaces, keys and values that no other family has. Quoted, they occur in
@@ -38,7 +38,7 @@ function(extremal_folder_of path out)
     set(folder "")
     if(path MATCHES "^engine/([^/]+)/")
         set(folder ${CMAKE_MATCH_1})
-    elseif(path MATCHES "^(ui|app)/")
+    elseif(path MATCHES "^(library|ui|app)/")
         set(folder ${CMAKE_MATCH_1})
     endif()
     set(${out} "${folder}" PARENT_SCOPE)
@@ -90,7 +90,7 @@ endfunction()
 function(extremal_tree_violations root out)
     set(violations "")
     file(GLOB_RECURSE files RELATIVE ${root}
-        ${root}/engine/*.hpp ${root}/engine/*.cpp ${root}/ui/*.hpp ${root}/ui/*.cpp
+        ${root}/engine/*.hpp ${root}/engine/*.cpp ${root}/library/*.hpp ${root}/library/*.cpp ${root}/ui/*.hpp ${root}/ui/*.cpp
         ${root}/app/*.hpp ${root}/app/*.cpp ${root}/tests/*.hpp ${root}/tests/*.cpp)
     foreach(path ${files})
         extremal_folder_of(${path} folder)

@@ -1,0 +1,10 @@
+/// The whole library.
+#pragma once
+
+#include "extremal/api.hpp"
+#include "extremal/catalogue.hpp"
+#include "extremal/figure.hpp"
+#include "extremal/own.hpp"
+#include "extremal/run.hpp"
+#include "extremal/scene.hpp"
+#include "extremal/study.hpp"

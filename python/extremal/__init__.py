@@ -1,0 +1,128 @@
+"""Generalized Galerkin variational integrators.
+
+>>> import extremal
+>>> comparison = extremal.run("preset:kepler")
+>>> comparison[0]["energy_error"]          # a numpy array
+>>> comparison.figure("energy")            # a plot, shown by a notebook
+
+A scene is the path of a file, "preset:NAME", or a dict of the same contents.
+"""
+
+from ._extremal import (Comparison, Figure, InvalidScene, Scene, SchemeResult, Study, __version__, catalogue_names)
+from ._extremal import catalogue as _catalogue
+from ._extremal import run as _run
+from .formula import (Symbol, acos, asin, atan, atan2, cos, cosh, exp, formula, log, sign, sin, sinh, sqrt, tan, tanh)
+
+__all__ = ["Catalogue", "Comparison", "Entry", "Figure", "InvalidScene", "Scene", "SchemeResult", "Study", "Symbol",
+           "__version__", "acos", "asin", "atan", "atan2", "baselines", "catalogue", "catalogue_names", "check",
+           "compositions", "cos", "cosh", "exp", "formula", "lagrangian", "log", "models", "observables", "presets",
+           "profiles", "quadratures", "run", "scene", "schemes", "sign", "sin", "sinh", "spaces", "sqrt", "studies",
+           "study", "tan", "tanh", "views"]
+
+
+def scene(source, changes=(), *, folder="", trust=False):
+    """Reads and checks a scene; raises InvalidScene with every error.
+
+    source   a path, "preset:NAME", or a dict as in a scene file; numbers and arrays of numpy are allowed
+    changes  "POINTER=VALUE" from left to right, as --set of the command line
+    folder   where relative paths of the scene start; by default the folder of the file
+    trust    files that the scene names outside its folder are read
+    """
+    if isinstance(source, Scene):
+        if changes:
+            return Scene.from_dict(source.to_dict(), list(changes), folder, trust)
+        return source
+    if isinstance(source, dict):
+        return Scene.from_dict(source, list(changes), folder, trust)
+    return Scene.load(str(source), list(changes), folder, trust)
+
+
+def check(source, changes=(), *, folder="", trust=False):
+    """The errors of a scene as (pointer, message, hint); empty if it is valid."""
+    try:
+        scene(source, changes, folder=folder, trust=trust)
+    except InvalidScene as error:
+        return error.problems
+    return []
+
+
+def run(source, changes=(), *, threads=0, progress=None, folder="", trust=False):
+    """Integrates every enabled scheme of a scene and returns a Comparison.
+
+    progress  called with the fraction that is done, 0 to 1, some thirty times a second; returning False stops
+              the run, whose results are then partial. Ctrl-C stops it with KeyboardInterrupt.
+    """
+    return _run(scene(source, changes, folder=folder, trust=trust), threads, progress)
+
+
+def study(kind, source, changes=(), *, progress=None, folder="", trust=False, **options):
+    """Runs a study ("convergence", "work-precision", "cheapest", "stability", "linear-stability") and returns it.
+
+    Options: metric, final, steps, from_step, to_step, points, error, x, y, limit, repeat, only, threads, as those
+    of `extremal study`. The result has tables (dicts of columns) and figures().
+    """
+    result = Study(kind, scene(source, changes, folder=folder, trust=trust), **options)
+    result.run(progress)
+    return result
+
+
+def lagrangian(function, coordinates, **parameters):
+    """The "model" of a scene from a Python function L(t, q, v).
+
+    The function is called once, with symbols, and turned into a formula (see extremal.formula): runs are as fast
+    as with a formula that was typed. `parameters` are numbers that the function takes by name; they stay
+    parameters of the model, so that changes=["/model/parameters/k=2"] works.
+
+    >>> extremal.lagrangian(lambda t, q, v, k: v.x**2 / 2 - k * q.x**2 / 2, ["x"], k=4)
+    """
+    names = list(coordinates)
+    symbols = {name: Symbol(name) for name in parameters}
+    text = formula(lambda t, q, v: function(t, q, v, **symbols), names)
+    model = {"type": "lagrangian", "coordinates": names, "lagrangian": text}
+    if parameters:
+        model["parameters"] = {name: float(value) for name, value in parameters.items()}
+    return model
+
+
+class Entry(dict):
+    """What a catalogue says of one name; its docstring describes the keys."""
+
+    def __init__(self, data):
+        super().__init__(data)
+        lines = [data["title"], "", data["description"]]
+        for p in data["parameters"]:
+            default = "" if p["default"] is None else f" = {p['default']!r}"
+            unit = f" [{p['unit']}]" if p["unit"] else ""
+            lines.append(f"  {p['key']}{default}{unit}  {p['description']}")
+        self.__doc__ = "\n".join(lines).rstrip()
+
+    def __repr__(self):
+        return self.__doc__
+
+
+class Catalogue(dict):
+    """The entries of a catalogue by their ids; `help(catalogue)` and the docstring of an entry describe them."""
+
+    def __init__(self, name):
+        super().__init__((entry["id"], Entry(entry)) for entry in _catalogue(name))
+        width = max(map(len, self), default=0)
+        self.__doc__ = "\n".join(f"{key:{width}}  {entry['title']}" for key, entry in self.items())
+
+    def __repr__(self):
+        return self.__doc__
+
+
+def catalogue(name):
+    """One of catalogue_names(): the models, spaces, quadratures, schemes, ... that a scene may contain."""
+    return Catalogue(name)
+
+
+def __getattr__(name):  # extremal.models, extremal.schemes, ...
+    if not name.startswith("_") and name in catalogue_names():
+        result = globals()[name] = Catalogue(name)
+        return result
+    raise AttributeError(f"module 'extremal' has no attribute {name!r}")
+
+
+def __dir__():
+    return __all__
