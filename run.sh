@@ -14,9 +14,9 @@ fi
 scene=${1:-preset:spring-pendulum}
 program=$root/build/bin/extremal
 
-install_packages
+install_packages program
 configure
-ninja -C "$root/build" extremal >&2
+build_program
 
 headless() {
     local status=0

@@ -3,10 +3,13 @@
 
 say() { printf '%s\n' "$*" >&2; }
 
-# Installs the packages of packages.txt that are missing. Asks dpkg alone when nothing is.
+# install_packages [program]: installs the packages of packages.txt that are missing; with `program` those alone that the
+# program needs. Asks dpkg alone when nothing is missing.
 install_packages() {
-    local wanted missing
-    wanted=$(grep -v '^#' "$root/packages.txt")
+    local wanted missing list
+    list=$(cat "$root/packages.txt")
+    [ "${1:-}" != program ] || list=${list%%# the Python module*}
+    wanted=$(grep -v '^#' <<<"$list")
     if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
         if ! command -v cmake >/dev/null || ! command -v ninja >/dev/null; then
             say "This machine has no apt-get, so nothing can be installed for you. Extremal is built on Debian 12 from:"
@@ -41,6 +44,7 @@ install_packages() {
         say "packages may have other names."
         return 1
     fi
+    installed_some=yes  # what is found when the build is configured changes
 }
 
 # configure [FOLDER OPTION...]: configures FOLDER (build, with batches of files, which are faster to build from scratch)
@@ -52,10 +56,41 @@ configure() {
     if [ -f "$root/$folder/CMakeCache.txt" ]; then
         home=$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$root/$folder/CMakeCache.txt")
     fi
-    if [ "$home" = "$root" ] && [ -f "$root/$folder/build.ninja" ]; then
-        return 0
-    fi
     local fresh=()
-    [ -z "$home" ] || fresh=(--fresh)
+    if [ "$home" = "$root" ] && [ -f "$root/$folder/build.ninja" ]; then
+        [ -n "${installed_some:-}" ] || return 0
+    elif [ -n "$home" ]; then
+        fresh=(--fresh)
+    fi
     cmake "${fresh[@]}" -S "$root" -B "$root/$folder" -G Ninja -DCMAKE_BUILD_TYPE=Release "${@:2}" >&2
+}
+
+# build_program: builds the program and nothing else, with one line that says how far it is and how long it will take. What
+# the compiler says is shown where it fails.
+build_program() {
+    local log=$root/build/build.log status=0 line left done all start=$SECONDS last=-10
+    : >"$log"
+    ninja -C "$root/build" extremal 2>&1 | while IFS= read -r line; do
+        printf '%s\n' "$line" >>"$log"
+        [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]] || continue
+        done=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]}
+        [ "$all" -gt 5 ] || continue  # looking for new files, and little more
+        [ "$last" -ge 0 ] || [ -t 2 ] || say "Building the program: a few minutes the first time."
+        left=$(((SECONDS - start) * (all - done) / (done > 0 ? done : 1)))
+        printf -v line '%3d %%  %d of %d steps, about %d:%02d left' $((100 * done / all)) "$done" "$all" \
+            $((left / 60)) $((left % 60))
+        if [ -t 2 ]; then
+            printf '\r\033[KBuilding the program: %s' "$line" >&2
+        elif [ $((SECONDS - last)) -ge 10 ]; then
+            last=$SECONDS
+            say "$line"
+        fi
+    done || status=$?
+    [ ! -t 2 ] || printf '\r\033[K' >&2
+    if [ "$status" -ne 0 ]; then
+        grep -v '^\[[0-9]*/[0-9]*\]' "$log" | head -n 60 >&2
+        say "The build failed; everything that it said is in $log."
+        return "$status"
+    fi
+    [ $((SECONDS - start)) -lt 5 ] || say "Built in $(((SECONDS - start) / 60)):$(printf %02d $(((SECONDS - start) % 60)))."
 }
