@@ -38,6 +38,14 @@ SchemeResult handleOf(std::shared_ptr<const extremal::Comparison> comparison, st
     return SchemeResult(std::make_shared<const SchemeResult::Data>(std::move(data)));
 }
 
+/// Repeating short runs for their times would make thousands of them many times as long.
+RunOptions optionsWith(unsigned threads) {
+    RunOptions options;
+    options.threads = threads;
+    options.isTimed = false;
+    return options;
+}
+
 Comparison latestOf(const extremal::Run& run) {
     return Comparison(std::make_shared<const Comparison::Data>(
         Comparison::Data{std::make_shared<const extremal::Comparison>(run.latest())}));
@@ -121,7 +129,7 @@ struct Run::Data {
 };
 
 Run::Run(const Scene& scene, unsigned threads)
-    : data_(new Data{extremal::Run(ResolvedScene(*scene.data().read.resolved), RunOptions{threads})}) {}
+    : data_(new Data{extremal::Run(ResolvedScene(*scene.data().read.resolved), optionsWith(threads))}) {}
 Run::~Run() = default;
 
 void Run::start() { data_->run.start(); }
@@ -132,7 +140,7 @@ double Run::fraction() const { return data_->run.fraction(); }
 Comparison Run::latest() const { return latestOf(data_->run); }
 
 Comparison run(const Scene& scene, unsigned threads, const Progress& progress) {
-    extremal::Run work(ResolvedScene(*scene.data().read.resolved), RunOptions{threads});
+    extremal::Run work(ResolvedScene(*scene.data().read.resolved), optionsWith(threads));
     work.start();
     if (!watch([&](auto time) { return work.waitFor(time); }, [&] { return work.fraction(); }, progress))
         work.stop();

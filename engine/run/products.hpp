@@ -88,6 +88,8 @@ public:
     void add(Product product) {
         if (!has(product)) all_.push_back(product);
     }
+    /// Short runs are repeated for their CPU time (run/timing.hpp).
+    bool isTimed = true;
 
 private:
     std::vector<Product> all_;

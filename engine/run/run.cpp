@@ -45,6 +45,7 @@ struct Run::Impl {
     Impl(ResolvedScene r, const RunOptions& options)
         : resolved(std::move(r)), plan(resolved), maps(resolved.scene), starts(resolved) {
         for (const Product product : options.products) plan.add(product);
+        plan.isTimed = options.isTimed;
         threads = options.threads;
         for (std::size_t i = 0; i < scene.schemes.size(); ++i)
             if (scene.schemes[i].isEnabled) {

@@ -24,6 +24,7 @@ struct RunOptions {
     /// missing: to be computed. `reference` is then shown if nothing is left to be measured against it.
     std::vector<std::shared_ptr<const SchemeResult>> known = {};
     ReferenceInfo reference = {};
+    bool isTimed = true;  ///< short runs are repeated for their CPU time; false: it is that of one run
 };
 
 class Run {

@@ -98,7 +98,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
         Recording p(resolved_, scheme_, own, reference, scene_.observe, step, stride, style, stop);
         p.hasCompanion = hasCompanion;
         p.maxRows = maxRows;
-        p.isTimed = true;
+        p.isTimed = plan_.isTimed;
         p.plan = plan_;
         const ObservableEntry* error = findObservable("error");
         if (plan_.has(Product::denseError) && reference.make && error)

@@ -3,6 +3,8 @@
 ///
 ///     const Comparison result = run(scene);                        // wait for everything
 ///     Run r(scene); r.start(); ... r.latest(); r.stop();           // or watch it
+///
+/// The cpu_seconds of a result are those of this one run; a Study measures costs by repetitions.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,7 @@
 #include "ui/shell/start.hpp"
 
 #include <QApplication>
+#include <QIcon>
 #include <QPixmap>
 #include <QSettings>
 #include <QTimer>
@@ -60,7 +61,9 @@ int runWindow(int& argc, char** argv, const std::string& scene,
     QApplication application(argc, argv);
     QApplication::setApplicationName("Extremal");
     QApplication::setOrganizationName("Extremal");
+    QApplication::setDesktopFileName("org.extremal.Extremal");
     loadFonts();
+    QApplication::setWindowIcon(QIcon(":/icons/extremal.svg"));
     KeyGuard guard;
     application.installEventFilter(&guard);
     if (const QString shot = qEnvironmentVariable("EXTREMAL_SHOT"); !shot.isEmpty())
