@@ -134,8 +134,7 @@ private slots:
         const QByteArray bytes = QByteArray::fromStdString(png);
         // Signature, IHDR of 13 bytes with its checksum (computed by zlib for 3 x 2 pixels of 8-bit RGB).
         QCOMPARE(bytes.left(8), QByteArray("\x89PNG\r\n\x1a\n"));
-        QCOMPARE(bytes.mid(8, 25).toHex(),
-                 QByteArray("0000000d49484452000000030000000208020000001216f14d"));
+        QCOMPARE(bytes.mid(8, 25).toHex(), QByteArray("0000000d49484452000000030000000208020000001216f14d"));
         QCOMPARE(QByteArray::fromStdString(base64("Man")), QByteArray("Man").toBase64());
         QCOMPARE(QByteArray::fromStdString(base64(png)), bytes.toBase64());
         QCOMPARE(base64("Ma"), std::string("TWE="));
