@@ -32,7 +32,7 @@ Value symmetriesValue(const ResolvedScene& resolved) {
         each.set("dependent", s.isDependent);
         Value::Array kept;
         for (const ResolvedScheme& scheme : resolved.schemes)
-            if (scheme.family && keeps(scheme.discretization, s)) kept.emplace_back(scheme.spec.label);
+            if (scheme.family && keeps(scheme.discretization, s, *resolved.system)) kept.emplace_back(scheme.spec.label);
         each.set("kept_by", std::move(kept));
         all.push_back(std::move(each));
     }

@@ -56,7 +56,7 @@ ElementKernel<T>::ElementKernel(Mechanics<T> mechanics, const std::vector<Table<
       hasStepDerivatives_(!mechanics_.isTimeDependent) {
     for (const Table<T>& table : tables) {
         functions_.push_back(sample(table, basis));
-        hasStepDerivatives_ = hasStepDerivatives_ && table.frequency == T(0);
+        hasStepDerivatives_ = hasStepDerivatives_ && table.frequency == T(0) && !table.dependsOnStep;
     }
     for (int k = 0; k < dimension(); ++k) {
         offset_.push_back(size_);

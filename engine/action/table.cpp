@@ -4,6 +4,7 @@
 
 #include <type_traits>
 
+#include "engine/action/combined_table.hpp"
 #include "engine/action/table_build.hpp"
 
 namespace extremal {
@@ -17,6 +18,10 @@ Space<Quad> quadrupleTwin(const Space<double>& space) {
     twin.size = space.size;
     twin.degree = space.degree;
     twin.hasKinks = space.hasKinks;
+    twin.isSymmetric = space.isSymmetric;
+    twin.continues = space.continues;
+    twin.cells.assign(space.cells.begin(), space.cells.end());
+    twin.isAdapted = space.isAdapted;
     twin.evaluate = [evaluate = space.evaluateQuadruple](const Quad& tau, std::span<Quad> value,
                                                          std::span<Quad> derivative) {
         std::vector<__float128> v(value.size()), d(value.size());
@@ -37,6 +42,7 @@ Rule<Quad> inQuadruple(const Rule<double>& rule) {
     wide.isSymmetric = rule.isSymmetric;
     wide.panels = rule.panels;
     wide.perPanel = rule.perPanel;
+    wide.ends.assign(rule.ends.begin(), rule.ends.end());
     return wide;
 }
 
@@ -70,17 +76,33 @@ bool tellsFunctionsApart(const Table<T>& t) {
 template bool tellsFunctionsApart(const Table<double>&);
 template bool tellsFunctionsApart(const Table<Quad>&);
 
+namespace {
+
 template <class T>
-Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
+Table<T> made(const Space<T>& space, const Rule<T>& rule, bool mustTellApart) {
     if constexpr (std::is_same_v<T, double>) {
         if (space.evaluateQuadruple) {
             const Rule<double> once = space.hasKinks ? rule : merged(rule);
-            return rounded(detail::buildTable(quadrupleTwin(space), inQuadruple(once)), space, once);
+            return rounded(detail::buildTable(quadrupleTwin(space), inQuadruple(once), mustTellApart), space,
+                           once);
         }
     }
-    return detail::buildTable(space, rule);
+    return detail::buildTable(space, rule, mustTellApart);
 }
 
+}  // namespace
+
+template <class T>
+Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
+    return made(space, rule, true);
+}
+
+Table<double> makePartTable(const Space<double>& space, const Rule<double>& rule) {
+    return made(space, rule, false);
+}
+
+template std::vector<double> consistencyDefects(const Table<double>&, int);
+template Eigen::VectorXd kineticValues(const Table<double>&);
 template Table<double> makeTable(const Space<double>&, const Rule<double>&);
 template Table<Quad> makeTable(const Space<Quad>&, const Rule<Quad>&);
 

@@ -42,17 +42,24 @@ struct Table {
     Matrix testValue;       ///< (i, a): test functions at the nodes; the last column is the start function
     Matrix testDerivative;  ///< (i, a)
     Matrix extrapolation;  ///< (a, b): coefficients of the curve extrapolated into the next step, relative to
-                           ///< its start
+                           ///< its start; empty: the space ends with the step
     Matrix smoothExtrapolation;  ///< of its smoothest part alone, which varies less there; empty: none
     Matrix change;               ///< (function of the space, a): z = liftCoefficients q_0 + change Y
     Vector lift;                 ///< coefficients of the function 1 in the space
-    /// Smallest k for which the rule is not exact for some (P_k phi_a)', P_k of degree k and phi_a interior
-    /// (at most degree + 1). Stationarity is then met to h^k only, which costs the action h^(2k); at k = 0
-    /// the rule does not integrate the slopes of the space, and not even a free particle keeps its speed.
+    /// Smallest k with D(k) > 1e-9 (consistencyDefects), at most degree + 1: the rule is then not exact for
+    /// some (P_k phi_a)', P_k of degree k and phi_a interior. As D(k) enters squared, 1e-9 is below
+    /// round-off. Stationarity is then met to h^k only, which costs the action h^(2k); at k = 0 the rule does
+    /// not integrate the slopes of the space, and not even a free particle keeps its speed.
     int consistency = 0;
     Space<T> space;
     Rule<T> rule;        ///< empty where the nodes are those of a Filon grid
     T frequency = T(0);  ///< step * frequency of an oscillatory space; 0: no function oscillates
+    /// Where terms of the Lagrangian have rules of their own: the part of the Lagrangian that node i is for,
+    /// and the weights of the nodes of the part with the velocities, 0 elsewhere. Empty: all nodes are for
+    /// all.
+    std::vector<int> part = {};
+    Vector kineticWeight = {};
+    bool dependsOnStep = false;  ///< the functions change with the length of the step
     /// share[i] for weightsUpTo, where the rule is not one of panels; else empty.
     std::function<void(const T& tau, std::span<T> share)> upTo = {};
 
@@ -70,6 +77,17 @@ Table<T> makeTable(const Space<T>& space, const Rule<T>& rule);
 /// some motions inside a step cost no action, and the step is singular for every step size.
 template <class T>
 bool tellsFunctionsApart(const Table<T>& table);
+
+/// D(k), k = 0..most-1: largest error of the rule for the derivatives of P_k phi_a, P_k Legendre's
+/// polynomials and phi_a the interior functions, whose integrals vanish.
+template <class T>
+std::vector<double> consistencyDefects(const Table<T>& table, int most);
+
+/// Eigenvalues of K_ab = sum_i b_i phi_a'(c_i) phi_b'(c_i), ascending: what the rule makes of the unit matrix
+/// that the kinetic energy of the unknowns is. At 0 the step is singular for every step size; negative, the
+/// action has no minimum however short the step is.
+template <class T>
+Eigen::VectorXd kineticValues(const Table<T>& table);
 
 /// Weights b_i(tau) of the integral from 0 to tau of the polynomials through values at the nodes of each
 /// panel, or of what a Filon grid takes the integrand for: those of the rule itself at tau = 1.

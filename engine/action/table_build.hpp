@@ -25,17 +25,24 @@ struct Samples {
     }
 };
 
-/// Points denser than the space has functions, cosine-spaced, with weights: int f ~ sum_i weight_i
-/// f(point_i).
+/// Points denser than the space has functions, with weights: int f ~ sum_i weight_i f(point_i).
+/// Cosine-spaced, or Gauss's in each cell.
 template <class T>
 struct Probe {
     std::vector<T> point;
     typename Table<T>::Vector weight;
-    explicit Probe(int size) : weight(4 * size) {
+    explicit Probe(const Space<T>& space) {
         using std::acos;
         using std::cos;
         using std::sin;
-        const int n = 4 * size;
+        if (!space.cells.empty()) {
+            const Rule<T> inner = composite(gauss<T>(space.size + 1), space.cells);
+            point = inner.c;
+            weight = Eigen::Map<const typename Table<T>::Vector>(inner.b.data(), inner.size());
+            return;
+        }
+        const int n = 4 * space.size;
+        weight.resize(n);
         const T pi = acos(T(-1));
         for (int i = 0; i < n; ++i) {
             const T angle = pi * (2 * i + 1) / (2 * n);
@@ -95,52 +102,62 @@ typename Table<T>::Matrix changeOfBasis(const Space<T>& space, const Samples<T>&
     return change;
 }
 
-/// Smallest k for which the rule is not exact for all (P_k phi_a)', P_k Legendre's polynomials and phi_a the
-/// interior functions, whose integrals vanish; at most degree + 1, as more does not matter.
+/// Smallest k for which the rule is not exact; at most degree + 1, as more does not matter.
 template <class T>
 int consistencyOf(const Table<T>& t) {
-    using std::abs;
-    const int most = t.space.degree + 1;
-    typename Table<T>::Vector P = Table<T>::Vector::Ones(t.nodes()),
-                              lower = Table<T>::Vector::Zero(t.nodes());
-    auto dP = lower, dLower = lower;
-    for (int k = 0; k < most; ++k) {
-        for (int a = 0; a < t.unknowns() - 1; ++a) {
-            T sum(0), size(0);
-            for (int i = 0; i < t.nodes(); ++i) {
-                sum += t.weight(i) * (dP(i) * t.value(i, a) + P(i) * t.derivative(i, a));
-                size += abs(t.weight(i) * P(i) * t.derivative(i, a));
-            }
-            if (abs(static_cast<double>(sum)) > 1e-11 * static_cast<double>(size + T(1))) return k;
-        }
-        for (int i = 0; i < t.nodes(); ++i) {
-            const T x = 2 * t.node(i) - 1;
-            const T next = (T(2 * k + 1) * x * P(i) - T(k) * lower(i)) / T(k + 1);
-            const T dNext = dLower(i) + 2 * T(2 * k + 1) * P(i);
-            lower(i) = P(i);
-            dLower(i) = dP(i);
-            P(i) = next;
-            dP(i) = dNext;
-        }
-    }
-    return most;
+    const std::vector<double> defect = consistencyDefects(t, t.space.degree + 1);
+    return static_cast<int>(std::find_if(defect.begin(), defect.end(), [](double d) { return d > 1e-9; }) -
+                            defect.begin());
+}
+
+/// Nodes that would do, and why these do not: a symmetric rule with u nodes sees floor(u/2) odd slopes of a
+/// symmetric space, and ceil(u/2) even ones. 0: it does.
+struct ParityFault {
+    int nodes = 0;
+    std::string message;
+};
+template <class T>
+ParityFault parityFaultOf(const Table<T>& t, const Samples<T>& samples) {
+    const Eigen::Index n = samples.derivative.rows();
+    const Eigen::MatrixXd slope = dense::product<T>(samples.derivative, t.change).template cast<double>();
+    const auto rank = [&](double sign) {
+        const Eigen::VectorXd pivots =
+            dense::rankPivots(Eigen::MatrixXd(slope + sign * slope.colwise().reverse()));
+        return static_cast<int>((pivots.array() > 1e-8 * std::sqrt(static_cast<double>(n))).count());
+    };
+    const int nodes = t.nodes(), odd = rank(-1), even = rank(1);
+    if (!t.space.isSymmetric || !t.rule.isSymmetric || odd + even != t.unknowns()) return {};
+    const auto words = [](int count, const char* kind) {
+        static const char* const small[] = {"no", "one", "two", "three", "four", "five", "six"};
+        return (count < 7 ? std::string(small[count]) : std::to_string(count)) + " " + kind +
+               (count == 1 ? " slope" : " slopes");
+    };
+    const bool lacksOdd = odd > nodes / 2;
+    if (!lacksOdd && even <= (nodes + 1) / 2) return {};
+    return {std::max(2 * odd, 2 * even - 1),
+            std::to_string(nodes) + (nodes == 1 ? " node sees " : " nodes see ") +
+                (lacksOdd ? words(nodes / 2, "odd") + ", the space has " + words(odd, "odd")
+                          : words((nodes + 1) / 2, "even") + ", the space has " + words(even, "even"))};
 }
 
 template <class T>
-void checkRank(const Table<T>& t) {
+void checkRank(const Table<T>& t, const Samples<T>& samples) {
     const int m = t.unknowns();
-    if (tellsFunctionsApart(t)) return;
+    if (tellsFunctionsApart(t) && kineticValues(t).cwiseAbs().minCoeff() > 1e-8) return;
+    const ParityFault parity = parityFaultOf(t, samples);
+    const int enough = std::max(m, parity.nodes);
     throw InvalidScene(
         "/quadrature",
         (t.nodes() < m ? "has too few nodes (" : "has nodes in the wrong places (") +
             std::to_string(t.nodes()) + ") for the " + std::to_string(m + 1) +
-            " functions of the space: some motions inside a step would cost no action, and the step would "
-            "be singular for every step size",
-        "use at least " + std::to_string(m) + " nodes, spread over the step");
+            " functions of the space: " + (parity.nodes > t.nodes() ? parity.message + ", and " : "") +
+            "some motions inside a step would cost no action, and the step would be singular for every step "
+            "size",
+        "use at least " + std::to_string(enough) + " nodes, spread over the step");
 }
 
 template <class T>
-Table<T> buildTable(const Space<T>& space, const Rule<T>& rule) {
+Table<T> buildTable(const Space<T>& space, const Rule<T>& rule, bool mustTellApart = true) {
     using Matrix = typename Table<T>::Matrix;
     using Vector = typename Table<T>::Vector;
     const int m = space.size - 1;
@@ -149,20 +166,26 @@ Table<T> buildTable(const Space<T>& space, const Rule<T>& rule) {
     t.rule = space.hasKinks ? rule : merged(rule);
     t.node = Eigen::Map<const Vector>(t.rule.c.data(), t.rule.size());
     t.weight = Eigen::Map<const Vector>(t.rule.b.data(), t.rule.size());
-    const Probe<T> probe(space.size);
+    const Probe<T> probe(space);
     const Samples<T> samples(space, probe.point);
-    t.lift = coefficientsOfOne(samples);
-    t.change = changeOfBasis(space, samples, probe);
+    if (space.isAdapted) {
+        t.lift = Vector::Unit(m + 1, 0);
+        t.change = Matrix::Identity(m + 1, m + 1).rightCols(m);
+    } else {
+        t.lift = coefficientsOfOne(samples);
+        t.change = changeOfBasis(space, samples, probe);
+    }
     const Samples<T> at(space, t.rule.c);
     t.value = dense::product<T>(at.value, t.change);
     t.derivative = dense::product<T>(at.derivative, t.change);
-    checkRank(t);
+    if (mustTellApart) checkRank(t, samples);
     t.consistency = consistencyOf(t);
     t.testValue = t.value;
     t.testDerivative = t.derivative;
     t.testValue.col(m - 1) = Vector::Ones(t.nodes()) - t.value.col(m - 1);
     t.testDerivative.col(m - 1) = -t.derivative.col(m - 1);
 
+    if (!space.continues) return t;
     // Continue the curve: match it at points of the next step, relative to the value at its start.
     std::vector<T> beyond;
     for (const T& c : probe.point) beyond.push_back(T(1) + c);
@@ -173,3 +196,45 @@ Table<T> buildTable(const Space<T>& space, const Rule<T>& rule) {
 }
 
 }  // namespace extremal::detail
+
+namespace extremal {
+
+template <class T>
+std::vector<double> consistencyDefects(const Table<T>& t, int most) {
+    using std::abs;
+    typename Table<T>::Vector P = Table<T>::Vector::Ones(t.nodes()),
+                              lower = Table<T>::Vector::Zero(t.nodes());
+    auto dP = lower, dLower = lower;
+    std::vector<double> defects;
+    for (int k = 0; k < most; ++k) {
+        double worst = 0;
+        for (int a = 0; a < t.unknowns() - 1; ++a) {
+            T sum(0), size(0);
+            for (int i = 0; i < t.nodes(); ++i) {
+                sum += t.weight(i) * (dP(i) * t.value(i, a) + P(i) * t.derivative(i, a));
+                size += abs(t.weight(i) * P(i) * t.derivative(i, a));
+            }
+            worst = std::max(worst, static_cast<double>(abs(sum)) / static_cast<double>(size + T(1)));
+        }
+        defects.push_back(worst);
+        for (int i = 0; i < t.nodes(); ++i) {
+            const T x = 2 * t.node(i) - 1;
+            const T next = (T(2 * k + 1) * x * P(i) - T(k) * lower(i)) / T(k + 1);
+            const T dNext = dLower(i) + 2 * T(2 * k + 1) * P(i);
+            lower(i) = P(i);
+            dLower(i) = dP(i);
+            P(i) = next;
+            dP(i) = dNext;
+        }
+    }
+    return defects;
+}
+
+template <class T>
+Eigen::VectorXd kineticValues(const Table<T>& t) {
+    const Eigen::MatrixXd slope = t.derivative.template cast<double>();
+    const Eigen::VectorXd weight = t.weight.template cast<double>();
+    return dense::symmetricEigen<double>(slope.transpose() * weight.asDiagonal() * slope).values;
+}
+
+}  // namespace extremal

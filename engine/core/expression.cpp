@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/core/stumpff.hpp"
 #include "engine/core/text.hpp"
 
 namespace extremal {
@@ -37,6 +38,7 @@ constexpr Function functions[] = {
     {"sqrt", [](double x) { return std::sqrt(x); }, nullptr},
     {"abs", [](double x) { return std::fabs(x); }, nullptr},
     {"sign", [](double x) { return static_cast<double>((x > 0) - (x < 0)); }, nullptr},
+    {"stumpff", nullptr, [](double k, double x) { return stumpff(k, x); }},
 };
 
 const Function* findFunction(std::string_view name) {
@@ -162,8 +164,9 @@ private:
         if (error != std::errc()) throw unexpected("a number");
         at_ = static_cast<std::size_t>(end - text_.data());
         if (isLetter(peek()) || peek() == '_' || peek() == '.') throw unexpected("an operator");
+        const std::string_view written = text_.substr(position, at_ - position);
         skipBlanks();
-        return add({Operator::number, value, {}, -1, -1, position});
+        return add({Operator::number, value, std::string(written), -1, -1, position});
     }
     int nameOrCall() {
         const std::size_t position = at_;
@@ -174,7 +177,7 @@ private:
         if (findFunction(name))
             throw ExpressionError("needs brackets after the function " + name, position,
                                   "write " + name + "(...)");
-        if (name == "pi") return add({Operator::number, std::numbers::pi, {}, -1, -1, position});
+        if (name == "pi") return add({Operator::number, std::numbers::pi, name, -1, -1, position});
         return add({Operator::name, 0, name, -1, -1, position});
     }
     int call(const std::string& name, std::size_t position) {

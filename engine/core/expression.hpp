@@ -6,9 +6,10 @@
 ///     power   = atom [ "^" ("+" | "-")* power ]           right-associative, tighter than a sign before it
 ///     atom    = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
 ///
-/// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign. `pi` is a constant;
-/// names are [A-Za-z][A-Za-z0-9_]*. dot(x), the velocity of x, is read as a call of "dot", and has a meaning
-/// in Lagrangians only. Parsing is independent of meaning: the tree does not depend on which names exist.
+/// Functions: sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign stumpff. `pi` is a
+/// constant; names are [A-Za-z][A-Za-z0-9_]*. dot(x), the velocity of x, is read as a call of "dot", and has
+/// a meaning in Lagrangians only. Parsing is independent of meaning: the tree does not depend on which names
+/// exist.
 #pragma once
 
 #include <functional>
@@ -31,7 +32,7 @@ struct Expression {
     struct Node {
         Operator kind = Operator::number;
         double number = 0;          ///< number
-        std::string name;           ///< name, or the function called
+        std::string name;           ///< name, the function called, or a number as it was written ("pi")
         int left = -1, right = -1;  ///< operands, as places in `nodes`; -1: none
         std::size_t position = 0;   ///< byte in the text
     };
@@ -69,7 +70,7 @@ std::string withNameReplaced(std::string_view text, std::string_view from, std::
 /// All functions that expressions know, without dot.
 const std::vector<std::string>& expressionFunctions();
 
-/// The value of a function at a (and b: atan2 only).
+/// The value of a function at a (and b: atan2 and stumpff).
 double applyFunction(std::string_view function, double a, double b);
 
 /// Why a text cannot name a coordinate or a parameter: letters, digits and inner "_", a letter first, not

@@ -90,6 +90,19 @@ FieldInfo constantsField(std::string key, std::string description) {
     return made(FieldType::constants, key, key, {}, Value(Value::Object{}), std::move(description));
 }
 
+FieldInfo formulasField(std::string key, std::vector<std::string> variables, Value fallback,
+                        std::string description) {
+    FieldInfo f = made(FieldType::formulas, key, key, {}, std::move(fallback), std::move(description));
+    f.components = std::move(variables);
+    return f;
+}
+
+FieldInfo definitionsField(std::string key, std::vector<std::string> variables, std::string description) {
+    FieldInfo f = made(FieldType::definitions, key, key, {}, Value(Value::Object{}), std::move(description));
+    f.components = std::move(variables);
+    return f;
+}
+
 FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback,
                     std::string description) {
     return made(FieldType::json, std::move(key), std::move(title), std::move(symbol), std::move(fallback),

@@ -12,8 +12,23 @@
 namespace extremal {
 
 /// numbers: an array of a fixed length; names: an array of texts; constants: an object of numbers by names of
-/// the user's.
-enum class FieldType { number, numbers, integer, boolean, text, choice, names, constants, json };
+/// the user's; formulas: an array of expressions, in the variables that `components` names and the parameters
+/// of the model, whose values are put in place; definitions: an object of such, whose names formulas beside
+/// it use.
+enum class FieldType {
+    number,
+    numbers,
+    integer,
+    boolean,
+    text,
+    choice,
+    names,
+    constants,
+    formulas,
+    definitions,
+    terms,
+    json
+};
 
 /// What is known about one parameter, independent of the type that owns it.
 struct FieldInfo {
@@ -28,12 +43,12 @@ struct FieldInfo {
     bool isMinExcluded = false;  ///< true: the value must be greater than min
     std::vector<std::string>
         choices;  ///< for FieldType::choice; the values allowed of a FieldType::integer, if any
-    std::vector<std::string>
-        components;           ///< for FieldType::numbers: what each number is called; gives their count
-    bool isOptional = false;  ///< a key without a default that may be omitted
-    std::string description;  ///< one line
-    std::string whyLimits;    ///< hint if a value is out of range; may be empty
-    Value example;            ///< the value in a new scene if there is no default
+    std::vector<std::string> components;  ///< for FieldType::numbers: what each number is called; gives their
+                                          ///< count. formulas, definitions: the variables in them
+    bool isOptional = false;              ///< a key without a default that may be omitted
+    std::string description;              ///< one line
+    std::string whyLimits;                ///< hint if a value is out of range; may be empty
+    Value example;                        ///< the value in a new scene if there is no default
 
     const Value& firstValue() const { return example.isNull() ? fallback : example; }
 };
@@ -74,6 +89,11 @@ FieldInfo flagField(std::string key, bool fallback, std::string description);
 FieldInfo textField(std::string key, std::string symbol, Value fallback, std::string description);
 /// Constants by names of the user's: none, if left out.
 FieldInfo constantsField(std::string key, std::string description);
+/// Expressions in variables and parameters of the model. Fallback null: required, unless isOptional.
+FieldInfo formulasField(std::string key, std::vector<std::string> variables, Value fallback,
+                        std::string description);
+/// Names for such expressions: none, if left out.
+FieldInfo definitionsField(std::string key, std::vector<std::string> variables, std::string description);
 /// Any value that the field's owner reads itself. Fallback null: it may be required, or optional
 /// (isOptional).
 FieldInfo jsonField(std::string key, std::string title, std::string symbol, Value fallback,

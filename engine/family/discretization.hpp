@@ -32,6 +32,7 @@ struct Properties {
     std::string shortfall;    ///< why the order is below that of the space; empty if it is not
     std::string refusal;      ///< why the combination is unsupported (too few nodes, ...); empty if it is not
     std::string hint;         ///< the remedy for a refusal
+    std::string place;    ///< of what is refused, below the scheme ("/space/functions/3"); empty: as a whole
     std::string caution;  ///< a warning of every scene that has it ("is an experiment: ..."); may be empty
     std::string remark;   ///< for the tooltip, in place of the order; may be empty
     std::string instability;    ///< why it is unstable for every step, where the oscillator does not show it

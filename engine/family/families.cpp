@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/rule_choices.hpp"
+#include "engine/family/frequency.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/quadrature/tensor.hpp"
@@ -134,8 +135,15 @@ Properties describe(const Discretization& discretization) {
     return known.get(space, quadrature, [&] { return knownFamily(space).describe(discretization); });
 }
 
+Properties describe(const Discretization& discretization, const System& system) {
+    const Family* const family = familyOf(discretization.space);
+    if (family && family->describeOn && family->applies(system))
+        if (auto known = family->describeOn(discretization, system)) return *std::move(known);
+    return describe(discretization);
+}
+
 Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
-    if (isTensorRule(quadrature)) return quadrature;  // complete since it was read
+    if (isTensorRule(quadrature) || isTermRule(quadrature)) return quadrature;  // complete since it was read
     const Family* const family = familyOf(space);
     return family ? family->completeRule(space, quadrature)
                   : completePlainRule(quadrature, std::max(1, space.integer("degree")), 1);
@@ -205,9 +213,9 @@ std::unique_ptr<Integrator> trustedIntegrator(const System& system, const State&
     return family->reference(system, start, step).make(step);
 }
 
-bool hasTable(const Settings& space) {
-    const Family* const family = familyOf(space);
-    return family && family->table;
+bool hasTable(const Discretization& discretization) {
+    const Family* const family = familyOf(discretization.space);
+    return family && family->table && (!family->hasTable || family->hasTable(discretization));
 }
 
 Table<double> tableOf(const Settings& space, const Settings& quadrature) {
@@ -240,6 +248,22 @@ std::optional<Discretization> namedScheme(std::string_view id) {
     return std::nullopt;
 }
 
+double highestFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness) {
+    const Eigen::Index d = mass.rows();
+    // Largest growth rate of the linearised flow by power iteration on (M^{-1} K)^2, K = -L_qq: enough for a
+    // warning.
+    const Eigen::MatrixXd A = dense::solve<double>(mass, stiffness);
+    Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(d, 1, 1.5);
+    double eigenvalue = 0;
+    for (int i = 0; i < 500 && x.norm() > 0; ++i) {
+        x.normalize();
+        const Eigen::VectorXd y = A * x;
+        eigenvalue = x.dot(y);
+        x = y + 1e-3 * y.norm() * x;  // a small shift breaks ties between eigenvalues of opposite sign
+    }
+    return eigenvalue > 0 && std::isfinite(eigenvalue) ? std::sqrt(eigenvalue) : 0;
+}
+
 double highestFrequency(const System& system, const State& state) {
     if (system.frequency) return system.frequency(state.t, state.x.data());
     if (!isMechanical(system)) return 0;
@@ -252,18 +276,7 @@ double highestFrequency(const System& system, const State& state) {
     if (!m.velocity(m.model.get(), state.t, q, q + d, v.data())) return 0;
     m.jet(m.model.get(), state.t, q, v.data(), &value, gradient.data(), H.data());
     if (!H.allFinite()) return 0;
-    // Largest growth rate of the linearised flow by power iteration on (M^{-1} K)^2, K = -L_qq: enough for a
-    // warning.
-    const Eigen::MatrixXd A = dense::solve<double>(H.bottomRightCorner(d, d), -H.topLeftCorner(d, d));
-    Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(d, 1, 1.5);
-    double eigenvalue = 0;
-    for (int i = 0; i < 500 && x.norm() > 0; ++i) {
-        x.normalize();
-        const Eigen::VectorXd y = A * x;
-        eigenvalue = x.dot(y);
-        x = y + 1e-3 * y.norm() * x;  // a small shift breaks ties between eigenvalues of opposite sign
-    }
-    return eigenvalue > 0 && std::isfinite(eigenvalue) ? std::sqrt(eigenvalue) : 0;
+    return highestFrequency(H.bottomRightCorner(d, d), -H.topLeftCorner(d, d));
 }
 
 }  // namespace extremal

@@ -119,6 +119,8 @@ struct Family {
     /// What the start of a run decides (a frequency to be estimated). Null: nothing.
     Discretization (*estimate)(const Discretization&, const System&, const State& start) = nullptr;
     Properties (*describe)(const Discretization&) = nullptr;
+    /// The same on a system, where it depends on that; none where it does not. Null: never.
+    std::optional<Properties> (*describeOn)(const Discretization&, const System&) = nullptr;
     /// Null where the user gives the step.
     std::optional<ImpliedStep> (*impliedStep)(const Settings& space, const Settings& model,
                                               const ParameterValue&) = nullptr;
@@ -155,6 +157,9 @@ struct Family {
     /// Null: nothing.
     std::optional<Measure> (*measure)(std::string_view observable, const System&, const Discretization&,
                                       double step) = nullptr;
+    /// Whether a discretization has one table for every system and step. Null: those of the family with
+    /// `table`.
+    bool (*hasTable)(const Discretization&) = nullptr;
     /// The one table of a space and a rule, where no system and no step is in it. Null where there is none.
     Table<double> (*table)(const Settings& space, const Settings& quadrature) = nullptr;
     /// Throws InvalidScene where it cannot.
@@ -177,6 +182,8 @@ const std::vector<CatalogItem>& spaceCatalog();
 
 /// Keys must be checked and complete. Results are remembered, so that asking again is cheap.
 Properties describe(const Discretization& discretization);
+/// On a system: rules for terms and spaces for coordinates promise what its terms and coordinates allow.
+Properties describe(const Discretization& discretization, const System& system);
 inline Properties describe(const Settings& space, const Settings& quadrature) {
     return describe({space, quadrature, {}});
 }
@@ -204,8 +211,8 @@ std::vector<ReferencePlan> referencePlans(const System& system, const State& sta
 /// where there is none.
 std::unique_ptr<Integrator> trustedIntegrator(const System& system, const State& start, double step);
 
-/// Whether a space has one table for every system and step.
-bool hasTable(const Settings& space);
+/// Whether a discretization has one table for every system and step.
+bool hasTable(const Discretization& discretization);
 /// Highest frequency of the system at a state: its own, or, linearised there, the largest root w of
 /// det(-L_qq - w^2 L_vv) = 0, or 0.
 double highestFrequency(const System& system, const State& state);

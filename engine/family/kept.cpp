@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "engine/family/family.hpp"
+#include "engine/family/ruled_terms.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/quadrature/tensor.hpp"
 
 namespace extremal {
 namespace {
@@ -24,13 +26,17 @@ bool mixesCoordinates(const Symmetry& s) {
 
 }  // namespace
 
-bool keeps(const Discretization& discretization, const Symmetry& symmetry) {
+bool keeps(const Discretization& discretization, const Symmetry& symmetry, const System& system) {
     const Settings& space = discretization.space;
     if (!symmetry.isExact() || symmetry.movesTime()) return false;
     if (mixesCoordinates(symmetry) && !hasOneSpace(space)) return false;
     const bool isBoost = std::any_of(symmetry.c.begin(), symmetry.c.end(), [](double c) { return c != 0; });
+    if (isTermRule(discretization.quadrature)) {
+        const auto parts = ruledTerms(system.mechanics(), discretization.quadrature);
+        return symmetry.F.empty() && !isBoost && breakerOf(parts, symmetry).empty();
+    }
     if (symmetry.F.empty() && !isBoost) return true;
-    if (!hasTable(space) || space.find("cells") || !space.find("degree")) return false;
+    if (!hasTable(discretization) || space.find("cells") || !space.find("degree")) return false;
     const Rule<double> rule = makeRule<double>(discretization.quadrature);
     if (rule.panels > 1) return false;
     const int s = space.integer("degree");

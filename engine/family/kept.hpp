@@ -12,6 +12,9 @@
 
 namespace extremal {
 
-bool keeps(const Discretization& discretization, const Symmetry& symmetry);
+///
+/// Where terms have rules of their own, the integrand at a node is a part of the Lagrangian, and every part
+/// must have the symmetry.
+bool keeps(const Discretization& discretization, const Symmetry& symmetry, const System& system);
 
 }  // namespace extremal

@@ -37,6 +37,13 @@ void refuseRule(const Settings& quadrature, Properties& properties) {
     properties.shortName = "-";
 }
 
+void refuse(const InvalidScene& error, Properties& properties) {
+    const Problem& problem = error.problems().front();
+    properties.refusal = problem.message;
+    properties.hint = problem.hint;
+    if (problem.pointer.find('/', 1) != std::string::npos) properties.place = problem.pointer;
+}
+
 ChoiceGrid ruleChoices(const std::vector<SpaceRow>& rows) {
     std::vector<const RuleEntry*> columns;
     for (const RuleEntry* rule : rulesByPlace())

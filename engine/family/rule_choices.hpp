@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/problem.hpp"
 #include "engine/family/choices.hpp"
 
 namespace extremal {
@@ -26,6 +27,9 @@ bool isPlainRule(const Settings& quadrature);
 
 /// Sets the refusal of a rule that is not plain, with its remedy.
 void refuseRule(const Settings& quadrature, Properties& properties);
+
+/// Sets the refusal of a space and a rule that throw, at its place where that is inside one of them.
+void refuse(const InvalidScene& error, Properties& properties);
 
 /// The rule with its default keys; an empty or automatic one is Gauss. A tensor product is complete since it
 /// was read.

@@ -5,6 +5,8 @@
 
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/rule_choices.hpp"
 #include "engine/integrator/stability.hpp"
 
 namespace extremal {
@@ -38,37 +40,45 @@ private:
     Eigen::VectorXd load_, impulse_;    ///< sum_i b_i psi_a and sum_i b_i phi_b
 };
 
-/// The error of L_d over h^(2 degree + 1) from the space, h^(order of the rule + 1) from the rule on the
-/// solution, and h^(2 consistency + 1) from the rule in the stationarity conditions, where it counts twice.
-int orderOf(const Table<double>& table) {
-    return std::min({2 * table.space.degree, table.rule.degree + 1, 2 * table.consistency});
-}
-
-/// Which of the three bounds on the order is the rule's doing.
-std::string shortfallOf(const Table<double>& table) {
-    const int order = orderOf(table), ofSpace = 2 * table.space.degree;
-    if (order >= ofSpace) return {};
-    const std::string bound =
-        "order " + std::to_string(order) + ", not the " + std::to_string(ofSpace) + " of the space: ";
-    const std::string exact = "the rule is exact to degree " + std::to_string(table.rule.degree);
-    if (table.rule.degree + 1 <= order) return bound + exact;
-    return bound + exact + ", too little for the equations inside the step";
-}
-
 }  // namespace
 
-Properties describeTable(const std::function<Table<double>()>& make, const Settings& quadrature) {
+int OrderBounds::order() const { return std::min({ofSpace, ofRule, ofEquations}); }
+
+std::string OrderBounds::shortfall() const {
+    if (order() >= ofSpace) return {};
+    const std::string bound = "order " + std::to_string(order()) + ", not the " + std::to_string(ofSpace) +
+                              " of the space: the rule is exact to degree " + std::to_string(ofRule - 1);
+    return ofRule <= order() ? bound : bound + ", too little for the equations inside the step";
+}
+
+OrderBounds orderBounds(const Table<double>& table) {
+    return {2 * table.space.degree, table.rule.degree + 1, 2 * table.consistency};
+}
+
+double halfTrace(const Table<double>& table, double z) { return HalfTrace(table)(z); }
+
+std::string cautionOf(const Table<double>& table) {
+    if (table.weight.minCoeff() >= 0) return table.rule.caution;
+    const double least = kineticValues(table)(0);
+    const std::string weight = "has the negative weight " + formatNumber(table.weight.minCoeff(), 3);
+    if (least > 0) return weight + ": rounding errors are larger than those of positive weights";
+    return weight + ", and kinetic energy becomes negative inside the step (K has the eigenvalue " +
+           formatNumber(least, 3) + "): the step is solvable, but its action has no minimum";
+}
+
+Properties describeTable(const std::function<Table<double>()>& make) {
     Properties p;
-    const Rule<double> rule = makeRule<double>(quadrature);
-    p.claims.isSymmetric = rule.isSymmetric;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"momentum"};
     try {
         const Table<double> table = make();
-        p.claims.order = orderOf(table);
+        const OrderBounds bounds = orderBounds(table);
+        p.claims.isSymmetric = table.rule.isSymmetric && table.space.isSymmetric;
+        p.claims.order = bounds.order();
         p.curveOrder = std::min({table.space.degree + 1, table.consistency + 1, p.claims.order});
         p.stabilityLimit = firstInstability(HalfTrace(table));
-        p.shortfall = shortfallOf(table);
+        p.shortfall = bounds.shortfall();
+        p.caution = cautionOf(table);
         if (table.consistency == 0) {
             p.refusal =
                 "the rule does not integrate the velocities of the space: not even a free particle would "
@@ -78,8 +88,7 @@ Properties describeTable(const std::function<Table<double>()>& make, const Setti
                      std::to_string(std::max(0, table.space.degree - 1)) + " between the knots of the space";
         }
     } catch (const InvalidScene& e) {
-        p.refusal = e.problems().front().message;
-        p.hint = e.problems().front().hint;
+        refuse(e, p);
     }
     return p;
 }

@@ -1,5 +1,6 @@
 #include "engine/integrator/condensed.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -21,13 +22,19 @@ namespace {
 template <int D>
 class Condensed final : public Integrator {
 public:
-    Condensed(const Mechanics<double>& mechanics, TablesOfStep tables, double step, SolverPolicy policy)
-        : mechanics_(mechanics), tables_(std::move(tables)), policy_(policy), h_(step), step_(own()) {}
+    Condensed(const Mechanics<double>& mechanics, TablesOfStep tables, double step, SolverPolicy policy,
+              std::vector<LagrangianTerm<double>> parts)
+        : mechanics_(mechanics),
+          tables_(std::move(tables)),
+          policy_(policy),
+          parts_(std::move(parts)),
+          h_(step),
+          step_(own()) {}
 
     double stepSize() const override { return h_; }
     void setStep(double h) override {
         h_ = h;
-        if (periods_ > 0)
+        if (changes_)
             step_ = own();  // the functions are others
         else
             step_.setStep(h);
@@ -59,7 +66,7 @@ public:
     /// E_d = -dS/dh at the solution, and S; not where the functions change with the step, or L with time.
     std::span<const Quantity> quantities() const override {
         static const Quantity known[] = {{"discrete_energy", "", "E_d", ""}, {"action", "", "S", ""}};
-        const bool exists = periods_ == 0 && !mechanics_.isTimeDependent;
+        const bool exists = !changes_ && parts_.empty() && !mechanics_.isTimeDependent;
         return {known, exists ? std::size(known) : 0};
     }
     void measure(const State& state, double* values) const override {
@@ -85,14 +92,18 @@ private:
     GalerkinStep<double, D> own() {
         std::vector<Table<double>> tables = tables_(h_);
         periods_ = std::abs(tables.front().frequency) / (2 * std::numbers::pi);
-        return {mechanics_, std::move(tables), h_, policy_};
+        changes_ = periods_ > 0 || std::any_of(tables.begin(), tables.end(),
+                                               [](const Table<double>& t) { return t.dependsOnStep; });
+        return {mechanics_, std::move(tables), h_, policy_, parts_};
     }
 
     Mechanics<double> mechanics_;
     TablesOfStep tables_;
     SolverPolicy policy_;
+    std::vector<LagrangianTerm<double>> parts_;
     double h_, periods_ = 0;
-    double start_ = 0;  ///< of the last step
+    bool changes_ = false;  ///< the functions are others for another step
+    double start_ = 0;      ///< of the last step
     GalerkinStep<double, D> step_;
     mutable std::optional<ElementKernel<double>> kernel_;  ///< made where the discrete energy is asked for
 };
@@ -116,10 +127,11 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
 }
 
 std::unique_ptr<Integrator> makeCondensed(const System& system, TablesOfStep tables, double step,
-                                          const SolverPolicy& policy) {
+                                          const SolverPolicy& policy,
+                                          std::vector<LagrangianTerm<double>> parts) {
     return withDimension(system.dimension(), [&](auto d) -> std::unique_ptr<Integrator> {
         return std::make_unique<Condensed<decltype(d)::value>>(system.mechanics(), std::move(tables), step,
-                                                               policy);
+                                                               policy, std::move(parts));
     });
 }
 

@@ -34,7 +34,10 @@ public:
     using Flat = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 
     /// Tables without oscillatory functions, one for all coordinates or one for each.
-    ForceDefect(const Mechanics<T>& mechanics, const std::vector<Table<T>>& tables) : mechanics_(mechanics) {
+    /// `parts`: as in GalerkinStep.
+    ForceDefect(const Mechanics<T>& mechanics, const std::vector<Table<T>>& tables,
+                const std::vector<LagrangianTerm<T>>& parts = {})
+        : mechanics_(mechanics), parts_(parts), part_(tables.front().part) {
         const Table<T>& first = tables.front();
         const int panels = 2 * (first.nodes() + 1), d = mechanics_.dimension;
         for (int i = 0; i < first.nodes(); ++i) nodes_.push_back({first.node(i), first.weight(i)});
@@ -105,8 +108,11 @@ private:
                 v_(k) = curve.slope.row(row).dot(y) / h;
                 own += y.size();
             }
-            mechanics_.gradient(mechanics_.model.get(), t + h * times[j].tau, q_.data(), v_.data(),
-                                gradient_.data());
+            const LagrangianTerm<T>* const part =
+                parts_.empty() || &curves != &seen_ ? nullptr : &parts_[static_cast<std::size_t>(part_[j])];
+            (part ? part->gradient : mechanics_.gradient)((part ? part->model : mechanics_.model).get(),
+                                                          t + h * times[j].tau, q_.data(), v_.data(),
+                                                          gradient_.data());
             const auto force = gradient_.head(d);
             impulse_ += h * times[j].weight * force;
             all += abs(h * times[j].weight) * force.template lpNorm<Eigen::Infinity>();
@@ -115,6 +121,8 @@ private:
     }
 
     Mechanics<T> mechanics_;
+    std::vector<LagrangianTerm<T>> parts_;
+    std::vector<int> part_;
     std::vector<Weight> nodes_, times_;
     std::vector<Curve> seen_, along_;
     Flat q_, v_, impulse_, missed_, gradient_;

@@ -26,6 +26,10 @@
 /// that over millions of steps the energy error grows like a random walk of the round-off of the increments
 /// only.
 ///
+/// Terms of L may have rules of their own: then the sums run over the nodes of all rules, and L(i) is the
+/// part of L that node i is for. The sum of the discrete actions is one discrete action: p_0, p_1 and all
+/// that follows from them are as before.
+///
 /// Every coordinate k may have a table of its own, with its own functions and m_k of them, on the same nodes:
 /// then Y_a and R_a above are those of one coordinate. A separable Lagrangian on one slow table is solved for
 /// all nodes together.
@@ -52,6 +56,14 @@
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
+namespace detail {
+
+template <class T>
+const typename Table<T>::Vector& ofKineticEnergy(const Table<T>& table) {
+    return table.kineticWeight.size() > 0 ? table.kineticWeight : table.weight;
+}
+
+}  // namespace detail
 
 template <class T, int D>
 class GalerkinStep {
@@ -59,8 +71,10 @@ public:
     using Vector = Eigen::Matrix<T, D, 1>;
     using Columns = Eigen::Matrix<T, Eigen::Dynamic, D>;
 
-    /// One table for all coordinates, or one for each; these share nodes and weights.
-    GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step, SolverPolicy policy);
+    /// One table for all coordinates, or one for each; these share nodes and weights. `parts`: what the nodes
+    /// of a table with parts are for; empty: all of them for the whole Lagrangian.
+    GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step, SolverPolicy policy,
+                 std::vector<LagrangianTerm<T>> parts = {});
     GalerkinStep(Mechanics<T> mechanics, Table<T> table, T step, SolverPolicy policy)
         : GalerkinStep(std::move(mechanics), std::vector<Table<T>>{std::move(table)}, step, policy) {}
 
@@ -115,6 +129,9 @@ private:
     const Table<T>& table(int k) const {
         return tables_.size() == 1 ? tables_.front() : tables_[static_cast<std::size_t>(k)];
     }
+    const LagrangianTerm<T>& partAt(int i) const {
+        return parts_[static_cast<std::size_t>(tables_.front().part[static_cast<std::size_t>(i)])];
+    }
     const Functions& functions(int k) const {
         return functions_.size() == 1 ? functions_.front() : functions_[static_cast<std::size_t>(k)];
     }
@@ -147,6 +164,7 @@ private:
     void vary(const T* dq0, bool movesY);
 
     Mechanics<T> mechanics_;
+    std::vector<LagrangianTerm<T>> parts_;  ///< empty: the whole Lagrangian at every node
     std::vector<Table<T>> tables_;
     std::vector<Functions> functions_;
     std::vector<int> offset_;
@@ -173,6 +191,7 @@ private:
     Square jacobian_;
     Eigen::PartialPivLU<Square> lu_;
     bool hasPrevious_ = false;                          ///< Y_ of Newton's last step can be extrapolated
+    bool continues_ = true;                             ///< so can those of all steps of its tables
     std::optional<NodeIteration<T>> fixedPointSolver_;  ///< separable Lagrangians
     bool isSolvedByFixedPoint_ = false;                 ///< it solved the last step
     std::optional<ForceDefect<T>> defect_;              ///< not of oscillatory functions

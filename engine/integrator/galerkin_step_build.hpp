@@ -15,11 +15,14 @@
 #include "engine/integrator/node_iteration_build.hpp"
 
 namespace extremal {
-
 template <class T, int D>
 GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> tables, T step,
-                                 SolverPolicy policy)
-    : mechanics_(std::move(mechanics)), tables_(std::move(tables)), h_(step), policy_(policy) {
+                                 SolverPolicy policy, std::vector<LagrangianTerm<T>> parts)
+    : mechanics_(std::move(mechanics)),
+      parts_(std::move(parts)),
+      tables_(std::move(tables)),
+      h_(step),
+      policy_(policy) {
     tolerance_ = toleranceOf<T>(policy);
     int size = 0, widest = 0;
     for (int k = 0; k < d(); ++k) {
@@ -42,10 +45,12 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
         for (int a = 0; a < own; ++a) f.value.col(a) = padded(t.value.col(a));
         f.valueAt = f.slopeAt = Square::Zero(height, rows());
         f.valueAt.topRows(own) = f.value.transpose();
-        f.kineticInverse = Square(t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative / h_)
-                               .partialPivLu()
-                               .inverse();
+        f.kineticInverse =
+            Square(t.testDerivative.transpose() * detail::ofKineticEnergy(t).asDiagonal() * t.derivative / h_)
+                .partialPivLu()
+                .inverse();
         functions_.push_back(std::move(f));
+        continues_ = continues_ && t.extrapolation.size() > 0;
     }
     node_ = times_ = padded(tables_.front().node);
     weight_ = Flat::Zero(rows());
@@ -64,9 +69,9 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     applied_ = Square::Zero(rows(), widest);
     jacobian_ = Square::Zero(size, size);
     lu_ = Eigen::PartialPivLU<Square>(size);
-    if (mechanics_.isSeparable && tables_.size() == 1 && tables_.front().frequency == T(0))
+    if (mechanics_.isSeparable && parts_.empty() && tables_.size() == 1 && tables_.front().frequency == T(0))
         fixedPointSolver_.emplace(mechanics_, tables_.front(), h_, tolerance_);
-    if (tables_.front().frequency == T(0)) defect_.emplace(mechanics_, tables_);
+    if (tables_.front().frequency == T(0)) defect_.emplace(mechanics_, tables_, parts_);
     motion_ = Flat::Zero(8 * d());
     impulse_.assign(static_cast<std::size_t>(d()), Accumulator(0));
 }
@@ -169,7 +174,7 @@ StepReport GalerkinStep<T, D>::advance(const T& t, T* q, T* p, const std::stop_t
             report_.outcome = Outcome::stopped;
             break;
     }
-    hasPrevious_ = result == Attempt::solved && !isSolvedByFixedPoint_;
+    hasPrevious_ = continues_ && result == Attempt::solved && !isSolvedByFixedPoint_;
     if (result == Attempt::solved) add(q, p);
     return report_;
 }

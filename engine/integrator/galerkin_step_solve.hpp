@@ -66,7 +66,8 @@ bool GalerkinStep<T, D>::startFrom(const T& t, StartingValue start) {
     for (int k = 0; k < d(); ++k) {
         const Table<T>& own = table(k);
         auto R = R_.segment(offset(k), m(k));
-        for (int a = 0; a < m(k); ++a) R(a) = -h_ * own.weight.dot(own.testValue.col(a)) * a0_(k);
+        for (int a = 0; a < m(k); ++a)
+            R(a) = -h_ * detail::ofKineticEnergy(own).dot(own.testValue.col(a)) * a0_(k);
         R(m(k) - 1) -= v0_(k);
         Y_.segment(offset(k), m(k)).noalias() = functions(k).kineticInverse.lazyProduct(R);
         Y_.segment(offset(k), m(k)) *= kineticScale_;

@@ -72,8 +72,13 @@ void GalerkinStep<T, D>::evaluateGradients(const T& t) {
             placeQ_(k) = nodeQ_(i, k);
             placeV_(k) = nodeV_(i, k);
         }
-        mechanics_.gradient(mechanics_.model.get(), t + node_(i) * h_, placeQ_.data(), placeV_.data(),
-                            jetGradient_.data());
+        const T time = t + node_(i) * h_;
+        if (parts_.empty())
+            mechanics_.gradient(mechanics_.model.get(), time, placeQ_.data(), placeV_.data(),
+                                jetGradient_.data());
+        else
+            partAt(i).gradient(partAt(i).model.get(), time, placeQ_.data(), placeV_.data(),
+                               jetGradient_.data());
         for (int k = 0; k < 2 * d(); ++k) gradient_(i, k) = jetGradient_(k);
     }
 }
@@ -124,8 +129,13 @@ bool GalerkinStep<T, D>::evaluateHessians(const T& t) {
                 placeQ_(k) = nodeQ_(i, k);
                 placeV_(k) = nodeV_(i, k);
             }
-            mechanics_.jet(mechanics_.model.get(), t + node_(i) * h_, placeQ_.data(), placeV_.data(), &value,
-                           jetGradient_.data(), jetHessian_.data());
+            const T time = t + node_(i) * h_;
+            if (parts_.empty())
+                mechanics_.jet(mechanics_.model.get(), time, placeQ_.data(), placeV_.data(), &value,
+                               jetGradient_.data(), jetHessian_.data());
+            else
+                partAt(i).jet(partAt(i).model.get(), time, placeQ_.data(), placeV_.data(), &value,
+                              jetGradient_.data(), jetHessian_.data());
             for (int j = 0; j < size; ++j) hessians_(i, j) = jetHessian_(j);
         }
     }

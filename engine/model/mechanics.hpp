@@ -6,9 +6,22 @@
 /// once per dimension instead of once per system.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace extremal {
+
+/// One of the terms that a Lagrangian is the sum of: with a name, so that a scheme may have a rule for it.
+template <class T>
+struct LagrangianTerm {
+    std::string name;                   ///< "kinetic"
+    std::shared_ptr<const void> model;  ///< first argument of the calls, as in Mechanics
+    void (*jet)(const void*, const T& t, const T* q, const T* v, T* value, T* gradient, T* hessian) = nullptr;
+    void (*gradient)(const void*, const T& t, const T* q, const T* v, T* gradient) = nullptr;
+    bool hasVelocities = false;
+};
 
 template <class T>
 struct Mechanics {
@@ -40,6 +53,9 @@ struct Mechanics {
     void (*hessians)(const void*, const T* t, int nodes, const T* q, const T* v, T* hessians) = nullptr;
     const T* masses = nullptr;  ///< length d
     bool isTimeDependent = false;
+    /// L as a sum of terms, where the system says it in parts; empty: kinetic and potential energy, where L
+    /// is separable (lagrangian_terms.hpp), else a whole.
+    std::function<std::vector<LagrangianTerm<T>>()> terms = {};
 };
 
 }  // namespace extremal

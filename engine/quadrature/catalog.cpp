@@ -41,6 +41,7 @@ Settings completeRule(const Settings& rule, const RuleDemand& demand) {
         if (field.key == "phases") value = 4 * demand.harmonic + 4;
         const auto there = std::find_if(complete.keys.begin(), complete.keys.end(),
                                         [&](const Value::Member& m) { return m.first == field.key; });
+        if (there == complete.keys.end() && value.isNull()) continue;
         if (there == complete.keys.end())
             complete.keys.emplace_back(field.key, std::move(value));
         else if (there->second.isNull())

@@ -90,6 +90,7 @@ Rule<T> composite(const Rule<T>& rule, int panels) {
     Rule<T> all;
     all.degree = rule.degree;
     all.isSymmetric = rule.isSymmetric;
+    all.caution = rule.caution;
     all.panels = panels;
     all.perPanel = rule.size();
     for (int j = 0; j < panels; ++j) {
@@ -98,6 +99,33 @@ Rule<T> composite(const Rule<T>& rule, int panels) {
             const T c = (T(j) + rule.c[k]) / T(panels);
             all.c.push_back(c >= end && j + 1 < panels ? T(end - end * slack) : c);
             all.b.push_back(rule.b[k] / T(panels));
+        }
+    }
+    return all;
+}
+
+template <class T>
+Rule<T> composite(const Rule<T>& rule, const std::vector<T>& ends) {
+    using std::abs;
+    const T slack = std::numeric_limits<T>::epsilon();
+    const std::size_t panels = ends.size() - 1;
+    Rule<T> all;
+    all.degree = rule.degree;
+    all.isSymmetric = rule.isSymmetric;
+    all.caution = rule.caution;
+    all.panels = static_cast<int>(panels);
+    all.perPanel = rule.size();
+    all.ends = ends;
+    for (std::size_t j = 0; j < panels; ++j) {
+        const T start = ends[j], end = ends[j + 1];
+        if (abs(static_cast<double>(start + ends[panels - j] - 1)) > 1e-14) all.isSymmetric = false;
+        for (std::size_t k = 0; k < rule.c.size(); ++k) {
+            const T c = start + (end - start) * rule.c[k];
+            // Ends are rounded: both sides keep away from where a function may have its kink.
+            all.c.push_back(c >= end && j + 1 < panels ? T(end - 2 * end * slack)
+                            : c <= start && j > 0      ? T(start + 2 * start * slack)
+                                                       : c);
+            all.b.push_back(rule.b[k] * (end - start));
         }
     }
     return all;
@@ -131,7 +159,10 @@ void partialWeights(const Rule<T>& rule, const T& tau, std::span<T> share) {
     if (inner.size() != perPanel / 2 + 1) inner = gauss<T>(perPanel / 2 + 1);
     std::fill(share.begin(), share.end(), T(0));
     for (int j = 0; j < rule.panels; ++j) {
-        const T start = T(j) / T(rule.panels), end = T(j + 1) / T(rule.panels);
+        const auto endOf = [&](int panel) {
+            return rule.ends.empty() ? T(panel) / T(rule.panels) : rule.ends[static_cast<std::size_t>(panel)];
+        };
+        const T start = endOf(j), end = endOf(j + 1);
         if (j > 0 && tau <= start) return;
         const T length = (tau < end || j + 1 == rule.panels ? tau : end) - start;
         const auto first = static_cast<std::size_t>(j * stride),
@@ -177,6 +208,7 @@ Rule<T> makeRule(const RuleEntry& entry, const Settings& q) {
     template Rule<T> clenshawCurtis<T>(int);                                 \
     template Rule<T> trapezoid<T>(int);                                      \
     template Rule<T> composite<T>(const Rule<T>&, int);                      \
+    template Rule<T> composite<T>(const Rule<T>&, const std::vector<T>&);    \
     template Rule<T> merged<T>(const Rule<T>&);                              \
     template void partialWeights<T>(const Rule<T>&, const T&, std::span<T>); \
     template Rule<T> makeRule<T>(const RuleEntry&, const Settings&);         \

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "engine/core/settings.hpp"
@@ -21,8 +22,10 @@ struct Rule {
     std::vector<T> b;  ///< weights, sum 1
     int degree = 0;
     bool isSymmetric = true;
-    int panels = 1;    ///< in each panel the weights integrate the polynomial through its nodes
-    int perPanel = 0;  ///< nodes of a panel; merged panels share their ends. 0: all, in one panel
+    int panels = 1;            ///< in each panel the weights integrate the polynomial through its nodes
+    int perPanel = 0;          ///< nodes of a panel; merged panels share their ends. 0: all, in one panel
+    std::vector<T> ends = {};  ///< of the panels, 0 to 1, where they are not equal ones
+    std::string caution = {};  ///< what is doubtful in it; may be empty
     int size() const { return static_cast<int>(c.size()); }
 };
 
@@ -38,6 +41,9 @@ Rule<T> trapezoid(int panels);  ///< panels + 1 equally spaced nodes, degree 1
 /// The rule in each of equal panels, whose ends are at j / panels.
 template <class T>
 Rule<T> composite(const Rule<T>& rule, int panels);
+/// In each of panels with these ends, 0 to 1, ascending.
+template <class T>
+Rule<T> composite(const Rule<T>& rule, const std::vector<T>& ends);
 /// Neighbouring nodes that differ by round-off only are made one.
 template <class T>
 Rule<T> merged(const Rule<T>& rule);

@@ -23,6 +23,7 @@ void setMaker(RuleEntry& entry, Make make) {
         for (const Quad& b : rule.b) plain.b.push_back(b.backend().value());
         plain.degree = rule.degree;
         plain.isSymmetric = rule.isSymmetric;
+        plain.caution = rule.caution;
         return plain;
     };
 }

@@ -3,6 +3,9 @@
 /// In Settings its type is "product", and each part is an object with its own type and keys, so that printing
 /// and comparing need nothing more; the scene leaves the type out. The weights are b_ij = b_i b_j at the
 /// nodes (c_i, c_j).
+///
+/// And rules made of rules, one for each term of a Lagrangian: {"otherwise": {...}, "slow": {...}}, of type
+/// "terms" in Settings, kept in the same way.
 #pragma once
 
 #include <array>
@@ -12,6 +15,13 @@
 namespace extremal {
 
 inline constexpr std::array<const char*, 2> tensorParts = {"space", "time"};
+
+/// The terms that have no rule of their own.
+inline constexpr const char* otherTerms = "otherwise";
+
+bool isTermRule(const Settings& quadrature);
+/// The rule of a term, or of those without one; without a type if there is none.
+Settings termPart(const Settings& quadrature, std::string_view term);
 
 bool isTensorRule(const Settings& quadrature);
 /// The rule of one direction; without a type if there is none.

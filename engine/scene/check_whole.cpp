@@ -74,7 +74,7 @@ void checkStability(Reader& reader, const SchemeCase& scheme, const Family* fami
 void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const Properties& properties,
                     const std::string& pointer) {
     const Settings usual = completeQuadrature(scheme.space, {scheme.quadrature.type, {}, {}});
-    if (!usual.find("nodes")) {
+    if (const Value* nodes = usual.find("nodes"); !nodes || !nodes->isNumber()) {
         reader.warning(pointer + "/quadrature", "falls short: " + properties.shortfall,
                        "gauss has the order of the space");
     } else if (scheme.quadrature.integer("nodes") < usual.integer("nodes")) {
@@ -86,6 +86,10 @@ void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const Properties& 
 /// Unsupported combinations, and those that are unstable for every step. False: the scheme cannot be made.
 bool checkDiscretization(Reader& reader, const SchemeSpec& scheme, const Properties& properties,
                          const std::string& pointer) {
+    if (!properties.place.empty()) {
+        reader.error(pointer + properties.place, properties.refusal, properties.hint);
+        return false;
+    }
     if (!properties.refusal.empty()) {
         reader.error(pointer, "unsupported combination: " + properties.refusal,
                      properties.hint.empty() ? "another quadrature, or auto" : properties.hint);

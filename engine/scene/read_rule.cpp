@@ -1,4 +1,5 @@
-/// The quadrature of a scheme: one rule with what it leaves to the space, or one for each direction.
+/// The quadrature of a scheme: one rule with what it leaves to the space, one for each direction, or one for
+/// each term.
 #include "engine/family/scheme.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
@@ -32,7 +33,7 @@ bool isAutomatic(const Value* quadrature) {
 std::vector<const CatalogItem*> singleRules() {
     std::vector<const CatalogItem*> items;
     for (const CatalogItem& item : quadratureCatalog())
-        if (!isTensorRule({item.id, {}, {}})) items.push_back(&item);
+        if (!isTensorRule({item.id, {}, {}}) && !isTermRule({item.id, {}, {}})) items.push_back(&item);
     return items;
 }
 
@@ -79,11 +80,39 @@ std::optional<Settings> readProduct(Reader& reader, const Value& value, const st
     return product;
 }
 
+/// Terms need no type: the keys are their names, which only the system knows.
+bool isTermsValue(const Value& value) {
+    if (!value.isObject()) return false;
+    const Value* type = value.find("type");
+    return type ? *type == Value("terms") : !value.asObject().empty() && !isProductValue(value);
+}
+
+std::optional<Settings> readTermRules(Reader& reader, const Value& value, const std::string& pointer,
+                                      const Settings& space) {
+    const std::size_t errorsBefore = reader.errors.size();
+    Settings all{"terms", {}, {}};
+    for (const auto& [name, given] : value.asObject()) {
+        if (name == "type") continue;
+        const std::string place = childPointer(pointer, name);
+        auto part = readSettings(reader, given, place, "quadrature", singleRules(), fitToSpace, space);
+        if (!part) continue;
+        if (isAutomatic(&given)) part = completeQuadrature(space, {});
+        const Value written = settingsValue(*part);
+        const bool hasExpression = !part->expressions.empty();
+        part->expressions.clear();
+        all.keys.emplace_back(name, settingsValue(*part));
+        if (hasExpression) all.expressions.emplace_back(name, written);
+    }
+    if (reader.errors.size() > errorsBefore) return {};
+    return all;
+}
+
 }  // namespace
 
 std::optional<Settings> readRule(Reader& reader, const Value* given, const std::string& pointer,
                                  const Settings& space) {
     if (given && isProductValue(*given)) return readProduct(reader, *given, pointer, space);
+    if (given && isTermsValue(*given)) return readTermRules(reader, *given, pointer, space);
     const Value automatic("auto");
     const auto rule = readSettings(reader, given ? *given : automatic, pointer, "quadrature", singleRules(),
                                    fitToSpace, space);
@@ -93,7 +122,7 @@ std::optional<Settings> readRule(Reader& reader, const Value* given, const std::
 
 Value ruleValue(const Settings& rule) {
     const Value whole = settingsValue(rule);
-    if (!isTensorRule(rule)) return whole;
+    if (!isTensorRule(rule) && !isTermRule(rule)) return whole;
     Value value{Value::Object{}};
     for (const auto& [key, part] : whole.asObject())
         if (key != "type") value.set(key, part);

@@ -12,6 +12,7 @@
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_parts.hpp"
+#include "engine/space/catalog.hpp"
 
 namespace extremal {
 namespace {
@@ -28,10 +29,38 @@ std::vector<const CatalogItem*> itemsOf(const Entries& entries) {
     return items;
 }
 
+/// Spaces inside a space: complete, as objects; what was written is kept where an expression is in it.
+bool readSpaceParts(Reader& reader, const std::string& pointer, Settings& space) {
+    const std::size_t errorsBefore = reader.errors.size();
+    std::vector<const CatalogItem*> single;
+    for (const SpaceEntry& entry : tableSpaces())
+        if (entry.item.id != space.type) single.push_back(&entry.item);
+    const auto readPart = [&](const Value& given, const std::string& place, Value& read, Value& written) {
+        auto part = readSettings(reader, given, place, "space", single);
+        if (!part) return;
+        written = settingsValue(*part);
+        part->expressions.clear();
+        read = settingsValue(*part);
+    };
+    for (auto& [key, value] : space.keys) {
+        const std::string place = childPointer(pointer, key);
+        Value written = value;
+        if (key == "otherwise") {
+            readPart(Value(value), place, value, written);
+        } else if (reader.isObject(value, place)) {
+            for (auto& [name, own] : value.asObject())
+                readPart(Value(own), childPointer(place, name), own, *written.find(name));
+        }
+        if (!(written == value)) space.expressions.emplace_back(key, written);
+    }
+    return reader.errors.size() == errorsBefore;
+}
+
 void readSpaceAndQuadrature(Reader& reader, const Value& scheme, const std::string& pointer,
                             SchemeSpec& spec) {
-    const auto space = readSettings(reader, *scheme.find("space"), childPointer(pointer, "space"), "space",
-                                    itemsOf(spaceCatalog()));
+    const std::string place = childPointer(pointer, "space");
+    auto space = readSettings(reader, *scheme.find("space"), place, "space", itemsOf(spaceCatalog()));
+    if (space && space->find("otherwise") && !readSpaceParts(reader, place, *space)) return;
     if (space) spec.space = *space;
     const auto rule =
         readRule(reader, scheme.find("quadrature"), childPointer(pointer, "quadrature"), spec.space);
@@ -222,13 +251,19 @@ std::string innerLabel(const SchemeSpec& scheme) {
     if (scheme.kind == SchemeSpec::Kind::named) return scheme.named;
     const auto text = [](const Settings& s, const char* key) {
         std::string label = s.type;
-        if (s.find(key)) label += " " + formatNumber(s.number(key));
+        if (const Value* v = s.find(key); v && v->isNumber()) label += " " + formatNumber(v->asNumber());
         return label;
     };
     if (scheme.kind == SchemeSpec::Kind::baseline) return text(scheme.baseline, "stages");
     std::string basis = scheme.space.text("basis");
     basis = basis.empty() || basis == "lobatto" ? "" : " " + basis;
     std::string rule = text(scheme.quadrature, "nodes");
+    if (isTermRule(scheme.quadrature)) {
+        rule.clear();
+        for (const auto& [name, own] : scheme.quadrature.keys)
+            rule +=
+                (rule.empty() ? "" : ", ") + name + " " + text(termPart(scheme.quadrature, name), "nodes");
+    }
     if (isTensorRule(scheme.quadrature))
         rule = text(tensorPart(scheme.quadrature, "space"), "nodes") + " x " +
                text(tensorPart(scheme.quadrature, "time"), "nodes");

@@ -96,6 +96,16 @@ std::optional<std::vector<std::pair<std::string, double>>> Reader::function(
     return values;
 }
 
+std::optional<std::string> Reader::formula(const std::string& text, const std::string& pointer,
+                                           const std::vector<std::string>& variables) {
+    const auto values = function(text, pointer, variables);
+    if (!values) return {};
+    std::string result = text;
+    for (const auto& [name, value] : *values)
+        result = withNameReplaced(result, name, "(" + formatNumber(value) + ")");
+    return result;
+}
+
 std::optional<Number> Reader::number(const Value& value, const std::string& pointer, const Limits& limits) {
     Number result;
     if (value.isString()) {

@@ -70,6 +70,10 @@ public:
     /// hide; empty as above.
     std::optional<std::vector<std::pair<std::string, double>>> function(
         const std::string& text, const std::string& pointer, const std::vector<std::string>& variables);
+    /// An expression in variables and the parameters, with the values of these in place. Empty after
+    /// recording an error, or if a parameter in it is wrong.
+    std::optional<std::string> formula(const std::string& text, const std::string& pointer,
+                                       const std::vector<std::string>& variables);
 };
 
 /// Defaults of keys whose descriptor has none because they follow from something else (nodes from the

@@ -68,7 +68,7 @@ ResolvedScheme resolve(const SchemeSpec& scheme, const System* system) {
         r.family = familyOf(r.discretization.space);
         if (!r.family) throw InvalidScene("/space/type", "there is no space \"" + scheme.space.type + "\"");
         if (r.family->grid) r.grid = r.family->grid(r.discretization.space);
-        r.properties = describe(r.discretization);
+        r.properties = system ? describe(r.discretization, *system) : describe(r.discretization);
         r.claims = r.properties.claims;
     } else {
         if (scheme.kind == SchemeSpec::Kind::named)

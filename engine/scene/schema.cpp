@@ -95,12 +95,22 @@ Value property(const FieldInfo& field) {
         case FieldType::text:
             v = typed("string");
             break;
+        case FieldType::terms: {
+            Value byName = typed("object");
+            byName.set("additionalProperties", typed("string"));
+            v = anyOf({typed("string"), byName});
+            break;
+        }
         case FieldType::choice:
             v = enumeration(field.choices);
             break;
         case FieldType::names:
             v = arrayOf(typed("string"));
             break;
+        case FieldType::formulas:
+            v = arrayOf(reference("number"));
+            break;
+        case FieldType::definitions:
         case FieldType::constants:
             v = typed("object");
             v.set("additionalProperties", reference("number"));
@@ -136,18 +146,22 @@ Value typedChoice(const Entries& entries) {
     return anyOf(std::move(choices));
 }
 
-/// One rule, or one for each direction.
+/// One rule, or one for each direction, or one for each term.
 Value quadratureChoice() {
     Value product{Value::Object{}};
     for (const char* direction : tensorParts) product.set(direction, reference("rule"));
-    return anyOf({reference("rule"), object(product, {tensorParts[0], tensorParts[1]},
-                                            findRule("product")->item.description.c_str())});
+    Value terms = typed("object", findRule("terms")->item.description.c_str());
+    terms.set("additionalProperties", reference("rule"));
+    return anyOf(
+        {reference("rule"),
+         object(product, {tensorParts[0], tensorParts[1]}, findRule("product")->item.description.c_str()),
+         terms});
 }
 
 Value ruleDefinition() {
     std::vector<CatalogItem> single;
     for (const CatalogItem& item : quadratureCatalog())
-        if (!isTensorRule({item.id, {}, {}})) single.push_back(item);
+        if (!isTensorRule({item.id, {}, {}}) && !isTermRule({item.id, {}, {}})) single.push_back(item);
     return typedChoice(single);
 }
 

@@ -3,6 +3,7 @@
 #include "engine/core/text.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
+#include "engine/scene/read_formulas.hpp"
 #include "engine/scene/reader.hpp"
 
 namespace extremal {
@@ -90,9 +91,22 @@ bool readChoiceOrNumbers(Reader& reader, const Value& value, const std::string& 
     return true;
 }
 
-/// Stores one member after checking it against its descriptor.
-bool readField(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
+/// A text, or texts by names.
+bool readTerms(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
                Settings& settings) {
+    bool isSound = true;
+    if (value.isObject())
+        for (const auto& [name, text] : value.asObject())
+            isSound = reader.text(text, childPointer(pointer, name)) && isSound;
+    else
+        isSound = reader.text(value, pointer).has_value();
+    if (isSound) settings.keys.emplace_back(field.key, value);
+    return isSound;
+}
+
+/// Stores one member after checking it against its descriptor.
+bool readField(Reader& reader, const Value& object, const Value& value, const std::string& pointer,
+               const FieldInfo& field, Settings& settings) {
     switch (field.type) {
         case FieldType::number:
         case FieldType::integer: {
@@ -122,6 +136,8 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
             if (text) settings.keys.emplace_back(field.key, *text);
             return text.has_value();
         }
+        case FieldType::terms:
+            return readTerms(reader, value, pointer, field, settings);
         case FieldType::choice: {
             const auto text = reader.text(value, pointer);
             if (!text) return false;
@@ -138,6 +154,10 @@ bool readField(Reader& reader, const Value& value, const std::string& pointer, c
             return readNames(reader, value, pointer, field, settings);
         case FieldType::constants:
             return readConstants(reader, value, pointer, field, settings);
+        case FieldType::formulas:
+            return readFormulas(reader, object, value, pointer, field, settings);
+        case FieldType::definitions:
+            return readDefinitions(reader, value, pointer, field, settings);
         case FieldType::json:
             if (!field.choices.empty()) return readChoiceOrNumbers(reader, value, pointer, field, settings);
             settings.keys.emplace_back(field.key, value);
@@ -159,7 +179,8 @@ bool readFields(Reader& reader, const Value& object, const std::string& pointer,
     for (const FieldInfo& field : fields) {
         if (const Value* value = object.find(field.key)) {
             isComplete =
-                readField(reader, *value, childPointer(pointer, field.key), field, settings) && isComplete;
+                readField(reader, object, *value, childPointer(pointer, field.key), field, settings) &&
+                isComplete;
         } else if (!field.fallback.isNull()) {
             settings.keys.emplace_back(field.key, field.fallback);
         } else if (const auto fitting = derived ? derived(settings.type, field.key, context) : std::nullopt) {
@@ -212,6 +233,7 @@ Value settingsValue(const Settings& settings, std::string_view typeKey) {
     Value object{Value::Object{}};
     object.set(typeKey, settings.type);
     for (const auto& [key, value] : settings.keys) {
+        if (value.isNull()) continue;  // left out
         const auto text = std::find_if(settings.expressions.begin(), settings.expressions.end(),
                                        [&](const Value::Member& m) { return m.first == key; });
         object.set(key, text == settings.expressions.end() ? value : text->second);

@@ -133,7 +133,7 @@ State schemeStart(const ResolvedScene& resolved, const ResolvedScheme& scheme, d
     Eigen::VectorXd p0 = exact.startMomentum;
     Outcome outcome = Outcome::converged;
     const Discretization* const discretization = scheme.plain();
-    if (discretization && hasTable(discretization->space) && n <= mostElements) {
+    if (discretization && hasTable(*discretization) && n <= mostElements) {
         const DiscreteLagrangian<double> Ld(system.mechanics(),
                                             tableOf(discretization->space, discretization->quadrature));
         const ActionBetween<double> motion = Ld.between(scene.start.value, at / n, sampled(exact.nodes, n));

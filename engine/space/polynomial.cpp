@@ -1,7 +1,5 @@
 #include "engine/space/polynomial.hpp"
 
-#include <boost/multiprecision/float128.hpp>
-
 #include <cmath>
 #include <type_traits>
 #include <vector>
@@ -11,8 +9,6 @@
 
 namespace extremal {
 namespace {
-
-using Quad = boost::multiprecision::float128;
 
 template <class T>
 std::vector<T> controlPoints(int degree, PolynomialBasis basis) {

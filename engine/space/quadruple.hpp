@@ -2,17 +2,15 @@
 /// Internal to engine/space: includes the large header of quadruple numbers.
 #pragma once
 
-#include <boost/multiprecision/float128.hpp>
-
 #include <utility>
 #include <vector>
 
+#include "engine/space/long_numbers.hpp"
 #include "engine/space/space.hpp"
 
 namespace extremal {
 
-inline Space<double> withQuadruple(Space<double> space, Space<boost::multiprecision::float128> twin) {
-    using Quad = boost::multiprecision::float128;
+inline Space<double> withQuadruple(Space<double> space, Space<Quad> twin) {
     space.evaluateQuadruple = [twin = std::move(twin)](__float128 tau, std::span<__float128> value,
                                                        std::span<__float128> derivative) {
         std::vector<Quad> v(value.size()), d(value.size());

@@ -1,8 +1,7 @@
 #include "engine/space/spline.hpp"
 
-#include <boost/multiprecision/float128.hpp>
-
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -12,8 +11,6 @@
 
 namespace extremal {
 namespace {
-
-using Quad = boost::multiprecision::float128;
 
 /// The clamped knots of a degree: i = 0..2 s + cells.
 template <class T>
@@ -93,6 +90,16 @@ Space<T> splineSpace(int degree, int cells) {
                              bSplines(equalCells<double, Quad>(degree, cells)));
     else
         return bSplines(equalCells<T, T>(degree, cells));
+}
+
+Space<double> splineSpace(int degree, const std::vector<double>& cells) {
+    Space<double> space =
+        withQuadruple(bSplines(Knots<double>{degree, cells}),
+                      bSplines(Knots<Quad>{degree, std::vector<Quad>(cells.begin(), cells.end())}));
+    space.cells = cells;
+    for (std::size_t j = 0; j < cells.size(); ++j)
+        space.isSymmetric = space.isSymmetric && std::abs(cells[j] + cells[cells.size() - 1 - j] - 1) < 1e-14;
+    return space;
 }
 
 template Space<double> splineSpace<double>(int, int);

@@ -96,6 +96,12 @@ std::string typeName(FieldType type) {
             return "names";
         case FieldType::constants:
             return "constants";
+        case FieldType::formulas:
+            return "formulas";
+        case FieldType::definitions:
+            return "definitions";
+        case FieldType::terms:
+            return "text";
         case FieldType::json:
             return "json";
     }

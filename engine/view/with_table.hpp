@@ -15,8 +15,7 @@ inline std::string coordinatesMissing(const View&, const System& system) {
 }
 
 inline std::string tableMissing(const Discretization& discretization) {
-    return hasTable(discretization.space) ? ""
-                                          : "made of functions that change with the step, not of one table";
+    return hasTable(discretization) ? "" : "made of functions that change with the step, not of one table";
 }
 
 }  // namespace extremal

@@ -20,6 +20,8 @@ std::string rangeOf(const FieldInfo& f) {
     }
     if (f.type == FieldType::boolean) return "`true`, `false`";
     if (f.type == FieldType::text || f.type == FieldType::json) return "";
+    if (f.type == FieldType::formulas) return "array of expressions";
+    if (f.type == FieldType::definitions) return "object of expressions";
     const std::string kind = f.type == FieldType::integer ? "integer" : "number";
     const bool hasMin = std::isfinite(f.min), hasMax = std::isfinite(f.max);
     if (hasMin && hasMax) return kind + ", " + formatNumber(f.min) + " to " + formatNumber(f.max);
@@ -56,7 +58,8 @@ std::string pairsTable() {
     std::string text = "\n| degree |";
     std::vector<std::string> rules;
     for (const CatalogItem& rule : quadratureCatalog()) {
-        if (isTensorRule({rule.id, {}, {}})) continue;  // of one direction each
+        // Of one direction or one term each, and those without defaults.
+        if (isTensorRule({rule.id, {}, {}}) || isTermRule({rule.id, {}, {}}) || rule.id == "nodes") continue;
         const Settings space{"polynomial", {{"degree", 2.0}, {"basis", "lobatto"}}, {}};
         const Settings complete = completeQuadrature(space, {rule.id, {}, {}});
         if (complete.type != rule.id) continue;  // "auto" is one of the others

@@ -16,7 +16,7 @@ set(max_lines 500)
 # engine/family/<family> alone, and in tests. Polynomials and splines are tables as well: engine/space may name them.
 set(families galerkin energy_momentum multiscale lie wave elliptic field asynchronous moving_mesh
     free_knot)
-set(names_of_galerkin polynomial spline)
+set(names_of_galerkin polynomial spline typed by-coordinate)
 set(names_of_energy_momentum moving-time minimise hmin hmax)
 set(names_of_multiscale oscillatory oscillatory-product harmonics)
 set(names_of_lie lie-polynomial reduced)
@@ -24,7 +24,7 @@ set(names_of_wave fourier space-time energy_shift time_basis slabs three-level)
 set(names_of_elliptic elliptic-elements)
 set(names_of_field tent)
 set(names_of_asynchronous asynchronous courant)
-set(names_of_free_knot knots free-knots)
+set(names_of_free_knot free-knots)
 set(names_of_moving_mesh moving-mesh relaxation speed_limit action-error)
 
 set(level 0)

@@ -64,7 +64,8 @@ QString innerText(const SchemeSpec& spec) {
     if (const int cells = spec.space.integer("cells"); cells > 1)
         text += QStringLiteral(" (%1 cells)").arg(cells);
     text += QStringLiteral(" × ") + ruleTitle(spec.quadrature.type);
-    if (spec.quadrature.find("nodes")) text += QString(" %1").arg(spec.quadrature.integer("nodes"));
+    if (const Value* nodes = spec.quadrature.find("nodes"); nodes && nodes->isNumber())
+        text += QString(" %1").arg(spec.quadrature.integer("nodes"));
     if (const int panels = spec.quadrature.integer("panels"); panels > 1)
         text += QStringLiteral(" (%1 panels)").arg(panels);
     return text;
@@ -123,6 +124,40 @@ Value constantsFrom(const QString& text) {
         constants.set(entry.left(at).trimmed().toStdString(), number);
     }
     return constants;
+}
+
+QString formulasText(const Value& value) {
+    if (!value.isArray()) return fieldText(value);
+    QStringList entries;
+    for (const Value& entry : value.asArray()) entries << fieldText(entry);
+    return entries.join(QStringLiteral("; "));
+}
+
+Value formulasFrom(const QString& text) {
+    Value::Array entries;
+    for (const QString& entry : text.split(';'))
+        if (Value value = numberOrExpression(entry); !value.isNull()) entries.push_back(std::move(value));
+    return entries;
+}
+
+QString definitionsText(const Value& value) {
+    if (!value.isObject()) return fieldText(value);
+    QStringList entries;
+    for (const auto& [name, entry] : value.asObject())
+        entries << QString::fromStdString(name) + QStringLiteral(" = ") + fieldText(entry);
+    return entries.join(QStringLiteral("; "));
+}
+
+Value definitionsFrom(const QString& text) {
+    Value names{Value::Object{}};
+    for (const QString& entry : text.split(';')) {
+        if (entry.trimmed().isEmpty()) continue;
+        const qsizetype at = entry.indexOf('=');
+        const Value value = at < 0 ? Value() : numberOrExpression(entry.mid(at + 1));
+        if (value.isNull()) return text.toStdString();  // the scene's own check says what is wrong with it
+        names.set(entry.left(at).trimmed().toStdString(), value);
+    }
+    return names;
 }
 
 Value numbersOrExpressions(const QString& text) {

@@ -27,6 +27,12 @@ Value numbersOrExpressions(const QString& text);
 /// "a = 1, b = 2" for an object of numbers, and the opposite; what cannot be read stays a text.
 QString constantsText(const Value& value);
 Value constantsFrom(const QString& text);
+/// Expressions may have commas in them: "1; tau; atan2(tau, 2)".
+QString formulasText(const Value& value);
+Value formulasFrom(const QString& text);
+/// "z = w*h; x = 2*tau - 1".
+QString definitionsText(const Value& value);
+Value definitionsFrom(const QString& text);
 /// "Gauss" for "gauss".
 QString ruleTitle(const std::string& id);
 

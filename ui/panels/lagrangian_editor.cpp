@@ -50,7 +50,9 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     text_->setObjectName("field.lagrangian");
     text_->setAccessibleName(tr("Lagrangian"));
     text_->setToolTip(
-        tr("L as a formula: velocities are x_t or dot(x), time is t. Handbook: Typing a Lagrangian."));
+        tr("L as a formula: velocities are x_t or dot(x), time is t. Lines \"slow: ...\" make terms that may "
+           "have "
+           "rules of their own. Handbook: Typing a Lagrangian."));
     column->addWidget(text_);
     problem_ = makeLabel({}, "caption");
     problem_->setObjectName("problem.lagrangian");
@@ -125,12 +127,13 @@ void LagrangianEditor::check() {
     if (!isVisibleTo(parentWidget()) || workspace_.scene().model.type != "lagrangian") return;
     stop_.request_stop();
     stop_ = std::stop_source();
-    runInBackground([self = QPointer(this), formula = formulaNow(), stop = stop_.get_token()] {
+    runInBackground([self = QPointer(this), formula = formulaNow(), text = text_->toPlainText().toStdString(),
+                     stop = stop_.get_token()] {
         const typed::Examination found = typed::examine(formula, stop);
         if (!found.isComplete) return;
         QMetaObject::invokeMethod(
             qApp,
-            [self, text = formula.text, found] {
+            [self, text, found] {
                 if (self) self->take(text, found);
             },
             Qt::QueuedConnection);
@@ -150,10 +153,11 @@ void LagrangianEditor::take(const std::string& text, const typed::Examination& f
     if (isPending_) {
         isPending_ = false;
         const Value* now = valueAt(workspace_.document(), formulaPlace);
-        if (now && *now == Value(text))
+        const Value typed = lagrangianFrom(text);
+        if (now && *now == typed)
             workspace_.dropDraft(formulaPlace);
         else
-            workspace_.edit({{formulaPlace, text}}, tr("Change the Lagrangian"), formulaPlace);
+            workspace_.edit({{formulaPlace, typed}}, tr("Change the Lagrangian"), formulaPlace);
     }
     showProblem();
 }
@@ -163,7 +167,7 @@ void LagrangianEditor::showProblem() {
     const std::string text = text_->toPlainText().toStdString();
     std::string message, hint;
     for (const Problem& p : problems) {
-        const bool isFormula = p.pointer == formulaPlace;
+        const bool isFormula = p.pointer.starts_with(formulaPlace);
         if (!(isFormula || p.pointer.starts_with(coordinatesPlace)) || !message.empty()) continue;
         message = (isFormula ? "L " : "") + p.message.substr(0, p.message.find('\n'));
         hint = p.hint;
@@ -196,21 +200,23 @@ void LagrangianEditor::changeCoordinates() {
     // A formula that is not valid yet follows the new names as well, and waits again.
     const std::string typed = text_->toPlainText().toStdString();
     const Value* formula = valueAt(workspace_.document(), formulaPlace);
-    const bool isUnfinished = !(formula && *formula == Value(typed));
+    const bool isUnfinished = !(formula && *formula == lagrangianFrom(typed));
     const std::string renamed = isUnfinished ? formulaFor(workspace_.document(), names, typed) : typed;
     isPending_ = false;
     debounce_.stop();
     workspace_.edit(editsForCoordinates(workspace_.document(), names), tr("Change the coordinates"));
-    if (isUnfinished) workspace_.edit({{formulaPlace, renamed}}, tr("Change the coordinates"));
+    if (isUnfinished)
+        workspace_.edit({{formulaPlace, lagrangianFrom(renamed)}}, tr("Change the coordinates"));
 }
 
 void LagrangianEditor::refresh() {
     if (!workspace_.hasScene() || workspace_.scene().model.type != "lagrangian") return;
     const Value* draft = workspace_.draftAt(formulaPlace);
     const Value* text = draft ? draft : valueAt(workspace_.document(), formulaPlace);
-    if (text && text->isString() && !isPending_) {
-        const QString shown = QString::fromStdString(text->asString());
-        if (shown != text_->toPlainText()) {
+    if (text && !isPending_) {
+        const QString shown = QString::fromStdString(lagrangianText(*text));
+        const bool isSame = lagrangianFrom(text_->toPlainText().toStdString()) == *text;
+        if (!isSame && shown != text_->toPlainText()) {
             const QSignalBlocker block(text_);
             text_->setPlainText(shown);
             place_.reset();

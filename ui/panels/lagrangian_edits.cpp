@@ -10,8 +10,20 @@ namespace extremal {
 namespace {
 
 std::string lagrangianOf(const Value& document) {
-    const Value* text = valueAt(document, "/model/lagrangian");
-    return text && text->isString() ? text->asString() : std::string();
+    const Value* lagrangian = valueAt(document, "/model/lagrangian");
+    return lagrangian ? lagrangianText(*lagrangian) : std::string();
+}
+
+/// Of "slow:" at the start of a line, with the colon; 0: there is none.
+std::size_t labelLength(const std::string& line) {
+    const auto isPart = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               c == '-';
+    };
+    const auto end = std::find_if_not(line.begin(), line.end(), isPart);
+    return end != line.begin() && end != line.end() && *end == ':'
+               ? static_cast<std::size_t>(end - line.begin()) + 1
+               : 0;
 }
 
 std::vector<std::string> coordinatesOf(const Value& document) {
@@ -91,7 +103,49 @@ typed::Formula formulaIn(const Value& model) {
     for (const auto& [name, value] : parametersOf(document))
         formula.parameters.emplace_back(name, value.isNumber() ? value.asNumber() : 1);
     formula.text = lagrangianOf(document);
+    // Labels of terms give way to blanks, and to a sign between terms, so that places stay what they are.
+    bool isFirst = true;
+    for (std::size_t start = 0; start < formula.text.size();) {
+        const std::size_t end = std::min(formula.text.find('\n', start), formula.text.size());
+        if (const std::size_t label = labelLength(formula.text.substr(start, end - start))) {
+            std::fill_n(formula.text.begin() + static_cast<std::ptrdiff_t>(start), label, ' ');
+            if (!isFirst) formula.text[start] = '+';
+            isFirst = false;
+        }
+        start = end + 1;
+    }
     return formula;
+}
+
+std::string lagrangianText(const Value& lagrangian) {
+    if (lagrangian.isString()) return lagrangian.asString();
+    std::string text;
+    if (lagrangian.isObject())
+        for (const auto& [name, term] : lagrangian.asObject())
+            text += (text.empty() ? "" : "\n") + name + ": " +
+                    (term.isString() ? term.asString() : std::string());
+    return text;
+}
+
+Value lagrangianFrom(const std::string& text) {
+    Value terms{Value::Object{}};
+    std::string name;
+    for (std::size_t start = 0; start < text.size();) {
+        const std::size_t end = std::min(text.find('\n', start), text.size());
+        const std::string line = text.substr(start, end - start);
+        const std::size_t label = labelLength(line);
+        if (label > 0) {
+            name = line.substr(0, label - 1);
+            const std::size_t from = line.find_first_not_of(' ', label);
+            terms.set(name, from == std::string::npos ? std::string() : line.substr(from));
+        } else if (!name.empty()) {
+            terms.set(name, terms.find(name)->asString() + "\n" + line);
+        } else if (line.find_first_not_of(" \t") != std::string::npos) {
+            return text;  // no terms
+        }
+        start = end + 1;
+    }
+    return terms.asObject().empty() ? Value(text) : terms;
 }
 
 std::vector<Edit> editsForParameterName(const Value& document, const std::string& from,
@@ -156,7 +210,8 @@ std::vector<Edit> editsForCoordinates(const Value& document, const std::vector<s
     std::vector<Edit> edits{{"/model/coordinates", namesValue(names)}};
     if (renamedCoordinate(old, names)) {
         source = old;
-        edits.push_back({"/model/lagrangian", formulaFor(document, names, lagrangianOf(document))});
+        edits.push_back(
+            {"/model/lagrangian", lagrangianFrom(formulaFor(document, names, lagrangianOf(document)))});
     }
     edits.push_back({"/initial", initialFor(document, old, source)});
     // Plots and columns named after coordinates that are gone would be errors: the defaults follow the new
@@ -169,7 +224,8 @@ std::vector<Edit> editsForNewCoordinate(const Value& document) {
     std::vector<std::string> names = coordinatesOf(document);
     names.push_back(freeName(document, {"x", "y", "z", "q"}));
     std::vector<Edit> edits = editsForCoordinates(document, names);
-    edits.push_back({"/model/lagrangian", lagrangianOf(document) + " + " + names.back() + "_t^2/2"});
+    edits.push_back(
+        {"/model/lagrangian", lagrangianFrom(lagrangianOf(document) + " + " + names.back() + "_t^2/2")});
     return edits;
 }
 

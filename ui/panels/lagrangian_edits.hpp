@@ -10,6 +10,10 @@
 
 namespace extremal {
 
+/// A Lagrangian as it is typed: a formula, or one line "slow: ..." for each of its terms, and back.
+std::string lagrangianText(const Value& lagrangian);
+Value lagrangianFrom(const std::string& text);
+
 /// The typed Lagrangian of a document, with numbers for its parameters as far as they are known.
 typed::Formula formulaIn(const Value& model);
 

@@ -104,6 +104,8 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
     connect(rule_, &QComboBox::activated, this, [this] {
         const Settings rule = ruleFor(chosen(*rule_), spec().space);
         Value tree(Value::Object{{"type", rule.type}});
+        for (const auto& [key, value] : rule.keys)  // typed ones have no default
+            if (value.isArray()) tree.set(key, value);
         workspace_.edit({{place() + "/quadrature", tree}}, tr("Change quadrature"));
     });
     form_ = new Form(workspace);

@@ -89,6 +89,11 @@ void ValueEdit::submitText() {
         emit edited(numbersOrExpressions(shown_));
     } else if (info_.type == FieldType::constants) {
         emit edited(constantsFrom(shown_));
+    } else if (info_.type == FieldType::formulas) {
+        const Value formulas = formulasFrom(shown_);
+        emit edited(formulas.asArray().empty() ? info_.fallback : formulas);
+    } else if (info_.type == FieldType::definitions) {
+        emit edited(definitionsFrom(shown_));
     } else if (info_.type == FieldType::json) {
         try {
             emit edited(parseJson(shown_.toStdString()));
@@ -129,7 +134,10 @@ void ValueEdit::show(const Value& value) {
     if (spin_ && value.isNumber()) spin_->setValue(static_cast<int>(value.asNumber()));
     if (choice_) choice_->setCurrentText(fieldText(value));
     if (!text_) return;
-    const QString text = info_.type == FieldType::constants ? constantsText(value) : fieldText(value);
+    const QString text = info_.type == FieldType::constants     ? constantsText(value)
+                         : info_.type == FieldType::formulas    ? formulasText(value)
+                         : info_.type == FieldType::definitions ? definitionsText(value)
+                                                                : fieldText(value);
     const bool isTyping = text_->hasFocus() && text_->text() != shown_;
     if (isTyping || text == text_->text()) {
         if (!isTyping) shown_ = text;

@@ -102,7 +102,7 @@ Properties describeMovingTime(const Discretization& discretization) {
     const std::string degree = std::to_string(space.integer("degree"));
     Properties p;
     if (isPlainRule(quadrature))
-        p = describeTable([&] { return tableOfSpace(space, quadrature); }, quadrature);
+        p = describeTable([&] { return tableOfSpace(space, quadrature); });
     else
         refuseRule(quadrature, p);
     p.claims.conserves.push_back("discrete energy");

@@ -77,12 +77,10 @@ Properties inDirection(const Settings& quadrature, const char* direction, int de
         refuseRule(own, p);
         return p;
     }
-    return describeTable(
-        [&] {
-            return makeTable<double>(polynomialSpace<double>(degree, PolynomialBasis::lobatto),
-                                     makeRule<double>(own));
-        },
-        own);
+    return describeTable([&] {
+        return makeTable<double>(polynomialSpace<double>(degree, PolynomialBasis::lobatto),
+                                 makeRule<double>(own));
+    });
 }
 
 /// "trapezoid", "gauss 2": a rule for people.

@@ -1,17 +1,25 @@
 /// Generalized Galerkin variational integrators of systems with coordinates: a space that is a table and a
 /// plain rule (Leok 2004, sec. 2).
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "engine/action/table.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/galerkin/fitted_order.hpp"
+#include "engine/family/galerkin/split.hpp"
+#include "engine/family/galerkin/tables.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
 #include "engine/quadrature/catalog.hpp"
+#include "engine/space/typed.hpp"
 
 namespace extremal::family {
 namespace {
@@ -57,25 +65,80 @@ void nameOf(const Settings& space, const Settings& rule, int n, Properties& p) {
 }
 
 std::string spaceText(const Settings& space) {
+    if (const Value* functions = space.find("functions"); functions && functions->isArray())
+        return std::to_string(functions->asArray().size()) + " typed functions";
     const std::string degree = std::to_string(space.integer("degree"));
     if (space.find("cells"))
-        return "splines of degree " + degree + " with " + std::to_string(space.integer("cells")) + " cells";
+        return "splines of degree " + degree + " with " + std::to_string(galerkin::cellsIn(space)) + " cells";
     return space.find("degree") ? "polynomials of degree " + degree : space.type;
 }
 
+/// A space whose functions change with the step: what holds at small steps.
+Properties describeFitted(const Settings& space, const Settings& quadrature) {
+    Properties p;
+    p.claims.isSymplectic = true;
+    p.claims.conserves = {"momentum"};
+    p.stabilityLimit = std::numeric_limits<double>::infinity();  // no one number: checked at the step
+    try {
+        const galerkin::FittedOrder found = galerkin::fittedOrder(space, quadrature);
+        p.claims.order = found.bounds.order();
+        p.claims.isSymmetric = found.isSymmetric;
+        p.curveOrder = std::min(p.claims.order, found.bounds.ofSpace / 2 + 1);
+        p.shortfall = found.bounds.shortfall();
+        p.caution = cautionOf(tableOf(withStep(space, found.step), quadrature));
+        if (p.claims.order < 1) {
+            p.refusal =
+                "it would have order 0: curves of constant speed are not in the space, nor approached by "
+                "it at short steps";
+            p.hint = "add \"tau\"";
+        }
+    } catch (const InvalidScene& e) {
+        refuse(e, p);
+    }
+    return p;
+}
+
 Properties describeGalerkin(const Discretization& discretization) {
+    if (galerkin::isSplit(discretization)) return galerkin::describeSplit(discretization);
     const auto& [space, quadrature, solver] = discretization;
     Properties p;
-    if (isPlainRule(quadrature)) {
-        p = describeTable([&] { return tableOf(space, quadrature); }, quadrature);
+    const bool isTyped = space.find("functions") != nullptr;
+    if (!isPlainRule(quadrature) && !(isTyped && quadrature.type == "auto")) {
+        refuseRule(quadrature, p);
+    } else if (isTyped && dependsOnStep(space)) {
+        p = describeFitted(space, quadrature);
+    } else {
+        p = describeTable([&] { return tableOf(space, quadrature); });
+        if (isTyped && p.refusal.empty() && p.claims.order < 1) {
+            p.refusal = "it would have order 0: curves of constant speed are not in the space";
+            p.hint = "add \"tau\"";
+        }
+    }
+    if (isTyped) {
+        p.shortName = ordinal("VI", p.claims.order);
+    } else if (isPlainRule(quadrature) && p.place.empty()) {
         nameOf(space, quadrature, makeRule<double>(quadrature).size(), p);
         if (p.knownAs == "Gauss collocation" || p.knownAs == "implicit midpoint")
             p.claims.conserves.push_back("quadratic invariants");
-    } else {
-        refuseRule(quadrature, p);
     }
     p.space = spaceText(space);
     return p;
+}
+
+/// At the step itself: functions that depend on it, and their stability.
+void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
+    if (galerkin::isSplit(scheme.discretization)) return galerkin::checkSplit(scheme, findings);
+    const auto& [space, quadrature, solver] = scheme.discretization;
+    if (!dependsOnStep(space)) return;
+    const double frequency = highestFrequency(scheme.system, scheme.initial);
+    const Table<double> table = tableOf(withStep(space, scheme.step), quadrature);
+    const double trace = std::abs(halfTrace(table, frequency * scheme.step));
+    if (trace > 1 + 1e-9)
+        findings.warning("/step",
+                         "makes the space and the rule unstable at the highest frequency at the start, " +
+                             formatNumber(frequency, 3) + ": half the trace of a step is " +
+                             formatNumber(trace, 4),
+                         "another step");
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {
@@ -92,6 +155,15 @@ ChoiceGrid choices(const System&) {
         rows.push_back({"spline " + std::to_string(degree),
                         "spline",
                         {"spline", {{"degree", static_cast<double>(degree)}, {"cells", 2.0}}, {}}});
+    // Functions to begin with: a click adds them, and their formulas are then changed in the form of the
+    // scheme.
+    rows.push_back({"own",
+                    "own",
+                    {"typed",
+                     {{"functions", Value::Array{"1", "tau", "tau^2", "tau^3"}},
+                      {"let", Value::Object{}},
+                      {"knots", Value::Array{}}},
+                     {}}});
     return ruleChoices(rows);
 }
 
@@ -104,20 +176,35 @@ Family galerkin() {
     f.spaces = tableSpaces();
     f.solverMethods = {"newton", "fixed-point"};
     f.applies = isMechanical;
-    f.completeRule = [](const Settings& space, const Settings& quadrature) {
-        return completePlainRule(quadrature, space.integer("degree"), std::max(1, space.integer("cells")));
-    };
+    f.completeRule = galerkin::completedRule;
     f.describe = describeGalerkin;
+    f.check = checkGalerkin;
     f.reference = trusted;
     f.choices = choices;
-    f.rules = [](const Settings&) { return plainRules(); };
-    f.table = [](const Settings& space, const Settings& quadrature) {
-        return makeTable(makeSpace(space), makeRule<double>(quadrature));
+    f.rules = [](const Settings& space) {
+        std::vector<std::string> rules = plainRules();
+        if (space.find("functions")) rules.insert(rules.begin(), "auto");
+        return rules;
     };
+    f.describeOn = [](const Discretization& d, const System& system) -> std::optional<Properties> {
+        if (!galerkin::isSplit(d)) return {};
+        return galerkin::describeSplit(d, system);
+    };
+    f.hasTable = [](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); };
+    f.table = galerkin::makeTable;
     f.make = [](const System& system, const Discretization& d, double step) {
-        return makeCondensed(
-            system, [table = tableOf(d.space, d.quadrature)](double) { return std::vector{table}; }, step,
-            solverPolicy(d.solver, system));
+        if (galerkin::isSplit(d)) {
+            const galerkin::Split split = galerkin::splitOf(system, d);
+            std::vector<LagrangianTerm<double>> parts =
+                split.parts.size() > 1 ? split.parts : decltype(split.parts){};
+            return makeCondensed(
+                system, [split](double h) { return galerkin::tablesOf(split, h); }, step,
+                solverPolicy(d.solver, system), std::move(parts));
+        }
+        const auto tables = [space = d.space, quadrature = d.quadrature](double h) {
+            return std::vector{tableOf(withStep(space, h), quadrature)};
+        };
+        return makeCondensed(system, tables, step, solverPolicy(d.solver, system));
     };
     return f;
 }

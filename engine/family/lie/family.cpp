@@ -42,7 +42,7 @@ Properties describeLie(const Discretization& discretization) {
     const auto& [space, quadrature, solver] = discretization;
     Properties p;
     if (isPlainRule(quadrature)) {
-        p = describeTable([&] { return lieTable(space, quadrature); }, quadrature);
+        p = describeTable([&] { return lieTable(space, quadrature); });
     } else {
         refuseRule(quadrature, p);
     }

@@ -8,10 +8,13 @@
 /// No exact solution.
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/model/bind_runtime.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/typed/typed_mechanics.hpp"
 
 namespace extremal::systems {
 namespace {
@@ -113,6 +116,33 @@ void drawFputChain(int d, const double* x, Drawing& drawing) {
     drawing.tracer = place(0);
 }
 
+/// The stiff springs are the fast term.
+std::vector<LagrangianTerm<double>> chainTerms(const FputChain& chain) {
+    const int d = chain.dimension();
+    typed::Formula f{{},
+                     {{"m", chain.m},
+                      {"ks", chain.kSoft},
+                      {"kf", chain.kStiff},
+                      {"alpha", chain.alpha},
+                      {"beta", chain.beta}},
+                     ""};
+    std::string kinetic, fast, slow;
+    for (int i = 1; i <= d; ++i) {
+        f.coordinates.push_back("q" + std::to_string(i));
+        kinetic += (i > 1 ? " + " : "") + ("m/2*q" + std::to_string(i) + "_t^2");
+    }
+    for (int i = 0; i <= d; ++i) {
+        const std::string r = std::string(i < d ? "(q" + std::to_string(i + 1) : "(0") +
+                              (i > 0 ? " - q" + std::to_string(i) : "") + ")";
+        if (i % 2 == 1)
+            fast += " - kf/2*" + r + "^2";
+        else
+            slow += " - (ks/2*" + r + "^2 + alpha/3*" + r + "^3 + beta/4*" + r + "^4)";
+    }
+    f.terms = {{"kinetic", kinetic}, {"fast", fast}, {"slow", slow}};
+    return typed::makeTerms(f);
+}
+
 System makeFputChain(const Settings& settings) {
     const auto model = withParameters(settings, fputChainFields());
     System s;
@@ -120,7 +150,10 @@ System makeFputChain(const Settings& settings) {
     for (int i = 1; i <= model.dimension(); ++i)
         s.coordinates.push_back(
             {std::to_string(i), "displacement " + std::to_string(i), "q_" + std::to_string(i), "", ""});
-    s.kind = bindRuntime(model);
+    Mechanics<double> mechanics = bindRuntime(model);
+    if (model.dimension() <= static_cast<int>(typed::maxCoordinates))
+        mechanics.terms = [model] { return chainTerms(model); };
+    s.kind = std::move(mechanics);
     // Every displacement has a slow part as well.
     s.fast = {std::sqrt(2 * model.kStiff / model.m),
               {},

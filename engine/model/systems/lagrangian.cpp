@@ -84,9 +84,11 @@ std::vector<FieldInfo> lagrangianFields() {
     FieldInfo parameters =
         constantsField("parameters", "Constants by name; they may be expressions in each other.");
     parameters.example = Value(Value::Object{{"m", 1}, {"l", 1}, {"g", 9.81}});
-    FieldInfo lagrangian =
-        textField("lagrangian", "", nullptr,
-                  "L as an expression in coordinates, velocities, parameters and the time t.");
+    FieldInfo lagrangian = textField(
+        "lagrangian", "", nullptr,
+        "L as an expression in coordinates, velocities, parameters and the time t; or an object of such "
+        "terms by name, which are summed and may have rules of their own.");
+    lagrangian.type = FieldType::terms;
     lagrangian.title = "Lagrangian";
     lagrangian.example = "m/2*l^2*theta_t^2 + m*g*l*cos(theta)";
     return {coordinates, parameters, lagrangian};

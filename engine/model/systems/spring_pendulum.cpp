@@ -5,10 +5,12 @@
 /// (m g cos theta + m l theta_t^2) / k, which the printed fast equation leaves out. No exact solution.
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/typed/typed_mechanics.hpp"
 
 namespace extremal::systems {
 namespace {
@@ -134,7 +136,16 @@ System makeSpringPendulum(const Settings& settings) {
     s.coordinates = {{"a", "extension", "a", "m", "kg m/s"}, {"theta", "angle", "θ", "rad", "kg m²/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.kind = bindMechanics<double>(model);
+    Mechanics<double> mechanics = bindMechanics<double>(model);
+    mechanics.terms = [model] {
+        typed::Formula f{
+            {"a", "theta"}, {{"m", model.m}, {"g", model.g}, {"l", model.l}, {"k", model.k}}, ""};
+        f.terms = {{"kinetic", "m/2*(a_t^2 + (l+a)^2*theta_t^2)"},
+                   {"fast", "-k/2*a^2"},
+                   {"slow", "m*g*(l+a)*cos(theta)"}};
+        return typed::makeTerms(f);
+    };
+    s.kind = std::move(mechanics);
     s.fast = {std::sqrt(model.k / model.m),
               {0},
               [model](double, const double* x) { return model.oscillation(x); },

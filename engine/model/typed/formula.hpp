@@ -20,7 +20,9 @@ inline constexpr std::size_t maxCoordinates = 64;
 struct Formula {
     std::vector<std::string> coordinates;
     std::vector<std::pair<std::string, double>> parameters;
-    std::string text;
+    std::string text;  ///< of the whole Lagrangian
+    /// Its terms, by name, where it is typed in terms; their sum is the text.
+    std::vector<std::pair<std::string, std::string>> terms = {};
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
     int time() const { return 2 * dimension(); }

@@ -266,6 +266,9 @@ private:
         return (kind == Operator::multiply || kind == Operator::divide) && !resolved_.constant[place(n)];
     }
     ex call(const Expression::Node& here) {
+        if (here.name == "stumpff")
+            throw ExpressionError("has stumpff(...) of something that moves", here.position,
+                                  "it stands in numbers, and in the functions of a space");
         const ex x = opaque(build(here.left));
         if (here.name == "sin") return GiNaC::sin(x);
         if (here.name == "cos") return GiNaC::cos(x);

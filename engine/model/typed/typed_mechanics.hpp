@@ -22,6 +22,10 @@ struct TypedMechanics {
 /// Throws ExpressionError.
 TypedMechanics makeMechanics(const Formula& formula);
 
+/// The terms of a Lagrangian that is typed in terms. Throws ExpressionError; `throwing`, where it is not
+/// null, is then the name of the term.
+std::vector<LagrangianTerm<double>> makeTerms(const Formula& formula, std::string* throwing = nullptr);
+
 /// What is wrong with the Lagrangian at a state (q, p), or with it everywhere if it is degenerate; empty if
 /// nothing is.
 std::optional<std::string> faultAt(const Formula& formula, const Mechanics<double>& mechanics, double t,

@@ -20,6 +20,17 @@ void checkName(const std::string& name, const std::string& pointer, const std::s
             {pointer, "the name \"" + name + "\" is listed twice", "every name has one meaning"});
 }
 
+/// Names of terms are keys of a rule.
+std::string termNameProblem(const std::string& name) {
+    for (const char* taken : {"type", "space", "time", "otherwise"})
+        if (name == taken) return "has a meaning in rules already";
+    const bool isWord = !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+               c == '-';
+    });
+    return isWord ? "" : "must be letters, digits, - and _";
+}
+
 }  // namespace
 
 Formula formulaOf(const Settings& settings) {
@@ -45,19 +56,38 @@ Formula formulaOf(const Settings& settings) {
                             "has " + std::to_string(formula.coordinates.size()) + " names, the limit is " +
                                 std::to_string(maxCoordinates),
                             {}});
+    const Value* const lagrangian = settings.find("lagrangian");
+    if (lagrangian && lagrangian->isObject()) {
+        for (const auto& [name, text] : lagrangian->asObject()) {
+            if (const std::string problem = termNameProblem(name); !problem.empty())
+                problems.push_back({"/lagrangian/" + name, "the name \"" + name + "\" " + problem, {}});
+            formula.terms.emplace_back(name, text.asString());
+            formula.text += (formula.text.empty() ? "(" : " + (") + text.asString() + ")";
+        }
+        if (formula.terms.empty())
+            problems.push_back(
+                {"/lagrangian", "needs at least one term", "for example \"kinetic\": \"x_t^2/2\""});
+    } else {
+        formula.text = settings.text("lagrangian");
+    }
     if (!problems.empty()) throw InvalidScene(std::move(problems));
-    formula.text = settings.text("lagrangian");
     return formula;
 }
 
 TypedMechanics mechanicsOf(const Formula& formula) {
+    std::string term;
     try {
+        makeTerms(formula, &term);
+        term.clear();
         TypedMechanics made = makeMechanics(formula);
         if (const auto fault = degeneracy(formula, made.mechanics)) throw InvalidScene("/lagrangian", *fault);
         return made;
     } catch (const ExpressionError& e) {
-        throw InvalidScene("/lagrangian", std::string(e.what()) + "\n" + caretLines(formula.text, e.position),
-                           e.hint);
+        const auto found = std::find_if(formula.terms.begin(), formula.terms.end(),
+                                        [&](const auto& entry) { return entry.first == term; });
+        const std::string& text = found == formula.terms.end() ? formula.text : found->second;
+        throw InvalidScene("/lagrangian" + (term.empty() ? "" : "/" + term),
+                           std::string(e.what()) + "\n" + caretLines(text, e.position), e.hint);
     }
 }
 

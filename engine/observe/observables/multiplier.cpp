@@ -77,7 +77,7 @@ ObservableEntry multiplier() {
         for (const Coordinate& c : coordinates)
             o.columns.push_back({"multiplier." + c.name, "λ_" + c.symbol, c.momentumUnit, {}, {}});
         if (!context.discretization || !isFor(*context.discretization, context.system) ||
-            !hasTable(context.discretization->space)) {
+            !hasTable(*context.discretization)) {
             o.evaluate = [n = o.columns.size()](const State&, const StepReport&, double* values) {
                 std::fill_n(values, n, std::numeric_limits<double>::quiet_NaN());
             };

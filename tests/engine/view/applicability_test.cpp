@@ -122,7 +122,8 @@ private slots:
             return read.errors.size() == 1 ? read.errors[0].hint : "";
         };
         const std::string has =
-            "; kepler has amplification, curve-error, discrete-energy, discrete-lagrangian, energy, error, "
+            "; kepler has amplification, basis, curve-error, discrete-energy, discrete-lagrangian, energy, "
+            "error, "
             "floquet, "
             "local-error, lyapunov, "
             "megno, mesh, modified-energy, momentum, monitor, multiplier, parameter-map, phase, "

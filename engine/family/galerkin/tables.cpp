@@ -1,0 +1,122 @@
+#include "engine/family/galerkin/tables.hpp"
+
+#include <boost/multiprecision/float128.hpp>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/family/rule_choices.hpp"
+#include "engine/quadrature/catalog.hpp"
+#include "engine/space/typed.hpp"
+
+namespace extremal::galerkin {
+namespace {
+
+using Quad = boost::multiprecision::float128;
+
+constexpr int mostNodes = 96;
+constexpr double exactTo = 4e-14;
+
+template <class T>
+std::vector<T> panelEnds(const std::vector<double>& cells, int partsOfCell) {
+    std::vector<T> ends{T(0)};
+    for (std::size_t j = 1; j < cells.size(); ++j)
+        for (int k = 1; k <= partsOfCell; ++k)
+            ends.push_back(k == partsOfCell
+                               ? T(cells[j])
+                               : T(cells[j - 1]) + (T(cells[j]) - T(cells[j - 1])) * T(k) / T(partsOfCell));
+    return ends;
+}
+
+/// Largest error of a rule for phi_a' phi_b', which are orthonormal but for the last, and for (phi_a phi_b)'.
+double defectOf(const Space<double>& space, const Rule<double>& rule) {
+    const auto n = static_cast<std::size_t>(space.size);
+    std::vector<__float128> value(n), slope(n);
+    std::vector<Quad> energy(n * n, Quad(0)), end(n * n, Quad(0));
+    for (std::size_t i = 0; i < rule.c.size(); ++i) {
+        space.evaluateQuadruple(rule.c[i], value, slope);
+        for (std::size_t a = 1; a < n; ++a)
+            for (std::size_t b = 1; b <= a; ++b) {
+                energy[a * n + b] += Quad(rule.b[i]) * Quad(slope[a]) * Quad(slope[b]);
+                end[a * n + b] +=
+                    Quad(rule.b[i]) * (Quad(slope[a]) * Quad(value[b]) + Quad(value[a]) * Quad(slope[b]));
+            }
+    }
+    Quad worst(0);
+    for (std::size_t a = 1; a < n; ++a)
+        for (std::size_t b = 1; b <= a; ++b) {
+            const bool isLast = a + 1 == n && b + 1 == n;
+            if (!isLast) worst = std::max(worst, Quad(abs(energy[a * n + b] - (a == b ? 1 : 0))));
+            worst = std::max(worst, Quad(abs(end[a * n + b] - (isLast ? 1 : 0))));
+        }
+    return static_cast<double>(worst);
+}
+
+Rule<double> automaticRule(const Space<double>& space) {
+    const std::vector<double> cells = space.cells.empty() ? std::vector<double>{0, 1} : space.cells;
+    const auto rule = [&](int nodes) { return composite(gauss<double>(nodes), panelEnds<double>(cells, 1)); };
+    const int fewest = std::max(1, (space.size - 1) / (static_cast<int>(cells.size()) - 1));
+    for (int nodes = std::max(1, fewest / 2); nodes <= mostNodes; ++nodes)
+        if (defectOf(space, rule(nodes)) <= exactTo) {
+            Rule<double> found = rule(nodes);
+            if (cells.size() == 2) found = gauss<double>(nodes);
+            return found;
+        }
+    throw InvalidScene("/quadrature",
+                       "no Gauss rule with at most " + std::to_string(mostNodes) +
+                           " nodes per cell integrates the products of the functions to round-off",
+                       "a smaller step, knots, or a rule of your choice");
+}
+
+}  // namespace
+
+int cellsIn(const Settings& space) {
+    if (const Value* knots = space.find("knots"); knots && knots->isArray())
+        return static_cast<int>(knots->asArray().size()) + 1;
+    return std::max(1, space.integer("cells"));
+}
+
+Settings completedRule(const Settings& space, const Settings& quadrature) {
+    if (const Value* otherwise = space.find("otherwise")) {
+        // Panels follow from the coordinates that a term sees.
+        int degree = 1;
+        const auto raise = [&](const Value& own) {
+            if (const Value* given = own.find("degree"); given && given->isNumber())
+                degree = std::max(degree, static_cast<int>(given->asNumber()));
+        };
+        raise(*otherwise);
+        if (const Value* variables = space.find("variables"); variables && variables->isObject())
+            for (const auto& [name, own] : variables->asObject()) raise(own);
+        Settings complete = completePlainRule(quadrature, degree, 1);
+        if (!quadrature.find("panels"))
+            for (auto& [key, value] : complete.keys)
+                if (key == "panels") value = Value();
+        return complete;
+    }
+    const Value* const functions = space.find("functions");
+    if (!functions) return completePlainRule(quadrature, space.integer("degree"), cellsIn(space));
+    if (quadrature.type.empty() || quadrature.type == "auto") return {"auto", {}, {}};
+    const int dimension = functions->isArray() ? static_cast<int>(functions->asArray().size()) : 2;
+    return completePlainRule(quadrature, std::max(1, dimension - 1), cellsIn(space));
+}
+
+Rule<double> ruleOn(const Space<double>& space, const Settings& quadrature) {
+    if (quadrature.type == "auto") return automaticRule(space);
+    const int panels = std::max(1, quadrature.integer("panels"));
+    const int cells = static_cast<int>(space.cells.size()) - 1;
+    if (cells < 2 || panels % cells != 0) return makeRule<double>(quadrature);
+    Settings onePanel = quadrature;
+    for (auto& [key, value] : onePanel.keys)
+        if (key == "panels") value = 1.0;
+    return composite(makeRule<double>(onePanel), panelEnds<double>(space.cells, panels / cells));
+}
+
+Table<double> makeTable(const Settings& settings, const Settings& quadrature) {
+    const Space<double> space = makeSpace(settings);
+    Table<double> table = extremal::makeTable(space, ruleOn(space, quadrature));
+    table.dependsOnStep = dependsOnStep(settings);
+    return table;
+}
+
+}  // namespace extremal::galerkin

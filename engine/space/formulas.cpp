@@ -1,0 +1,226 @@
+#include "engine/space/formulas.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/stumpff.hpp"
+#include "engine/space/long_numbers.hpp"
+
+namespace extremal {
+namespace {
+
+/// In the order of EvaluatedFormulas::call.
+const char* const calls[] = {"sin",  "cos", "tan", "asin", "acos", "atan", "sinh",  "cosh",
+                             "tanh", "exp", "log", "sqrt", "abs",  "sign", "atan2", "stumpff"};
+
+int numberOf(const std::string& name) {
+    return static_cast<int>(std::find(std::begin(calls), std::end(calls), name) - std::begin(calls));
+}
+
+bool uses(const Expression& expression, std::string_view name) {
+    const auto names = expression.names();
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class T>
+T numberFrom(const Expression::Node& node) {
+    using std::atan;
+    if (node.name == "pi") return 4 * atan(T(1));
+    return node.name.empty() ? T(node.number) : T(node.name.c_str());
+}
+
+}  // namespace
+
+bool Formulas::dependOnStep() const {
+    std::vector<std::string> dependent{"h"};
+    const auto depends = [&](const Expression& e) {
+        return std::any_of(dependent.begin(), dependent.end(),
+                           [&](const std::string& name) { return uses(e, name); });
+    };
+    for (const auto& [name, expression] : names)
+        if (depends(expression)) dependent.push_back(name);
+    return std::any_of(functions.begin(), functions.end(), depends);
+}
+
+template <class T>
+EvaluatedFormulas<T>::EvaluatedFormulas(const Formulas& formulas) {
+    std::vector<std::pair<std::string, int>> known;
+    for (const auto& [name, expression] : formulas.names)
+        known.emplace_back(name, append(expression, known, formulas.step));
+    for (const Expression& function : formulas.functions)
+        results_.push_back(append(function, known, formulas.step));
+}
+
+template <class T>
+int EvaluatedFormulas<T>::append(const Expression& expression,
+                                 const std::vector<std::pair<std::string, int>>& known,
+                                 const std::optional<double>& step) {
+    std::vector<int> place;
+    const auto operand = [&](int node) { return node < 0 ? -1 : place[static_cast<std::size_t>(node)]; };
+    for (const Expression::Node& node : expression.nodes) {
+        Instruction made{node.kind, operand(node.left), operand(node.right), 0, T(0)};
+        if (node.kind == Operator::number) made.number = numberFrom<T>(node);
+        if (node.kind == Operator::call) made.function = numberOf(node.name);
+        if (node.kind == Operator::name && node.name != "tau") {
+            const auto found = std::find_if(known.begin(), known.end(),
+                                            [&](const auto& entry) { return entry.first == node.name; });
+            if (found != known.end()) {
+                place.push_back(found->second);
+                continue;
+            }
+            if (node.name != "h" || !step)
+                throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position);
+            made.kind = Operator::number;
+            made.number = T(*step);
+        }
+        code_.push_back(std::move(made));
+        place.push_back(static_cast<int>(code_.size()) - 1);
+    }
+    return place.back();
+}
+
+template <class T>
+typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::power(const Dual& a, const Dual& b) {
+    using std::log;
+    using std::pow;
+    const auto exponent = static_cast<double>(b.value);
+    if (b.slope == 0 && exponent == std::floor(exponent) && std::fabs(exponent) <= 1000) {
+        const int n = static_cast<int>(exponent);
+        if (n == 0) return {T(1), T(0)};
+        T lower(1), base = n > 0 ? a.value : T(1 / a.value);  // base^(|n| - 1)
+        T factor = base;
+        for (int k = std::abs(n) - 1; k > 0; k /= 2, factor *= factor)
+            if (k % 2 == 1) lower *= factor;
+        const T value = lower * base;
+        return {value, n > 0 ? T(T(n) * lower * a.slope) : T(T(n) * value * base * a.slope)};
+    }
+    const T value = pow(a.value, b.value);
+    T slope = b.value * pow(a.value, T(b.value - 1)) * a.slope;
+    if (b.slope != 0) slope += value * log(a.value) * b.slope;
+    return {value, slope};
+}
+
+template <class T>
+typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::call(int function, const Dual& a, const Dual& b) {
+    using std::abs;
+    using std::acos;
+    using std::asin;
+    using std::atan;
+    using std::atan2;
+    using std::cos;
+    using std::cosh;
+    using std::exp;
+    using std::log;
+    using std::sin;
+    using std::sinh;
+    using std::sqrt;
+    using std::tan;
+    using std::tanh;
+    const T& x = a.value;
+    const T sign = T((x > 0) - (x < 0));
+    switch (function) {
+        case 0:
+            return {sin(x), T(cos(x) * a.slope)};
+        case 1:
+            return {cos(x), T(-sin(x) * a.slope)};
+        case 2: {
+            const T y = tan(x);
+            return {y, T((1 + y * y) * a.slope)};
+        }
+        case 3:
+            return {asin(x), T(a.slope / sqrt(T(1 - x * x)))};
+        case 4:
+            return {acos(x), T(-a.slope / sqrt(T(1 - x * x)))};
+        case 5:
+            return {atan(x), T(a.slope / (1 + x * x))};
+        case 6:
+            return {sinh(x), T(cosh(x) * a.slope)};
+        case 7:
+            return {cosh(x), T(sinh(x) * a.slope)};
+        case 8: {
+            const T y = tanh(x);
+            return {y, T((1 - y * y) * a.slope)};
+        }
+        case 9: {
+            const T y = exp(x);
+            return {y, T(y * a.slope)};
+        }
+        case 10:
+            return {log(x), T(a.slope / x)};
+        case 11: {
+            const T y = sqrt(x);
+            return {y, a.slope == 0 ? T(0) : T(a.slope / (2 * y))};
+        }
+        case 12:
+            return {abs(x), T(sign * a.slope)};
+        case 13:
+            return {sign, T(0)};
+        case 14:
+            return {atan2(x, b.value), T((b.value * a.slope - x * b.slope) / (x * x + b.value * b.value))};
+        default: {
+            // c_k(x) of b at the order a, which is a number.
+            const T slope = (x * stumpff(T(x + 2), b.value) - stumpff(T(x + 1), b.value)) / 2;
+            return {stumpff(x, b.value), T(slope * b.slope)};
+        }
+    }
+}
+
+template <class T>
+void EvaluatedFormulas<T>::operator()(const T& tau, std::span<T> value, std::span<T> derivative) const {
+    std::vector<Dual> at;
+    at.reserve(code_.size());
+    const Dual none;
+    const auto operand = [&](int place) -> const Dual& {
+        return place < 0 ? none : at[static_cast<std::size_t>(place)];
+    };
+    for (const Instruction& code : code_) {
+        const Dual &a = operand(code.left), &b = operand(code.right);
+        switch (code.kind) {
+            case Operator::number:
+                at.push_back({code.number, T(0)});
+                break;
+            case Operator::name:
+                at.push_back({tau, T(1)});
+                break;
+            case Operator::negate:
+                at.push_back({T(-a.value), T(-a.slope)});
+                break;
+            case Operator::add:
+                at.push_back({T(a.value + b.value), T(a.slope + b.slope)});
+                break;
+            case Operator::subtract:
+                at.push_back({T(a.value - b.value), T(a.slope - b.slope)});
+                break;
+            case Operator::multiply:
+                at.push_back({T(a.value * b.value), T(a.slope * b.value + a.value * b.slope)});
+                break;
+            case Operator::divide: {
+                const T quotient = a.value / b.value;
+                at.push_back({quotient, T((a.slope - quotient * b.slope) / b.value)});
+                break;
+            }
+            case Operator::power:
+                at.push_back(power(a, b));
+                break;
+            case Operator::call:
+                at.push_back(call(code.function, a, b));
+                break;
+        }
+    }
+    for (std::size_t a = 0; a < results_.size(); ++a) {
+        value[a] = operand(results_[a]).value;
+        derivative[a] = operand(results_[a]).slope;
+    }
+}
+
+template class EvaluatedFormulas<Quad>;
+template class EvaluatedFormulas<Hundred>;
+
+__float128 exactValue(const Expression& expression) {
+    const EvaluatedFormulas<Quad> evaluated({{expression}, {}, {}});
+    Quad value, slope;
+    evaluated(Quad(0), {&value, 1}, {&slope, 1});
+    return value.backend().value();
+}
+
+}  // namespace extremal

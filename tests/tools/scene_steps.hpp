@@ -1,0 +1,53 @@
+/// Steps of the first scheme of a scene, and problems that are what they should be: what tests of spaces and
+/// rules share.
+#pragma once
+
+#include <QString>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/scene/codec.hpp"
+
+namespace extremal::tests {
+
+inline std::unique_ptr<Integrator> integratorOf(const ReadScene& scene) {
+    if (!scene.errors.empty())
+        qFatal("%s: %s", scene.errors[0].pointer.c_str(), scene.errors[0].message.c_str());
+    const ResolvedScene& r = *scene.resolved;
+    return r.schemes[0].make(*r.system, r.schemes[0].spec.step.value, r.initial);
+}
+
+/// The state after `steps` steps; empty where one fails.
+inline std::vector<double> after(const ReadScene& scene, int steps) {
+    const auto integrator = integratorOf(scene);
+    const double h = scene.resolved->schemes[0].spec.step.value;
+    State state = scene.resolved->initial;
+    integrator->begin(state);
+    for (int k = 1; k <= steps; ++k)
+        if (integrator->advance(state, k * h).outcome != Outcome::converged) return {};
+    return state.x;
+}
+
+/// The largest difference; huge where one of them is empty.
+inline double apart(const std::vector<double>& a, const std::vector<double>& b) {
+    double largest = a.size() == b.size() && !a.empty() ? 0 : 1e300;
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+        largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
+}
+
+/// What a problem is, where it is not at this place with this in its message and its hint; else empty.
+inline QString unlike(const Problem& found, const QString& place, const QString& message,
+                      const QString& hint) {
+    const bool isIt = QString::fromStdString(found.pointer) == place &&
+                      QString::fromStdString(found.message).contains(message) &&
+                      QString::fromStdString(found.hint).contains(hint);
+    return isIt ? QString()
+                : QString::fromStdString(found.pointer + ": " + found.message + " (" + found.hint + ")");
+}
+
+}  // namespace extremal::tests
