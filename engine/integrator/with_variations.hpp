@@ -32,7 +32,8 @@ struct VariationPlan {
     bool map = false;     ///< those of M and P
     bool vector = false;  ///< lyapunov and megno
     bool errors = false;  ///< those of integrator/with_local_errors.hpp
-    bool isEmpty() const { return !map && !vector && !errors; }
+    bool frame = false;   ///< all exponents: integrator/with_exponents.hpp
+    bool isEmpty() const { return !map && !vector && !errors && !frame; }
 };
 
 /// The same integrator where nothing is wanted, or it has no tangent map.

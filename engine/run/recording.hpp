@@ -13,6 +13,7 @@
 #include "engine/core/text.hpp"
 #include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
+#include "engine/integrator/with_exponents.hpp"
 #include "engine/run/advice.hpp"
 #include "engine/run/delayed_rows.hpp"
 #include "engine/run/event_watch.hpp"
@@ -96,9 +97,14 @@ struct Recording {
         result.summary.orderClaimed = scheme.claims.order;
         result.trajectory.columns = leadingColumns(system);
         stateWidth = result.trajectory.columns.size() - 1;
-        integrator = withVariations(scheme.make(system, step, initial), system, variationsFor(observe));
-        if (variationsFor(observe).errors &&
-            localErrorProblem(scheme, system, *scheme.make(system, step, initial)).empty())
+        const VariationPlan variations = variationsFor(observe);
+        integrator = scheme.make(system, step, initial);
+        const bool hasLocalErrors =
+            variations.errors && localErrorProblem(scheme, system, *integrator).empty();
+        integrator = withVariations(std::move(integrator), system, variations);
+        if (variations.frame && integrator->tangentSize() > 0)
+            integrator = withExponents(std::move(integrator));
+        if (hasLocalErrors)
             integrator = measuringLocalErrors(std::move(integrator), scheme, system, step, initial);
         integrator->setStop(stop);
         result.summary.about = integrator->about();

@@ -16,6 +16,7 @@ inline VariationPlan variationsFor(const std::vector<std::string>& observe) {
         if (const ObservableEntry* entry = findObservable(id)) {
             plan.map = plan.map || entry->variations.map;
             plan.vector = plan.vector || entry->variations.vector;
+            plan.frame = plan.frame || entry->variations.frame;
             plan.errors = plan.errors || entry->variations.errors;
         }
     return plan;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
+#include "engine/integrator/with_exponents.hpp"
 #include "engine/integrator/with_variations.hpp"
 #include "tests/laws/laws.hpp"
 #include "tests/tools/tangent.hpp"
@@ -162,6 +164,74 @@ private slots:
         QVERIFY(regular.at("lyapunov") < 1.5e-3);
         QVERIFY(chaotic.at("lyapunov") > 0.03 && chaotic.at("lyapunov") < 0.065);
         QVERIFY(chaotic.at("megno") > 50);
+    }
+    /// RK4 with h = 0.25 loses the energy that makes the motion chaotic: its exponent is a tenth of the
+    /// others.
+    void rungeKuttaCoolsChaos() {
+        const Along chaotic = along("rk4", hh_, 0.25, henonHeiles(-0.25), 200'000, {false, true});
+        qInfo("RK4: %.4f, Y %.1f", chaotic.at("lyapunov"), chaotic.at("megno"));
+        QVERIFY(chaotic.at("lyapunov") < 0.01);
+        const Along same = along("galerkin-gauss-2", hh_, 0.25, henonHeiles(-0.25), 200'000, {false, true});
+        qInfo("Gauss 2: %.4f", same.at("lyapunov"));
+        QVERIFY(same.at("lyapunov") > 0.03);
+    }
+    /// From (2, 2.5) at rest, g = 9.81: 1.41 to 1.48 per second.
+    void theDoublePendulumHasItsExponent_data() {
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<double>("h");
+        QTest::newRow("Gauss 2") << "galerkin-gauss-2" << 0.01;
+        QTest::newRow("Gauss 4") << "galerkin-gauss-4" << 0.02;
+        QTest::newRow("RK4") << "rk4" << 0.01;
+    }
+    void theDoublePendulumHasItsExponent() {
+        QFETCH(QString, scheme);
+        QFETCH(double, h);
+        const Along a = along(scheme.toStdString(), systemNamed("double-pendulum"), h, {0, 0, {2, 2.5, 0, 0}},
+                              std::llround(2000 / h), {false, true});
+        qInfo("%.3f", a.at("lyapunov"));
+        QVERIFY(a.at("lyapunov") > 1.41 && a.at("lyapunov") < 1.48);
+    }
+    /// All exponents: their sum is 0 where volume is kept, the first is that of one vector, pairs cancel.
+    void exponentsAddUpToNothing_data() {
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<double>("sum");
+        QTest::newRow("Gauss 2") << "galerkin-gauss-2" << 0.0;
+        QTest::newRow("Gauss 4") << "galerkin-gauss-4" << 0.0;
+        QTest::newRow("Verlet") << "stormer-verlet" << 0.0;
+        QTest::newRow("RK4") << "rk4" << -8e-5;
+    }
+    void exponentsAddUpToNothing() {
+        QFETCH(QString, scheme);
+        QFETCH(double, sum);
+        const double h = 0.25, T = 1e4;
+        const auto integrator = withExponents(schemeOf(scheme.toStdString(), hh_, h));
+        std::vector<double> all(integrator->quantities().size());
+        QVERIFY(all.size() >= 5);
+        State state = henonHeiles(-0.25);
+        integrator->begin(state);
+        for (long long k = 0; k < std::llround(T / h); ++k)
+            QVERIFY(advance(*integrator, state).outcome == Outcome::converged);
+        integrator->measure(state, all.data());
+        const auto values = std::span(all).last(5);  // behind those of the scheme
+        qInfo("%.4f %.2e %.2e %.4f, sum %.2e", values[0], values[1], values[2], values[3], values[4]);
+        const double one =
+            along(scheme.toStdString(), hh_, h, henonHeiles(-0.25), std::llround(T / h), {false, true})
+                .at("lyapunov");
+        QVERIFY(std::abs(values[0] - one) < 2e-3);  // both vectors turn into the same direction
+        if (sum == 0) {
+            QVERIFY(std::abs(values[4]) < 1e-15);
+            QVERIFY(std::abs(values[0] + values[3]) < 2e-3);
+            QVERIFY(std::abs(values[1] + values[2]) < 2e-3);
+        } else {
+            QVERIFY(values[4] < -1e-6);
+        }
+    }
+    /// The straight orbit x = 0 at E = 1/12.
+    void theTraceAtALowerEnergyIsKnownAsWell() {
+        const Along a = along("galerkin-gauss-4", hh_, 6.901643615339 / 64,
+                              {0, 0, {0, 0, 0, std::sqrt(1 / 6.0)}}, 64, {true, false});
+        qInfo("%.2e", a.at("floquet_trace.x") - 1.322086765878);
+        QVERIFY(std::abs(a.at("floquet_trace.x") - 1.322086765878) < 1e-9);
     }
     /// The straight orbit x = 0 at E = 1/8, of the known period; the trace over one period has the order of
     /// the scheme.

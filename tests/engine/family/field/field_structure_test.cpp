@@ -3,6 +3,7 @@
 #include <QTest>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 
 #include "engine/family/field/patch_form.hpp"
@@ -113,6 +114,40 @@ private slots:
                 QVERIFY2(worst < 1e-13, qPrintable(QString::number(worst)));
             }
         }
+    }
+    void theFormVanishesOnBoxesOfEverySizeAndASpoiledValueIsSeen() {
+        // Boxes of 2 to 20 elements and as many slabs, of a smooth motion.
+        const System system = makeField({"sine-gordon", 0, 3, 40, "periodic", 1, 1});
+        const auto problem = std::get<ScalarField>(system.kind).problem;
+        const double h = 0.05;
+        const int n = problem->size();
+        State state;
+        for (int i = 0; i < n; ++i) state.x.push_back(2 * std::sin(2 * std::numbers::pi * i / n));
+        for (int i = 0; i < n; ++i) state.x.push_back(std::cos(2 * std::numbers::pi * i / n));
+        double worst = 0, leastSpoiled = 1;
+        for (const int size : {2, 3, 5, 8, 13, 20}) {
+            for (const bool isSpoiled : {false, true}) {
+                PatchForm patch(problem, 1, ruleOf(trapezoid()), ruleOf(gauss2()), h, 5, 5 + size, 7);
+                const auto integrator = makeIntegrator(system, tents(trapezoid(), gauss2()), {0, h});
+                State at = state;
+                for (int k = 0; k < size; ++k) {
+                    const std::vector<double> before = at.x;
+                    QVERIFY(go(*integrator, at, 1));
+                    patch.advance(before.data(), at.x.data());
+                    // A value of one solution that does not follow from the equations, inside the box.
+                    if (isSpoiled && k == size / 2 - 1)
+                        const_cast<double&>(patch.first().u[static_cast<std::size_t>(5 + size / 2)]) += 1e-3;
+                }
+                const double form = std::abs(patch.boundary().relative());
+                if (isSpoiled)
+                    leastSpoiled = std::min(leastSpoiled, form);
+                else
+                    worst = std::max(worst, form);
+            }
+        }
+        qInfo("boxes %.1e, spoiled %.1e", worst, leastSpoiled);
+        QVERIFY(worst < 3e-16);        // measured: 7.8e-17
+        QVERIFY(leastSpoiled > 1e-6);  // measured: 4.1e-6
     }
     void theTangentsOfAPatchAreThoseOfTheScheme() {
         // What the form is evaluated on are derivatives of the steps themselves: here by differences.

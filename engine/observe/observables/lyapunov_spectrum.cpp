@@ -1,0 +1,33 @@
+/// All Lyapunov exponents of the discrete motion so far, by an orthonormal frame of variations.
+#include <string>
+
+#include "engine/integrator/with_exponents.hpp"
+#include "engine/observe/quantity_observable.hpp"
+
+namespace extremal::observables {
+
+ObservableEntry lyapunov_spectrum() {
+    ObservableEntry e;
+    e.item = {
+        "lyapunov-spectrum",
+        "Lyapunov exponents",
+        "All Lyapunov exponents up to each row, by an orthonormal frame that the tangent maps of the steps "
+        "carry along, and their sum, which is 0 where volume is kept.",
+        {},
+        {},
+        "at most 32 coordinates"};
+    e.variations = {.frame = true};
+    e.applies = [](const System& system) {
+        return isMechanical(system) && 2 * system.coordinates.size() <= mostExponents;
+    };
+    e.bind = [](const ObserveContext& context) {
+        std::vector<Column> columns;
+        for (std::size_t i = 1; i <= 2 * context.system.coordinates.size(); ++i)
+            columns.push_back({"lyapunov." + std::to_string(i), "λ_" + std::to_string(i), "", {}, {}});
+        columns.push_back({"lyapunov_sum", "Σλ", "", {}, {}});
+        return observeQuantities(context, columns);
+    };
+    return e;
+}
+
+}  // namespace extremal::observables
