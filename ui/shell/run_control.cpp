@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 #include "engine/run/reuse.hpp"
 #include "engine/scene/bind.hpp"
@@ -52,7 +53,7 @@ double mapStepsOf(const Scene& scene) {
     return steps;
 }
 
-/// Steps from the starts of views, each with its own scheme.
+/// Steps from the starts of views, each with its own scheme, on one of the cores that share them.
 double startStepsOf(const Scene& scene, const SchemeSpec& spec) {
     double motions = 0;
     for (const View& view : scene.views) {
@@ -62,7 +63,7 @@ double startStepsOf(const Scene& scene, const SchemeSpec& spec) {
         if (first != scene.schemes.end() && first->label == spec.label)
             motions += static_cast<double>(view.starts.points.size()) + view.starts.spread;
     }
-    return motions * stepsOf(scene, spec);
+    return motions * stepsOf(scene, spec) / std::max(1u, std::thread::hardware_concurrency());
 }
 
 /// The size that determines the cost of a step: the nodes of a wave function, relative to 64 modes.
