@@ -39,8 +39,8 @@ std::vector<std::pair<std::string, Table<double>>> everyTable(const System& syst
                 for (const FieldInfo& f : space.item.parameters)
                     discretization.space.keys.emplace_back(
                         f.key, f.key == "degree" ? Value(double(degree)) : f.firstValue());
-                if (!hasTable(discretization) || !isFor(discretization, system)) continue;
                 discretization.quadrature = completeQuadrature(discretization.space, {rule.id, {}, {}});
+                if (!hasTable(discretization) || !isFor(discretization, system)) continue;
                 if (!describe(discretization.space, discretization.quadrature).refusal.empty()) continue;
                 all.emplace_back(space.item.id + " " + std::to_string(degree) + ", " + rule.id,
                                  tableOf(discretization.space, discretization.quadrature));
