@@ -2,10 +2,11 @@
 /// instructions, with the same bits on every machine; five times as fast as one number after the other.
 ///
 /// The argument is reduced to x - n pi/2 = y + dy, |y| <= pi/4, with pi/2 in three parts, the first two of 33
-/// bits, so that their products with n are exact; then Remez polynomials for sin(y + dy) and cos(y + dy):
-/// methods and coefficients of fdlibm (Sun Microsystems 1993: e_rem_pio2.c, k_sin.c, k_cos.c). The error is
-/// below one unit of the last place. Lanes of which one is beyond 1e5, or not a number, take the functions of
-/// the standard library.
+/// bits, so that their products with n are exact (Cody and Waite 1980). On this interval sin y = y + y^3
+/// S(y^2) and cos y = 1 - y^2/2 + y^4 C(y^2), with polynomials S and C of degree 5, the best for the error
+/// relative to sin and cos (computed by Remez exchange, then rounded to doubles). The error is below one unit
+/// of the last place. Lanes of which one is beyond 1e5, or not a number, take the functions of the standard
+/// library.
 #pragma once
 
 #include <bit>
@@ -36,23 +37,29 @@ inline ReducedAngle reduceAngle(double x) {
     return {y, (near - y) - rest, std::bit_cast<std::uint64_t>(shifted)};
 }
 
+/// sin(y + dy), |y| <= pi/4: y + y^3 S(y^2) and the first-order term of dy.
 inline double sinNearZero(double y, double dy) {
-    const double z = y * y, v = z * y,
-                 r = 8.33333333332248946124e-03 +
-                     z * (-1.98412698298579493134e-04 +
-                          z * (2.75573137070700676789e-06 +
-                               z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)));
-    return y - ((z * (0.5 * dy - v * r) - dy) - v * -1.66666666666666324348e-01);
+    const double z = y * y;
+    const double S = ((((0x1.5d8b558a01adap-33 * z - 0x1.ae5e4b83c6e96p-26) * z + 0x1.71de35552b37fp-19) * z -
+                       0x1.a01a019be9216p-13) *
+                          z +
+                      0x1.111111110f730p-7) *
+                         z -
+                     0x1.5555555555548p-3;
+    return y + (y * (z * S) + dy * (1 - 0.5 * z));
 }
 
+/// cos(y + dy), |y| <= pi/4: 1 - y^2/2 with what its rounding lost, then y^4 C(y^2) and the first-order term.
 inline double cosNearZero(double y, double dy) {
-    const double z = y * y, half = 0.5 * z, w = 1 - half,
-                 r = z * (4.16666666666666019037e-02 +
-                          z * (-1.38888888888741095749e-03 + z * 2.48015872894767294178e-05)) +
-                     z * z * (z * z) *
-                         (-2.75573143513906633035e-07 +
-                          z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11));
-    return w + (((1 - w) - half) + (z * r - y * dy));
+    const double z = y * y, half = 0.5 * z, most = 1 - half, lost = (1 - most) - half;
+    const double C =
+        ((((-0x1.8fa65e900797bp-37 * z + 0x1.1ee9db8e2ddc5p-29) * z - 0x1.27e4f7f1410d2p-22) * z +
+          0x1.a01a019c8ed07p-16) *
+             z -
+         0x1.6c16c16c15013p-10) *
+            z +
+        0x1.555555555554bp-5;
+    return most + (lost + (z * z * C - y * dy));
 }
 
 /// sin(x + turns pi/2), x within the range.

@@ -54,7 +54,7 @@ private slots:
                 worst = std::max(
                     {worst, units(v.s[i], sin(Quadruple(at[i]))), units(v.c[i], cos(Quadruple(at[i])))});
         }
-        QVERIFY2(worst < 0.9, qPrintable(QString::number(worst)));  // 0.76
+        QVERIFY2(worst < 0.9, qPrintable(QString::number(worst)));  // 0.72
     }
     void quadrantsHaveTheirSigns() {
         std::vector<double> at(64);
