@@ -5,7 +5,6 @@
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typeset.hpp"
 #include "engine/scene/json.hpp"
-#include "engine/scene/resolve.hpp"
 #include "engine/symmetry/symmetry.hpp"
 
 namespace extremal::app {
@@ -32,7 +31,8 @@ Value symmetriesValue(const ResolvedScene& resolved) {
         each.set("dependent", s.isDependent);
         Value::Array kept;
         for (const ResolvedScheme& scheme : resolved.schemes)
-            if (scheme.family && keeps(scheme.discretization, s, *resolved.system)) kept.emplace_back(scheme.spec.label);
+            if (scheme.family && keeps(scheme.discretization, s, *resolved.system))
+                kept.emplace_back(scheme.spec.label);
         each.set("kept_by", std::move(kept));
         all.push_back(std::move(each));
     }
@@ -52,14 +52,14 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
         document.set("warnings", problemsValue(read.warnings));
         if (isValid) {
             document.set("equations", equationsValue(read.scene));
-            document.set("symmetries", symmetriesValue(resolve(read.scene)));
+            document.set("symmetries", symmetriesValue(*read.resolved));
         }
         return print(writeJson(document), code);
     }
     if (!isValid || options.isQuiet) return code;
     std::string text = sceneName(scene) + ": valid\n";
-    if (const ResolvedScene resolved = resolve(read.scene); isMechanical(*resolved.system))
-        text += "symmetries: " + symmetryText(*resolved.system) + "\n";
+    if (const System& system = *read.resolved->system; isMechanical(system))
+        text += "symmetries: " + symmetryText(system) + "\n";
     return print(text, code);
 }
 

@@ -132,12 +132,15 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
         const std::string pointer = childPointer("/observe", i);
         const auto name = reader.text(observe->asArray()[i], pointer);
         if (!name) continue;
-        const auto known = system ? availableObservables(*system) : idsOf(observableCatalog());
+        // Which ones there are costs a search for symmetries: looked up for a message only.
+        const auto known = [&] {
+            return system ? availableObservables(*system) : idsOf(observableCatalog());
+        };
         if (system && isLacking(*system, *name))
             reader.error(pointer, *name + " is not defined for " + scene.model.type,
-                         scene.model.type + " has " + joinNames(known));
-        else if (!contains(known, *name))
-            reader.unknownName(pointer, "observable", *name, known);
+                         scene.model.type + " has " + joinNames(known()));
+        else if (!findObservable(*name))
+            reader.unknownName(pointer, "observable", *name, known());
         else if (contains(scene.observe, *name))
             reader.error(pointer, "\"" + *name + "\" is listed twice", "keep one of them");
         else

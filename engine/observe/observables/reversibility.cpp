@@ -1,4 +1,4 @@
-/// How far from its rows a run comes by on the way back from its end, with the opposite step: nothing but
+/// How far a run back from the end, with the opposite step, passes from the rows of the run: nothing but
 /// round-off where the scheme is symmetric. The run fills the column when it is done.
 #include <cmath>
 

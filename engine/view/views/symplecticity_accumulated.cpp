@@ -10,7 +10,7 @@ ViewEntry symplecticity_accumulated() {
                          "largest entry of PᵀJP − J against time or steps, logarithmic, over the square of "
                          "that of P, the product of the tangent maps of all steps",
                          {againstField()}),
-        .recipe = ErrorAgainstTime{"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", 1},
+        .recipe = ErrorAgainstTime{"symplecticity_accumulated", "|PᵀJP − J|/|P|²", 1},
         .scales = logAgainstTime,
         .observable = "symplecticity"};
 }
