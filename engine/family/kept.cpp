@@ -41,8 +41,7 @@ bool keeps(const Discretization& discretization, const Symmetry& symmetry, const
     if (rule.panels > 1) return false;
     const int s = space.integer("degree");
     return std::all_of(symmetry.F.begin(), symmetry.F.end(), [&](const GaugeTerm& term) {
-        const int k = (term.i >= 0) + (term.j >= 0) + (term.k >= 0);
-        return rule.degree >= k * s + term.power - 1;
+        return rule.degree >= term.degree() * s + term.power - 1;
     });
 }
 

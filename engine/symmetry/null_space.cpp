@@ -19,14 +19,14 @@ public:
     explicit Unknowns(int d) : d_(d) {
         for (int power = 0; power <= 1; ++power)
             for (int i = 0; i < d; ++i) {
-                terms_.push_back({i, -1, -1, power, 0});
-                for (int j = i; j < d; ++j) terms_.push_back({i, j, -1, power, 0});
+                terms_.push_back({i, -1, -1, power, 1});
+                for (int j = i; j < d; ++j) terms_.push_back({i, j, -1, power, 1});
             }
         if (d <= 3)
             for (int i = 0; i < d; ++i)
                 for (int j = i; j < d; ++j)
-                    for (int k = j; k < d; ++k) terms_.push_back({i, j, k, 0, 0});
-        for (int power = 1; power <= 3; ++power) terms_.push_back({-1, -1, -1, power, 0});
+                    for (int k = j; k < d; ++k) terms_.push_back({i, j, k, 0, 1});
+        for (int power = 1; power <= 3; ++power) terms_.push_back({-1, -1, -1, power, 1});
     }
     Index size() const { return firstTerm() + static_cast<Index>(terms_.size()); }
 
@@ -44,7 +44,8 @@ public:
         row[tau()] = s.Lt;
         row[tau() + 1] = s.Lt * s.t + s.L - vp;
         for (std::size_t n = 0; n < terms_.size(); ++n)
-            row[firstTerm() + static_cast<Index>(n)] = -rate(terms_[n], s);
+            row[firstTerm() + static_cast<Index>(n)] =
+                -terms_[n].rateAlong(s.t, s.q.data(), s.v.data()) - terms_[n].rateInTime(s.t, s.q.data());
     }
     Symmetry symmetryOf(const VectorXd& u) const {
         Symmetry s;
@@ -66,21 +67,8 @@ private:
     Index tau() const { return d_ + d_ * d_; }
     Index firstTerm() const { return tau() + 2 + d_; }
 
-    /// d/dt of q_i q_j q_k t^power.
-    static double rate(const GaugeTerm& term, const SampledState& s) {
-        const double power = term.power;
-        double product = 1, slope = 0;
-        for (const int index : {term.i, term.j, term.k}) {
-            if (index < 0) continue;
-            const auto i = static_cast<std::size_t>(index);
-            slope = slope * s.q[i] + product * s.v[i];
-            product *= s.q[i];
-        }
-        const double time = std::pow(s.t, power);
-        return slope * time + (term.power > 0 ? product * power * std::pow(s.t, power - 1) : 0);
-    }
     int d_;
-    std::vector<GaugeTerm> terms_;
+    std::vector<GaugeTerm> terms_;  ///< with coefficient 1
 };
 
 /// M <- R M C with positive diagonal R and C, so that the maximum of every row and column is near 1. Returns

@@ -15,17 +15,13 @@ namespace {
 
 constexpr int mostCoordinates = 8;  ///< of the search by linear algebra
 
-/// The product of the coordinates of a term, and its derivative along `direction` (may be null).
-struct Product {
-    double value = 1, slope = 0;
-    Product(const GaugeTerm& term, const double* q, const double* direction) {
-        for (const int i : {term.i, term.j, term.k}) {
-            if (i < 0) continue;
-            if (direction) slope = slope * q[i] + value * direction[i];
-            value *= q[i];
-        }
-    }
-};
+/// The product of the coordinates of a term.
+double productOf(const GaugeTerm& term, const double* q) {
+    double product = 1;
+    for (const int i : {term.i, term.j, term.k})
+        if (i >= 0) product *= q[i];
+    return product;
+}
 
 /// The nearest fraction with a small denominator, where it is one to the accuracy of a null vector.
 double snapped(double x) {
@@ -95,9 +91,7 @@ std::vector<double> gradientOf(const Symmetry& s, const SampledState& state, dou
     for (std::size_t j = 0; j < d; ++j) {
         for (std::size_t i = 0; i < d; ++i) g[j] += p[i] * s.A[i * d + j];
         unit[j] = 1;
-        for (const GaugeTerm& term : s.F)
-            g[j] -= term.coefficient * std::pow(state.t, term.power) *
-                    Product(term, state.q.data(), unit.data()).slope;
+        for (const GaugeTerm& term : s.F) g[j] -= term.rateAlong(state.t, state.q.data(), unit.data());
         unit[j] = 0;
         g[j] *= sizeQ;
     }
@@ -167,10 +161,22 @@ std::vector<Symmetry> search(const System& system) {
 
 }  // namespace
 
-int Symmetry::gaugeDegree() const {
-    int most = -1;
-    for (const GaugeTerm& term : F) most = std::max(most, (term.i >= 0) + (term.j >= 0) + (term.k >= 0));
-    return most;
+double GaugeTerm::value(double t, const double* q) const {
+    return coefficient * std::pow(t, power) * productOf(*this, q);
+}
+
+double GaugeTerm::rateAlong(double t, const double* q, const double* direction) const {
+    double product = 1, slope = 0;
+    for (const int index : {i, j, k}) {
+        if (index < 0) continue;
+        slope = slope * q[index] + product * direction[index];
+        product *= q[index];
+    }
+    return coefficient * std::pow(t, power) * slope;
+}
+
+double GaugeTerm::rateInTime(double t, const double* q) const {
+    return power > 0 ? coefficient * power * std::pow(t, power - 1) * productOf(*this, q) : 0;
 }
 
 void Symmetry::displacement(double t, const double* q, double* xi) const {
@@ -183,8 +189,7 @@ void Symmetry::displacement(double t, const double* q, double* xi) const {
 
 double Symmetry::gauge(double t, const double* q) const {
     double sum = 0;
-    for (const GaugeTerm& term : F)
-        sum += term.coefficient * std::pow(t, term.power) * Product(term, q, nullptr).value;
+    for (const GaugeTerm& term : F) sum += term.value(t, q);
     return sum;
 }
 
@@ -210,10 +215,8 @@ double Symmetry::violation(const Mechanical& mechanics, double t, const double* 
         add(L * tau1);
     }
     for (const GaugeTerm& term : F) {
-        const Product product(term, q, v);
-        const double power = term.power;
-        if (term.power > 0) add(-term.coefficient * product.value * power * std::pow(t, power - 1));
-        add(-term.coefficient * product.slope * std::pow(t, power));
+        if (term.power > 0) add(-term.rateInTime(t, q));
+        add(-term.rateAlong(t, q, v));
     }
     return size > 0 ? std::abs(sum) / size : 0;
 }

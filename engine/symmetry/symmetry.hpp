@@ -26,6 +26,14 @@ struct GaugeTerm {
     int i = -1, j = -1, k = -1;
     int power = 0;
     double coefficient = 0;
+
+    /// The degree in q.
+    int degree() const { return (i >= 0) + (j >= 0) + (k >= 0); }
+    double value(double t, const double* q) const;
+    /// Its derivative along `direction`, at fixed t.
+    double rateAlong(double t, const double* q, const double* direction) const;
+    /// Its partial derivative by t.
+    double rateInTime(double t, const double* q) const;
 };
 
 enum class SymmetryKind { translation, rotation, boost, linear, scaling, time };
@@ -50,8 +58,6 @@ struct Symmetry {
     double a(int i, int j) const { return A[static_cast<std::size_t>(i * dimension + j)]; }
     bool isExact() const { return defect == 0; }
     bool movesTime() const { return tau0 != 0 || tau1 != 0; }
-    /// The degree of F in q; 0: F depends on t alone or is not there, -1: F = 0.
-    int gaugeDegree() const;
     /// xi, and F, at (t, q).
     void displacement(double t, const double* q, double* xi) const;
     double gauge(double t, const double* q) const;
