@@ -14,7 +14,7 @@ namespace extremal {
 /// numbers: an array of a fixed length; names: an array of texts; constants: an object of numbers by names of
 /// the user's; formulas: an array of expressions, in the variables that `components` names and the parameters
 /// of the model, whose values are put in place; definitions: an object of such, whose names formulas beside
-/// it use.
+/// it use; terms: an expression, or an object of expressions by the names of the terms of a sum.
 enum class FieldType {
     number,
     numbers,

@@ -45,4 +45,15 @@ struct Settings {
     bool operator==(const Settings&) const = default;
 };
 
+/// The settings of an object {"type": ..., key: ...} inside other settings.
+inline Settings settingsOf(const Value& object) {
+    Settings settings;
+    for (const auto& [key, value] : object.asObject())
+        if (key == "type" && value.isString())
+            settings.type = value.asString();
+        else
+            settings.keys.emplace_back(key, value);
+    return settings;
+}
+
 }  // namespace extremal

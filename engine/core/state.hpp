@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/archive.hpp"
+
 namespace extremal {
 
 struct State {
@@ -16,6 +18,8 @@ struct State {
     long long node = 0;  ///< number of steps taken
     std::vector<double> x = {};
     std::vector<double> memory = {};  ///< empty: the scheme begins here, or it is a one-step method
+
+    void checkpoint(Archive& archive) { archive(t, node, x, memory); }
 };
 
 /// Consecutive numbers of State::memory.

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
 
 namespace extremal {
@@ -23,6 +24,7 @@ struct StepEvents {
         ++counts[static_cast<std::size_t>(event)];
         if (event != StepEvent::none && marks.size() < mostMarks) marks.push_back({t, node, event});
     }
+    void checkpoint(Archive& archive) { archive(counts, marks); }
 };
 
 }  // namespace extremal
