@@ -13,6 +13,8 @@
 
 namespace extremal {
 
+struct Tableau;
+
 struct BaselineOptions {
     double step = 0;       ///< fixed-step schemes
     State start = {};      ///< of the run; x is empty where it is not known
@@ -31,6 +33,14 @@ struct BaselineEntry {
     int orderInSpace = 0;  ///< of fields on meshes, which compositions in time do not raise; 0: there is none
     double stabilityLimit =
         0;  ///< largest step * frequency on the harmonic oscillator; infinity: none; 0: not fixed-step
+    /// The step as a Runge-Kutta method, of its formula where steps are chosen by an error control. Throws
+    /// InvalidScene (pointer relative to the scheme) where the keys make none. Empty: it is none.
+    std::function<std::shared_ptr<const Tableau>(const Settings&)> tableau;
+    /// The same limit where it depends on its keys; empty: stabilityLimit.
+    std::function<double(const Settings&)> stabilityLimitOf;
+    /// What is wrong or doubtful in its keys, pointers relative to the scheme; null: nothing beyond their
+    /// ranges.
+    void (*examine)(const Settings&, Findings&) = nullptr;
     /// What stands against a step beyond the stability limit of the harmonic oscillator; null: nothing.
     void (*check)(const SchemeCase&, Findings&) = nullptr;
     /// Throws InvalidScene (pointer relative to the scheme) where it cannot.

@@ -8,6 +8,8 @@
 namespace extremal {
 namespace {
 
+bool movesMomentum(HalfMap map) { return map == HalfMap::kickImplicit || map == HalfMap::kickExplicit; }
+
 template <int D>
 class Partitioned final : public FlowMethod<D> {
     using Base = FlowMethod<D>;
@@ -24,6 +26,10 @@ public:
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Partitioned>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(force_, forceAt_);
+        return true;
+    }
 
     /// Separable systems: the same maps on local copies, without a call per step.
     StepReport advanceBlock(State& state, NodeBlock& nodes, std::size_t count, const Clock& clock) override {
@@ -41,7 +47,7 @@ public:
             report.cost.evaluations = 0;
             for (const PartitionedStage& stage : stages_) {
                 const double s = stage.fraction * this->h();
-                if (stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit) {
+                if (movesMomentum(stage.map)) {
                     if (!isForceFresh) {
                         this->mechanics_.force(this->mechanics_.model.get(), state.t, q.data(),
                                                force_.data());
@@ -78,7 +84,7 @@ public:
         values[0] = 0;
         for (const PartitionedStage& stage : stages_) {
             const double s = stage.fraction * this->h();
-            if (stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit) {
+            if (movesMomentum(stage.map)) {
                 m.force(m.model.get(), this->startTime_, q.data(), force.data());
                 p += s * force;
                 values[0] -= s * m.energy(m.model.get(), this->startTime_, q.data(), zero.data());
@@ -101,7 +107,7 @@ private:
                tp = t;  // kicks and drifts each move their own clock: q and p are known at different times
         for (const PartitionedStage& stage : stages_) {
             const double s = stage.fraction * this->h();
-            const bool isKick = stage.map == HalfMap::kickImplicit || stage.map == HalfMap::kickExplicit;
+            const bool isKick = movesMomentum(stage.map);
             const bool isImplicit = !this->mechanics_.isSeparable && (stage.map == HalfMap::kickImplicit ||
                                                                       stage.map == HalfMap::driftImplicit);
             const double at = isKick ? tq : tp;
@@ -212,6 +218,12 @@ BaselineEntry partitionedBaseline(CatalogItem item, std::vector<PartitionedStage
     BaselineEntry e;
     e.item = std::move(item);
     e.stabilityLimit = 2;
+    // Of separable systems, and exact: fractions are 1 and 1/2.
+    e.tableau = [stages](const Settings&) {
+        std::vector<SplittingStage> flows;
+        for (const PartitionedStage& s : stages) flows.push_back({movesMomentum(s.map), s.fraction});
+        return tableauOf(flows, 1e-30);
+    };
     e.make = [stages = std::move(stages)](const System& system, const BaselineOptions& options) {
         return makePartitioned(system.mechanics(), options.step, stages);
     };

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/tableau/tableau.hpp"
+
 namespace extremal {
 namespace {
 
@@ -78,6 +80,14 @@ Splitting srkn14a() {
         palindrome({0.09171915262446165, 0.183983170005006, -0.05653436583288827, 0.004914688774712854,
                     0.143761127168358, 0.328567693746804},
                    14));
+}
+
+std::shared_ptr<const Tableau> tableauOf(const std::vector<SplittingStage>& stages, double known) {
+    std::vector<TableauFlow> flows;
+    for (const SplittingStage& s : stages) flows.push_back({s.isKick, Quad(s.fraction)});
+    auto tableau = std::make_shared<Tableau>(splittingTableau(flows));
+    tableau->known = known;
+    return tableau;
 }
 
 double halfTrace(const std::vector<SplittingStage>& stages, double z) {

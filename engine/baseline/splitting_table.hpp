@@ -14,10 +14,12 @@
 /// the order conditions.
 #pragma once
 
-#include <string_view>
+#include <memory>
 #include <vector>
 
 namespace extremal {
+
+struct Tableau;
 
 struct SplittingStage {
     bool isKick;      ///< a flow of B, else of A
@@ -37,6 +39,9 @@ Splitting blanesMoanS10();  ///< order 6, any A and B, 10 kicks
 Splitting srkn6b();         ///< order 4, Nystrom, 6 kicks
 Splitting srkn11b();        ///< order 6, Nystrom, 11 kicks
 Splitting srkn14a();        ///< order 6, Nystrom, 14 kicks, drift first
+
+/// The same as a partitioned Runge-Kutta method; `known`: to how much the fractions are.
+std::shared_ptr<const Tableau> tableauOf(const std::vector<SplittingStage>& stages, double known);
 
 /// Half the trace of the product on the harmonic oscillator, with z = step * frequency.
 double halfTrace(const std::vector<SplittingStage>& stages, double z);

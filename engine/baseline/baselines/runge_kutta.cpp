@@ -1,0 +1,51 @@
+/// A Runge-Kutta method of the user's, plain or partitioned, by its table.
+#include "engine/baseline/catalog.hpp"
+#include "engine/baseline/table_method.hpp"
+#include "engine/baseline/typed_tableau.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+FieldInfo table(const char* key, const char* title, const char* description) {
+    FieldInfo f = jsonField(key, title, key, nullptr, description);
+    return f;
+}
+FieldInfo optional(FieldInfo f) {
+    f.isOptional = true;
+    return f;
+}
+
+}  // namespace
+
+BaselineEntry runge_kutta() {
+    FieldInfo a = table("a", "table",
+                        "Coefficients a_ij: one row per stage, numbers or expressions; a row may end "
+                        "with its last entry that is not 0.");
+    FieldInfo b = table("b", "weights", "Weights b_i, which sum to 1.");
+    a.example =
+        Value(Value::Array{Value::Array{}, Value::Array{"1/2"}, Value::Array{-1, 2}});  // Kutta, order 3
+    b.example = Value(Value::Array{"1/6", "2/3", "1/6"});
+    BaselineEntry e;
+    e.item = {
+        "runge-kutta",
+        "typed Runge-Kutta method",
+        "A table of your own, explicit or implicit, with a second one for p if you like; order, symmetry and "
+        "symplecticity are found.",
+        {a, b, optional(table("c", "nodes", "Nodes c_i; by default the sums of the rows.")),
+         optional(table("a_hat", "table of p", "The table of p, where it is another one.")),
+         optional(table("b_hat", "weights of p", "The weights of p; by default b."))},
+        Claims{},
+        ""};
+    e.claims = [](const Settings& settings) { return claimsOf(*typedRungeKutta(settings)); };
+    e.stabilityLimitOf = [](const Settings& settings) {
+        return stabilityLimitOf(*typedRungeKutta(settings));
+    };
+    e.tableau = typedRungeKutta;
+    e.examine = [](const Settings& settings, Findings& findings) { examine(settings, false, findings); };
+    e.make = [](const System& system, const BaselineOptions& options) {
+        return makeTableMethod(system.mechanics(), options.step, *typedRungeKutta(options.settings));
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

@@ -1,0 +1,60 @@
+/// A splitting of the user's: a product of kicks and drifts by their fractions of the step.
+#include "engine/baseline/partitioned.hpp"
+#include "engine/baseline/typed_tableau.hpp"
+#include "engine/baseline/wave_splitting.hpp"
+#include "engine/core/problem.hpp"
+
+namespace extremal::baselines {
+namespace {
+
+FieldInfo fractions(const char* key, const char* description, Value example) {
+    FieldInfo f = formulasField(key, {}, nullptr, description);
+    f.example = std::move(example);
+    return f;
+}
+
+}  // namespace
+
+BaselineEntry splitting() {
+    BaselineEntry e;
+    e.item = {"splitting",
+              "typed splitting",
+              "Kicks of p and drifts of q in turn, by fractions of your own; order and symmetry are found.",
+              {fractions("kicks", "Fractions of the step of the kicks, which sum to 1.",
+                         Value(Value::Array{"1/6", "2/3", "1/6"})),
+               fractions("drifts", "Fractions of the step of the drifts, which sum to 1.",
+                         Value(Value::Array{"1/2", "1/2"})),
+               choiceField("first", "first", {"drift", "kick"},
+                           "Which begins where there are as many of both; else those that are one more.")},
+              Claims{},
+              ""};
+    e.applies = [](const System& system) { return isMechanical(system) || isWave(system); };
+    e.claims = [](const Settings& settings) {
+        Claims claims = claimsOf(*typedSplitting(settings).tableau);
+        claims.conserves.emplace_back("norm");
+        return claims;
+    };
+    e.stabilityLimitOf = [](const Settings& settings) {
+        return stabilityLimitOf(*typedSplitting(settings).tableau);
+    };
+    e.tableau = [](const Settings& settings) { return typedSplitting(settings).tableau; };
+    e.examine = [](const Settings& settings, Findings& findings) { examine(settings, true, findings); };
+    e.make = [](const System& system, const BaselineOptions& options) {
+        const Splitting made = typedSplitting(options.settings).splitting;
+        if (isWave(system)) return makeWaveSplitting(system, options.step, made);
+        const bool isSeparable = system.mechanics().isSeparable;
+        if (!isSeparable && (made.isNystrom || !made.stages.front().isKick || made.stages.size() % 2 == 0))
+            throw InvalidScene(
+                "/baseline",
+                "needs kinetic energy with constant masses and a potential here: kicks and drifts are "
+                "not explicit for " +
+                    system.id +
+                    ", and only splittings that begin and end with a kick, and have their "
+                    "order for every T(p), have another form",
+                "a splitting with one kick more than drifts, or another scheme");
+        return makePartitioned(system.mechanics(), options.step, partitionedStages(made, isSeparable));
+    };
+    return e;
+}
+
+}  // namespace extremal::baselines

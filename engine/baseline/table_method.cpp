@@ -1,0 +1,202 @@
+#include "engine/baseline/table_method.hpp"
+
+#include <Eigen/LU>
+
+#include <limits>
+
+namespace extremal {
+namespace {
+
+/// The coefficients in double precision.
+struct Coefficients {
+    Eigen::MatrixXd a, aHat;
+    Eigen::VectorXd b, bHat, c;
+    bool isExplicit;
+
+    explicit Coefficients(const Tableau& t)
+        : a(t.A.cast<double>()),
+          aHat(t.Ahat.cast<double>()),
+          b(t.b.cast<double>()),
+          bHat(t.bHat.cast<double>()),
+          c(t.c.cast<double>()),
+          isExplicit(t.isExplicit()) {}
+    Eigen::Index stages() const { return b.size(); }
+};
+
+template <int D>
+class TableMethod final : public FlowMethod<D> {
+    using Base = FlowMethod<D>;
+    using Vector = typename Base::Vector;
+    using Stages = Eigen::Matrix<double, D, Eigen::Dynamic>;  ///< a column per stage
+    static constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+public:
+    TableMethod(const Mechanics<double>& mechanics, double step, const Coefficients& table)
+        : Base(mechanics, step), table_(table) {
+        for (Vector* v : {&q_, &p_, &dq_, &dp_}) *v = Vector::Zero(this->d());
+        for (Stages* s : {&V_, &F_}) *s = Stages::Zero(this->d(), table_.stages());
+    }
+
+    std::unique_ptr<Integrator> clone() const override { return std::make_unique<TableMethod>(*this); }
+
+private:
+    void step(double t) override {
+        if (table_.isExplicit) {
+            for (Eigen::Index i = 0; i < table_.stages(); ++i) {
+                stateAt(i, i);
+                if (!evaluate(t, i)) return;
+                V_.col(i) = dq_;
+                F_.col(i) = dp_;
+            }
+        } else if (!solve(t)) {
+            return;
+        }
+        this->q1_ = this->q0_ + this->h() * V_.lazyProduct(table_.b);
+        this->p1_ = this->p0_ + this->h() * F_.lazyProduct(table_.bHat);
+    }
+
+    /// q_, p_ of stage i from the first `known` stages.
+    void stateAt(Eigen::Index i, Eigen::Index known) {
+        q_ = this->q0_ + this->h() * V_.leftCols(known).lazyProduct(table_.a.row(i).head(known).transpose());
+        p_ = this->p0_ +
+             this->h() * F_.leftCols(known).lazyProduct(table_.aHat.row(i).head(known).transpose());
+    }
+    bool evaluate(double t, Eigen::Index i) {
+        this->flow(t + table_.c(i) * this->h(), q_, p_, dq_, dp_);
+        return this->report_.outcome == Outcome::converged;
+    }
+
+    bool solve(double t) {
+        start(t);
+        if (this->report_.outcome != Outcome::converged) return false;
+        if (iterate(t)) return true;
+        if (this->report_.outcome == Outcome::stopped) return false;
+        this->report_.outcome = Outcome::converged;
+        start(t);
+        return this->report_.outcome == Outcome::converged && newton(t);
+    }
+    /// A constant field.
+    void start(double t) {
+        this->flow(t, this->q0_, this->p0_, dq_, dp_);
+        V_.colwise() = dq_;
+        F_.colwise() = dp_;
+    }
+    double scale() const {
+        return std::max(
+            {V_.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()});
+    }
+
+    /// Each stage with the latest of the others.
+    bool iterate(double t) {
+        double last = std::numeric_limits<double>::infinity();
+        for (int iteration = 0; iteration < 100; ++iteration) {
+            if (isStopped()) return false;
+            double size = 0;
+            for (Eigen::Index i = 0; i < table_.stages(); ++i) {
+                stateAt(i, table_.stages());
+                if (!evaluate(t, i)) return false;
+                size = std::max(
+                    {size, (dq_ - V_.col(i)).cwiseAbs().maxCoeff(), (dp_ - F_.col(i)).cwiseAbs().maxCoeff()});
+                V_.col(i) = dq_;
+                F_.col(i) = dp_;
+            }
+            ++this->report_.cost.iterations;
+            this->report_.residual = size / scale();
+            if (!(size < std::numeric_limits<double>::infinity())) return false;
+            if (size <= epsilon * scale() || (size < 1e3 * epsilon * scale() && size >= last)) return true;
+            if (iteration > 3 && size > 0.7 * last) return false;
+            last = size;
+        }
+        return false;
+    }
+    bool isStopped() {
+        if (!this->stop().stop_requested()) return false;
+        this->report_.outcome = Outcome::stopped;
+        return true;
+    }
+
+    /// Unknowns (V_1, F_1, V_2, ..).
+    bool newton(double t) {
+        const int d = this->d();
+        Eigen::VectorXd residual(2 * d * table_.stages());
+        double last = std::numeric_limits<double>::infinity();
+        for (int iteration = 0; iteration < 50; ++iteration) {
+            if (isStopped()) return false;
+            if (!assemble(t)) return false;
+            for (Eigen::Index i = 0; i < table_.stages(); ++i) {
+                stateAt(i, table_.stages());
+                if (!evaluate(t, i)) return false;
+                residual.segment(2 * d * i, d) = dq_ - V_.col(i);
+                residual.segment(2 * d * i + d, d) = dp_ - F_.col(i);
+            }
+            residual = lu_.solve(residual);
+            ++this->report_.cost.linearSolves;
+            ++this->report_.cost.iterations;
+            for (Eigen::Index i = 0; i < table_.stages(); ++i) {
+                V_.col(i) += residual.segment(2 * d * i, d);
+                F_.col(i) += residual.segment(2 * d * i + d, d);
+            }
+            const double size = residual.cwiseAbs().maxCoeff();
+            this->report_.residual = size / scale();
+            if (!(size < std::numeric_limits<double>::infinity())) {
+                this->report_.outcome = Outcome::notFinite;
+                return false;
+            }
+            if (size <= epsilon * scale() || (size < 1e4 * epsilon * scale() && size >= last / 4))
+                return true;
+            last = size;
+        }
+        this->report_.outcome = Outcome::diverged;
+        return false;
+    }
+
+    /// I - h J a at the stages as they are, and J beside it.
+    bool assemble(double t) {
+        const int d = this->d();
+        const Eigen::Index n = 2 * d * table_.stages();
+        system_.setIdentity(n, n);
+        slopes_.resize(n, 2 * d);
+        for (Eigen::Index i = 0; i < table_.stages(); ++i) {
+            stateAt(i, table_.stages());
+            const Eigen::MatrixXd* const jacobian = this->flowJacobian(t + table_.c(i) * this->h(), q_, p_);
+            if (!jacobian) {
+                this->report_.outcome = Outcome::singular;
+                return false;
+            }
+            slopes_.middleRows(2 * d * i, 2 * d) = *jacobian;
+            for (Eigen::Index j = 0; j < table_.stages(); ++j) {
+                auto block = system_.block(2 * d * i, 2 * d * j, 2 * d, 2 * d);
+                block.leftCols(d) -= this->h() * table_.a(i, j) * jacobian->leftCols(d);
+                block.rightCols(d) -= this->h() * table_.aHat(i, j) * jacobian->rightCols(d);
+            }
+        }
+        lu_.compute(system_);
+        return true;
+    }
+
+    bool tangent(double t, typename Base::Columns W) override {
+        if (!assemble(t)) return false;
+        const int d = this->d();
+        const Eigen::MatrixXd rates = lu_.solve((slopes_ * W).eval());
+        for (Eigen::Index i = 0; i < table_.stages(); ++i) {
+            W.topRows(d) += this->h() * table_.b(i) * rates.middleRows(2 * d * i, d);
+            W.bottomRows(d) += this->h() * table_.bHat(i) * rates.middleRows(2 * d * i + d, d);
+        }
+        return true;
+    }
+
+    Coefficients table_;
+    Vector q_, p_, dq_, dp_;
+    Stages V_, F_;
+    Eigen::MatrixXd system_, slopes_;
+    Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> makeTableMethod(const Mechanics<double>& mechanics, double step,
+                                            const Tableau& tableau) {
+    return makeFlowMethod<TableMethod>(mechanics, step, Coefficients(tableau));
+}
+
+}  // namespace extremal

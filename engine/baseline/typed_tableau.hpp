@@ -1,0 +1,40 @@
+/// Runge-Kutta tables and splittings as a user types them: the keys of the baselines "runge-kutta" and
+/// "splitting".
+///
+/// Entries are numbers, or expressions without names such as "1/6" and "(3-sqrt(3))/6", read in quadruple
+/// precision. What a table promises follows from its coefficients alone: the order from trees, symmetry and
+/// symplecticity from the defects, the stability limit from its map on the oscillator (tableau/tableau.hpp).
+/// Errors: InvalidScene with pointers below /baseline.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine/baseline/splitting_table.hpp"
+#include "engine/core/catalog.hpp"
+#include "engine/core/settings.hpp"
+#include "engine/family/findings.hpp"
+
+namespace extremal {
+
+/// Keys a, b, c, and for p a_hat, b_hat; rows of a may end with their last entry that is not 0.
+std::shared_ptr<const Tableau> typedRungeKutta(const Settings& settings);
+
+/// Keys kicks, drifts and first.
+struct TypedSplitting {
+    Splitting splitting;
+    std::shared_ptr<const Tableau> tableau;
+};
+TypedSplitting typedSplitting(const Settings& settings);
+
+/// Order at most 8, or by the simplifying assumptions of a plain method; of products of kicks and drifts that
+/// for quadratic kinetic energy.
+Claims claimsOf(const Tableau& tableau);
+/// Largest z at and below which no eigenvalue of the step on q' = z p, p' = -z q is outside the unit circle;
+/// 0: some are for every step.
+double stabilityLimitOf(const Tableau& tableau);
+/// Warnings: coefficients with few digits, nodes that are not the sums of their rows. Errors: as thrown, and
+/// order 0.
+void examine(const Settings& settings, bool isSplitting, Findings& findings);
+
+}  // namespace extremal
