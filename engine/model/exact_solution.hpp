@@ -13,6 +13,8 @@
 #include <span>
 #include <utility>
 
+#include "engine/core/archive.hpp"
+
 namespace extremal {
 
 class ExactSolution {
@@ -38,6 +40,13 @@ public:
     const AtPlaces& atPlaces() const { return atPlaces_; }
     void setAtPlaces(AtPlaces at) { atPlaces_ = std::move(at); }
 
+    /// For solutions that are stepped along: writes or reads where they are, so that one just made need not
+    /// come from the start again. Of others nothing.
+    void checkpoint(Archive& archive) {
+        if (checkpoint_) checkpoint_(archive);
+    }
+    void setCheckpoint(std::function<void(Archive&)> checkpoint) { checkpoint_ = std::move(checkpoint); }
+
     explicit operator bool() const { return static_cast<bool>(many_); }
 
     void operator()(double t, std::span<double> x) const { many_({&t, 1}, x.data(), x.size()); }
@@ -47,6 +56,7 @@ public:
 private:
     std::function<void(std::span<const double> t, double* x, std::size_t width)> many_;
     AtPlaces atPlaces_;
+    std::function<void(Archive&)> checkpoint_;
 };
 
 }  // namespace extremal

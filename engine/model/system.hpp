@@ -20,13 +20,14 @@
 #include <vector>
 
 #include "engine/core/catalog.hpp"
+#include "engine/core/jet.hpp"
 #include "engine/core/quantity.hpp"
+#include "engine/core/settings.hpp"
 #include "engine/core/state.hpp"
 #include "engine/model/body.hpp"
 #include "engine/model/drawing.hpp"
 #include "engine/model/exact_solution.hpp"
 #include "engine/model/mechanics.hpp"
-#include "engine/core/settings.hpp"
 
 namespace extremal {
 
@@ -131,6 +132,21 @@ struct Measure {
     std::function<Evaluate(const State& initial)> bind;
 };
 
+/// x <- flow(x), of numbers and of numbers with their derivative along a variation; made from a function
+/// generic in the number.
+class FlowMap {
+public:
+    using Varied = Dual<double, 1>;
+    template <class Map>
+    FlowMap(Map map) : ofNumbers_(map), ofVaried_(map) {}
+    void operator()(double* x) const { ofNumbers_(x); }
+    void operator()(Varied* x) const { ofVaried_(x); }
+
+private:
+    std::function<void(double*)> ofNumbers_;
+    std::function<void(Varied*)> ofVaried_;
+};
+
 /// A fast oscillation that a system knows of itself.
 struct FastMotion {
     double frequency = 0;          ///< rad per unit of time, at rest; 0: none
@@ -139,8 +155,8 @@ struct FastMotion {
     /// moment, which slow motion changes by a small periodic part only. May be empty.
     EnergyFunction energy = {}, invariant = {};
     /// The Hamiltonian in parts, each with its exact flow over a given time: the oscillation alone, and the
-    /// rest in one or more parts. x <- flow(x). May be empty.
-    using Flow = std::function<void(double* x)>;
+    /// rest in one or more parts. May be empty.
+    using Flow = FlowMap;
     std::function<Flow(double time)> fastFlow = {};
     std::vector<std::function<Flow(double time)>> slowFlows = {};
 };
@@ -260,6 +276,9 @@ struct ModelEntry {
     std::function<System(const Settings& settings)> make;  ///< keys are checked and complete
     /// Throws InvalidScene (pointers below /model) where the system cannot start from a state; may be empty.
     std::function<void(const Settings& settings, const System& system, const State& initial)> checkInitial;
+    /// Of a model with coordinates: its Lagrangian as a user would type it, in the names of the coordinates
+    /// and, as parameters, those keys that are numbers. Null where there is none (a typed one says its own).
+    std::string (*lagrangian)(const Settings& settings) = nullptr;
     /// Of a boundary-value problem: where its independent variable begins and ends, so that a scene need not
     /// say it; nothing where the settings do not tell. Null for motions.
     std::optional<std::pair<double, double>> (*interval)(const Settings& settings) = nullptr;

@@ -47,6 +47,9 @@ struct MembraneProblem {
         return material == Material::linear ? p / 2 : p / (std::sqrt(1 + p) + 1);
     }
     double tension(double p) const { return material == Material::linear ? 1 : 1 / std::sqrt(1 + p); }
+    double tensionSlope(double p) const {
+        return material == Material::linear ? 0 : -0.5 / ((1 + p) * std::sqrt(1 + p));
+    }
 
     double elementEnergy(const Element& e, const double* u) const {
         const auto g = slope(e, u);

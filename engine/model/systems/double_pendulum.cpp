@@ -5,6 +5,7 @@
 /// Not separable; chaotic at large energy, so that no two schemes agree for long there. No exact solution.
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
@@ -89,6 +90,11 @@ ModelEntry double_pendulum() {
     e.exampleP = {0, 0};
     e.exampleEnd = 20;
     e.exampleStep = 0.01;
+    e.lagrangian = [](const Settings&) -> std::string {
+        return "(m1+m2)/2*l1^2*theta1_t^2 + m2/2*l2^2*theta2_t^2 + "
+               "m2*l1*l2*theta1_t*theta2_t*cos(theta1-theta2) + (m1+m2)*g*l1*cos(theta1) + "
+               "m2*g*l2*cos(theta2)";
+    };
     e.make = makeDoublePendulum;
     return e;
 }

@@ -2,6 +2,7 @@
 /// sqrt(k/m). Schemes super-converge on it: stability shows here, orders are measured on nonlinear systems.
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
@@ -81,6 +82,7 @@ ModelEntry harmonic_oscillator() {
     e.exampleP = {0};
     e.exampleEnd = 20;
     e.exampleStep = 0.1;
+    e.lagrangian = [](const Settings&) -> std::string { return "m/2*x_t^2 - k/2*x^2"; };
     e.make = makeHarmonicOscillator;
     return e;
 }

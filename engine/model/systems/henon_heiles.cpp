@@ -4,6 +4,7 @@
 /// the corners of a triangle; regular at low energy, mostly chaotic close to escape. No exact solution.
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
@@ -77,6 +78,9 @@ ModelEntry henon_heiles() {
     e.exampleP = {0.5, 0};
     e.exampleEnd = 200;
     e.exampleStep = 0.1;
+    e.lagrangian = [](const Settings&) -> std::string {
+        return "(x_t^2+y_t^2)/2 - (x^2+y^2)/2 - lambda*(x^2*y - y^3/3)";
+    };
     e.make = makeHenonHeiles;
     return e;
 }

@@ -2,9 +2,14 @@
 ///
 /// Exact solution of elliptic and hyperbolic orbits by Kepler's equation, in the basis of the perihelion;
 /// radial and parabolic orbits have none here (the reference is then computed).
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "engine/model/bind.hpp"
 #include "engine/model/parameters.hpp"
@@ -69,72 +74,75 @@ struct Orbit {
     }
     void operator()(std::span<const double> t, double* x) const {
         constexpr std::size_t width = 4;
-        std::size_t done = 0;
-        if (isElliptic && t.size() >= 4 * lanes) {
-            march(t, x);
-            done = t.size() / lanes * lanes;
+        if (isElliptic) return near(t, x);
+        for (std::size_t i = 0; i < t.size(); ++i) {
+            const double E = solveHyperbolic(meanAnomaly + n * (t[i] - start));
+            const double c = std::cosh(E);
+            place(c, std::sinh(E), 1 / (e * c - 1), x + i * width);
         }
-        for (; done < t.size(); ++done) {
-            const double mean = meanAnomaly + n * (t[done] - start);
-            const double E = isElliptic ? solveElliptic(mean) : solveHyperbolic(mean);
-            const double c = isElliptic ? std::cos(E) : std::cosh(E),
-                         s = isElliptic ? std::sin(E) : std::sinh(E);
-            place(c, s, 1 / (isElliptic ? 1 - e * c : e * c - 1), x + done * width);
-        }
+    }
+    /// Of ellipses: prepares places from which others are near.
+    void makeAnchors() {
+        auto all = std::make_shared<std::vector<Anchor>>();
+        for (std::size_t k = 0; k < anchors; ++k) all->push_back(anchorAt(spacing * static_cast<double>(k)));
+        anchors_ = std::move(all);
     }
 
 private:
-    static constexpr std::size_t lanes = 8;
+    static constexpr std::size_t lanes = 8, anchors = 512;
+    static constexpr double spacing = 2 * std::numbers::pi / anchors;  ///< of M
 
-    /// Many times in a row, as runs ask for them: they are cut into `lanes` stretches that march together.
-    /// From one time to the next E turns by a small d: the Taylor polynomial of E(M) of degree 3, the
-    /// addition theorems with Taylor polynomials of sin d and cos d, and one Newton step. Where d is too
-    /// large for that, from scratch; so is the first of each stretch, so that round-off cannot add up.
-    void march(std::span<const double> t, double* x) const {
+    /// cos E, sin E and dE/dM at a mean anomaly.
+    struct Anchor {
+        double c, s, r;
+    };
+    Anchor anchorAt(double mean) const {
+        const double E = solveElliptic(mean), c = std::cos(E);
+        return {c, std::sin(E), 1 / (1 - e * c)};
+    }
+
+    /// Ellipses, eight times at once: from the next anchor E turns by a small d, which is the Taylor
+    /// polynomial of E(M) of degree 3; then the addition theorems with Taylor polynomials of sin d and cos d,
+    /// and one Newton step. Where d is too large for that, from scratch. What is found for a time does not
+    /// depend on the others.
+    void near(std::span<const double> t, double* x) const {
         constexpr std::size_t width = 4;
-        const std::size_t length = t.size() / lanes;
-        std::array<double, lanes> s, c, r, last, f, d, turnS, turnC;
-        for (std::size_t k = 0; k < length; ++k) {
-            double worst = 1;
-            if (k > 0) {
-                worst = 0;
-                for (std::size_t l = 0; l < lanes; ++l) f[l] = n * (t[l * length + k] - last[l]);
-                for (std::size_t l = 0; l < lanes; ++l) {
-                    const double es = e * s[l], ec = e * c[l], w = f[l] * r[l];
-                    d[l] = w * (1 + w * r[l] * (-0.5 * es + w * (3 * es * es * r[l] - ec) * (1.0 / 6)));
-                }
-                for (std::size_t l = 0; l < lanes; ++l) {
-                    const double d2 = d[l] * d[l];
-                    const double sd =
-                        d[l] * (1 - d2 * (1.0 / 6) * (1 - d2 * (1.0 / 20) * (1 - d2 * (1.0 / 42))));
-                    const double cd = d2 * 0.5 * (1 - d2 * (1.0 / 12) * (1 - d2 * (1.0 / 30)));  // 1 - cos d
-                    const double ds = c[l] * sd - s[l] * cd;
-                    turnS[l] = s[l] + ds;
-                    turnC[l] = c[l] - (s[l] * sd + c[l] * cd);
-                    r[l] = 1 / (1 - e * turnC[l]);
-                    f[l] = (f[l] + e * ds - d[l]) * r[l];  // the Newton correction
-                }
-                for (std::size_t l = 0; l < lanes; ++l) {
-                    const double size = std::abs(f[l]), turn = 5e-7 * std::abs(d[l]);
-                    worst = size > worst ? size : worst;
-                    worst = turn > worst ? turn : worst;
-                    s[l] = turnS[l] + turnC[l] * f[l];
-                    c[l] = turnC[l] - turnS[l] * f[l];
-                    r[l] *= 1 - r[l] * e * turnS[l] * f[l];
-                }
-            }
-            // Squares of the correction are then below round-off; |d| < 0.02 for the truncated series.
-            if (!(worst < 1e-8)) {
-                for (std::size_t l = 0; l < lanes; ++l) {
-                    const double E = solveElliptic(meanAnomaly + n * (t[l * length + k] - start));
-                    s[l] = std::sin(E);
-                    c[l] = std::cos(E);
-                    r[l] = 1 / (1 - e * c[l]);
-                }
+        std::array<double, lanes> mean, f, s, c, r, d, worst;
+        for (std::size_t first = 0; first < t.size(); first += lanes) {
+            const std::size_t count = std::min(lanes, t.size() - first);
+            for (std::size_t l = 0; l < lanes; ++l) {
+                mean[l] = meanAnomaly + n * (t[first + std::min(l, count - 1)] - start);
+                const double k = std::round(mean[l] / spacing),
+                             turns = std::floor(k / static_cast<double>(anchors));
+                const double index = k - turns * static_cast<double>(anchors);
+                const bool isFinite = index >= 0 && index < static_cast<double>(anchors);
+                const Anchor& anchor = (*anchors_)[isFinite ? static_cast<std::size_t>(index) : 0];
+                f[l] = mean[l] - k * spacing;
+                c[l] = anchor.c;
+                s[l] = anchor.s;
+                r[l] = anchor.r;
             }
             for (std::size_t l = 0; l < lanes; ++l) {
-                last[l] = t[l * length + k];
-                place(c[l], s[l], r[l], x + (l * length + k) * width);
+                const double es = e * s[l], ec = e * c[l], w = f[l] * r[l];
+                d[l] = w * (1 + w * r[l] * (-0.5 * es + w * (3 * es * es * r[l] - ec) * (1.0 / 6)));
+            }
+            for (std::size_t l = 0; l < lanes; ++l) {
+                const double d2 = d[l] * d[l];
+                const double sd = d[l] * (1 - d2 * (1.0 / 6) * (1 - d2 * (1.0 / 20) * (1 - d2 * (1.0 / 42))));
+                const double cd = d2 * 0.5 * (1 - d2 * (1.0 / 12) * (1 - d2 * (1.0 / 30)));  // 1 - cos d
+                const double ds = c[l] * sd - s[l] * cd;
+                const double turnedS = s[l] + ds, turnedC = c[l] - (s[l] * sd + c[l] * cd);
+                r[l] = 1 / (1 - e * turnedC);
+                f[l] = (f[l] + e * ds - d[l]) * r[l];  // the Newton correction
+                worst[l] = std::max(std::abs(f[l]), 5e-7 * std::abs(d[l]));
+                s[l] = turnedS + turnedC * f[l];
+                c[l] = turnedC - turnedS * f[l];
+                r[l] *= 1 - r[l] * e * turnedS * f[l];
+            }
+            for (std::size_t l = 0; l < count; ++l) {
+                // Squares of the correction are then below round-off; |d| < 0.02 for the truncated series.
+                const Anchor at = worst[l] < 1e-8 ? Anchor{c[l], s[l], r[l]} : anchorAt(mean[l]);
+                place(at.c, at.s, at.r, x + (first + l) * width);
             }
         }
     }
@@ -162,6 +170,8 @@ private:
         }
         return E;
     }
+
+    std::shared_ptr<const std::vector<Anchor>> anchors_;
 };
 
 ExactSolution exactSolution(double mu, const State& initial) {
@@ -190,6 +200,7 @@ ExactSolution exactSolution(double mu, const State& initial) {
     if (o.isElliptic) {
         const double E = std::atan2(v / o.b, u / o.a + o.e);
         o.meanAnomaly = E - o.e * std::sin(E);
+        o.makeAnchors();
     } else {
         const double E = std::asinh(v / o.b);
         o.meanAnomaly = o.e * std::sinh(E) - E;
@@ -234,6 +245,7 @@ ModelEntry kepler() {
     e.exampleP = {0, 2};
     e.exampleEnd = 50;
     e.exampleStep = 0.05;
+    e.lagrangian = [](const Settings&) -> std::string { return "(x_t^2+y_t^2)/2 + mu/sqrt(x^2+y^2)"; };
     e.make = makeKepler;
     return e;
 }

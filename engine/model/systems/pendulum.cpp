@@ -10,6 +10,7 @@
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <cmath>
+#include <string>
 #include <numbers>
 
 #include "engine/core/quiet.hpp"
@@ -140,6 +141,7 @@ ModelEntry pendulum() {
     e.exampleP = {0};
     e.exampleEnd = 20;
     e.exampleStep = 0.05;
+    e.lagrangian = [](const Settings&) -> std::string { return "m/2*l^2*theta_t^2 + m*g*l*cos(theta)"; };
     e.make = makePendulum;
     return e;
 }

@@ -5,6 +5,7 @@
 /// (m g cos theta + m l theta_t^2) / k, which the printed fast equation leaves out. No exact solution.
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "engine/model/bind.hpp"
@@ -48,8 +49,8 @@ struct SpringPendulum {
 /// H = p_a^2/(2m) + k a^2/2 alone: the angle stands still.
 FastMotion::Flow oscillate(const SpringPendulum& s, double time) {
     const double w = std::sqrt(s.k / s.m), c = std::cos(w * time), z = std::sin(w * time), mass = s.m * w;
-    return [c, z, mass](double* x) {
-        const double a = x[0];
+    return [c, z, mass](auto* x) {
+        const auto a = x[0];
         x[0] = c * a + z / mass * x[2];
         x[2] = c * x[2] - z * mass * a;
     };
@@ -57,15 +58,17 @@ FastMotion::Flow oscillate(const SpringPendulum& s, double time) {
 
 /// H = -m g r cos theta alone.
 FastMotion::Flow fall(const SpringPendulum& s, double time) {
-    return [impulse = time * s.m * s.g, l = s.l](double* x) {
-        x[2] += impulse * std::cos(x[1]);
-        x[3] -= impulse * (l + x[0]) * std::sin(x[1]);
+    return [impulse = time * s.m * s.g, l = s.l](auto* x) {
+        using std::cos;
+        using std::sin;
+        x[2] += impulse * cos(x[1]);
+        x[3] -= impulse * (l + x[0]) * sin(x[1]);
     };
 }
 /// H = p_theta^2/(2 m r^2) alone.
 FastMotion::Flow turn(const SpringPendulum& s, double time) {
-    return [m = s.m, l = s.l, time](double* x) {
-        const double r = l + x[0], rate = x[3] / (m * r * r);
+    return [m = s.m, l = s.l, time](auto* x) {
+        const auto r = l + x[0], rate = x[3] / (m * r * r);
         x[1] += time * rate;
         x[2] += time * m * r * rate * rate;
     };
@@ -184,6 +187,9 @@ ModelEntry spring_pendulum() {
     e.exampleP = {0, 0};
     e.exampleEnd = 10;
     e.exampleStep = 0.01;
+    e.lagrangian = [](const Settings&) -> std::string {
+        return "m/2*(a_t^2 + (l+a)^2*theta_t^2) + m*g*(l+a)*cos(theta) - k/2*a^2";
+    };
     e.make = makeSpringPendulum;
     return e;
 }

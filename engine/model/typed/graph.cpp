@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/expression.hpp"
@@ -67,12 +68,19 @@ int Graph::symbol(int index) {
     return intern(std::move(node));
 }
 
+std::vector<Graph::Operand> Graph::ordered(std::vector<Operand> operands) const {
+    const auto key = [&](const Operand& o) { return std::tuple(at(o.node).hash, o.node, o.factor); };
+    std::sort(operands.begin(), operands.end(),
+              [&](const Operand& a, const Operand& b) { return key(a) < key(b); });
+    return operands;
+}
+
 int Graph::sum(double constant, const std::vector<Operand>& operands) {
     Node node;
     node.kind = Kind::sum;
     node.number = constant;
     std::vector<Operand>& terms = node.operands;
-    for (const auto& [operand, factor] : operands) {
+    for (const auto& [operand, factor] : ordered(operands)) {
         const Node& inner = at(operand);
         const bool isScaled = inner.kind == Kind::sum && inner.operands.size() == 1 && inner.number == 0;
         if (factor == 0) continue;
@@ -85,10 +93,7 @@ int Graph::sum(double constant, const std::vector<Operand>& operands) {
             terms.push_back({operand, factor});
         }
     }
-    const auto order = [&](const Operand& a, const Operand& b) {
-        return std::pair(at(a.node).hash, a.node) < std::pair(at(b.node).hash, b.node);
-    };
-    std::stable_sort(terms.begin(), terms.end(), order);
+    terms = ordered(std::move(terms));
     std::size_t kept = 0;
     for (std::size_t i = 0; i < terms.size();) {
         Operand term = terms[i];
@@ -116,17 +121,20 @@ int Graph::product(const std::vector<Operand>& operands) {
             coefficient *=
                 exponent == 1 ? inner.operands[0].factor : std::pow(inner.operands[0].factor, exponent);
             self(self, inner.operands[0].node, exponent);
+        } else if (inner.kind == Kind::sum && exponent != 1 && isInteger(exponent) &&
+                   (inner.number != 0 ? inner.number : inner.operands[0].factor) < 0) {
+            if (std::fmod(exponent, 2) != 0) coefficient = -coefficient;
+            std::vector<Operand> terms = inner.operands;
+            for (Operand& o : terms) o.factor = -o.factor;
+            factors.push_back({sum(-inner.number, terms), exponent});
         } else if (inner.kind == Kind::product && isInteger(exponent)) {
             for (const Operand& o : inner.operands) factors.push_back({o.node, o.factor * exponent});
         } else {
             factors.push_back({operand, exponent});
         }
     };
-    for (const auto& [operand, exponent] : operands) add(add, operand, exponent);
-    const auto order = [&](const Operand& a, const Operand& b) {
-        return std::pair(at(a.node).hash, a.node) < std::pair(at(b.node).hash, b.node);
-    };
-    std::stable_sort(factors.begin(), factors.end(), order);
+    for (const auto& [operand, exponent] : ordered(operands)) add(add, operand, exponent);
+    factors = ordered(std::move(factors));
     std::size_t kept = 0;
     for (std::size_t i = 0; i < factors.size();) {
         Operand factor = factors[i];

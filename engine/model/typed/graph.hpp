@@ -1,12 +1,15 @@
 /// Formulas as a graph in which equal parts are one node: what symbolic differentiation is flattened to.
 ///
 ///     sum     = number + sum_k factor_k operand_k
-///     product = prod_k operand_k ^ factor_k          (no number in it: c x is a sum of one term)
+///     product = prod_k operand_k ^ factor_k          (no number in it: c x is a sum of one term; of a sum to
+///                                                     an integer power other than 1 the number is positive,
+///                                                     or without one the first factor)
 ///     call    = function(operand_0 [, operand_1])
 ///
 /// Every node is made through the functions below, which bring it into this form, combine like terms and like
-/// powers, and fold numbers. Operands are ordered by a hash of their structure alone, so that equal formulas
-/// give equal graphs, whatever the order they were made in. A symbol is a number chosen by the caller.
+/// powers, and fold numbers. Operands are ordered by a hash of their structure alone, before numbers are
+/// folded, so that equal formulas give equal graphs, to the last bit, whatever the order they were made in:
+/// that of GiNaC depends on addresses. A symbol is a number chosen by the caller.
 #pragma once
 
 #include <cstdint>
@@ -77,6 +80,7 @@ public:
 
 private:
     int intern(Node node);
+    std::vector<Operand> ordered(std::vector<Operand> operands) const;
 
     std::vector<Node> nodes_;
     std::unordered_multimap<std::uint64_t, int> known_;

@@ -1,13 +1,12 @@
 #include "engine/model/typed/tape.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <utility>
 
 #include "engine/model/typed/tape_code.hpp"
+#include "engine/model/typed/tape_run.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -180,91 +179,6 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
     return tape;
 }
 
-namespace {
-
-double callOne(Function function, double a) {
-    switch (function) {
-        case Function::sin:
-            return std::sin(a);
-        case Function::cos:
-            return std::cos(a);
-        case Function::tan:
-            return std::tan(a);
-        case Function::asin:
-            return std::asin(a);
-        case Function::acos:
-            return std::acos(a);
-        case Function::atan:
-            return std::atan(a);
-        case Function::sinh:
-            return std::sinh(a);
-        case Function::cosh:
-            return std::cosh(a);
-        case Function::tanh:
-            return std::tanh(a);
-        case Function::exp:
-            return std::exp(a);
-        case Function::log:
-            return std::log(a);
-        case Function::abs:
-            return std::fabs(a);
-        case Function::sign:
-            return static_cast<double>((a > 0) - (a < 0));
-        case Function::atan2:
-        case Function::power:
-            break;
-    }
-    return a;
-}
-
-}  // namespace
-
-void Tape::run(double* r) const {
-    if (!constants_.empty()) std::memcpy(r + inputs_, constants_.data(), constants_.size() * sizeof(double));
-    for (const Instruction& i : code_) {
-        switch (i.op) {
-            case Op::add:
-                r[i.to] = r[i.a] + r[i.b];
-                break;
-            case Op::subtract:
-                r[i.to] = r[i.a] - r[i.b];
-                break;
-            case Op::multiply:
-                r[i.to] = r[i.a] * r[i.b];
-                break;
-            case Op::multiplyAdd:
-                r[i.to] = r[i.a] * r[i.b] + r[i.c];
-                break;
-            case Op::multiplySubtract:
-                r[i.to] = r[i.a] * r[i.b] - r[i.c];
-                break;
-            case Op::subtractProduct:
-                r[i.to] = r[i.c] - r[i.a] * r[i.b];
-                break;
-            case Op::negate:
-                r[i.to] = -r[i.a];
-                break;
-            case Op::reciprocal:
-                r[i.to] = 1 / r[i.a];
-                break;
-            case Op::sqrt:
-                r[i.to] = std::sqrt(r[i.a]);
-                break;
-            case Op::sinCos: {
-                const double angle = r[i.a];
-                r[i.to] = std::sin(angle);
-                r[i.c] = std::cos(angle);
-                break;
-            }
-            case Op::call:
-                r[i.to] = callOne(static_cast<Function>(i.c), r[i.a]);
-                break;
-            case Op::call2:
-                r[i.to] = static_cast<Function>(i.c) == Function::atan2 ? std::atan2(r[i.a], r[i.b])
-                                                                        : std::pow(r[i.a], r[i.b]);
-                break;
-        }
-    }
-}
+void Tape::run(double* r) const { detail::run(*this, r); }
 
 }  // namespace extremal::typed

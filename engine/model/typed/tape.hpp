@@ -43,9 +43,16 @@ public:
     std::size_t outputs() const { return outputs_.size(); }
     std::size_t length() const { return code_.size(); }
 
+    std::size_t inputs() const { return inputs_; }
+    std::span<const double> constants() const { return constants_; }
+    std::span<const Instruction> code() const { return code_; }
+
     /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i.
     void run(double* r) const;
-    double output(std::size_t i, const double* r) const { return r[outputs_[i]]; }
+    template <class T>
+    const T& output(std::size_t i, const T* r) const {
+        return r[outputs_[i]];
+    }
 
 private:
     std::size_t inputs_ = 0, registers_ = 0;

@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <utility>
 
 #include "engine/core/dimension.hpp"
+#include "engine/core/instruction_set.hpp"
+#include "engine/core/lanes.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
+#include "engine/model/typed/tape_run.hpp"
 
 namespace extremal::typed {
 namespace {
@@ -19,11 +23,11 @@ namespace {
 /// Everything the calls need; immutable once made.
 struct Model {
     int d = 0;
-    bool isQuadratic = false;  ///< in v
-    bool isDiagonal = false;   ///< L_vv
-    Tape value, gradient, force, jet, legendre;
-    std::vector<double> masses;   ///< separable
-    std::vector<double> hessian;  ///< its constant entries in place
+    bool isQuadratic = false;                              ///< in v
+    bool isDiagonal = false;                               ///< L_vv
+    Tape value, gradient, force, jet, hessians, legendre;  ///< hessians: the outputs of `places` alone
+    std::vector<double> masses;                            ///< separable
+    std::vector<double> hessian;                           ///< its constant entries in place
     struct Place {
         std::size_t output, at, mirrored;  ///< output of the jet's tape -> two entries of the Hessian
     };
@@ -82,6 +86,68 @@ void separableForce(const void* p, const double& t, const double* q, double* f) 
     force(self(p), t, q, q, f);
 }
 
+/// Eight nodes at a time, in the instruction set of this machine: outputs of a tape at q, v and t, output k
+/// of node i to where `place(k)` begins, plus i.
+class NodeTapes {
+public:
+    using Forces = void (*)(const void*, const double* t, int nodes, const double* q, double* f);
+    using Calls = void (*)(const void*, const double* t, int nodes, const double* q, const double* v,
+                           double* to);
+    static Forces forces() { return ForThisMachine<&forceLanes>::call(); }
+    static Calls gradients() { return ForThisMachine<&gradientLanes>::call(); }
+    static Calls hessians() { return ForThisMachine<&hessianLanes>::call(); }
+
+private:
+    static constexpr std::size_t few = 64;
+    static Lanes* large(std::size_t size) {
+        thread_local std::vector<Lanes> registers;
+        if (registers.size() < size) registers.resize(size);
+        return registers.data();
+    }
+    /// `write(k, value)`: of the nodes from i on.
+    template <class Write>
+    static void eight(const Model& m, const Tape& tape, const double* t, int nodes, const double* q,
+                      const double* v, int i, const Write& write) {
+        alignas(Lanes)
+            std::byte small[few * sizeof(Lanes)];  // not initialised: a tape writes before it reads
+        Lanes* const r = tape.registers() <= few ? reinterpret_cast<Lanes*>(small) : large(tape.registers());
+        for (int k = 0; k < m.d; ++k) {
+            r[k] = Lanes::load(q + k * nodes + i);
+            r[m.d + k] = Lanes::load(v + k * nodes + i);
+        }
+        r[2 * m.d] = Lanes::load(t + i);
+        detail::run(tape, r);
+        for (std::size_t k = 0; k < tape.outputs(); ++k) write(k, tape.output(k, r));
+    }
+    static void gradientsOf(const Model& m, const Tape& tape, const double* t, int nodes, const double* q,
+                            const double* v, double* to) {
+        for (int i = 0; i < nodes; i += 8)
+            eight(m, tape, t, nodes, q, v, i, [&](std::size_t k, const Lanes& value) {
+                value.store(to + static_cast<int>(k) * nodes + i);
+            });
+    }
+    /// Separable: L_q does not depend on v.
+    static void forceLanes(const void* p, const double* t, int nodes, const double* q, double* f) {
+        gradientsOf(self(p), self(p).force, t, nodes, q, q, f);
+    }
+    static void gradientLanes(const void* p, const double* t, int nodes, const double* q, const double* v,
+                              double* g) {
+        gradientsOf(self(p), self(p).gradient, t, nodes, q, v, g);
+    }
+    static void hessianLanes(const void* p, const double* t, int nodes, const double* q, const double* v,
+                             double* h) {
+        const Model& m = self(p);
+        for (std::size_t entry = 0; entry < m.hessian.size(); ++entry)
+            std::fill_n(h + static_cast<int>(entry) * nodes, nodes, m.hessian[entry]);
+        for (int i = 0; i < nodes; i += 8)
+            eight(m, m.hessians, t, nodes, q, v, i, [&](std::size_t k, const Lanes& value) {
+                const Model::Place& place = m.places[k];
+                value.store(h + static_cast<int>(place.at) * nodes + i);
+                value.store(h + static_cast<int>(place.mirrored) * nodes + i);
+            });
+    }
+};
+
 bool separableVelocity(const void* p, const double&, const double*, const double* momentum, double* v) {
     const Model& m = self(p);
     for (std::size_t i = 0; i < static_cast<std::size_t>(m.d); ++i) v[i] = momentum[i] / m.masses[i];
@@ -133,11 +199,17 @@ bool newtonVelocity(const void* p, const double& t, const double* q, const doubl
     const Model& m = self(p);
     const auto d = static_cast<std::size_t>(m.d);
     std::fill_n(v, d, 0);
-    double change[maxCoordinates], last = -1;
-    for (int iteration = 0; iteration < 50; ++iteration) {
+    double change[maxCoordinates], step[maxCoordinates] = {}, last = -1;
+    for (int iteration = 0; iteration < 100; ++iteration) {
         const Registers r(m, m.legendre, t, q, v);
         for (std::size_t i = 0; i < d; ++i) change[i] = momentum[i] - r[i];
+        // Out of the domain of L, such as beyond the speed of light: half as far.
+        if (!std::all_of(change, change + d, [](double x) { return std::isfinite(x); })) {
+            for (std::size_t i = 0; i < d; ++i) v[i] -= step[i] /= 2;
+            continue;
+        }
         if (!solveVelocity(m, r, change)) return false;
+        std::copy_n(change, d, step);
         double size = 0, scale = 0;
         for (std::size_t i = 0; i < d; ++i) {
             v[i] += change[i];
@@ -224,10 +296,13 @@ public:
         m.dimension = d_;
         m.jet = jet;
         m.gradient = gradient;
+        m.gradients = NodeTapes::gradients();
+        m.hessians = NodeTapes::hessians();
         m.isTimeDependent = n_.graph.dependsOn({n_.value}, [&](int s) { return s == formula_.time(); });
         if (findMasses()) {
             m.isSeparable = true;
             m.force = separableForce;
+            m.forces = NodeTapes::forces();
             m.masses = model_->masses.data();
             Over<separableVelocity>::set(m);
         } else if (model_->isQuadratic) {
@@ -261,6 +336,8 @@ private:
                 }
             }
         model_->jet = tape(roots);
+        roots.erase(roots.begin(), roots.begin() + 1 + static_cast<std::ptrdiff_t>(n));
+        model_->hessians = tape(roots);
     }
     std::vector<int> massNodes() const {
         std::vector<int> nodes;

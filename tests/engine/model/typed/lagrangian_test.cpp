@@ -178,6 +178,38 @@ private slots:
         QCOMPARE(momentaOf("(r_t^2 + r^2*phi_t^2 + z_t^2)/2 + (z+1)*(z-1) - z^2"),
                  (QStringList{"r", "phi", "z"}).mid(1));
     }
+    void eightNodesTogetherAreThoseOneByOne_data() { derivativesAreThoseOfDifferences_data(); }
+    void eightNodesTogetherAreThoseOneByOne() {
+        QFETCH(QString, term);
+        const System s = typedSystem({"x", "y"}, {{"n", 2}}, "x_t^2/2 + y_t^2 + " + term.toStdString());
+        const auto& m = s.mechanics();
+        constexpr int nodes = 16;
+        std::vector<double> t(nodes), q(2 * nodes), v(2 * nodes), g(4 * nodes), h(16 * nodes), f(2 * nodes);
+        for (int i = 0; i < nodes; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            t[at] = 0.1 * i;
+            q[at] = 0.7 + 0.02 * i;
+            q[at + nodes] = 1.3 - 0.01 * i;
+            v[at] = 0.4 - 0.03 * i;
+            v[at + nodes] = -0.6 + 0.05 * i;
+        }
+        m.gradients(m.model.get(), t.data(), nodes, q.data(), v.data(), g.data());
+        m.hessians(m.model.get(), t.data(), nodes, q.data(), v.data(), h.data());
+        QCOMPARE(m.forces != nullptr, m.isSeparable);
+        if (m.forces) m.forces(m.model.get(), t.data(), nodes, q.data(), f.data());
+        for (std::size_t i = 0; i < nodes; ++i) {
+            const Jet2 one = jetAt(s, t[i], {q[i], q[i + nodes]}, {v[i], v[i + nodes]});
+            double largest = 1;
+            for (const double each : one.gradient) largest = std::max(largest, std::abs(each));
+            for (const double each : one.hessian) largest = std::max(largest, std::abs(each));
+            for (std::size_t k = 0; k < 4; ++k)
+                QVERIFY(std::abs(g[k * nodes + i] - one.gradient[k]) <= 1e-14 * largest);
+            for (std::size_t k = 0; k < 16; ++k)
+                QVERIFY(std::abs(h[k * nodes + i] - one.hessian[k]) <= 1e-14 * largest);
+            for (std::size_t k = 0; k < 2 && m.forces; ++k)
+                QVERIFY(std::abs(f[k * nodes + i] - one.gradient[k]) <= 1e-14 * largest);
+        }
+    }
     void theLegendreTransformIsInverted() {
         // Diagonal, full, and not quadratic in the velocities (a relativistic particle).
         for (const char* L : {"x_t^2*(1 + y^2)/2 + y_t^2 + 3*x*y_t", "x_t^2 + y_t^2 + cos(x)*x_t*y_t + x_t",
@@ -192,6 +224,16 @@ private slots:
             const Jet2 j = jetAt(s, 0, {q[0], q[1]}, {v[0], v[1]});
             QVERIFY(std::abs(m.energy(m.model.get(), 0, q, g + 2) - (g[2] * v[0] + g[3] * v[1] - j.value)) <
                     1e-14);
+        }
+        // Newton's method from rest overshoots the speed of light.
+        const System fast = typedSystem({"x", "y"}, {}, "-4*sqrt(4 - x_t^2 - y_t^2) + x");
+        for (const double speed : {1.5, 1.9, 1.99, 1.9999, 1.999999}) {
+            const auto& m = fast.mechanics();
+            const double q[2] = {0.4, -0.7}, v[2] = {0.8 * speed, -0.6 * speed};
+            double g[4], found[2];
+            m.gradient(m.model.get(), 0, q, v, g);
+            QVERIFY(m.velocity(m.model.get(), 0, q, g + 2, found));
+            QVERIFY(std::abs(found[0] - v[0]) < 1e-14 && std::abs(found[1] - v[1]) < 1e-14);
         }
         // Where no velocity has this momentum it says so.
         const System bounded = typedSystem({"x"}, {}, "atan(x_t)*x_t + x_t^2/1e6 - x_t^4");

@@ -1,0 +1,162 @@
+#include "engine/model/typed/typed_picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace extremal::typed {
+namespace {
+
+constexpr double largeDisc = 9, smallDisc = 6;
+constexpr std::size_t few = 4;  // more bodies are smaller
+
+/// "phi_2" is the letter phi and the label "2".
+struct Name {
+    std::string letter, label;
+};
+
+Name split(const std::string& name) {
+    const std::size_t end = std::min(name.size(), name.find_first_of("_0123456789"));
+    std::string label = name.substr(end);
+    label.erase(0, std::min(label.size(), label.find_first_not_of('_')));
+    return {name.substr(0, end), label};
+}
+
+bool isAngle(const std::string& letter) {
+    constexpr std::array<std::string_view, 7> angles = {"theta", "phi",  "varphi", "psi",
+                                                        "alpha", "beta", "gamma"};
+    return std::find(angles.begin(), angles.end(), letter) != angles.end();
+}
+
+/// Places of the coordinates of a body; -1: it has none of that name.
+struct TypedBody {
+    std::string label;
+    int x = -1, y = -1, z = -1, r = -1, angle = -1;
+    bool isPolar() const { return r >= 0 && angle >= 0; }
+    Point at(const double* q) const {
+        const auto value = [&](int place) { return place < 0 ? 0.0 : q[place]; };
+        if (isPolar()) return {q[r] * std::cos(q[angle]), q[r] * std::sin(q[angle]), 0};
+        if (z >= 0) return {value(x), value(z), -value(y)};  // z up, as y is on the stage
+        return {value(x), value(y), 0};
+    }
+};
+
+/// One body per label, if every coordinate belongs to one, as x, y, z or as r and an angle.
+std::optional<std::vector<TypedBody>> bodiesOf(const std::vector<std::string>& coordinates) {
+    std::vector<TypedBody> bodies;
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+        const Name name = split(coordinates[i]);
+        auto body = std::find_if(bodies.begin(), bodies.end(),
+                                 [&](const TypedBody& b) { return b.label == name.label; });
+        if (body == bodies.end()) body = bodies.insert(bodies.end(), TypedBody{name.label});
+        int* const place = name.letter == "x"                               ? &body->x
+                           : name.letter == "y"                             ? &body->y
+                           : name.letter == "z"                             ? &body->z
+                           : name.letter == "r" || name.letter == "rho"     ? &body->r
+                           : name.letter == "theta" || name.letter == "phi" ? &body->angle
+                                                                            : nullptr;
+        if (!place || *place >= 0) return {};
+        *place = static_cast<int>(i);
+    }
+    const bool isWhole = std::all_of(bodies.begin(), bodies.end(), [](const TypedBody& b) {
+        const bool isCartesian = b.x >= 0 || b.y >= 0 || b.z >= 0, hasPart = b.r >= 0 || b.angle >= 0;
+        return isCartesian ? !hasPart : b.isPolar();
+    });
+    return isWhole ? std::optional(bodies) : std::nullopt;
+}
+
+/// The lengths of the rods of a chain, by their labels or their order.
+std::vector<double> lengthsOf(const Formula& formula, const std::vector<int>& angles) {
+    const auto parameter = [&](const std::string& name) -> std::optional<double> {
+        for (const auto& [key, value] : formula.parameters)
+            if (key == name && std::isfinite(value) && value > 0) return value;
+        return {};
+    };
+    std::vector<double> lengths;
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+        const std::string label = split(formula.coordinates[static_cast<std::size_t>(angles[i])]).label,
+                          number = std::to_string(i + 1);
+        std::optional<double> length;
+        for (const std::string& name : {"l" + label, "l_" + label, "l" + number, "l_" + number, "L" + number,
+                                        std::string("l"), std::string("L")})
+            if (!length) length = parameter(name);
+        lengths.push_back(length.value_or(1));
+    }
+    return lengths;
+}
+
+/// Rods from the downward vertical, hung up at the origin or at a coordinate.
+Picture chain(const Formula& formula, int cart, const std::vector<int>& angles) {
+    return {[cart, angles, lengths = lengthsOf(formula, angles)](const double* q, Drawing& drawing) {
+        Point joint{cart < 0 ? 0 : q[cart], 0, 0};
+        const double largest = *std::max_element(lengths.begin(), lengths.end());
+        if (cart < 0)
+            drawing.shapes.push_back(Support{joint, 0.5 * largest});
+        else
+            drawing.shapes.push_back(Disc{joint, smallDisc});
+        for (std::size_t i = 0; i < angles.size(); ++i) {
+            const double angle = q[angles[i]];
+            const Point next{joint[0] + lengths[i] * std::sin(angle), joint[1] - lengths[i] * std::cos(angle),
+                             0};
+            drawing.shapes.push_back(Segment{joint, next, 2});
+            drawing.shapes.push_back(Disc{next, largeDisc});
+            drawing.tracer = joint = next;
+        }
+    }};
+}
+
+Picture bodies(const std::vector<TypedBody>& all) {
+    Picture picture;
+    picture.isSpatial =
+        std::any_of(all.begin(), all.end(), [](const TypedBody& b) { return b.z >= 0 && b.y >= 0; });
+    picture.planeX = all.front().x;
+    picture.planeY = all.front().y;
+    picture.draw = [all](const double* q, Drawing& drawing) {
+        const bool isAlone = all.size() == 1;
+        if (isAlone) drawing.shapes.push_back(Disc{{0, 0, 0}, 2, ShapeRole::scenery});
+        for (const TypedBody& body : all) {
+            const Point at = body.at(q);
+            if (isAlone && body.y < 0 && !body.isPolar()) drawing.shapes.push_back(Segment{{0, 0, 0}, at, 2});
+            drawing.shapes.push_back(Disc{at, all.size() > few ? smallDisc : largeDisc});
+        }
+        drawing.tracer = all.front().at(q);
+    };
+    return picture;
+}
+
+Picture point(std::size_t d) {
+    return {[d](const double* q, Drawing& drawing) {
+        const Point at{q[0], d > 1 ? q[1] : 0, 0};
+        drawing.shapes.push_back(Disc{{0, 0, 0}, 2, ShapeRole::scenery});
+        if (d == 1) drawing.shapes.push_back(Segment{{0, 0, 0}, at, 2});
+        drawing.shapes.push_back(Disc{at, largeDisc});
+        drawing.tracer = at;
+    }};
+}
+
+}  // namespace
+
+Picture pictureOf(const Formula& formula) {
+    const std::vector<std::string>& names = formula.coordinates;
+    std::vector<int> angles;
+    int cart = -1;
+    bool isChain = true;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string letter = split(names[i]).letter;
+        if (isAngle(letter))
+            angles.push_back(static_cast<int>(i));
+        else if (letter == "x" && cart < 0)
+            cart = static_cast<int>(i);
+        else
+            isChain = false;
+    }
+    if (isChain && !angles.empty()) return chain(formula, cart, angles);
+    if (const auto found = bodiesOf(names)) return bodies(*found);
+    return point(names.size());
+}
+
+}  // namespace extremal::typed
