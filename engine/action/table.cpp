@@ -5,12 +5,11 @@
 #include <type_traits>
 
 #include "engine/action/combined_table.hpp"
+#include "engine/action/quadruple_table.hpp"
 #include "engine/action/table_build.hpp"
 
 namespace extremal {
 namespace {
-
-using Quad = boost::multiprecision::float128;
 
 /// The twin of a space in quadruple precision, from its evaluateQuadruple.
 Space<Quad> quadrupleTwin(const Space<double>& space) {
@@ -99,6 +98,10 @@ Table<T> makeTable(const Space<T>& space, const Rule<T>& rule) {
 
 Table<double> makePartTable(const Space<double>& space, const Rule<double>& rule) {
     return made(space, rule, false);
+}
+
+Table<Quad> makeQuadrupleTable(const Space<double>& space, const Rule<Quad>& rule) {
+    return makeTable(quadrupleTwin(space), rule);
 }
 
 template std::vector<double> consistencyDefects(const Table<double>&, int);

@@ -49,6 +49,21 @@ public:
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Adaptive>(*this); }
+    /// What a formula keeps of its last step is the derivative at its end.
+    bool checkpoint(Archive& archive) override {
+        AdaptiveMethod::checkpoint(archive);
+        if constexpr (requires { stepper_.reset(); })
+            if (archive.isReading()) {
+                const auto rhs = [&](const Vector& at, Vector& dx, double time) {
+                    flow(time, at.data(), dx.data());
+                };
+                Vector x = after();
+                double t = endTime(), h = 0;
+                (void)stepper_.try_step(rhs, x, t, h);  // which takes its memory
+                stepper_.initialize(rhs, after(), endTime());
+            }
+        return true;
+    }
 
 private:
     static auto controlled(const BaselineOptions& options) {

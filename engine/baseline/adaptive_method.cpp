@@ -23,10 +23,12 @@ AdaptiveMethod::AdaptiveMethod(Rate rate, std::size_t n)
 bool AdaptiveMethod::variationalFlow(double t, const double* y, double* dy, std::size_t size) {
     const std::size_t n = before_.size();
     if (!flow(t, y, dy)) return false;
-    const Eigen::MatrixXd& jacobian = jacobian_->evaluate(t, y, dy);
+    velocity_.assign(dy, dy + n / 2);
+    for (double& v : velocity_) v *= ahead_;
+    const Eigen::MatrixXd& jacobian = jacobian_->evaluate(ahead_ * t, y, velocity_.data());
     const auto rows = static_cast<Eigen::Index>(n), columns = static_cast<Eigen::Index>(size / n) - 1;
     Eigen::Map<Eigen::MatrixXd>(dy + n, rows, columns).noalias() =
-        jacobian.lazyProduct(Eigen::Map<const Eigen::MatrixXd>(y + n, rows, columns));
+        ahead_ * jacobian.lazyProduct(Eigen::Map<const Eigen::MatrixXd>(y + n, rows, columns));
     return true;
 }
 
@@ -38,11 +40,13 @@ void AdaptiveMethod::begin(State& state) {
 StepReport AdaptiveMethod::advance(State& state, double until) {
     StepReport report;
     if (state.memory.empty()) begin(state);
-    end_ = until;
-    const bool isContinued = hasStepped_ && state.t == endTime_ && state.x == x_;
+    const double ahead = until < state.t ? -1 : 1;
+    const bool isContinued = hasStepped_ && ahead == ahead_ && ahead * state.t == endTime_ && state.x == x_;
+    ahead_ = ahead;
+    end_ = ahead * until;
     before_ = x_ = state.x;
-    startTime_ = state.t;
-    double t = state.t, next = state.memory[0];
+    startTime_ = ahead * state.t;
+    double t = startTime_, next = state.memory[0];
     hasStepped_ = false;
     report.outcome = take(t, x_, next, report, isContinued);
     if (report.outcome == Outcome::converged &&
@@ -52,9 +56,10 @@ StepReport AdaptiveMethod::advance(State& state, double until) {
     hasStepped_ = true;
     state.x = x_;
     state.memory[0] = next;
-    endTime_ = state.t = t;
+    endTime_ = t;
+    state.t = ahead * t;
     ++state.node;
-    report.step = endTime_ - startTime_;
+    report.step = ahead * (endTime_ - startTime_);
     return report;
 }
 

@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 
-#include <array>
+#include <cstddef>
+
+#include "engine/baseline/classical_table.hpp"
 
 namespace extremal {
 
@@ -14,10 +16,10 @@ public:
     /// moves on to x_0 + h c_i f(last stage) and returns f' there, or null.
     template <class JacobianAt>
     bool apply(double h, Eigen::Map<Eigen::MatrixXd> W, JacobianAt&& jacobianAt) {
-        constexpr std::array<double, 4> node = {0, 0.5, 0.5, 1}, weight = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+        using classical::node, classical::weight;
         sum_.setZero(W.rows(), W.cols());
         slope_.setZero(W.rows(), W.cols());
-        for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t i = 0; i < classical::stages; ++i) {
             const Eigen::MatrixXd* const jacobian = jacobianAt(node[i] * h);
             if (!jacobian) return false;
             at_ = W + node[i] * h * slope_;

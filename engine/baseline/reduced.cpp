@@ -1,9 +1,10 @@
 #include "engine/baseline/reduced.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
+
+#include "engine/baseline/classical_table.hpp"
 
 namespace extremal {
 namespace {
@@ -56,6 +57,7 @@ public:
         advanceTo(y, tau * h_, stage, rate);
         motion_->embed(y.data(), x.data());
     }
+    std::string tangentProblem() const override { return "it moves fewer unknowns than the state has"; }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Reduced>(*this); }
 
 private:
@@ -70,12 +72,12 @@ private:
                    std::vector<double>& rate) const {
         const std::size_t n = before_.size();
         end = y = before_;
-        constexpr std::array<double, 4> weight = {1. / 6, 1. / 3, 1. / 3, 1. / 6}, place = {0.5, 0.5, 1, 0};
-        for (std::size_t stage = 0; stage < 4; ++stage) {
+        for (std::size_t stage = 0; stage < classical::stages; ++stage) {
+            const double next = stage + 1 < classical::stages ? classical::node[stage + 1] : 0;
             motion_->rate(y.data(), rate.data());
             for (std::size_t i = 0; i < n; ++i) {
-                end[i] += h * weight[stage] * rate[i];
-                y[i] = before_[i] + h * place[stage] * rate[i];
+                end[i] += h * classical::weight[stage] * rate[i];
+                y[i] = before_[i] + h * next * rate[i];
             }
         }
     }

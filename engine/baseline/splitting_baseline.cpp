@@ -39,6 +39,8 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
     };
     // At z = pi these products come near -1 and leave the unit circle in intervals as short as 0.001.
     e.stabilityLimit = firstInstability([&](double z) { return halfTrace(splitting.stages, z); }, 0.0005);
+    // Fractions are printed to 15 digits.
+    e.tableau = [splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); };
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         if (isWave(system)) return makeWaveSplitting(system, options.step, splitting);
         return makePartitioned(system.mechanics(), options.step,

@@ -18,6 +18,10 @@ public:
           psi_(static_cast<std::size_t>(n())) {}
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<WaveSplitting>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(hasNodes_, psi_);
+        return WaveStep::checkpoint(archive);
+    }
 
 private:
     void prepare() override {

@@ -18,6 +18,7 @@
 #include "engine/family/choices.hpp"
 #include "engine/family/discretization.hpp"
 #include "engine/family/findings.hpp"
+#include "engine/family/written_action.hpp"
 #include "engine/integrator/integrator.hpp"
 #include "engine/model/system.hpp"
 #include "engine/space/catalog.hpp"
@@ -27,6 +28,7 @@ namespace extremal {
 
 template <class T>
 struct Table;
+struct Tableau;
 
 /// A step that follows from the space: the length of an element.
 struct ImpliedStep {
@@ -162,6 +164,11 @@ struct Family {
     bool (*hasTable)(const Discretization&) = nullptr;
     /// The one table of a space and a rule, where no system and no step is in it. Null where there is none.
     Table<double> (*table)(const Settings& space, const Settings& quadrature) = nullptr;
+    /// The step as a Runge-Kutta method. Throws InvalidScene, with the reason, where it is none. Null: none
+    /// is.
+    std::shared_ptr<const Tableau> (*tableau)(const Discretization&, double step) = nullptr;
+    /// The discrete action and its stationarity.
+    WrittenAction (*written)(const Discretization&) = nullptr;
     /// Throws InvalidScene where it cannot.
     std::unique_ptr<Integrator> (*make)(const System&, const Discretization&, double step) = nullptr;
 };

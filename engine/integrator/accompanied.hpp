@@ -28,6 +28,7 @@ public:
     void denseOutput(double tau, std::span<double> x) const override { scheme_->denseOutput(tau, x); }
     double periodsPerStep() const override { return scheme_->periodsPerStep(); }
     std::string about() const override { return scheme_->about(); }
+    bool checkpoint(Archive& archive) override { return scheme_->checkpoint(archive); }
     std::vector<MemoryPart> memoryParts() const override;
     void begin(State& state) override;
     StepReport advance(State& state, double until) override;

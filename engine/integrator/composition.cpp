@@ -99,6 +99,10 @@ public:
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Composition>(*this); }
+    bool checkpoint(Archive& archive) override {
+        return std::all_of(schemes_.begin(), schemes_.end(),
+                           [&](const auto& scheme) { return scheme->checkpoint(archive); });
+    }
 
 private:
     /// All parts, from state.t to `until`; state.node is that of the composition.

@@ -87,6 +87,10 @@ public:
         values[1] = isFinite ? S.action : std::numeric_limits<double>::quiet_NaN();
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Condensed>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(step_);
+        return true;
+    }
 
 private:
     GalerkinStep<double, D> own() {

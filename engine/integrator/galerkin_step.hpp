@@ -48,6 +48,7 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
+#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/integrator/force_defect.hpp"
 #include "engine/integrator/node_iteration.hpp"
@@ -99,6 +100,12 @@ public:
     void restart() {
         hasPrevious_ = false;
         if (fixedPointSolver_) fixedPointSolver_->forget();
+    }
+
+    /// What the next step depends on besides its start (Integrator::checkpoint).
+    void checkpoint(Archive& archive) requires std::is_same_v<T, double> {
+        archive(previousY_, hasPrevious_, carryQ_, carryP_, lastQ_, lastP_, ladder_, newtonSteps_);
+        if (fixedPointSolver_) archive(*fixedPointSolver_);
     }
 
 private:

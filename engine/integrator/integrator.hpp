@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/clock.hpp"
 #include "engine/core/node_block.hpp"
 #include "engine/core/quantity.hpp"
@@ -80,6 +81,8 @@ public:
     /// parts of a wave function; (dt, dq, -dE, dp) where times are unknowns. On a group they are left
     /// trivialised, (g^{-1} dg, dmu), with the form of model/symplectic_form.hpp.
     virtual std::size_t tangentSize() const { return 0; }
+    /// Why not, where that is 0, after "has no tangent map: ".
+    virtual std::string tangentProblem() const { return "its steps cannot be differentiated"; }
     /// Moves variations of the state before the last step to those of the state after it, W <- M W with the
     /// tangent map M = dx_1/dx_0 of the step; column after column. Steps of a size chosen from the state are
     /// taken as given. False where M does not exist; W is then of no use. Only valid after a converged
@@ -88,6 +91,12 @@ public:
 
     /// The same integrator with all that it remembers: its next step has the same bits.
     virtual std::unique_ptr<Integrator> clone() const = 0;
+
+    /// Writes or reads what the next step depends on besides the State: starting values, what rounding took
+    /// from sums, factors in use. An integrator just made for the same scheme that reads it goes on from the
+    /// State with the same bits. False where a library keeps its history to itself; what was written is then
+    /// of no use.
+    virtual bool checkpoint(Archive& /*archive*/) { return true; }
 
     /// How often the dense output of a step oscillates by itself: what a picture of it must resolve. 0 where
     /// steps are to resolve the motion.

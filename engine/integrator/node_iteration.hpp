@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
+#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/integrator/node_kernel.hpp"
 #include "engine/model/mechanics.hpp"
@@ -63,6 +64,8 @@ public:
     /// Forces at the nodes, n x d, of a step solved otherwise: the next one starts from them.
     void remember(const Eigen::Ref<const Square>& forces);
     void forget() { hasForces_ = false; }
+    /// What the next step starts from.
+    void checkpoint(Archive& archive) requires std::is_same_v<T, double> { archive(F_, hasForces_); }
 
     /// Steps of another length from now on; nothing is allocated.
     void setStep(const T& step);

@@ -37,6 +37,9 @@ public:
           trial_(other.trial_) {}
     WithLocalErrors& operator=(const WithLocalErrors&) = delete;
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<WithLocalErrors>(*this); }
+    bool checkpoint(Archive& archive) override {
+        return Accompanied::checkpoint(archive) && better_->checkpoint(archive);
+    }
     void setStep(double h) override {
         Accompanied::setStep(h);
         better_->setStep(isHalved_ ? h / 2 : h);

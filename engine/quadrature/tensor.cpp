@@ -8,15 +8,7 @@ namespace {
 
 Settings partOf(const Settings& quadrature, std::string_view name) {
     const Value* const part = quadrature.find(name);
-    if (!part || !part->isObject()) return {};
-    Settings rule;
-    for (const auto& [key, value] : part->asObject()) {
-        if (key == "type" && value.isString())
-            rule.type = value.asString();
-        else
-            rule.keys.emplace_back(key, value);
-    }
-    return rule;
+    return part && part->isObject() ? settingsOf(*part) : Settings{};
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include <vector>
 
+#include "engine/core/archive.hpp"
+
 namespace extremal {
 
 class BandLu {
@@ -27,6 +29,7 @@ public:
     double pivotRatio() const;
     /// b <- A^{-1} b.
     void solve(double* b) const;
+    void checkpoint(Archive& archive) { archive(band_, pivot_); }
 
 private:
     double& entry(int i, int j) {

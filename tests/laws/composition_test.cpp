@@ -47,12 +47,18 @@ Case named(const std::string& name) {
     return {};
 }
 
+/// Orders 6 of the splitting 1/6, 2/3, 1/6 have a leading error so small that on Kepler the next one
+/// outweighs it, with the other sign, down to 1e-9: their order shows below.
 Orders orderOf(const Case& scheme, const System& system, const State& start) {
-    return measure(system, start, 3, 1e-3, [&](double h) {
-        return [integrator = std::shared_ptr<Integrator>(scheme.make(system, {0, h}))](State& state) {
-            return advance(*integrator, state).outcome == Outcome::converged;
-        };
-    });
+    const double least = scheme.name.ends_with("of splitting") ? 1e-12 : 2e-11;
+    return measure(
+        system, start, 3, 1e-3,
+        [&](double h) {
+            return [integrator = std::shared_ptr<Integrator>(scheme.make(system, {0, h}))](State& state) {
+                return advance(*integrator, state).outcome == Outcome::converged;
+            };
+        },
+        least);
 }
 
 /// The order of a scheme of a scene for wave functions or bodies, from errors down to `least`.

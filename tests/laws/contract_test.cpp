@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <set>
 
 #include "engine/core/text.hpp"
@@ -155,6 +156,38 @@ private slots:
         const double off = relativeDistance(resumed, state);
         qInfo("off by %.1e", off);
         QVERIFY(off < (isLibrary ? 1e-4 : 1e-13));
+    }
+    void aCheckpointGoesOnWithTheSameBits_data() { addRuns(); }
+    void aCheckpointGoesOnWithTheSameBits() {
+        const Run& run = current();
+        const auto integrator = run.make(), fresh = run.make();
+        State state = run.start;
+        integrator->begin(state);
+        for (int k = 0; k < 7; ++k) {
+            if (integrator->grid() != TimeGrid::fixed && state.t >= run.end) break;
+            QCOMPARE(step(run, *integrator, state).outcome, Outcome::converged);
+        }
+        Archive written;
+        const std::string& code = run.scheme.scheme.spec.baseline.type;
+        const bool isLibrary = code == "stiff" || code == "bulirsch-stoer";
+        QCOMPARE(integrator->checkpoint(written), !isLibrary);
+        if (isLibrary) return;
+        Archive read(written.bytes());
+        QVERIFY(fresh->checkpoint(read));
+        State resumed = state;
+        std::vector<double> said(integrator->quantities().size()), saidAgain(said.size());
+        for (int k = 0; k < 60; ++k) {
+            if (integrator->grid() != TimeGrid::fixed && state.t >= run.end) break;
+            const StepReport own = step(run, *integrator, state), other = step(run, *fresh, resumed);
+            QCOMPARE(own.outcome, other.outcome);
+            QVERIFY(own.cost == other.cost && own.event == other.event);
+            if (own.outcome != Outcome::converged) break;
+            QVERIFY(state.x == resumed.x && state.memory == resumed.memory && state.t == resumed.t);
+            if (said.empty()) continue;
+            integrator->measure(state, said.data());
+            fresh->measure(resumed, saidAgain.data());
+            QVERIFY(std::memcmp(said.data(), saidAgain.data(), said.size() * sizeof(double)) == 0);
+        }
     }
     void memoryIsNamed_data() { addRuns(); }
     void memoryIsNamed() {

@@ -33,11 +33,12 @@ struct Case {
     bool isPair = false;
 };
 
-/// The keys of a baseline with their defaults.
+/// The keys of a baseline with their defaults, or the examples of those that have none.
 inline Settings defaultsOf(const CatalogItem& item) {
     Settings settings;
     settings.type = item.id;
-    for (const FieldInfo& f : item.parameters) settings.keys.emplace_back(f.key, f.fallback);
+    for (const FieldInfo& f : item.parameters)
+        if (!f.firstValue().isNull()) settings.keys.emplace_back(f.key, f.firstValue());
     return settings;
 }
 

@@ -15,10 +15,11 @@ struct Orders {
 };
 
 /// Slopes over h of the largest errors at the nodes up to T, from the four finest runs whose errors are in
-/// the window [2e-11, highest] where they say something. The largest over the nodes, because the error at one
+/// the window [least, highest] where they say something. The largest over the nodes, because the error at one
 /// time may pass zero.
 template <class Make>
-Orders measure(const System& system, const State& start, double T, double highest, Make&& make) {
+Orders measure(const System& system, const State& start, double T, double highest, Make&& make,
+               double least = 2e-11) {
     const std::size_t d = system.coordinates.size();
     std::vector<double> exact(2 * d), h, eq, ep;
     const ExactSolution solution = system.exact(start);
@@ -33,7 +34,7 @@ Orders measure(const System& system, const State& start, double T, double highes
             p = std::max(p, distance(state.x, exact, d, 2 * d));
         }
         if (state.node < steps || std::max(q, p) > highest) continue;
-        if (std::min(q, p) < 2e-11) break;
+        if (std::min(q, p) < least) break;
         h.push_back(std::log(T / static_cast<double>(steps)));
         eq.push_back(std::log(q));
         ep.push_back(std::log(p));

@@ -81,10 +81,25 @@ struct Measured {
     bool isClaimed = false;
 };
 
+/// A scheme without a tangent map gives a reason of its own.
+void sayWhy(const CatalogueScheme& c, const Integrator& integrator) {
+    struct Silent final : Integrator {
+        StepReport advance(State&, double) override { return {}; }
+        double stepSize() const override { return 0; }
+        void setStep(double) override {}
+        void denseOutput(double, std::span<double>) const override {}
+        std::unique_ptr<Integrator> clone() const override { return {}; }
+    };
+    const std::string why = integrator.tangentProblem();
+    if (why == Silent().tangentProblem()) qFatal("%s does not say why", c.name.c_str());
+    qInfo("%s: %s", c.name.c_str(), why.c_str());
+}
+
 /// The first steps of a scheme; nothing where it cannot take them, or has no tangent map.
 std::optional<Measured> measured(const Ground& on, const CatalogueScheme& c) {
     const auto integrator = c.make(on.system, on.step, on.start);
     const std::size_t n = integrator->tangentSize();
+    if (n == 0) sayWhy(c, *integrator);
     if (n == 0 || integrator->grid() == TimeGrid::free) return {};
     const SymplecticForm form(on.system);
     const bool isLanding = integrator->grid() == TimeGrid::landing;
@@ -186,7 +201,10 @@ private slots:
         for (const CatalogueScheme& c : everythingOn(system, start, 0.1)) {
             const auto integrator = c.make(system, 0.1, start);
             const std::size_t n = integrator->tangentSize();
-            if (n == 0) continue;
+            if (n == 0) {
+                sayWhy(c, *integrator);
+                continue;
+            }
             State state = start;
             integrator->begin(state);
             if (advance(*integrator, state).outcome != Outcome::converged) continue;

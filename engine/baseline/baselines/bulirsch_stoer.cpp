@@ -23,7 +23,12 @@ public:
         std::copy(y.begin(), y.end(), x.begin());
     }
 
+    std::string tangentProblem() const override {
+        return "its library extrapolates with an order that depends on the state, and gives no derivatives";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<BulirschStoer>(*this); }
+    /// The orders and steps that it has in mind are private to the library.
+    bool checkpoint(Archive&) override { return false; }
 
 private:
     /// Thrown out of the right-hand side, the only way to end a step of odeint early.

@@ -74,7 +74,11 @@ public:
         write(y.data(), x.data());
     }
 
+    std::string tangentProblem() const override {
+        return "its steps under error control are varied for systems with coordinates alone";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Dopri5Quaternion>(*this); }
+    bool checkpoint(Archive& archive) override { return inner_.checkpoint(archive); }
 
 private:
     static void normalise(double* y) {

@@ -18,6 +18,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/baseline/gauss_tableau.hpp"
 #include "engine/quadrature/rule.hpp"
 
 namespace extremal::baselines {
@@ -66,6 +67,10 @@ public:
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<GaussCollocation>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(Kq_, Kp_, endQ_, endP_, lostQ_, lostP_, hasCurve_);
+        return true;
+    }
     void begin(State& state) override {
         state.memory.clear();
         hasCurve_ = false;
@@ -309,6 +314,7 @@ BaselineEntry gauss_collocation() {
               ""};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.claims = [](const Settings& settings) { return claims(settings.integer("stages")); };
+    e.tableau = [](const Settings& settings) { return gaussTableau(settings.integer("stages")); };
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<GaussCollocation>(system.mechanics(), options.step,
                                                 options.settings.integer("stages"));

@@ -10,6 +10,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/baseline/gauss_tableau.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -115,6 +116,7 @@ BaselineEntry implicit_midpoint() {
               Claims{2, true, true, {"momentum", "quadratic invariants"}},
               ""};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.tableau = [](const Settings&) { return gaussTableau(1); };
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<ImplicitMidpoint>(system.mechanics(), options.step);
     };

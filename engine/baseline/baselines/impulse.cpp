@@ -31,7 +31,8 @@ std::vector<double> stagesOf(int order) {
 
 class Impulse final : public Integrator {
 public:
-    Impulse(const System& system, double step, int order) : order_(order), fast_(system.fast) {
+    Impulse(const System& system, double step, int order)
+        : order_(order), fast_(system.fast), start_(2 * system.coordinates.size()), trial_(start_) {
         setStep(step);
     }
 
@@ -69,6 +70,21 @@ public:
         ++state.node;
         return report;
     }
+    std::size_t tangentSize() const override { return start_.size(); }
+    /// By the step over dual numbers, column after column.
+    bool applyTangent(std::span<double> W) override {
+        const std::size_t n = start_.size();
+        varied_.resize(n);
+        for (double* w = W.data(); w != W.data() + W.size(); w += n) {
+            for (std::size_t i = 0; i < n; ++i) {
+                varied_[i] = FlowMap::Varied(start_[i]);
+                varied_[i].g[0] = w[i];
+            }
+            for (const FastMotion::Flow& part : parts_) part(varied_.data());
+            for (std::size_t i = 0; i < n; ++i) w[i] = varied_[i].g[0];
+        }
+        return true;
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Impulse>(*this); }
     /// A shorter step of order 2 from the nearer end: the oscillation is in it.
     void denseOutput(double tau, std::span<double> x) const override {
@@ -88,6 +104,7 @@ private:
     std::vector<FastMotion::Flow> parts_;
     int evaluations_ = 0;
     std::vector<double> start_, trial_;
+    std::vector<FlowMap::Varied> varied_;
 };
 
 }  // namespace

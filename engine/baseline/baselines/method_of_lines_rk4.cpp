@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/classical_table.hpp"
 #include "engine/baseline/field_method.hpp"
 #include "engine/family/field/field_step.hpp"
 #include "engine/family/field/step_limit.hpp"
@@ -26,9 +27,9 @@ public:
 
 private:
     Outcome step(const double* x, double* next, StepReport& report) override {
-        constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+        using classical::node, classical::weight;
         std::copy_n(x, 2 * n(), next);
-        for (int stage = 0; stage < 4; ++stage) {
+        for (std::size_t stage = 0; stage < classical::stages; ++stage) {
             for (std::size_t i = 0; i < 2 * n(); ++i)
                 at_[i] = stage == 0 ? x[i] : x[i] + node[stage] * h() * rate_[i];
             std::copy_n(at_.begin() + static_cast<std::ptrdiff_t>(n()), n(), rate_.begin());
@@ -47,7 +48,7 @@ private:
     bool linearise() override {
         std::vector<double> at(before()), acceleration(n());
         const double* const x = before().data();
-        for (std::size_t stage = 0; stage < 4; ++stage) {
+        for (std::size_t stage = 0; stage < classical::stages; ++stage) {
             hessians_[stage] = hessianAt(at.data());
             std::fill(acceleration.begin(), acceleration.end(), 0.0);
             form().addForce(at.data(), 1, acceleration.data());
@@ -60,10 +61,10 @@ private:
         return true;
     }
     void vary(std::vector<double>& du, std::vector<double>& dp) override {
-        constexpr double weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+        using classical::weight;
         const std::vector<double> u = du, p = dp;
         std::vector<double> atU = du, atP = dp, force(n());
-        for (std::size_t stage = 0; stage < 4; ++stage) {
+        for (std::size_t stage = 0; stage < classical::stages; ++stage) {
             std::fill(force.begin(), force.end(), 0.0);
             addForceChange(hessians_[stage], atU.data(), 1, force.data());
             const double ahead = stage < 2 ? h() / 2 : h();

@@ -22,58 +22,70 @@
 namespace extremal::baselines {
 namespace {
 
-class MoserVeselov final : public BodyMethod {
+class MoserVeselov final : public BodyMethodOf<MoserVeselov> {
+    friend BodyMethodOf;
     using Matrix = so3::Matrix<double>;
 
 public:
     MoserVeselov(const System& system, const BaselineOptions& options)
-        : BodyMethod(system, options.step), order_(options.settings.integer("order")) {}
-
-    std::unique_ptr<Integrator> clone() const override { return std::make_unique<MoserVeselov>(*this); }
+        : BodyMethodOf(system, options.step), order_(options.settings.integer("order")) {}
 
 private:
     bool turnsMomentum() const override { return true; }
 
-    Vector inertia(const Vector& Pi, double h) const {
+    template <class T>
+    so3::Vector<T> inertia(const so3::Vector<T>& Pi, double h) const {
         const Vector w(1 / body_.inertia[0], 1 / body_.inertia[1], 1 / body_.inertia[2]);
-        const double H = 0.5 * Pi.dot(w.cwiseProduct(Pi)), C = 0.5 * Pi.squaredNorm();
+        const T H = so3::dot(Pi, omega(Pi)) * 0.5, C = so3::dot(Pi, Pi) * 0.5;
         const double e1 = w.sum(), e2 = w(0) * w(1) + w(1) * w(2) + w(2) * w(0), e3 = w(0) * w(1) * w(2),
                      hh = h * h;
-        double s = 1, d = 0;
+        T s(1), d(0);
         if (order_ >= 4) {
-            s += hh * (e2 * C / 6 - e1 * H / 3);
-            d += hh * (e2 * H / 6 - e3 * C / 3);
+            s += (C * (e2 / 6) - H * (e1 / 3)) * hh;
+            d += (H * (e2 / 6) - C * (e3 / 3)) * hh;
         }
         if (order_ >= 6) {
-            s += hh * hh *
-                 ((e1 * e1 / 30 - e2 / 60) * H * H + (2 * e3 / 15 - e1 * e2 / 30) * H * C +
-                  (e2 * e2 / 30 - e1 * e3 / 10) * C * C);
-            d += hh * hh *
-                 (-(e3 / 10 + e1 * e2 / 60) * H * H + (2 * e1 * e3 / 15 - e2 * e2 / 60) * H * C -
-                  e2 * e3 / 60 * C * C);
+            s += (H * H * (e1 * e1 / 30 - e2 / 60) + H * C * (2 * e3 / 15 - e1 * e2 / 30) +
+                  C * C * (e2 * e2 / 30 - e1 * e3 / 10)) *
+                 (hh * hh);
+            d += (H * C * (2 * e1 * e3 / 15 - e2 * e2 / 60) - H * H * (e3 / 10 + e1 * e2 / 60) -
+                  C * C * (e2 * e3 / 60)) *
+                 (hh * hh);
         }
-        return (s * w + Vector::Constant(d)).cwiseInverse();
+        so3::Vector<T> J;
+        for (int i = 0; i < 3; ++i) J(i) = T(1) / (s * w(i) + d);
+        return J;
     }
 
-    void step(Motion& m, double h) override {
-        const Vector J = inertia(m.momentum, h), target = h * m.momentum;
+    /// s J xi + a xi x J xi - target.
+    template <class T>
+    static so3::Vector<T> defect(const Vector& xi, const so3::Vector<T>& J, const so3::Vector<T>& target) {
+        const auto c = so3::coefficients<0>(xi.squaredNorm());
+        so3::Vector<T> Jxi;
+        for (int i = 0; i < 3; ++i) Jxi(i) = J(i) * xi(i);
+        return Jxi * T(c.s) + so3::cross(so3::Vector<T>(xi.template cast<T>()), Jxi) * T(c.a[0]) - target;
+    }
+    /// Its derivative by xi.
+    static Matrix slope(const Vector& xi, const Vector& J) {
+        const double x = xi.squaredNorm();
+        const auto c = so3::coefficients<1>(x);
+        const Vector Jxi = J.cwiseProduct(xi), turned = so3::cross(xi, Jxi);
+        const double ds = -c.b[0] - x * c.b[1];  // ds/dx
+        return c.s * Matrix(J.asDiagonal()) + c.a[0] * (so3::hat(xi) * J.asDiagonal() - so3::hat(Jxi)) +
+               (2 * ds * Jxi + 2 * c.a[1] * turned) * xi.transpose();
+    }
+    /// Newton's method; NaN where it fails, with the outcome in report_.
+    Vector solve(const Vector& J, const Vector& target) {
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        const Vector none = Vector::Constant(std::numeric_limits<double>::quiet_NaN());
         Vector xi = target.cwiseQuotient(J);
         double last = std::numeric_limits<double>::infinity();
         for (int iteration = 0; iteration < 50; ++iteration) {
             if (stop().stop_requested()) {
                 report_.outcome = Outcome::stopped;
-                return;
+                return none;
             }
-            const double x = xi.squaredNorm();
-            const auto c = so3::coefficients<1>(x);
-            const Vector Jxi = J.cwiseProduct(xi), turned = so3::cross(xi, Jxi);
-            const Vector F = c.s * Jxi + c.a[0] * turned - target;
-            const double slope = -c.b[0] - x * c.b[1];  // ds/dx
-            Matrix D = c.s * Matrix(J.asDiagonal()) +
-                       c.a[0] * (so3::hat(xi) * J.asDiagonal() - so3::hat(Jxi)) +
-                       (2 * slope * Jxi + 2 * c.a[1] * turned) * xi.transpose();
-            const Vector change = D.partialPivLu().solve(F);
+            const Vector change = slope(xi, J).partialPivLu().solve(defect(xi, J, target));
             xi -= change;
             ++report_.cost.iterations;
             ++report_.cost.evaluations;
@@ -82,17 +94,41 @@ private:
             report_.residual = size / std::max(xi.norm(), 1e-300);
             if (!std::isfinite(size)) {
                 report_.outcome = Outcome::notFinite;
-                return;
+                return none;
             }
             if (size <= 4 * epsilon * xi.norm() || (size < 1e-11 * xi.norm() && size >= 0.25 * last)) {
                 // Beyond pi the nearest solution is another one than that of the motion.
                 if (!(xi.norm() < 3.1415926)) report_.outcome = Outcome::diverged;
-                m.q = so3::normalised(so3::product(m.q, so3::quaternionExp(xi)));
-                return;
+                return xi;
             }
             last = size;
         }
         report_.outcome = Outcome::diverged;
+        return none;
+    }
+
+    void move(BodyMotion<double>& m, double h) {
+        const Vector xi = solve(inertia(m.momentum, h), h * m.momentum);
+        if (report_.outcome == Outcome::converged)
+            m.q = so3::normalised(so3::product(m.q, so3::quaternionExp(xi)));
+    }
+    /// The solution does not vary by itself: dF/dxi dxi = -dF at xi.
+    void move(BodyMotion<Varied>& m, double h) {
+        const so3::Vector<Varied> J = inertia(m.momentum, h), target = m.momentum * Varied(h);
+        const Vector xi = solve(values(J), values(target)),
+                     change = slope(xi, values(J)).partialPivLu().solve(slopes(defect(xi, J, target)));
+        // exp(xi + d) = exp(xi) exp(dexp(xi) d) to first order.
+        const Vector rate = so3::Exponential<double>(xi).dexp(-change);
+        const so3::Quaternion<double> turn = so3::quaternionExp(xi),
+                                      along = so3::product(
+                                          turn,
+                                          so3::Quaternion<double>(0, rate(0) / 2, rate(1) / 2, rate(2) / 2));
+        so3::Quaternion<Varied> turned;
+        for (int i = 0; i < 4; ++i) {
+            turned(i) = Varied(turn(i));
+            turned(i).g[0] = along(i);
+        }
+        m.q = so3::normalised(so3::product(m.q, turned));
     }
 
     int order_;

@@ -36,7 +36,16 @@ private:
     Outcome step(const double* x, double* next, StepReport& report) override {
         const std::size_t size = n();
         kick(x, x + size, next + size);
-        for (std::size_t i = 0; i < size; ++i) psi_[i] = {x[i], next[size + i]};
+        std::copy_n(x, size, next);
+        fly(next, next + size);
+        kick(next, next + size, next + size);
+        report.cost.evaluations = 2 + 2 * static_cast<long long>(size);
+        return Outcome::converged;
+    }
+    /// The free wave over h.
+    void fly(double* u, double* v) {
+        const std::size_t size = n();
+        for (std::size_t i = 0; i < size; ++i) psi_[i] = {u[i], v[i]};
         fourier_.rawToCoefficients(psi_.data(), c_.data());
         // Coefficients of u and v from those of u + i v, at k and -k together.
         const double scale = 1 / static_cast<double>(size);
@@ -45,25 +54,44 @@ private:
             if (j < i) continue;
             Complex& a = c_[static_cast<std::size_t>(i)];
             Complex& b = c_[static_cast<std::size_t>(j)];
-            const Complex u = (a + std::conj(b)) / 2.0, v = (a - std::conj(b)) / Complex(0, 2);
+            const Complex U = (a + std::conj(b)) / 2.0, V = (a - std::conj(b)) / Complex(0, 2);
             const Flow& f = flow_[static_cast<std::size_t>(i)];
-            const Complex newU = scale * (f.keep * u + f.fromV * v),
-                          newV = scale * (f.fromU * u + f.keep * v);
+            const Complex newU = scale * (f.keep * U + f.fromV * V),
+                          newV = scale * (f.fromU * U + f.keep * V);
             a = newU + Complex(0, 1) * newV;
             b = std::conj(newU) + Complex(0, 1) * std::conj(newV);
         }
         fourier_.rawToNodes(c_.data(), psi_.data());
         for (std::size_t i = 0; i < size; ++i) {
-            next[i] = psi_[i].real();
-            next[size + i] = psi_[i].imag();
+            u[i] = psi_[i].real();
+            v[i] = psi_[i].imag();
         }
-        kick(next, next + size, next + size);
-        report.cost.evaluations = 2 + 2 * static_cast<long long>(size);
-        return Outcome::converged;
     }
     void kick(const double* u, const double* v, double* kicked) {
         form().problem().potential.evaluate(u, n(), nullptr, slope_.data(), nullptr);
         for (std::size_t i = 0; i < n(); ++i) kicked[i] = v[i] - h() / 2 * slope_[i];
+    }
+
+    bool hasVariations() const override { return true; }
+    bool linearise() override {
+        std::vector<double> after(2 * n());
+        StepReport ignored;
+        if (step(before().data(), after.data(), ignored) != Outcome::converged) return false;
+        atStart_ = curvature(before().data());
+        atEnd_ = curvature(after.data());
+        return true;
+    }
+    std::vector<double> curvature(const double* u) const {
+        std::vector<double> all(n());
+        form().problem().potential.evaluate(u, n(), nullptr, nullptr, all.data());
+        return all;
+    }
+    /// The kicks and the free wave are linear in a variation; its momenta are dx dv.
+    void vary(std::vector<double>& du, std::vector<double>& dp) override {
+        const double mass = form().problem().mesh.length() / static_cast<double>(n());
+        for (std::size_t i = 0; i < n(); ++i) dp[i] = dp[i] / mass - h() / 2 * atStart_[i] * du[i];
+        fly(du.data(), dp.data());
+        for (std::size_t i = 0; i < n(); ++i) dp[i] = (dp[i] - h() / 2 * atEnd_[i] * du[i]) * mass;
     }
 
     struct Flow {
@@ -73,6 +101,7 @@ private:
     std::vector<Flow> flow_;
     std::vector<Complex> psi_, c_;
     std::vector<double> slope_;
+    std::vector<double> atStart_, atEnd_;  ///< W'' at the ends of the last step
 };
 
 }  // namespace

@@ -23,36 +23,41 @@ std::vector<double> substeps(int order) {
     return {g1, g2, g3, g4, 1 - 2 * (g1 + g2 + g3 + g4), g4, g3, g2, g1};
 }
 
-class RigidSplitting final : public BodyMethod {
+class RigidSplitting final : public BodyMethodOf<RigidSplitting> {
+    friend BodyMethodOf;
+
 public:
     RigidSplitting(const System& system, const BaselineOptions& options)
-        : BodyMethod(system, options.step), substeps_(substeps(options.settings.integer("order"))) {}
-
-    std::unique_ptr<Integrator> clone() const override { return std::make_unique<RigidSplitting>(*this); }
+        : BodyMethodOf(system, options.step), substeps_(substeps(options.settings.integer("order"))) {}
 
 private:
     bool turnsMomentum() const override { return body_.isFree(); }
-    void turn(Motion& m, int i, double t) const {
-        const double half = 0.5 * t * m.momentum(i) / body_.inertia[static_cast<std::size_t>(i)];
-        const double c = std::cos(half), s = std::sin(half), cc = c * c - s * s, ss = 2 * s * c;
+    template <class T>
+    void turn(BodyMotion<T>& m, int i, double t) const {
+        using std::cos;
+        using std::sin;
+        const T half = m.momentum(i) * (0.5 * t) / body_.inertia[static_cast<std::size_t>(i)];
+        const T c = cos(half), s = sin(half), cc = c * c - s * s, ss = s * c * 2.0;
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         // q (c, s e_i), and the momentum turned back in the body.
-        const Quaternion q = m.q;
+        const so3::Quaternion<T> q = m.q;
         m.q(0) = c * q(0) - s * q(1 + i);
         m.q(1 + i) = c * q(1 + i) + s * q(0);
         m.q(1 + j) = c * q(1 + j) + s * q(1 + k);
         m.q(1 + k) = c * q(1 + k) - s * q(1 + j);
-        const double a = m.momentum(j), b = m.momentum(k);
+        const T a = m.momentum(j), b = m.momentum(k);
         m.momentum(j) = cc * a + ss * b;
         m.momentum(k) = cc * b - ss * a;
     }
-    void kick(Motion& m, double t) {
-        Vector torque, force;
+    template <class T>
+    void kick(BodyMotion<T>& m, double t) {
+        so3::Vector<T> torque, force;
         forces(m, torque, force);
-        m.momentum += t * torque;
-        if (body_.dimension == 6) m.linear += t * (so3::matrix(m.q) * force);
+        m.momentum += torque * T(t);
+        if (body_.dimension == 6) m.linear += so3::matrix(m.q) * force * T(t);
     }
-    void step(Motion& m, double h) override {
+    template <class T>
+    void move(BodyMotion<T>& m, double h) {
         report_.cost.evaluations += 5 * static_cast<int>(substeps_.size());
         for (const double fraction : substeps_) {
             const double s = fraction * h;
@@ -62,7 +67,7 @@ private:
             turn(m, 2, s);
             turn(m, 1, s / 2);
             turn(m, 0, s / 2);
-            if (body_.dimension == 6) m.position += s / body_.inertia[3] * m.linear;
+            if (body_.dimension == 6) m.position += m.linear * T(s / body_.inertia[3]);
             if (!body_.isFree()) kick(m, s / 2);
         }
         m.q = so3::normalised(m.q);

@@ -1,10 +1,14 @@
 /// The classical Runge-Kutta method of order 4 on (q, p): accurate over short times, not symplectic.
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/classical_table.hpp"
 #include "engine/baseline/classical_tangent.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/tableau/tableau.hpp"
 
 namespace extremal::baselines {
 namespace {
+
+using classical::node, classical::weight;
 
 template <int D>
 class Rk4 final : public FlowMethod<D> {
@@ -27,34 +31,33 @@ public:
         const auto& m = this->mechanics_;
         Vector q = this->q0_, p = this->p0_, dq = q, dp = p;
         values[0] = 0;
-        for (int i = 0; i < 4; ++i) {
-            if (i > 0) {
-                q = this->q0_ + node[i] * this->h() * dq;
-                p = this->p0_ + node[i] * this->h() * dp;
+        for (std::size_t stage = 0; stage < classical::stages; ++stage) {
+            if (stage > 0) {
+                q = this->q0_ + node[stage] * this->h() * dq;
+                p = this->p0_ + node[stage] * this->h() * dp;
             }
-            const double t = this->startTime_ + node[i] * this->h();
+            const double t = this->startTime_ + node[stage] * this->h();
             m.flow(m.model.get(), t, q.data(), p.data(), dq.data(), dp.data());
-            values[0] += this->h() * weight[i] * (p.dot(dq) - m.energy(m.model.get(), t, q.data(), p.data()));
+            values[0] +=
+                this->h() * weight[stage] * (p.dot(dq) - m.energy(m.model.get(), t, q.data(), p.data()));
         }
     }
 
 private:
-    static constexpr double node[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
-
     void step(double t) override {
         const double h = this->h();
         q_ = this->q0_;
         p_ = this->p0_;
         sumQ_.setZero();
         sumP_.setZero();
-        for (int i = 0; i < 4; ++i) {
-            if (i > 0) {
-                q_ = this->q0_ + node[i] * h * dq_;
-                p_ = this->p0_ + node[i] * h * dp_;
+        for (std::size_t stage = 0; stage < classical::stages; ++stage) {
+            if (stage > 0) {
+                q_ = this->q0_ + node[stage] * h * dq_;
+                p_ = this->p0_ + node[stage] * h * dp_;
             }
-            this->flow(t + node[i] * h, q_, p_, dq_, dp_);
-            sumQ_ += weight[i] * dq_;
-            sumP_ += weight[i] * dp_;
+            this->flow(t + node[stage] * h, q_, p_, dq_, dp_);
+            sumQ_ += weight[stage] * dq_;
+            sumP_ += weight[stage] * dp_;
         }
         this->q1_ = this->q0_ + h * sumQ_;
         this->p1_ = this->p0_ + h * sumP_;
@@ -71,6 +74,17 @@ private:
     ClassicalTangent tangent_;
 };
 
+std::shared_ptr<const Tableau> rk4Tableau(const Settings&) {
+    Tableau::Matrix A = Tableau::Matrix::Zero(classical::stages, classical::stages);
+    Tableau::Vector b(classical::stages);
+    for (std::size_t i = 0; i < classical::stages; ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        b(row) = Quad(classical::weightSixths[i]) / 6;
+        if (i > 0) A(row, row - 1) = Quad(classical::nodeHalves[i]) / 2;
+    }
+    return std::make_shared<const Tableau>(plainTableau(A, b));
+}
+
 }  // namespace
 
 BaselineEntry rk4() {
@@ -82,6 +96,7 @@ BaselineEntry rk4() {
               Claims{4, false, false, {}},
               ""};
     e.stabilityLimit = 2.8284271247461903;  // |R(iz)| <= 1 up to 2 sqrt 2
+    e.tableau = rk4Tableau;
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<Rk4>(system.mechanics(), options.step);
     };

@@ -41,6 +41,13 @@ public:
     Rk8pd& operator=(const Rk8pd&) = delete;
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Rk8pd>(*this); }
+    bool checkpoint(Archive& archive) override {
+        AdaptiveMethod::checkpoint(archive);
+        archive(evolve_->last_step, evolve_->count, evolve_->failed_steps);
+        for (double* const rates : {evolve_->dydt_in, evolve_->dydt_out})
+            for (std::size_t i = 0; i < size(); ++i) archive(rates[i]);
+        return true;
+    }
 
     void denseOutput(double tau, std::span<double> x) const override {
         const Step shorter(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size()));

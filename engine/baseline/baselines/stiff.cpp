@@ -64,12 +64,17 @@ public:
         CVodeSetLinearSolver(memory_, solver_, jacobian_);
     }
 
+    std::string tangentProblem() const override {
+        return "its library goes on from several steps before, and gives no derivatives";
+    }
     /// The library does not give its history away: a clone begins anew, with the step that was to be next.
     std::unique_ptr<Integrator> clone() const override {
         BaselineOptions options;
         options.tolerance = tolerance_;
         return std::make_unique<Stiff>(mechanics_, options);
     }
+
+    bool checkpoint(Archive&) override { return false; }
 
     void denseOutput(double tau, std::span<double> x) const override {
         const Owned<N_Vector, freeVector> y(N_VNew_Serial(static_cast<sunindextype>(size()), context_));

@@ -86,6 +86,9 @@ public:
         const double c = tau * tau * (3 - 2 * tau), e = tau * tau * (tau - 1) * step_;
         Eigen::Map<Vector>(x.data(), 2 * d_) = a * z0_ + b * f0 + c * z1_ + e * f1;
     }
+    std::string tangentProblem() const override {
+        return "its length of step is a function of the state, whose second derivatives are not known";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<TimeTransformed>(*this); }
 
 private:

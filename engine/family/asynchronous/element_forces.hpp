@@ -1,8 +1,9 @@
 /// The elements of a bar or a membrane with masses at the nodes, for schemes that take them one by one.
 ///
 /// Both have the same members: elements(), nodes(), nodesOf(e), the nodes that element e kicks, kick(e, h, u,
-/// v): v += h M^{-1} (-dV_e/du) at values u, and criticalStep(e), the longest stable step of the element
-/// alone, at rest.
+/// v): v += h M^{-1} (-dV_e/du) at values u, vary(e, h, u, du, dv), the same of a variation: dv += h M^{-1}
+/// (-d^2V_e/du^2) du, inverseMass(a), and criticalStep(e), the longest stable step of the element alone, at
+/// rest.
 #pragma once
 
 #include <array>
@@ -38,6 +39,20 @@ public:
         v[a] -= h * L / 2 * slope[0] * inverse_[a];
         v[b] -= h * L / 2 * slope[1] * inverse_[b];
     }
+    void vary(int e, double h, const double* u, const double* du, double* dv) const {
+        const auto a = static_cast<std::size_t>(e), b = static_cast<std::size_t>(nodesOf(e)[1]);
+        const double L = size_[a];
+        const double stress = h * problem_->elastic.at((u[b] - u[a]) / L).modulus * (du[b] - du[a]) / L;
+        dv[a] += stress * inverse_[a];
+        dv[b] -= stress * inverse_[b];
+        if (!hasPotential_) return;
+        double curvature[2];
+        const double at[2] = {u[a], u[b]};
+        problem_->potential.evaluate(at, 2, nullptr, nullptr, curvature);
+        dv[a] -= h * L / 2 * curvature[0] * du[a] * inverse_[a];
+        dv[b] -= h * L / 2 * curvature[1] * du[b] * inverse_[b];
+    }
+    double inverseMass(std::size_t a) const { return inverse_[a]; }
 
 private:
     std::shared_ptr<const FieldProblem> problem_;
@@ -63,6 +78,19 @@ public:
             v[a] += force * inverse_[a] * (K.gradients[i][0] * g[0] + K.gradients[i][1] * g[1]);
         }
     }
+    void vary(int e, double h, const double* u, const double* du, double* dv) const {
+        const MembraneProblem::Element& K = element(e);
+        const auto g = MembraneProblem::slope(K, u), dg = MembraneProblem::slope(K, du);
+        const double p = g[0] * g[0] + g[1] * g[1], along = 2 * (g[0] * dg[0] + g[1] * dg[1]);
+        const double tension = problem_->tension(p), change = problem_->tensionSlope(p) * along;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto a = static_cast<std::size_t>(K.nodes[i]);
+            dv[a] -= h * K.area * inverse_[a] *
+                     (K.gradients[i][0] * (tension * dg[0] + change * g[0]) +
+                      K.gradients[i][1] * (tension * dg[1] + change * g[1]));
+        }
+    }
+    double inverseMass(std::size_t a) const { return inverse_[a]; }
 
 private:
     const MembraneProblem::Element& element(int e) const {

@@ -192,6 +192,15 @@ std::unique_ptr<Integrator> makeAsynchronous(const System& system, const Discret
     return makeDyadicSteps(BarForces(problem), levelsOf(system, d.space), step);
 }
 
+WrittenAction written(const Discretization&) {
+    return {"Every element K has times t_K^j of its own, h_K apart; nodes move freely between them.",
+            {{"S = Σ_a ∫ m_a |x_a′|² / 2 dt − Σ_K Σ_j h_K V_K(x(t_K^j))",
+              "S = \\sum_a \\int \\tfrac12 m_a |\\dot x_a|^2\\, dt - \\sum_K \\sum_j h_K "
+              "V_K\\bigl(x(t_K^j)\\bigr)"}},
+            {{"p_a(t_K^j +) − p_a(t_K^j −) = −h_K ∂V_K/∂x_a",
+              "p_a(t_K^{j+}) - p_a(t_K^{j-}) = -h_K \\frac{\\partial V_K}{\\partial x_a}"}}};
+}
+
 }  // namespace
 
 Family asynchronous() {
@@ -219,6 +228,7 @@ Family asynchronous() {
     f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
     f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
+    f.written = written;
     f.make = makeAsynchronous;
     return f;
 }

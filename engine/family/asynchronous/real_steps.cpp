@@ -79,6 +79,9 @@ public:
         if (tau > 0) (void)shorter.advance(state, before_.t + tau * h_);
         std::copy(state.x.begin(), state.x.end(), x.begin());
     }
+    std::string tangentProblem() const override {
+        return "its elements and nodes have times of their own, which no step brings together";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<RealSteps>(*this); }
 
 private:

@@ -16,6 +16,9 @@ public:
         : kind_(kind), solution_(problem, elements), nodal_(solution_.nodal(kind)) {}
 
     double stepSize() const override { return 1.0 / solution_.elements(); }
+    std::string tangentProblem() const override {
+        return "it solves for the whole curve at once and takes no steps";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Elliptic>(*this); }
 
     StepReport advance(State& state, double until) override {

@@ -85,6 +85,14 @@ ShapeFunction shapeFunction(const System& system, const Discretization& d, doubl
     return {std::move(hat.x), std::move(hat.phi), node, elements};
 }
 
+WrittenAction written(const Discretization&) {
+    return {"u is the sum of nodal values u_j times functions φ_j that know the coefficient a(x/ε).",
+            {{"S(u) = ∫ (a(x/ε) u_x² / 2 − f u) dx",
+              "S(u) = \\int \\Bigl( \\tfrac12 a(x/\\varepsilon)\\, u_x^2 - f u \\Bigr) dx"}},
+            {{"Σ_j u_j ∫ a φ_i′ φ_j′ dx = ∫ f φ_i dx",
+              "\\sum_j u_j \\int a\\, \\varphi_i' \\varphi_j'\\, dx = \\int f \\varphi_i\\, dx"}}};
+}
+
 }  // namespace
 
 Family elliptic() {
@@ -111,6 +119,7 @@ Family elliptic() {
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
     f.isSame = isSame;
     f.shapeFunction = shapeFunction;
+    f.written = written;
     f.make = makeEllipticIntegrator;
     return f;
 }

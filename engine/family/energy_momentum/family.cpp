@@ -238,6 +238,17 @@ std::unique_ptr<Integrator> makeIt(const System& system, const Discretization& d
                           movingTimeOptions(d.space, order, step), solverPolicy(d.solver, system));
 }
 
+WrittenAction written(const Discretization&) {
+    return {
+        "The end times t_k of the elements are unknowns beside those of the Galerkin step, h_k = t_{k+1} − "
+        "t_k.",
+        {{"S = Σ_k h_k Σ_i b_i L(t_k + c_i h_k, Q_i, V_i)",
+          "S = \\sum_k h_k \\sum_i b_i\\, L(t_k + c_i h_k, Q_i, V_i)"}},
+        {{"∂S/∂Y_a = 0,  p_1 = ∂S/∂q_1,  and in the times E_d(h_k) = −∂S/∂h_k = E, the same on every element",
+          "\\frac{\\partial S}{\\partial Y_a} = 0, \\qquad p_1 = \\frac{\\partial S}{\\partial q_1}, \\qquad "
+          "E_d(h_k) = -\\frac{\\partial S}{\\partial h_k} = E"}}};
+}
+
 }  // namespace
 
 Family energy_momentum() {
@@ -259,6 +270,7 @@ Family energy_momentum() {
     f.advice = adviceFor;
     f.choices = choicesOf;
     f.rules = [](const Settings&) { return plainRules(); };
+    f.written = written;
     f.make = makeIt;
     return f;
 }

@@ -37,6 +37,10 @@ public:
         of_.resize(n());
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ExplicitField>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(isKnown_, of_, acceleration_);
+        return FieldStep::checkpoint(archive);
+    }
 
 private:
     Outcome step(const double* x, double* next, StepReport& report) override {

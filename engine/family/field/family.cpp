@@ -427,6 +427,13 @@ std::optional<Measure> measure(std::string_view observable, const System& system
                    }};
 }
 
+WrittenAction written(const Discretization&) {
+    return {"u is the sum of nodal values u_j^l times functions of the mesh of space and time.",
+            {{"S = Σ_K Σ_i w_i ℒ(u, u_t, u_x) at the nodes i of every cell K",
+              "S = \\sum_K \\sum_{i \\in K} w_i\\, \\mathcal{L}(u, u_t, u_x)\\big|_i"}},
+            {{"∂S/∂u_j^l = 0 of every node inside", "\\frac{\\partial S}{\\partial u_j^l} = 0"}}};
+}
+
 }  // namespace
 
 Family field() {
@@ -457,6 +464,7 @@ Family field() {
     };
     f.dispersion = dispersionOf;
     f.measure = measure;
+    f.written = written;
     f.make = makeTent;
     return f;
 }

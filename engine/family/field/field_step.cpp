@@ -44,6 +44,14 @@ StepReport FieldMarch::advance(State& state, double until) {
     return report;
 }
 
+bool FieldMarch::checkpoint(Archive& archive) {
+    if (archive.isReading() && !isPrepared_) {
+        prepare();
+        isPrepared_ = true;
+    }
+    return true;
+}
+
 const std::vector<std::size_t>& FieldMarch::freeNodes() const {
     if (freeNodes_.empty())
         for (int i = 0; i < form().size(); ++i)

@@ -29,6 +29,7 @@ public:
     /// Of the values at nodes that are not fixed, and of their momenta M v.
     std::size_t tangentSize() const final { return hasVariations() ? 2 * freeNodes().size() : 0; }
     bool applyTangent(std::span<double> W) final;
+    bool checkpoint(Archive& archive) override;
 
 protected:
     /// Whether a step has a tangent map: then linearise() prepares that of the last one, and vary() moves one

@@ -40,6 +40,13 @@ public:
         for (int i = 0; i < form().size(); ++i) isFixed_.push_back(form().problem().isFixed(i));
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ImplicitField>(*this); }
+    /// The factors of an earlier step, as long as they are good enough.
+    bool checkpoint(Archive& archive) override {
+        const bool isKnown = FieldStep::checkpoint(archive);
+        archive(hasJacobian_);
+        if (hasJacobian_) archive(lu_);
+        return isKnown;
+    }
 
 private:
     void prepare() override { hasJacobian_ = false; }

@@ -84,6 +84,14 @@ ChoiceGrid choices(const System&) {
     return grid;
 }
 
+WrittenAction written(const Discretization&) {
+    return {"u is piecewise linear; values u_i and, where they are free, knots x_i are unknowns.",
+            {{"E(u, x) = Σ_i ∫ (u_x² / 2 + W(u)) dx over the cells [x_i, x_{i+1}]",
+              "E(u, x) = \\sum_i \\int_{x_i}^{x_{i+1}} \\Bigl( \\tfrac12 u_x^2 + W(u) \\Bigr) dx"}},
+            {{"∂E/∂u_i = 0,  of free knots ∂E/∂x_i = 0",
+              "\\frac{\\partial E}{\\partial u_i} = 0, \\qquad \\frac{\\partial E}{\\partial x_i} = 0"}}};
+}
+
 }  // namespace
 
 Family free_knot() {
@@ -124,6 +132,7 @@ Family free_knot() {
     f.choices = choices;
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
     f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
+    f.written = written;
     f.make = [](const System& system, const Discretization& d, double) {
         return makeFreeKnots(profileOf(system, d.space));
     };

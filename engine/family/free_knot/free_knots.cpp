@@ -11,6 +11,9 @@ public:
     explicit FreeKnots(std::shared_ptr<const KnotProfile> profile) : profile_(std::move(profile)) {}
 
     TimeGrid grid() const override { return TimeGrid::free; }
+    std::string tangentProblem() const override {
+        return "it solves for the whole curve at once and takes no steps";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<FreeKnots>(*this); }
 
     StepReport advance(State& state, double) override {

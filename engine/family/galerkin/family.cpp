@@ -13,6 +13,7 @@
 #include "engine/family/galerkin/fitted_order.hpp"
 #include "engine/family/galerkin/split.hpp"
 #include "engine/family/galerkin/tables.hpp"
+#include "engine/family/galerkin/written.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/family/table_of.hpp"
@@ -192,6 +193,14 @@ Family galerkin() {
     };
     f.hasTable = [](const Discretization& d) { return !galerkin::isSplit(d) && !dependsOnStep(d.space); };
     f.table = galerkin::makeTable;
+    f.tableau = [](const Discretization& d, double step) {
+        if (galerkin::isSplit(d))
+            throw InvalidScene(
+                "", "has a rule for each term or a space for each coordinate, which no one tableau has",
+                "one space and one rule");
+        return galerkin::tableauOf(withStep(d.space, step), d.quadrature);
+    };
+    f.written = galerkin::written;
     f.make = [](const System& system, const Discretization& d, double step) {
         if (galerkin::isSplit(d)) {
             const galerkin::Split split = galerkin::splitOf(system, d);

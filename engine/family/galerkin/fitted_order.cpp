@@ -23,7 +23,7 @@ struct Sizes {
 Sizes at(const Settings& space, const Settings& quadrature, double h) {
     const Settings known = withStep(space, h);
     const TypedSpace typed = typedSpace(known);
-    const Rule<double> rule = ruleOn(typed.space, quadrature);
+    const Rule<double> rule = ruleOn<double>(typed.space, quadrature);
     const Table<double> table = extremal::makeTable(typed.space, rule);
     return {typed.distance, consistencyDefects(table, typed.space.size + 1), rule.degree,
             rule.isSymmetric && typed.space.isSymmetric};

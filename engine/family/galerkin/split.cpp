@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -23,16 +24,6 @@
 
 namespace extremal::galerkin {
 namespace {
-
-Settings settingsOf(const Value& object) {
-    Settings settings;
-    for (const auto& [key, value] : object.asObject())
-        if (key == "type")
-            settings.type = value.asString();
-        else
-            settings.keys.emplace_back(key, value);
-    return settings;
-}
 
 bool isByCoordinate(const Settings& space) { return space.find("otherwise") != nullptr; }
 
@@ -110,7 +101,7 @@ std::vector<std::vector<Table<double>>> partTables(const Split& split, double st
     for (const Settings& space : split.spaces) spaces.push_back(makeSpace(withStep(space, step)));
     std::vector<std::vector<Table<double>>> all;
     for (std::size_t r = 0; r < split.parts.size(); ++r) {
-        const Rule<double> rule = ruleOn(spaces[finest(split, r)], split.rules[r]);
+        const Rule<double> rule = ruleOn<double>(spaces[finest(split, r)], split.rules[r]);
         all.emplace_back();
         for (std::size_t k = 0; k < spaces.size(); ++k) {
             Table<double> table = makePartTable(spaces[k], rule);
@@ -208,15 +199,14 @@ Properties refused(const InvalidScene& error, const Discretization& discretizati
     return p;
 }
 
-/// Highest frequency of q'' = M^{-1} L_qq^r q, at a state; 0 where it does not oscillate.
-double frequencyOf(const LagrangianTerm<double>& part, const Eigen::MatrixXd& mass, const State& at) {
-    const auto d = mass.rows();
+/// -L_qq of a part at a state, at rest; empty where it is not finite.
+Eigen::MatrixXd stiffnessOf(const LagrangianTerm<double>& part, const State& at, Eigen::Index d) {
     std::vector<double> v(static_cast<std::size_t>(d), 0.0), gradient(static_cast<std::size_t>(2 * d));
     Eigen::MatrixXd H(2 * d, 2 * d);
     double value = 0;
     part.jet(part.model.get(), at.t, at.x.data(), v.data(), &value, gradient.data(), H.data());
-    if (!H.allFinite()) return 0;
-    return highestFrequency(mass, -H.topLeftCorner(d, d));
+    if (!H.allFinite()) return {};
+    return -H.topLeftCorner(d, d);
 }
 
 /// Half the trace of a step of length 1 on L = v^2/2 - sum_r z_r^2 q^2/2, each term under its rule.
@@ -236,6 +226,31 @@ double halfTraceOf(const Table<double>& kinetic, const std::vector<const Table<d
     }
     const Eigen::MatrixXd Y = dense::solve<double>(J, rhs);
     return (1 + Y(m - 1, 0) + 1 - impulse.dot(Y.col(1))) / 2;
+}
+
+/// Of the space of one coordinate, or of the only one; frequencyOf(r): of part r at the start, 0 where it
+/// does not oscillate.
+void warnOfBand(const Split& split, const std::vector<std::vector<Table<double>>>& tables, std::size_t space,
+                double step, const std::string& whose, Findings& findings,
+                const std::function<double(std::size_t)>& frequencyOf) {
+    std::vector<const Table<double>*> parts;
+    std::vector<double> z;
+    std::string frequencies;
+    for (std::size_t r = 0; r < split.parts.size(); ++r) {
+        const double w = frequencyOf(r);
+        if (!(w > 0)) continue;
+        parts.push_back(&tables[r][space]);
+        z.push_back(w * step);
+        frequencies +=
+            (frequencies.empty() ? "" : ", ") + formatNumber(z.back(), 3) + " of " + split.parts[r].name;
+    }
+    const double trace = halfTraceOf(tables[split.kineticPart(space)][space], parts, z);
+    if (std::abs(trace) > 1 + 1e-9)
+        findings.warning("/step",
+                         "is in a band of instability" + whose + ": with step times frequency " +
+                             frequencies + ", half the trace of a step is " + formatNumber(trace, 4) +
+                             ", beyond 1",
+                         "another step; degree 1 with the midpoint rule for the fast terms has no bands");
 }
 
 /// "b" alone changes under the rotation in the plane x-y: symmetries that a part does not have.
@@ -364,26 +379,25 @@ void checkSplit(const SchemeCase& scheme, Findings& findings) {
     const double* q = scheme.initial.x.data();
     if (!mechanics.velocity(mechanics.model.get(), scheme.initial.t, q, q + d, v.data())) return;
     mechanics.jet(mechanics.model.get(), scheme.initial.t, q, v.data(), &value, gradient.data(), H.data());
-    if (!H.allFinite() || split.spaces.size() > 1) return;
+    if (!H.allFinite()) return;
     const Eigen::MatrixXd mass = H.bottomRightCorner(d, d);
     const auto tables = partTables(split, scheme.step);
-    std::vector<const Table<double>*> parts;
-    std::vector<double> z;
-    std::string frequencies;
-    for (std::size_t r = 0; r < split.parts.size(); ++r) {
-        const double w = frequencyOf(split.parts[r], mass, scheme.initial);
-        if (!(w > 0)) continue;
-        parts.push_back(&tables[r].front());
-        z.push_back(w * scheme.step);
-        frequencies +=
-            (frequencies.empty() ? "" : ", ") + formatNumber(z.back(), 3) + " of " + split.parts[r].name;
+    if (split.spaces.size() == 1) {
+        warnOfBand(split, tables, 0, scheme.step, "", findings, [&](std::size_t r) {
+            const Eigen::MatrixXd K = stiffnessOf(split.parts[r], scheme.initial, d);
+            return K.size() > 0 ? highestFrequency(mass, K) : 0;
+        });
+        return;
     }
-    const double trace = halfTraceOf(tables[split.kineticPart(0)].front(), parts, z);
-    if (std::abs(trace) > 1 + 1e-9)
-        findings.warning("/step",
-                         "is in a band of instability: with step times frequency " + frequencies +
-                             ", half the trace of a step is " + formatNumber(trace, 4) + ", beyond 1",
-                         "another step; degree 1 with the midpoint rule for the fast terms has no bands");
+    // Each coordinate for itself, the others at rest.
+    for (Eigen::Index k = 0; k < d; ++k) {
+        const std::string& name = scheme.system.coordinates[static_cast<std::size_t>(k)].name;
+        warnOfBand(split, tables, static_cast<std::size_t>(k), scheme.step, " of " + name, findings,
+                   [&](std::size_t r) {
+                       const Eigen::MatrixXd K = stiffnessOf(split.parts[r], scheme.initial, d);
+                       return K.size() > 0 && K(k, k) > 0 ? std::sqrt(K(k, k) / mass(k, k)) : 0;
+                   });
+    }
 }
 
 }  // namespace extremal::galerkin

@@ -1,7 +1,5 @@
 #include "engine/family/galerkin/tables.hpp"
 
-#include <boost/multiprecision/float128.hpp>
-
 #include <algorithm>
 #include <vector>
 
@@ -9,11 +7,10 @@
 #include "engine/family/rule_choices.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
+#include "engine/tableau/tableau.hpp"
 
 namespace extremal::galerkin {
 namespace {
-
-using Quad = boost::multiprecision::float128;
 
 constexpr int mostNodes = 96;
 constexpr double exactTo = 4e-14;
@@ -53,16 +50,14 @@ double defectOf(const Space<double>& space, const Rule<double>& rule) {
     return static_cast<double>(worst);
 }
 
-Rule<double> automaticRule(const Space<double>& space) {
+/// T: that of the result; whether the nodes are enough is decided in double precision.
+template <class T>
+Rule<T> automaticRule(const Space<double>& space) {
     const std::vector<double> cells = space.cells.empty() ? std::vector<double>{0, 1} : space.cells;
-    const auto rule = [&](int nodes) { return composite(gauss<double>(nodes), panelEnds<double>(cells, 1)); };
     const int fewest = std::max(1, (space.size - 1) / (static_cast<int>(cells.size()) - 1));
     for (int nodes = std::max(1, fewest / 2); nodes <= mostNodes; ++nodes)
-        if (defectOf(space, rule(nodes)) <= exactTo) {
-            Rule<double> found = rule(nodes);
-            if (cells.size() == 2) found = gauss<double>(nodes);
-            return found;
-        }
+        if (defectOf(space, composite(gauss<double>(nodes), panelEnds<double>(cells, 1))) <= exactTo)
+            return cells.size() == 2 ? gauss<T>(nodes) : composite(gauss<T>(nodes), panelEnds<T>(cells, 1));
     throw InvalidScene("/quadrature",
                        "no Gauss rule with at most " + std::to_string(mostNodes) +
                            " nodes per cell integrates the products of the functions to round-off",
@@ -101,22 +96,30 @@ Settings completedRule(const Settings& space, const Settings& quadrature) {
     return completePlainRule(quadrature, std::max(1, dimension - 1), cellsIn(space));
 }
 
-Rule<double> ruleOn(const Space<double>& space, const Settings& quadrature) {
-    if (quadrature.type == "auto") return automaticRule(space);
+template <class T>
+Rule<T> ruleOn(const Space<double>& space, const Settings& quadrature) {
+    if (quadrature.type == "auto") return automaticRule<T>(space);
     const int panels = std::max(1, quadrature.integer("panels"));
     const int cells = static_cast<int>(space.cells.size()) - 1;
-    if (cells < 2 || panels % cells != 0) return makeRule<double>(quadrature);
+    if (cells < 2 || panels % cells != 0) return makeRule<T>(quadrature);
     Settings onePanel = quadrature;
     for (auto& [key, value] : onePanel.keys)
         if (key == "panels") value = 1.0;
-    return composite(makeRule<double>(onePanel), panelEnds<double>(space.cells, panels / cells));
+    return composite(makeRule<T>(onePanel), panelEnds<T>(space.cells, panels / cells));
 }
+template Rule<double> ruleOn(const Space<double>&, const Settings&);
 
 Table<double> makeTable(const Settings& settings, const Settings& quadrature) {
     const Space<double> space = makeSpace(settings);
-    Table<double> table = extremal::makeTable(space, ruleOn(space, quadrature));
+    Table<double> table = extremal::makeTable(space, ruleOn<double>(space, quadrature));
     table.dependsOnStep = dependsOnStep(settings);
     return table;
+}
+
+std::shared_ptr<const Tableau> tableauOf(const Settings& settings, const Settings& quadrature) {
+    const Space<double> space = makeSpace(settings);
+    return std::make_shared<const Tableau>(
+        galerkinTableau(makeQuadrupleTable(space, ruleOn<Quad>(space, quadrature))));
 }
 
 }  // namespace extremal::galerkin

@@ -2,8 +2,14 @@
 /// rules that are chosen for the space.
 #pragma once
 
+#include <memory>
+
 #include "engine/action/table.hpp"
 #include "engine/core/settings.hpp"
+
+namespace extremal {
+struct Tableau;
+}
 
 namespace extremal::galerkin {
 
@@ -16,9 +22,15 @@ Settings completedRule(const Settings& space, const Settings& quadrature);
 /// The rule in its panels: equal ones, or, where their number is a multiple of that of unequal cells, equal
 /// parts of each cell. "auto" is Gauss's with the fewest nodes per cell that integrate phi_a' phi_b' and
 /// (phi_a phi_b)' to 4e-14. Throws InvalidScene where there is none with at most 96.
-Rule<double> ruleOn(const Space<double>& space, const Settings& quadrature);
+/// T: double or quadruple precision.
+template <class T>
+Rule<T> ruleOn(const Space<double>& space, const Settings& quadrature);
 
 /// Keys complete, and with the step where the space depends on it.
 Table<double> makeTable(const Settings& space, const Settings& quadrature);
+
+/// The step as a Runge-Kutta method, from the table in quadruple precision. Throws InvalidScene where it is
+/// none.
+std::shared_ptr<const Tableau> tableauOf(const Settings& space, const Settings& quadrature);
 
 }  // namespace extremal::galerkin

@@ -99,6 +99,20 @@ ChoiceGrid choices(const System&) {
     return ruleChoices(rows);
 }
 
+WrittenAction written(const Discretization&) {
+    return {
+        "The curve is g(τ) = g_0 exp(ξ(τ)), ξ a polynomial in the Lie algebra with ξ(0) = 0; its "
+        "coefficients are the unknowns.",
+        {{"S = h Σ_i b_i L(g(c_i), Ω(c_i)),  Ω = dexp_{−ξ}(ξ′) / h",
+          "S = h \\sum_i b_i\\, L\\bigl(g(c_i), \\Omega(c_i)\\bigr), \\qquad \\Omega = \\tfrac1h "
+          "\\operatorname{dexp}_{-\\xi}(\\xi')"}},
+        {{"Σ_i b_i (h φ_a(c_i) ∂L/∂ξ + φ_a′(c_i) ∂L/∂ξ′) = 0 of interior φ_a, and the momentum at both ends "
+          "for the last",
+          "\\sum_i b_i \\Bigl( h\\, \\varphi_a(c_i) \\frac{\\partial L}{\\partial \\xi} + \\varphi_a'(c_i) "
+          "\\frac{\\partial L}{\\partial \\xi'} \\Bigr) = 0 \\quad (a < m), \\qquad p_1 = \\frac{\\partial "
+          "S}{\\partial g_1}"}}};
+}
+
 }  // namespace
 
 Family lie() {
@@ -116,6 +130,7 @@ Family lie() {
     f.reference = trusted;
     f.choices = choices;
     f.rules = [](const Settings&) { return plainRules(); };
+    f.written = written;
     f.make = makeLieIntegrator;
     return f;
 }

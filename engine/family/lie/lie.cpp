@@ -60,6 +60,10 @@ public:
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Lie>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(adjoint_, step_);
+        return true;
+    }
 
 private:
     LieStep<double, G> adjoint() const { return {body_, table_, h_ / 2, isReduced_, true, policy_}; }

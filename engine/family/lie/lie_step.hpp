@@ -27,10 +27,12 @@
 #include <Eigen/Core>
 
 #include <stop_token>
+#include <type_traits>
 #include <vector>
 
 #include "engine/action/chain_rule.hpp"
 #include "engine/action/table.hpp"
+#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/family/lie/chart_lagrangian.hpp"
 #include "engine/family/lie/lie_groups.hpp"
@@ -66,6 +68,8 @@ public:
     const Eigen::Matrix<T, n, Eigen::Dynamic>& coefficients() const { return Y_; }
     /// Steps of another length from now on.
     void setStep(const T& step) { h_ = isAdjoint_ ? T(-step) : step; }
+    /// The impulse of the last step, which the first Jacobian of the next one takes for its own.
+    void checkpoint(Archive& archive) requires std::is_same_v<T, double> { archive(W_); }
 
 private:
     using Columns = Eigen::Matrix<T, n, Eigen::Dynamic>;

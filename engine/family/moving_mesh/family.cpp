@@ -297,6 +297,16 @@ std::unique_ptr<Integrator> makeIt(const System& system, const Discretization& d
     return makeMovingMesh(problem, options, step);
 }
 
+WrittenAction written(const Discretization&) {
+    return {
+        "u is piecewise linear on nodes X_i that move: values u_i and places X_i are unknowns.",
+        {{"S = Σ over slabs of h Σ_i w_i ℒ(u, u_t − u_x X_t, u_x) of the mesh",
+          "S = \\sum_{\\text{slabs}} h \\sum_i w_i\\, \\mathcal{L}(u, u_t - u_x X_t, u_x)\\big|_i"}},
+        {{"∂S/∂u_i = 0, and the places follow the equation of the mesh, or ∂S/∂X_i = 0 under its constraint",
+          "\\frac{\\partial S}{\\partial u_i} = 0, \\qquad \\frac{\\partial S}{\\partial X_i} = "
+          "\\text{multiplier of the equation of the mesh}"}}};
+}
+
 }  // namespace
 
 Family moving_mesh() {
@@ -330,6 +340,7 @@ Family moving_mesh() {
     };
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
     f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };
+    f.written = written;
     f.make = makeIt;
     return f;
 }

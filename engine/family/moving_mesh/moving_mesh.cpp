@@ -113,7 +113,15 @@ public:
         }
         std::copy(state.x.begin(), state.x.end(), x.begin());
     }
+    std::string tangentProblem() const override {
+        return "its nodes are tied to its values, by a constraint or a monitor, so that neither can be "
+               "varied alone";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<MovingMesh>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(multiplier_);
+        return true;
+    }
 
 private:
     /// x = (y, y', X, X') to z and v, which are (y_i, X_i) and their rates node by node, before the step and

@@ -15,6 +15,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
 #include "engine/family/moving_mesh/constraint.hpp"
 #include "engine/family/moving_mesh/slab_action.hpp"
@@ -49,6 +50,8 @@ public:
     /// Energy of the slab, -dS/dh.
     double slabEnergy() const { return slabEnergy_; }
     MeshConstraint& constraint() { return constraint_; }
+    /// The multipliers that the next step is compared with.
+    void checkpoint(Archive& archive) { archive(mu_); }
 
 private:
     Outcome solve(const std::vector<double>& z0, double h, StepReport& report, const std::stop_token& stop);

@@ -117,6 +117,21 @@ ReferencePlan overFastMotion(const System& system, const State&, double duration
     return plan;
 }
 
+WrittenAction written(const Discretization&) {
+    return {
+        "q is a slow polynomial plus harmonics of a fast phase θ with polynomial amplitudes; the amplitudes "
+        "are unknowns. The rule is a grid of slow nodes c_i and phases θ_k, with Filon weights b_ik.",
+        {{"S(q_0, q_1) = h Σ_i Σ_k b_ik L(t_0 + c_i h, Q(c_i, θ_k), V(c_i, θ_k))",
+          "S(q_0, q_1) = h \\sum_i \\sum_k b_{ik}\\, L\\bigl(t_0 + c_i h, Q(c_i, \\theta_k), V(c_i, "
+          "\\theta_k)\\bigr)"},
+         {"Q(τ, θ) = Σ_j C_j P_j(τ) + Σ_k Σ_j P_j(τ) (C_kj cos kθ + S_kj sin kθ)",
+          "Q(\\tau, \\theta) = \\sum_j C_j P_j(\\tau) + \\sum_k \\sum_j P_j(\\tau) \\bigl( C_{kj} \\cos "
+          "k\\theta + S_{kj} \\sin k\\theta \\bigr)"}},
+        {{"∂S/∂Y_a = 0 of every interior unknown,  p_0 = −∂S/∂q_0,  p_1 = ∂S/∂q_1",
+          "\\frac{\\partial S}{\\partial Y_a} = 0, \\qquad p_0 = -\\frac{\\partial S}{\\partial q_0}, "
+          "\\qquad p_1 = \\frac{\\partial S}{\\partial q_1}"}}};
+}
+
 }  // namespace
 
 Family multiscale() {
@@ -141,6 +156,7 @@ Family multiscale() {
     f.rules = [](const Settings&) {
         return std::vector<std::string>{"auto", "filon-lobatto", "filon-gauss", "gauss", "lobatto"};
     };
+    f.written = written;
     f.make = [](const System& system, const Discretization& d, double first) {
         const SolverPolicy policy = solverPolicy(d.solver, system);
         if (isProduct(d.space)) return makeProductIntegrator(system, d, {0, first}, policy);

@@ -72,6 +72,7 @@ public:
           start_(other.start_),
           end_(other.end_),
           lu_(other.lu_),
+          isFactorised_(other.isFactorised_),
           from_(other.from_),
           fitted_(other.fitted_) {}
     Product& operator=(const Product&) = delete;
@@ -85,6 +86,7 @@ public:
     }
     void begin(State& state) override { additive_->begin(state); }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Product>(*this); }
+    bool checkpoint(Archive& archive) override { return additive_->checkpoint(archive); }
 
     StepReport advance(State& state, double until) override {
         StepReport report;
@@ -92,6 +94,7 @@ public:
         report.outcome = solve(state, report);
         if (report.outcome != Outcome::converged) return report;
         from_ = state;
+        isFactorised_ = false;
         for (std::size_t k = 0; k < curves_.size(); ++k) {
             state.x[k] = end_[k].q.value;
             state.x[curves_.size() + k] = own(k)[curves_[k].size()];
@@ -99,6 +102,32 @@ public:
         state.t = until;
         ++state.node;
         return report;
+    }
+
+    std::size_t tangentSize() const override { return 2 * curves_.size(); }
+    /// R(X; q_0, p_0) = 0 along a variation: the Jacobian at the solution is the one that convergence was
+    /// seen with, and R depends on p_0 by p_0 dq(0)/dX, on q_0 by -q_0.
+    bool applyTangent(std::span<double> W) override {
+        if (!isFactorised_ && lu_.factorise() != SmallLu<double>::Result::regular) return false;
+        isFactorised_ = true;
+        const std::size_t d = curves_.size();
+        for (double* w = W.data(); w != W.data() + W.size(); w += 2 * d) {
+            for (std::size_t k = 0; k < d; ++k) {
+                const auto n = static_cast<std::size_t>(curves_[k].size());
+                double* const right = residual_.data() + offset_[k];
+                for (std::size_t j = 0; j < n; ++j) right[j] = -w[d + k] * start_[k].first[j].value;
+                right[n] = w[k];
+            }
+            lu_.solve(residual_.data());
+            for (std::size_t k = 0; k < d; ++k) {
+                const auto n = static_cast<std::size_t>(curves_[k].size());
+                const double* const change = residual_.data() + offset_[k];
+                w[k] = 0;
+                for (std::size_t j = 0; j < n; ++j) w[k] += end_[k].first[j].value * change[j];
+                w[d + k] = change[n];
+            }
+        }
+        return true;
     }
 
     /// p by its equation, and what that misses of the multiplier spread over the step.
@@ -312,6 +341,7 @@ private:
     std::vector<double> forces_;  ///< L_q at node i at i * d + k
     std::vector<ProductCurve::At> at_, start_, end_;
     SmallLu<double> lu_;
+    bool isFactorised_ = false;  ///< lu_, at the solution
     State from_, fitted_;
 };
 

@@ -184,6 +184,16 @@ ChoiceGrid choices(const System& system) {
     return ruleChoices(rows);
 }
 
+WrittenAction written(const Discretization&) {
+    return {"ψ is a polynomial in time whose coefficients are functions of the modes in space.",
+            {{"S = Σ_i b_i Re⟨ψ(c_i), iħ ψ′(c_i) − h H ψ(c_i)⟩",
+              "S = \\sum_i b_i \\operatorname{Re} \\bigl\\langle \\psi(c_i),\\; i\\hbar\\, \\psi'(c_i) - h H "
+              "\\psi(c_i) \\bigr\\rangle"}},
+            {{"Σ_i b_i φ_a(c_i) (iħ ψ′(c_i) − h H ψ(c_i)) = 0;  of Gauss’s rule ψ_1 = R_s(−i h H/ħ) ψ_0, R_s "
+              "the diagonal Padé quotient of exp",
+              "\\sum_i b_i\\, \\varphi_a(c_i) \\bigl( i\\hbar\\, \\psi'(c_i) - h H \\psi(c_i) \\bigr) = 0"}}};
+}
+
 }  // namespace
 
 Family wave() {
@@ -218,6 +228,7 @@ Family wave() {
         return a.space.type == b.space.type && a.space.integer("degree") == b.space.integer("degree") &&
                a.space.text("form") == b.space.text("form") && a.quadrature == b.quadrature;
     };
+    f.written = written;
     f.make = makeWaveIntegrator;
     return f;
 }

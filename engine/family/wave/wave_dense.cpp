@@ -20,6 +20,10 @@ public:
     }
 
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<DenseWave>(*this); }
+    bool checkpoint(Archive& archive) override {
+        archive(hasStates_, d_);
+        return WaveStep::checkpoint(archive);
+    }
 
 private:
     void prepare() override {

@@ -48,6 +48,17 @@ public:
         ++state.node;
         return report;
     }
+    std::size_t tangentSize() const override { return slab_->tangentSize(); }
+    /// Slab after slab, once more from the start.
+    bool applyTangent(std::span<double> W) override {
+        const auto again = slab_->clone();
+        State state = start_;
+        for (int k = 0; k < slabs_; ++k)
+            if (again->advance(state, timeAfter(k, start_.t, start_.t + h_)).outcome != Outcome::converged ||
+                !again->applyTangent(W))
+                return false;
+        return true;
+    }
     void denseOutput(double tau, std::span<double> x) const override {
         // Once more from the start, as far as the slab that tau is in.
         const auto again = slab_->clone();
@@ -57,6 +68,7 @@ public:
         again->denseOutput(tau * slabs_ - last, x);
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Slabs>(*this); }
+    bool checkpoint(Archive& archive) override { return slab_->checkpoint(archive); }
     std::string about() const override { return slab_->about(); }
 
 private:

@@ -98,6 +98,15 @@ StepReport WaveStep::advance(State& state, double until) {
     return report;
 }
 
+bool WaveStep::checkpoint(Archive& archive) {
+    archive(shift_, hasState_, origin_, endTime_, memorySize_, v_, handedOut_);
+    if (archive.isReading() && hasState_) {
+        prepare();
+        isPrepared_ = true;
+    }
+    return true;
+}
+
 bool WaveStep::applyTangent(std::span<double> W) {
     const std::size_t n = v_.size();
     if (!twin_.step) twin_.step = clone();

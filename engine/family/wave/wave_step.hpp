@@ -31,6 +31,7 @@ public:
     /// The step is linear: of a one-step scheme it is its own tangent map.
     std::size_t tangentSize() const final { return memoryParts().empty() ? 2 * v_.size() : 0; }
     bool applyTangent(std::span<double> W) final;
+    bool checkpoint(Archive& archive) override;
     std::string about() const final { return about_; }
     void setAbout(std::string about) { about_ = std::move(about); }
 

@@ -36,6 +36,10 @@ public:
     }
     ThreeLevelWave& operator=(const ThreeLevelWave&) = delete;
 
+    std::string tangentProblem() const override {
+        return "it goes on from two levels of time, and the form that it keeps is one of both, not of a "
+               "state";
+    }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<ThreeLevelWave>(*this); }
     std::span<const Quantity> quantities() const override { return quantities_; }
     void measure(const State& state, double* values) const override {

@@ -62,6 +62,18 @@ private slots:
         row("Boole", nodes("0, 0.25, 0.5, 0.75, 1"), 4, 6, 3.12);
         row("thirds", nodes("\"1/3\", \"2/3\""), 2, 2, 1.50);
         row("closed Newton-Cotes 7", nodes("0, \"1/6\", \"1/3\", \"1/2\", \"2/3\", \"5/6\", 1"), 6, 6, 2.55);
+        // Roots of x P_n and of the Stieltjes polynomial of P_n; Kronrod 3 is Gauss 3.
+        row("Kronrod 3", nodes("\"(1-sqrt(3/5))/2\", 0.5, \"(1+sqrt(3/5))/2\""), 2, 4, 3.16);
+        row("Kronrod 5",
+            nodes("\"(1-sqrt(6/7))/2\", \"(1-sqrt(1/3))/2\", 0.5, \"(1+sqrt(1/3))/2\", \"(1+sqrt(6/7))/2\""),
+            4, 8, 3.14);
+        const std::string outer = "sqrt(5/9+sqrt(40/297))", inner = "sqrt(5/9-sqrt(40/297))",
+                          gauss3 = "sqrt(3/5)";
+        std::string seven;
+        for (const std::string& x : {"-" + outer, "-" + gauss3, "-" + inner, std::string("+0"), "+" + inner,
+                                     "+" + gauss3, "+" + outer})
+            seven += (seven.empty() ? "\"(1" : ", \"(1") + x + ")/2\"";
+        row("Kronrod 7", nodes(seven), 4, 8, 3.14);
         row("closed Newton-Cotes 9", nodes("0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1"), 8, 6, 3.14);
     }
     void ordersAndLimitsAreThoseOfTheRule() {

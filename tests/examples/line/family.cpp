@@ -23,6 +23,11 @@ public:
     double stepSize() const override { return h_; }
     void setStep(double step) override { h_ = step; }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<LineStep>(*this); }
+    /// The velocity, from which the iteration of the next step starts.
+    bool checkpoint(Archive& archive) override {
+        archive(v_);
+        return true;
+    }
 
     StepReport advance(State& state, double until) override {
         const int d = m_.dimension;

@@ -9,6 +9,7 @@
 #include "engine/mesh/levels.hpp"
 #include "engine/model/field/problem.hpp"
 #include "engine/model/system.hpp"
+#include "tests/tools/tangent.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::asynchronous_test {
@@ -165,6 +166,52 @@ private slots:
         }
         const double order = std::log2(errors[0] / errors[1]);
         QVERIFY2(std::abs(order - 2) < 0.2, qPrintable(QString::number(order)));
+    }
+    /// Against differences of the step in values and velocities, and against the symplectic form.
+    void dyadicStepsHaveTheirTangentMap_data() {
+        QTest::addColumn<QString>("material");
+        QTest::addColumn<QString>("boundary");
+        QTest::newRow("linear") << "linear"
+                                << "dirichlet";
+        QTest::newRow("FPUT") << "fput"
+                              << "dirichlet";
+        QTest::newRow("neo-Hookean, free") << "neo-hookean"
+                                           << "neumann";
+    }
+    void dyadicStepsHaveTheirTangentMap() {
+        QFETCH(QString, material);
+        QFETCH(QString, boundary);
+        const System system = bar(12, "geometric", 20, qPrintable(material), qPrintable(boundary));
+        const auto integrator = makeIntegrator(system, asynchronous(0.5), {0, 0.02});
+        State before;
+        before.x = system.start({"", {{"displacement", "0.05*sin(pi*x)"}}, {}}, 0);
+        integrator->begin(before);
+        State after = before;
+        QVERIFY(integrator->advance(after, 0.02).outcome == Outcome::converged);
+        const auto M = tangentMap(*integrator);
+        QVERIFY(M);
+        const SymplecticForm form(system);
+        const double defect = formDefect(form, before.x.data(), after.x.data(), *M);
+        // dq_1/dq_0 needs no masses: the upper left quarter.
+        const auto n = static_cast<Eigen::Index>(integrator->tangentSize() / 2);
+        const auto nodes = static_cast<Eigen::Index>(before.x.size() / 2), first = (nodes - n) / 2;
+        double worst = 0;
+        for (Eigen::Index j = 0; j < n; ++j) {
+            Eigen::VectorXd column = Eigen::VectorXd::Zero(n);
+            for (int k = 1; k <= 3; ++k)
+                for (const int sign : {1, -1}) {
+                    State from = before;
+                    from.x[static_cast<std::size_t>(first + j)] += sign * k * 1e-4;
+                    QVERIFY(integrator->advance(from, 0.02).outcome == Outcome::converged);
+                    for (Eigen::Index i = 0; i < n; ++i)
+                        column(i) += sign * centralDifferences[static_cast<std::size_t>(k - 1)] *
+                                     from.x[static_cast<std::size_t>(first + i)] / 1e-4;
+                }
+            worst = std::max(worst, (column - M->col(j).head(n)).cwiseAbs().maxCoeff());
+        }
+        qInfo("M - differences %.1e, defect %.1e", worst, defect);
+        QVERIFY(worst < 1e-9);
+        QVERIFY(defect < 1e-12 * std::max(1.0, M->cwiseAbs().maxCoeff()));
     }
     void clocksCountWhatHappens() {
         const System system = bar(60, "geometric", 20, "linear");
