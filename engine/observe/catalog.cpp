@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 namespace extremal {
 
@@ -13,14 +14,15 @@ Observer observeQuantity(const ObserveContext& context, std::string_view quantit
     o.readsQuantities = index.has_value();
     o.columns = {std::move(value), std::move(change)};
     o.extreme = 1;
-    o.evaluate = [index, first = unknown](const NodeBlock& nodes, double* values,
-                                          std::size_t stride) mutable {
+    const auto first = std::make_shared<double>(unknown);
+    o.evaluate = [index, first](const NodeBlock& nodes, double* values, std::size_t stride) {
         for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
             values[0] = index ? nodes.quantities(i)[*index] : unknown;
-            if (!(first == first)) first = values[0];
-            values[1] = values[0] - first;
+            if (!(*first == *first)) *first = values[0];
+            values[1] = values[0] - *first;
         }
     };
+    o.checkpoint = [first](Archive& archive) { archive(*first); };
     return o;
 }
 

@@ -56,6 +56,8 @@ struct Observer {
     /// both sides. The last nodes of a run remain unknown, and what is no node.
     long long delay = 0;
     std::string about = {};  ///< what it chose for this run, for people
+    /// What it remembers of the nodes it has seen, to be written or read; empty: nothing.
+    std::function<void(Archive&)> checkpoint = {};
 };
 
 /// An observer of a quantity that the integrator says of each step, and of its change from the first known

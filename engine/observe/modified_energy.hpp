@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/archive.hpp"
+
 namespace extremal {
 
 enum class ModifiedEnergyForm { legendre, homogeneous, local };
@@ -29,11 +31,13 @@ public:
     /// while fewer than 2r + 1 nodes are known.
     double next(const double* q, const double* p, double action);
     void clear() { count_ = 0; }
+    void checkpoint(Archive& archive) { archive(ring_, count_); }
 
 private:
     struct Node {
         std::vector<double> q, p;
         double action = 0, beta = 0;  ///< of the step that ended here
+        void checkpoint(Archive& archive) { archive(q, p, action, beta); }
     };
     const Node& at(long long k) const { return ring_[static_cast<std::size_t>(k) % ring_.size()]; }
 

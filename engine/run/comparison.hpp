@@ -68,6 +68,12 @@ struct Summary {
     std::string about;         ///< how the scheme solves its equations, where that was a choice; not exported
     std::string
         caution;  ///< what is doubtful in a result that looks sound ("under-resolved: .."); not exported
+
+    /// What grows along a march.
+    void checkpoint(Archive& archive) {
+        archive(maxEnergyError, maxMomentumError, maxNormError, maxError, finalError, caution);
+        for (Extreme& each : extremes) archive(each.value);
+    }
 };
 
 struct SchemeResult {

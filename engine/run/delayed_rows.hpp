@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/node_block.hpp"
 #include "engine/trajectory/trajectory.hpp"
 
@@ -43,6 +44,7 @@ public:
         });
     }
     void clear() { waiting_.clear(); }
+    void checkpoint(Archive& archive) { archive(waiting_); }
 
 private:
     struct Waiting {

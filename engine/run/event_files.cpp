@@ -1,7 +1,5 @@
 #include "engine/run/event_files.hpp"
 
-#include <cmath>
-
 #include "engine/core/known_value.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/export.hpp"
@@ -19,10 +17,7 @@ std::string eventsCsv(const FoundEvents& found) {
     for (std::size_t r = 0; r < found.rows.rows(); ++r) {
         const auto event = static_cast<std::size_t>(columns[width].values[r]);
         text += csvCell(found.all[event].spec.title()) + (columns[width + 1].values[r] > 0 ? ",up" : ",down");
-        for (std::size_t c = 0; c < width; ++c) {
-            text += ',';
-            if (std::isfinite(columns[c].values[r])) text += formatNumber(columns[c].values[r]);
-        }
+        for (std::size_t c = 0; c < width; ++c) addNumber(text, columns[c].values[r]);
         text += '\n';
     }
     return text;

@@ -58,8 +58,7 @@ std::optional<double> EventWatch::look(const Integrator& integrator, const State
         if (event.spec.action != EventSpec::Action::count && hasRoom) {
             integrator.denseOutput(crossing.tau, at_.x);
             auto& columns = found.rows.columns;
-            columns[0].values.push_back(t);
-            for (std::size_t c = 0; c < width_; ++c) columns[c + 1].values.push_back(at_.x[c]);
+            appendState(found.rows, t, at_.x, width_);
             columns[width_ + 1].values.push_back(static_cast<double>(crossing.event));
             columns[width_ + 2].values.push_back(crossing.isUpwards ? 1 : -1);
         } else if (event.spec.action != EventSpec::Action::count) {

@@ -23,6 +23,7 @@ public:
     void start(const State& state);
     /// The part of the step at which the run is to stop; none: it goes on.
     std::optional<double> look(const Integrator& integrator, const State& before, const State& after);
+    void checkpoint(Archive& archive) { archive(last_, at_.x); }
 
 private:
     struct Crossing {

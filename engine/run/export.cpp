@@ -103,11 +103,8 @@ void writeFrames(const FieldSampling& field, const std::vector<Frame>& frames, S
         for (std::size_t j = 0; j < n; ++j) {
             block.append(t).append(",").append(formatNumber(nodes[j % columns]));
             if (!field.y.empty()) block.append(",").append(formatNumber(field.y[j / columns]));
-            for (std::size_t c = 0; c < field.components.size(); ++c) {
-                const double value = (*frame.values)[c * n + j];
-                block += ',';
-                if (std::isfinite(value)) block += formatNumber(value);
-            }
+            for (std::size_t c = 0; c < field.components.size(); ++c)
+                addNumber(block, (*frame.values)[c * n + j]);
             block += '\n';
             if (block.size() > blockSize) {
                 sink(block);
@@ -165,8 +162,8 @@ std::string mapCsv(const std::vector<const ParameterMap*>& maps) {
                     .append(",")
                     .append(formatNumber(map->grid.values[i]))
                     .append(",");
-                text.append(formatNumber(map->grid.steps[j])).append(",");
-                if (std::isfinite(cell.value)) text += formatNumber(cell.value);
+                text += formatNumber(map->grid.steps[j]);
+                addNumber(text, cell.value);
                 text.append(",").append(name(cell)).append("\n");
             }
     return text;
@@ -198,10 +195,7 @@ void writeSteps(const StepRecords& steps, Sink&& sink) {
     std::string text = "k,t,step,discrete_energy,density,outcome\n";
     for (const StepRecord& s : steps.all) {
         text += std::to_string(s.k);
-        for (const double value : {s.t, s.step, s.discreteEnergy, s.density}) {
-            text += ',';
-            if (std::isfinite(value)) text += formatNumber(value);
-        }
+        for (const double value : {s.t, s.step, s.discreteEnergy, s.density}) addNumber(text, value);
         text.append(",").append(s.outcomeText()).append("\n");
         if (text.size() < 1 << 16) continue;
         sink(text);
@@ -214,10 +208,8 @@ std::string elementsCsv(const ElementClocks& clocks) {
     std::string text = "element,x,step,updates,energy\n";
     for (std::size_t e = 0; e < clocks.x.size(); ++e) {
         text += std::to_string(e);
-        for (const double value : {clocks.x[e], clocks.step[e], clocks.updates[e], clocks.energy[e]}) {
-            text += ',';
-            if (std::isfinite(value)) text += formatNumber(value);
-        }
+        for (const double value : {clocks.x[e], clocks.step[e], clocks.updates[e], clocks.energy[e]})
+            addNumber(text, value);
         text += '\n';
     }
     return text;
@@ -320,6 +312,11 @@ std::string csvCell(const std::string& text) {
     for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
     quoted += '"';
     return quoted;
+}
+
+void addNumber(std::string& text, double value) {
+    text += ',';
+    if (std::isfinite(value)) text += formatNumber(value);
 }
 
 std::string csvText(const Trajectory& trajectory) {

@@ -38,6 +38,8 @@ std::vector<std::string> exportComparison(const Comparison& comparison, const st
 
 /// The text of a scheme's CSV.
 std::string csvText(const Trajectory& trajectory);
+/// Appends a comma and a cell: the number, nothing where it is unknown or not finite.
+void addNumber(std::string& text, double value);
 /// A cell with quotes where commas, quotes or line ends need them.
 std::string csvCell(const std::string& text);
 

@@ -24,6 +24,11 @@ struct FoundEvents {
     Trajectory rows;
     bool isCut = false;
     int stoppedBy = -1;  ///< the event that ended the run; -1: none
+
+    void checkpoint(Archive& archive) {
+        for (Event& event : all) archive(event.count, event.first, event.last);
+        archive(rows, isCut, stoppedBy);
+    }
 };
 
 }  // namespace extremal

@@ -25,12 +25,12 @@ constexpr double pointsPerPeriod = 16;
 /// Points in the part of the time axis that a view shows: enough for some tens of oscillations.
 constexpr double pointsPerPart = 1000;
 
-void append(Trajectory& trajectory, double t, const std::vector<double>& x, std::size_t width) {
+}  // namespace
+
+void appendState(Trajectory& trajectory, double t, const std::vector<double>& x, std::size_t width) {
     trajectory.columns[0].values.push_back(t);
     for (std::size_t c = 0; c < width; ++c) trajectory.columns[c + 1].values.push_back(x[c]);
 }
-
-}  // namespace
 
 std::vector<Column> leadingColumns(const System& system) {
     std::vector<Column> columns{{"t", system.independent, system.timeUnit, {}, {}}};
@@ -109,7 +109,7 @@ void InsideStep::look(const Integrator& integrator, const State& before, const S
 
 void InsideStep::keep(const State& at, const StepReport& report) {
     Trajectory& curve = result_.products.make<DenseOutput>().points;
-    append(curve, at.t, at.x, width_);
+    appendState(curve, at.t, at.x, width_);
     if (!error_.evaluate) return;
     error_.evaluate(NodeBlock(at, report), errorValues_.data(), errorValues_.size());
     curve.columns.back().values.push_back(errorValues_.front());
@@ -125,7 +125,7 @@ void InsideStep::cross(const Integrator& integrator, const State& before, const 
             return at_.x[section.column];
         });
         integrator.denseOutput(tau, at_.x);
-        append(events, before.t + tau * (after.t - before.t), at_.x, width_);
+        appendState(events, before.t + tau * (after.t - before.t), at_.x, width_);
     }
 }
 

@@ -16,6 +16,10 @@ namespace extremal {
 /// t and the state, as columns without values.
 std::vector<Column> leadingColumns(const System& system);
 
+/// Appends t and the first `width` entries of a state to these columns, with which those of the trajectory
+/// begin.
+void appendState(Trajectory& trajectory, double t, const std::vector<double>& x, std::size_t width);
+
 class InsideStep {
 public:
     /// Writes the products of the plan into `result`. `steps`: planned, or `isUnplanned`; dense output is
@@ -28,6 +32,7 @@ public:
     void start(const State& state);
     void look(const Integrator& integrator, const State& before, const State& after,
               const StepReport& report);
+    void checkpoint(Archive& archive) { archive(points_, at_.x); }
 
 private:
     int pointsIn(double start, double end, double periods) const;

@@ -35,6 +35,7 @@
 
 #include <functional>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/node_block.hpp"
 #include "engine/model/system.hpp"
 
@@ -61,6 +62,8 @@ public:
     bool looksAt(long long node) const;
     /// Of a run that ends at the last node that isSound() has seen: whether energy has come and stayed.
     bool hasGained() const;
+    /// What it has learned.
+    void checkpoint(Archive& archive) { archive(scale_, lastTime_, work_, gainTime_, gains_); }
 
 private:
     using OfState = std::function<double(double t, const double* x)>;

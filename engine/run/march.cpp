@@ -23,15 +23,10 @@ public:
           remembers_(remembers),
           judge_(judge) {}
 
-    MarchReport run(NodeBlock& nodes, const std::stop_token& stop) {
-        if (state_.memory.empty()) integrator_.begin(state_);
-        remember();
-        nodes.push(state_, {});
-        if (double* values = nodes.lastQuantities())
-            std::fill_n(values, nodes.quantities(0).size(), std::numeric_limits<double>::quiet_NaN());
-        bool goesOn = show(nodes, true);
+    MarchReport run(NodeBlock& nodes, const std::stop_token& stop, const MarchReport* soFar) {
+        bool goesOn = soFar ? goOn(*soFar) : begin(nodes);
         std::size_t blockSize = 1;
-        long long taken = 0;
+        long long taken = soFar ? state_.node : 0;
         while (goesOn && !isDone() && report_.outcome == Outcome::converged) {
             if (stop.stop_requested()) {
                 report_.outcome = Outcome::stopped;
@@ -71,10 +66,24 @@ public:
     }
 
 private:
+    bool begin(NodeBlock& nodes) {
+        if (state_.memory.empty()) integrator_.begin(state_);
+        remember();
+        nodes.push(state_, {});
+        if (double* values = nodes.lastQuantities())
+            std::fill_n(values, nodes.quantities(0).size(), std::numeric_limits<double>::quiet_NaN());
+        return show(nodes, true);
+    }
+    bool goOn(const MarchReport& soFar) {
+        report_ = soFar;
+        if (integrator_.grid() == TimeGrid::free) lastStep_ = soFar.last.step;
+        return true;
+    }
     /// Times that are sums reach the end to round-off.
     bool isDone() const {
         constexpr double slack = 1e-9;
-        return isFixed_ ? state_.node >= grid_.steps : state_.t >= grid_.end - slack * lastStep_;
+        if (isFixed_) return state_.node >= grid_.steps;
+        return grid_.ahead() * (grid_.end - state_.t) <= slack * std::abs(lastStep_);
     }
 
     /// Up to `count` steps; the report of the last one.
@@ -158,12 +167,13 @@ void warmUp(const Integrator& integrator, const State& state, const MarchGrid& g
     State from = state;
     if (from.memory.empty()) copy->begin(from);
     const bool isFixed = copy->grid() == TimeGrid::fixed;
-    if (isFixed ? from.node < grid.steps : from.t < grid.end)
+    if (isFixed ? from.node < grid.steps : grid.ahead() * (grid.end - from.t) > 0)
         (void)copy->advance(from, isFixed ? grid.clock.at(from.node + 1) : grid.end);
 }
 
 MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
-                  std::span<const MarchSink> sinks, const std::stop_token& stop, Judge* judge) {
+                  std::span<const MarchSink> sinks, const std::stop_token& stop, Judge* judge,
+                  const MarchReport* soFar) {
     constexpr std::size_t numbersOfBlock = 16384, mostNodes = 512;
     integrator.setStop(stop);
     const bool looksInside =
@@ -179,10 +189,10 @@ MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
     March run(integrator, state, grid, sinks, looksInside || isCutInside, judge);
     if (capacity == 1) {
         NodeBlock nodes = NodeBlock::referring(width, quantities);
-        return run.run(nodes, stop);
+        return run.run(nodes, stop, soFar);
     }
     NodeBlock nodes(width, capacity, quantities);
-    return run.run(nodes, stop);
+    return run.run(nodes, stop, soFar);
 }
 
 }  // namespace extremal

@@ -25,6 +25,8 @@ struct MarchGrid {
     Clock clock;
     long long steps = 0;
     double end = 0;
+    bool isBackwards = false;  ///< the end is before the start
+    double ahead() const { return isBackwards ? -1 : 1; }
     long long budget = 100'000'000'000;
 };
 
@@ -36,6 +38,10 @@ struct MarchReport {
     double cpuSeconds = 0;
     StepReport last = {};                     ///< of the step to the last node
     std::vector<double> lastQuantities = {};  ///< of the same step, where a sink reads them
+
+    void checkpoint(Archive& archive) {
+        archive(outcome, isEndedBySink, cost, events, cpuSeconds, last, lastQuantities);
+    }
 };
 
 /// What sinks are shown: the nodes of a block, in order. The first block of a march is the node it starts
@@ -66,7 +72,10 @@ void warmUp(const Integrator& integrator, const State& state, const MarchGrid& g
 /// memory resumes it.
 /// `judge`: ends the march, with the outcome lost, at the last node that it finds sound; null: it goes on
 /// regardless.
+/// `soFar`: of a march that goes on from a checkpoint of all that takes part in it, integrator and sinks, at
+/// the end of a block: nothing begins, and sinks are not shown the node that they have seen.
 MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
-                  std::span<const MarchSink> sinks, const std::stop_token& stop, Judge* judge = nullptr);
+                  std::span<const MarchSink> sinks, const std::stop_token& stop, Judge* judge = nullptr,
+                  const MarchReport* soFar = nullptr);
 
 }  // namespace extremal

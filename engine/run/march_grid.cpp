@@ -16,6 +16,7 @@ MarchGrid marchGrid(const Scene& scene, const ResolvedScheme& scheme, double ste
     grid.clock = {start, step};
     grid.steps = scheme.isFixed() ? stepCount(start, end, step) : 0;
     grid.end = end;
+    grid.isBackwards = isBackwards(scene);
     grid.budget = std::max(grid.steps, static_cast<long long>(std::min(budget, 9e18)));
     return grid;
 }

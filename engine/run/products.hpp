@@ -28,11 +28,13 @@ struct ResolvedScene;
 /// "error" as well.
 struct DenseOutput {
     Trajectory points;
+    void checkpoint(Archive& archive) { archive(points); }
 };
 
 /// Samples of a field at rows, all of them while they fit into their memory.
 struct FieldFrames {
     std::vector<Frame> all;
+    void checkpoint(Archive& archive) { archive(all); }
 };
 
 /// States where a column passes zero upwards, found on the dense output: one for each view that needs them.
@@ -42,6 +44,9 @@ struct Sections {
         Trajectory events;  ///< t and the state
     };
     std::vector<Section> all;
+    void checkpoint(Archive& archive) {
+        for (Section& section : all) archive(section.events);
+    }
 };
 
 /// Of a comparison: one map per scheme that has a step.
@@ -71,7 +76,26 @@ public:
     }
     std::size_t size() const { return all_.size(); }
 
+    /// Those that grow along a march.
+    void checkpoint(Archive& archive) {
+        exchange<DenseOutput>(archive);
+        exchange<FieldFrames>(archive);
+        exchange<Sections>(archive);
+        exchange<StepRecords>(archive);
+        exchange<FoundEvents>(archive);
+    }
+
 private:
+    template <class P>
+    void exchange(Archive& archive) {
+        bool isThere = find<P>() != nullptr;
+        archive(isThere);
+        if (isThere)
+            archive(make<P>());
+        else
+            drop<P>();
+    }
+
     using Value = std::variant<DenseOutput, FieldFrames, Sections, StepRecords, ElementClocks, KktPattern,
                                ActionDefect, ParameterMaps, StartSets, FoundEvents>;
     std::vector<Value> all_;

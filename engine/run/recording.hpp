@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,15 +12,15 @@
 
 #include "engine/core/line_fit.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/with_exponents.hpp"
 #include "engine/model/conservative.hpp"
 #include "engine/observe/catalog.hpp"
-#include "engine/integrator/with_exponents.hpp"
 #include "engine/run/advice.hpp"
+#include "engine/run/checkpoints.hpp"
 #include "engine/run/delayed_rows.hpp"
 #include "engine/run/event_watch.hpp"
 #include "engine/run/inside_step.hpp"
 #include "engine/run/judge.hpp"
-#include "engine/scene/local_errors.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/run/open_bar.hpp"
 #include "engine/run/reference.hpp"
@@ -27,6 +28,7 @@
 #include "engine/run/timing.hpp"
 #include "engine/run/variations_for.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/local_errors.hpp"
 
 namespace extremal {
 
@@ -70,9 +72,10 @@ struct Recording {
     long long nextMultiple = 1;  ///< of output.every, for dense rows
     std::vector<double> values, kept;
     DelayedRows delayed;
-    std::size_t stateWidth = 0;    ///< entries of the state that every row holds
-    std::optional<State> stopped;  ///< where an event stopped the run, in its last step
-    double stoppedAt = 0;          ///< the part of that step
+    std::size_t stateWidth = 0;             ///< entries of the state that every row holds
+    std::vector<ExactSolution> references;  ///< of the observers that are given one
+    std::optional<State> stopped;           ///< where an event stopped the run, in its last step
+    double stoppedAt = 0;                   ///< the part of that step
 
     Recording(const ResolvedScene& resolved, const ResolvedScheme& scheme_, const State& initial,
               const Reference& reference, const std::vector<std::string>& observe, double step_,
@@ -117,7 +120,8 @@ struct Recording {
         for (const std::string& id : observe) {
             const ObservableEntry* entry = findObservable(id);
             if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
-            Bound b{entry->bind({system, initial, entry->needsReference ? reference.make() : ExactSolution{},
+            if (entry->needsReference) references.push_back(reference.make());
+            Bound b{entry->bind({system, initial, entry->needsReference ? references.back() : ExactSolution{},
                                  scheme.plain(), step, integrator->quantities(), integrator.get(),
                                  scheme.claims.order}),
                     result.trajectory.columns.size(), none, nullptr};
@@ -312,9 +316,20 @@ struct Recording {
             s.energyDrift = lineThrough(result.trajectory.columns[0].values, energy->values).slope;
     }
 
-    /// Integrates to the end or the first trouble; `publish` is called between blocks.
+    /// All that the march has made so far, and needs to go on, but for its integrator.
+    void checkpoint(Archive& archive, MarchReport& report, Judge& judge) {
+        archive(state, report, judge, sampler, frames, delayed, isLastNodeRow, nextMultiple, hasOverflown,
+                stopped, stoppedAt);
+        archive(result.trajectory, result.products, result.summary);
+        for (Bound& b : observers)
+            if (b.observer.checkpoint) b.observer.checkpoint(archive);
+        archive(references);
+    }
+
+    /// Integrates to the end or the first trouble; `publish` is called between blocks. `file`: keeps and has
+    /// checkpoints of this march, under the name of the stage; null: there are none.
     template <class Publish>
-    void run(Publish&& publish) {
+    void run(Publish&& publish, SchemeCheckpoint* file = nullptr, const std::string& stage = {}) {
         const bool isDense = scene.isDense && scene.every;
         std::optional<EventWatch> watch;
         if (!scene.events.empty() && stateWidth > 0) watch.emplace(result, scene, system);
@@ -362,7 +377,39 @@ struct Recording {
         warmUp(*integrator, state, grid, stop);
         const Judge freshJudge(system, initialNode, step);
         Judge judge = freshJudge;
-        MarchReport report = march(*integrator, state, grid, sinks, stop, &judge);
+        MarchReport report;
+        // False where the integrator keeps its history to itself: it is left out where the march has ended.
+        const auto exchange = [&](Archive& archive, MarchReport& soFar, bool hasEnded) {
+            if (!hasEnded && !integrator->checkpoint(archive)) return false;
+            checkpoint(archive, soFar, judge);
+            if (watch) archive(*watch);
+            if (inside) archive(*inside);
+            return true;
+        };
+        // Not after a stop was asked for: references obey it as well, and what was measured since may be
+        // unknown.
+        const auto keep = [&](MarchReport soFar, bool hasEnded) {
+            Archive archive;
+            if (!stop.stop_requested() && exchange(archive, soFar, hasEnded))
+                file->write(stage, {hasEnded, archive.bytes()});
+        };
+        if (file)  // last of all, when the others have seen the block
+            sinks.push_back({[&](const Stretch& stretch) {
+                const bool isWhole =
+                    !stretch.isStart && !stopped && stretch.soFar.outcome == Outcome::converged;
+                if (isWhole && file->isDue()) keep(stretch.soFar, false);
+                return true;
+            }});
+        const SchemeCheckpoint::Stage* const known = file ? file->find(stage) : nullptr;
+        const bool hasEnded = known && known->hasEnded;
+        if (known) {
+            Archive archive(known->bytes);
+            (void)exchange(archive, report, hasEnded);
+        }
+        if (!hasEnded) {
+            report = march(*integrator, state, grid, sinks, stop, &judge, known ? &report : nullptr);
+            if (file) keep(report, true);
+        }
         MarchGrid taken = grid;
         if (stopped) {
             taken.steps = std::min(grid.steps, state.node);

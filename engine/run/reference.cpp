@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/problem.hpp"
@@ -32,6 +34,7 @@ public:
         rewind();
     }
     void operator()(double t, std::span<double> x) {
+        if (read_) resume(t);
         if (t < before_) rewind();
         while (!hasFailed_ && state_.t < t) {
             before_ = state_.t;
@@ -39,9 +42,7 @@ public:
             const StepReport report =
                 integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : std::max(end_, t));
             hasFailed_ = report.outcome != Outcome::converged;
-            if (!counts_) continue;
-            ++counts_->steps;
-            counts_->events += report.event != StepEvent::none;
+            count({1, report.event != StepEvent::none});
         }
         if (hasFailed_)
             std::fill(x.begin(), x.end(), unknown);
@@ -51,7 +52,42 @@ public:
             integrator_->denseOutput((t - before_) / (state_.t - before_), x);
     }
 
+    /// Where it is, without the dense output of its last step.
+    void checkpoint(Archive& archive) {
+        Place here;
+        bool isKnown = false;
+        if (!archive.isReading()) {
+            Archive own;
+            isKnown = !hasFailed_ && integrator_->checkpoint(own);
+            here = {state_, own.bytes(), own_};
+        }
+        archive(isKnown);
+        if (isKnown) archive(here);
+        if (isKnown && archive.isReading()) read_ = std::move(here);
+    }
+
 private:
+    struct Place {
+        State state = {};
+        std::string integrator = {};
+        StepCounts counts = {};
+        void checkpoint(Archive& archive) { archive(state, integrator, counts); }
+    };
+    /// Goes to the place that was read, if the time is not before it.
+    void resume(double t) {
+        const std::optional<Place> place = std::exchange(read_, std::nullopt);
+        if (!place || t < place->state.t) return;
+        state_ = place->state;
+        before_ = state_.t;
+        Archive archive(place->integrator);
+        (void)integrator_->checkpoint(archive);
+        count(place->counts);
+    }
+    void count(const StepCounts& more) {
+        own_ += more;
+        if (counts_) *counts_ += more;
+    }
+
     void rewind() {
         integrator_ = make_();
         clock_ = {initial_.t, integrator_->stepSize()};
@@ -68,6 +104,8 @@ private:
     double before_ = 0;
     bool hasFailed_ = false;
     std::shared_ptr<StepCounts> counts_;
+    StepCounts own_ = {};        ///< of this solution alone
+    std::optional<Place> read_;  ///< from a checkpoint, until a time is asked for
 };
 
 /// `end`: where error-controlled codes land, unless they are asked beyond it.
@@ -75,7 +113,9 @@ std::function<ExactSolution()> stepped(SteppedSolution::Make make, const State& 
                                        const std::shared_ptr<StepCounts>& counts = nullptr) {
     return [make = std::move(make), initial, end, counts]() -> ExactSolution {
         const auto solution = std::make_shared<SteppedSolution>(make, initial, end, counts);
-        return [solution](double t, std::span<double> x) { (*solution)(t, x); };
+        ExactSolution along = [solution](double t, std::span<double> x) { (*solution)(t, x); };
+        along.setCheckpoint([solution](Archive& archive) { solution->checkpoint(archive); });
+        return along;
     };
 }
 

@@ -30,6 +30,11 @@ struct MeshSolution {
 /// Of the run of a companion, while it goes on.
 struct StepCounts {
     long long steps = 0, events = 0;  ///< events: steps in which something happened besides going on
+    StepCounts& operator+=(const StepCounts& other) {
+        steps += other.steps;
+        events += other.events;
+        return *this;
+    }
 };
 
 struct Reference {

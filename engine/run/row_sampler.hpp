@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "engine/core/archive.hpp"
+
 namespace extremal {
 
 class RowSampler {
@@ -35,6 +37,7 @@ public:
         next_ = std::floor(k) + 1;
         return true;
     }
+    void checkpoint(Archive& archive) { archive(nextNode_, next_); }
 
 private:
     double start_, every_;

@@ -14,11 +14,13 @@
 #include "engine/core/problem.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/equations.hpp"
+#include "engine/run/export.hpp"
 #include "engine/run/map_run.hpp"
 #include "engine/run/reference.hpp"
 #include "engine/run/scheme_run.hpp"
 #include "engine/run/starts_run.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/codec.hpp"
 #include "engine/scene/resolve.hpp"
 
 namespace extremal {
@@ -33,6 +35,7 @@ struct Run::Impl {
     ProductPlan plan;
     unsigned threads;
     std::vector<std::unique_ptr<SchemeRun>> tasks;
+    std::vector<std::unique_ptr<SchemeCheckpoint>> checkpoints;  ///< of the tasks, or none
     MapRun maps;
     StartsRun starts;
     bool needsSchemes = false;  ///< not all results are known
@@ -58,6 +61,19 @@ struct Run::Impl {
         if (scene.reference.kind == ReferenceSpec::Kind::exact && !exactSolution(scene, system, initial))
             throw InvalidScene("/reference", "no exact solution is known for these initial data",
                                "use \"auto\"");
+    }
+
+    /// Beside the results, `csv` by scheme.
+    void addCheckpoints(const CheckpointPlan& how, const std::vector<std::string>& csv) {
+        Value owner;
+        owner.set("scene", writeScene(scene));
+        for (std::size_t i = 0; i < tasks.size(); ++i) {
+            const std::string slug = csv[i].substr(0, csv[i].size() - 4);
+            owner.set("scheme", slug);
+            checkpoints.push_back(
+                std::make_unique<SchemeCheckpoint>(how.folder / (slug + ".checkpoint"), owner, how));
+            tasks[i]->setCheckpoint(checkpoints.back().get());
+        }
     }
 
     bool needsReference() const {
@@ -118,7 +134,9 @@ struct Run::Impl {
 Run::Run(const Scene& scene, const RunOptions& options) : Run(resolve(scene), options) {}
 
 Run::Run(ResolvedScene scene, const RunOptions& options)
-    : impl_(std::make_unique<Impl>(std::move(scene), options)) {}
+    : impl_(std::make_unique<Impl>(std::move(scene), options)) {
+    if (options.checkpoints) impl_->addCheckpoints(*options.checkpoints, csvNames(latest()));
+}
 
 Run::~Run() { stop(); }
 
@@ -162,6 +180,21 @@ double Run::fraction() const {
     double schemes = impl_->tasks.empty() ? 1 : sum / static_cast<double>(impl_->tasks.size());
     if (impl_->starts.tasks() > 0) schemes = 0.5 * schemes + 0.5 * impl_->starts.fraction();
     return impl_->maps.tasks() > 0 ? 0.3 * schemes + 0.7 * impl_->maps.fraction() : schemes;
+}
+
+bool Run::hasCheckpoints() const {
+    return std::any_of(impl_->checkpoints.begin(), impl_->checkpoints.end(),
+                       [](const auto& each) { return each->isWritten(); });
+}
+
+std::string Run::checkpointFailure() const {
+    for (const auto& each : impl_->checkpoints)
+        if (!each->failure().empty()) return each->failure();
+    return {};
+}
+
+void Run::removeCheckpoints() {
+    for (const auto& each : impl_->checkpoints) each->remove();
 }
 
 Comparison run(const Scene& scene, const RunOptions& options) {

@@ -4,14 +4,17 @@
 ///     Comparison result = run(scene);                 // wait for everything
 ///     Run r(scene); r.start(); ... r.latest(); r.stop();   // or watch it
 ///
-/// Construction throws InvalidScene if the scene cannot be run. Memory does not grow with the number of
-/// steps.
+/// Construction throws InvalidScene if the scene cannot be run, or be resumed. Memory does not grow with the
+/// number of steps.
 #pragma once
 
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
+#include "engine/run/checkpoints.hpp"
 #include "engine/run/comparison.hpp"
 #include "engine/scene/resolve.hpp"
 
@@ -24,6 +27,7 @@ struct RunOptions {
     /// missing: to be computed. `reference` is then shown if nothing is left to be measured against it.
     std::vector<std::shared_ptr<const SchemeResult>> known = {};
     ReferenceInfo reference = {};
+    std::optional<CheckpointPlan> checkpoints = {};  ///< none: there are none
     bool isTimed = true;  ///< short runs are repeated for their CPU time; false: it is that of one run
 };
 
@@ -45,6 +49,12 @@ public:
     Comparison latest() const;
     double fraction() const;   ///< of the whole work, 0..1
     bool isPreparing() const;  ///< the reference is computed; no scheme has begun
+
+    /// Of a run that is over: whether there are checkpoints to go on from; the first reason why one could not
+    /// be written, or empty; and removes them, when the results are written.
+    bool hasCheckpoints() const;
+    std::string checkpointFailure() const;
+    void removeCheckpoints();
 
 private:
     struct Impl;

@@ -105,7 +105,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
             p.denseError = error->bind({system, own, reference.make(), nullptr, step, {}});
         auto last = Clock_::now();
         auto pause = std::chrono::milliseconds(30);
-        p.run([&] {
+        const auto publishNow = [&] {
             const auto now = Clock_::now();
             if (now - last < pause) return;
             publish(p.result);
@@ -113,7 +113,8 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
             // Copying rows must stay a small part of the work.
             pause = std::max(std::chrono::milliseconds(30),
                              std::chrono::duration_cast<std::chrono::milliseconds>(20 * (last - now)));
-        });
+        };
+        p.run(publishNow, checkpoint_, "rows " + std::to_string(stride) + " " + std::to_string(maxRows));
         return p;
     };
     const bool isUnplanned = !scheme_.isFixed() && !scene_.every;
@@ -130,7 +131,7 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
             result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
         }
     }
-    if (hasCompanion) judgeCompanion(result.summary, reference, withoutBar);
+    if (hasCompanion) judgeCompanion(result, reference, withoutBar);
     if (wantsWayBack(scene_.observe) && !p.stopped && result.summary.status == RunStatus::done &&
         scheme_.isFixed()) {
         publish(result);
@@ -168,7 +169,7 @@ void SchemeRun::measureOrder(SchemeResult& result, const Reference& reference, c
         if (!its.make) break;
         const State own = schemeStart(resolved_, finer, step);
         Recording p(resolved_, finer, own, its, {"error"}, step, 1LL << 60, 0, stop);
-        p.run([] {});
+        p.run([] {}, checkpoint_, "order " + std::to_string(static_cast<int>(divisor)));
         const double error = p.result.summary.maxError;
         const double floor =
             std::max(roundOffFloor(scale, p.result.summary.steps), referenceFloor(reference.info));

@@ -17,6 +17,7 @@
 namespace extremal {
 
 class ExactActions;
+class SchemeCheckpoint;
 
 class SchemeRun {
 public:
@@ -24,6 +25,9 @@ public:
     /// nothing to do.
     SchemeRun(const ResolvedScene& scene, std::size_t index, const ProductPlan& plan,
               const std::shared_ptr<const SchemeResult>& known = nullptr);
+
+    /// Keeps checkpoints of its marches, or goes on from them. The file must outlive the run.
+    void setCheckpoint(SchemeCheckpoint* file) { checkpoint_ = file; }
 
     std::size_t index() const { return index_; }
     bool isKnown() const { return isKnown_; }
@@ -48,6 +52,7 @@ private:
     const ProductPlan& plan_;
     std::size_t index_;
     bool isKnown_;
+    SchemeCheckpoint* checkpoint_ = nullptr;
     mutable std::mutex mutex_;
     std::shared_ptr<const SchemeResult> latest_;
 };

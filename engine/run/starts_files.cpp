@@ -1,20 +1,10 @@
 #include "engine/run/starts_files.hpp"
 
-#include <cmath>
+#include <limits>
 
-#include "engine/core/text.hpp"
 #include "engine/run/export.hpp"
 
 namespace extremal {
-namespace {
-
-void addCell(std::string& text, double value) {
-    text += ',';
-    if (std::isfinite(value)) text += formatNumber(value);
-}
-
-}  // namespace
-
 std::vector<std::pair<std::string, const StartSet*>> startFiles(const Comparison& comparison) {
     std::vector<std::pair<std::string, const StartSet*>> files;
     if (const StartSets* sets = comparison.products.find<StartSets>())
@@ -38,7 +28,7 @@ std::string startsCsv(const StartSet& set) {
         const double unknown = std::numeric_limits<double>::quiet_NaN();
         for (const double value : {orbit ? orbit->x : unknown, orbit ? orbit->y : unknown,
                                    orbit ? orbit->lyapunov : unknown, orbit ? orbit->megno : unknown})
-            addCell(text, value);
+            addNumber(text, value);
         text += "," + (orbit ? std::to_string(orbit->steps) : "") + "," +
                 (orbit ? std::to_string(orbit->points.rows()) : "") + "," + csvCell(statusOf(orbit)) + "\n";
     }
@@ -58,7 +48,7 @@ std::string startPointsCsv(const StartSet& set) {
         }
         for (std::size_t r = 0; r < points.rows(); ++r) {
             text += std::to_string(i + 1);
-            for (const Column& c : points.columns) addCell(text, c.values[r]);
+            for (const Column& c : points.columns) addNumber(text, c.values[r]);
             text += '\n';
         }
     }

@@ -60,11 +60,6 @@ std::string keyOf(const Scene& scene, std::size_t scheme, const ViewPlane& plane
                                          static_cast<double>(points)});
 }
 
-void push(Trajectory& points, double t, const std::vector<double>& x) {
-    points.columns[0].values.push_back(t);
-    for (std::size_t c = 1; c < points.columns.size(); ++c) points.columns[c].values.push_back(x[c - 1]);
-}
-
 /// One motion being computed.
 class Motion {
 public:
@@ -77,11 +72,7 @@ public:
           orbit_(orbit) {
         orbit_.points.columns = leadingColumns(system_);
         if (plane.at.empty()) return;
-        const auto& columns = orbit_.points.columns;
-        at_ = static_cast<std::size_t>(std::find_if(columns.begin(), columns.end(),
-                                                    [&](const Column& c) { return c.name == plane.at; }) -
-                                       columns.begin()) -
-              1;
+        at_ = indexOf(stateColumns(system_), plane.at).value();
         isSection_ = true;
     }
 
@@ -94,7 +85,7 @@ public:
             withVariations(scheme_.make(system_, step, state), system_, VariationPlan{.vector = true});
         const MarchGrid grid = marchGrid(scene, scheme_, step);
         inside_ = state;
-        push(orbit_.points, state.t, state.x);
+        keep(state.t, state.x);
         const MarchSink sink{[&](const Stretch& stretch) {
                                  if (!stretch.isStart) see(stretch);
                                  return true;
@@ -126,11 +117,11 @@ private:
             for (int j = 1; j < pointsPerStep_ && hasRoom(); ++j) {
                 const double tau = static_cast<double>(j) / pointsPerStep_;
                 stretch.integrator.denseOutput(tau, inside_.x);
-                push(orbit_.points, stretch.before.t + tau * (stretch.state.t - stretch.before.t), inside_.x);
+                keep(stretch.before.t + tau * (stretch.state.t - stretch.before.t), inside_.x);
             }
             if (!hasRoom()) return;
             inside_.x.assign(nodes.x(i), nodes.x(i) + nodes.width());
-            push(orbit_.points, nodes.t(i), inside_.x);
+            keep(nodes.t(i), inside_.x);
         }
     }
     void cross(const Stretch& stretch) {
@@ -141,8 +132,9 @@ private:
             return inside_.x[at_];
         });
         stretch.integrator.denseOutput(tau, inside_.x);
-        push(orbit_.points, stretch.before.t + tau * (stretch.state.t - stretch.before.t), inside_.x);
+        keep(stretch.before.t + tau * (stretch.state.t - stretch.before.t), inside_.x);
     }
+    void keep(double t, const std::vector<double>& x) { appendState(orbit_.points, t, x, x.size()); }
     bool hasRoom() {
         const bool has = orbit_.points.rows() < mostPoints_;
         orbit_.isCut = orbit_.isCut || !has;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/archive.hpp"
 #include "engine/core/outcome.hpp"
 
 namespace extremal {
@@ -39,6 +40,7 @@ struct StepRecords {
         stride *= 2;
         std::erase_if(all, [&](const StepRecord& each) { return each.k % stride != 0; });
     }
+    void checkpoint(Archive& archive) { archive(all, stride); }
 };
 
 }  // namespace extremal

@@ -169,9 +169,8 @@ void checkTangent(Reader& reader, const Scene& scene, const Integrator& integrat
             lacking.push_back(id);
     if (!lacking.empty())
         reader.warning(pointer,
-                       "has no tangent map, because its steps cannot be differentiated: these columns stay "
-                       "empty for it: " +
-                           joinNames(lacking),
+                       "has no tangent map: " + integrator.tangentProblem() +
+                           "; these columns stay empty for it: " + joinNames(lacking),
                        "another scheme, or do not observe them");
 }
 
@@ -225,9 +224,10 @@ void checkScheme(Reader& reader, const ResolvedScene& scene, const ResolvedSchem
                  const std::string& pointer) {
     const std::size_t errorsBefore = reader.errors.size();
     const bool isTimeKnown = scene.scene.end.value != scene.scene.start.value;
-    if (isBackwards(scene.scene) && !scheme.isFixed())
-        reader.error(pointer, "cannot run backwards in time, because it chooses its steps forwards",
-                     "a scheme with a fixed step, or an end after the start");
+    if (isBackwards(scene.scene) && scheme.grid == TimeGrid::free)
+        reader.error(pointer,
+                     "cannot run backwards in time, because the steps are its unknowns, and positive",
+                     "a scheme with given steps or under error control, or an end after the start");
     if (isTimeKnown) checkStepCount(reader, scene.scene, scheme.spec, pointer);
     if (scheme.family && !checkDiscretization(reader, scheme.spec, scheme.properties, pointer)) return;
     if (scene.system && isTimeKnown && reader.errors.size() == errorsBefore)
@@ -246,13 +246,10 @@ void checkCompanion(Reader& reader, const ResolvedScene& scene, const ResolvedSc
         for (const Problem& p : e.problems()) lacking.push_back({pointer, p.message, p.hint});
         return;
     }
-    // Measured over the presets: where steps are longer, a third of the bars is off by more than a factor
-    // of 3.
-    const double longest = system.fast.frequency > 0 ? 0.5 : 2;
-    const double turned = highestFrequency(system, initialOf(scene, scheme)) * scheme.spec.step.value;
-    if (isMechanical(system) && turned > longest)
+    if (const double turned = unresolvedTurn(scheme, system, initialOf(scene, scheme)); turned > 0)
         reader.warning(pointer,
-                       "may have an error bar that is far off: its step is " + formatNumber(turned, 2) +
+                       "has an error bar that is open from the start: its step is " +
+                           formatNumber(turned, 2) +
                            " rad of the fastest motion, which neither it nor its companion needs to follow",
                        "use \"auto\" as the reference");
 }

@@ -91,4 +91,11 @@ ResolvedScheme companionOf(const ResolvedScheme& scheme, const System& system) {
     return companion;
 }
 
+double unresolvedTurn(const ResolvedScheme& scheme, const System& system, const State& initial) {
+    if (!isMechanical(system) || scheme.isAdaptive()) return 0;
+    const double longest = system.fast.frequency > 0 ? 0.5 : 2;
+    const double turned = highestFrequency(system, initial) * scheme.spec.step.value;
+    return turned > longest ? turned : 0;
+}
+
 }  // namespace extremal

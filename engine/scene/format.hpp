@@ -17,6 +17,11 @@ inline const std::vector<std::string> event = {"expression", "label", "direction
 inline const std::vector<std::string> output = {"every", "dense"};
 inline const std::vector<std::string> limits = {"steps"};
 inline const std::vector<std::string> reference = {"type", "scheme", "path"};
+/// In the order of ReferenceSpec::Kind.
+inline const std::vector<std::string> referenceKinds = {"auto",   "exact", "none",
+                                                        "scheme", "file",  "companion"};
+/// Of these, those that need nothing else.
+inline const std::vector<std::string> plainReferences = {"auto", "exact", "companion", "none"};
 inline const std::vector<std::string> view = {"view", "x",     "y",     "at",     "scheme",
                                               "node", "range", "curve", "starts", "spread"};
 inline const std::vector<std::string> range = {"x", "y"};

@@ -13,13 +13,6 @@
 namespace extremal {
 namespace {
 
-std::optional<std::size_t> indexOf(const System& system, const std::string& column) {
-    const std::vector<Quantity> columns = stateColumns(system);
-    for (std::size_t i = 0; i < columns.size(); ++i)
-        if (columns[i].name == column) return i;
-    return {};
-}
-
 /// The least H along p_i, where there is one, and steps away from it that change H.
 struct Bottom {
     double p = 0, H = 0, reach = 1;
@@ -122,13 +115,14 @@ struct StartPlane::Region {
 
 std::string startProblem(const System& system, const ViewPlane& plane) {
     if (!isMechanical(system)) return "need a system with coordinates";
-    const auto x = indexOf(system, plane.x), y = indexOf(system, plane.y);
+    const std::vector<Quantity> columns = stateColumns(system);
+    const auto x = indexOf(columns, plane.x), y = indexOf(columns, plane.y);
     for (const auto& [place, name] : {std::pair{x, plane.x}, std::pair{y, plane.y}})
         if (!place) return "need state columns along both axes, and " + name + " is none";
     if (*x == *y) return "need two different columns along the axes";
     if (plane.at.empty()) return {};
     const auto d = static_cast<std::size_t>(system.dimension());
-    const auto at = indexOf(system, plane.at);
+    const auto at = indexOf(columns, plane.at);
     if (!at || *at >= d) return "need a section of a coordinate, and " + plane.at + " is none";
     for (const std::size_t column : {*x, *y})
         if (column == *at || column == *at + d)
@@ -141,12 +135,12 @@ std::string startProblem(const System& system, const ViewPlane& plane) {
 StartPlane::StartPlane(const System& system, State initial, const ViewPlane& plane)
     : initial_(std::move(initial)),
       energy_(energyOf(system)),
-      x_(*indexOf(system, plane.x)),
-      y_(*indexOf(system, plane.y)),
+      x_(*indexOf(stateColumns(system), plane.x)),
+      y_(*indexOf(stateColumns(system), plane.y)),
       isSection_(!plane.at.empty()) {
     if (!isSection_) return;
     const auto d = static_cast<std::size_t>(system.dimension());
-    at_ = *indexOf(system, plane.at);
+    at_ = *indexOf(stateColumns(system), plane.at);
     momentum_ = at_ + d;
     E_ = energy_(initial_.t, initial_.x.data());
     momentumName_ = stateColumns(system)[momentum_].name;

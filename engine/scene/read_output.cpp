@@ -93,7 +93,7 @@ void readOutput(Reader& reader, const Value& document, Scene& scene) {
 }
 
 void readReference(Reader& reader, const Value& document, const std::string& directory, Scene& scene) {
-    static const std::vector<std::string> kinds = {"auto", "exact", "none", "scheme", "file", "companion"};
+    const std::vector<std::string>& kinds = format::referenceKinds;
     const Value* value = document.find("reference");
     if (!value) return;
     const Value object = value->isString() ? Value(Value::Object{{"type", *value}}) : *value;

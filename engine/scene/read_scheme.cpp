@@ -144,6 +144,17 @@ void readSolver(Reader& reader, const Value& scheme, const std::string& pointer,
     readLimit("max_iterations", {1, 1e6, false, true});
 }
 
+/// What a baseline finds in its keys.
+void examineBaseline(Reader& reader, const std::string& pointer, const Settings& settings) {
+    const BaselineEntry* const entry = findBaseline(settings.type);
+    if (!entry || !entry->examine) return;
+    Findings findings;
+    entry->examine(settings, findings);
+    for (const Problem& p : findings.errors) reader.error(pointer + p.pointer, p.message, p.hint);
+    for (const Problem& p : findings.warnings)
+        reader.warning(pointer + p.pointer, p.message, p.hint, p.remedy);
+}
+
 /// Exactly one of space, baseline and scheme says what the scheme is.
 bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, SchemeSpec& spec) {
     std::vector<std::string> given;
@@ -173,6 +184,7 @@ bool readKind(Reader& reader, const Value& scheme, const std::string& pointer, S
         const auto baseline =
             readSettings(reader, *scheme.find("baseline"), place, "baseline", itemsOf(baselineCatalog()));
         if (baseline) spec.baseline = *baseline;
+        if (baseline) examineBaseline(reader, pointer, spec.baseline);
     } else {
         spec.kind = SchemeSpec::Kind::named;
         readNamed(reader, *scheme.find("scheme"), place, spec);

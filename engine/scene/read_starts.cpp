@@ -10,13 +10,11 @@
 namespace extremal {
 namespace {
 
-constexpr std::size_t mostStarts = 2000;
-
 void readPoints(Reader& reader, const Value& points, const std::string& at, ViewStarts& starts) {
     if (!reader.isArray(points, at, "points [x, y]")) return;
-    if (points.asArray().size() > mostStarts)
+    if (points.asArray().size() > ViewStarts::most)
         return reader.error(at, "has " + std::to_string(points.asArray().size()) + " points, the limit is " +
-                                    std::to_string(mostStarts));
+                                    std::to_string(ViewStarts::most));
     for (std::size_t i = 0; i < points.asArray().size(); ++i) {
         const Value& point = points.asArray()[i];
         const std::string place = childPointer(at, i);
@@ -44,8 +42,9 @@ void readStarts(Reader& reader, const Value& object, const std::string& pointer,
     if (points) readPoints(reader, *points, at, view.starts);
     const std::string ofSpread = childPointer(pointer, "spread");
     if (spread)
-        if (const auto count = reader.number(
-                *spread, ofSpread, {0, static_cast<double>(mostStarts), false, true, "a number of starts"}))
+        if (const auto count =
+                reader.number(*spread, ofSpread,
+                              {0, static_cast<double>(ViewStarts::most), false, true, "a number of starts"}))
             view.starts.spread = static_cast<int>(count->value);
     if (!system || view.starts.isEmpty()) return;
     const auto plane = planeOf(view, *system);

@@ -26,7 +26,8 @@ void refuseBaseline(const BaselineEntry& entry, const System& system) {
 
 double ResolvedScheme::stabilityLimit() const {
     if (isComposed()) return composedStabilityLimit(*this);
-    return family ? properties.stabilityLimit : baseline->stabilityLimit;
+    if (family) return properties.stabilityLimit;
+    return baseline->stabilityLimitOf ? baseline->stabilityLimitOf(spec.baseline) : baseline->stabilityLimit;
 }
 
 bool ResolvedScheme::fits(const System& system) const {

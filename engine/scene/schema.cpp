@@ -216,10 +216,10 @@ Value initialData() {
 
 Value referenceChoice() {
     Value p{Value::Object{}};
-    p.set("type", enumeration({"auto", "exact", "none", "scheme", "file", "companion"}));
+    p.set("type", enumeration(format::referenceKinds));
     p.set("scheme", reference("scheme"));
     p.set("path", typed("string", "A CSV file with t and the state columns, relative to the scene."));
-    return anyOf({object(p, {"type"}), enumeration({"auto", "exact", "none", "companion"})});
+    return anyOf({object(p, {"type"}), enumeration(format::plainReferences)});
 }
 
 Value definitions() {

@@ -28,8 +28,7 @@ Value initialValue(const Initial& initial) {
 }
 
 Value referenceValue(const ReferenceSpec& reference) {
-    constexpr const char* kinds[] = {"auto", "exact", "none", "scheme", "file", "companion"};
-    Value value(Value::Object{{"type", kinds[static_cast<int>(reference.kind)]}});
+    Value value(Value::Object{{"type", format::referenceKinds[static_cast<std::size_t>(reference.kind)]}});
     for (const SchemeSpec& scheme : reference.scheme) value.set("scheme", schemeValue(scheme));
     if (reference.kind == ReferenceSpec::Kind::file) value.set("path", reference.path);
     return value;

@@ -5,11 +5,10 @@
 #include <fstream>
 #include <utility>
 
-#include <boost/crc.hpp>
-
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "engine/core/fingerprint.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/run/export.hpp"
 #include "engine/run/write_all.hpp"
@@ -17,27 +16,6 @@
 #include "engine/scene/json.hpp"
 
 namespace extremal {
-namespace {
-
-std::string hex(unsigned long long value, int digits) {
-    std::string text;
-    for (int i = digits - 1; i >= 0; --i) text += "0123456789abcdef"[(value >> (4 * i)) & 15];
-    return text;
-}
-
-std::string checksum(const std::string& text) {
-    boost::crc_32_type crc;
-    crc.process_bytes(text.data(), text.size());
-    return hex(crc.checksum(), 8);
-}
-
-}  // namespace
-
-std::string fingerprint(const std::string& text) {
-    boost::crc_optimal<64, 0x42f0e1eba9ea3693ULL, ~0ULL, ~0ULL, true, true> crc;
-    crc.process_bytes(text.data(), text.size());
-    return hex(crc.checksum(), 16);
-}
 
 std::string headOf(const std::string& study, const Value& options, const Scene& scene) {
     return headOf(study, options, writeScene(scene));

@@ -16,11 +16,8 @@
 
 namespace extremal {
 
-/// Of the text of a scene: equal ones are the same study.
-std::string fingerprint(const std::string& text);
-
 /// The first line of a log, without its checksum. `what`: the text of the scene, or of what is studied
-/// besides.
+/// besides; equal ones are the same study.
 std::string headOf(const std::string& study, const Value& options, const std::string& what);
 std::string headOf(const std::string& study, const Value& options, const Scene& scene);
 

@@ -8,7 +8,10 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
+
+#include "engine/core/archive.hpp"
 
 namespace extremal {
 
@@ -16,6 +19,12 @@ namespace extremal {
 struct Frame {
     double t = 0;
     std::shared_ptr<const std::vector<double>> values;
+
+    void checkpoint(Archive& archive) {
+        std::vector<double> all = values ? *values : std::vector<double>();
+        archive(t, all);
+        if (archive.isReading()) values = std::make_shared<const std::vector<double>>(std::move(all));
+    }
 };
 
 class FrameKeeper {
@@ -37,6 +46,8 @@ public:
         }
         ++offered_;
     }
+
+    void checkpoint(Archive& archive) { archive(offered_, stride_); }
 
 private:
     void thin(std::vector<Frame>& frames) {

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/archive.hpp"
+
 namespace extremal {
 
 struct Column {
@@ -31,6 +33,11 @@ struct Trajectory {
         for (const Column& c : columns)
             if (c.name == name) return &c;
         return nullptr;
+    }
+    /// The values; columns are made before.
+    void checkpoint(Archive& archive) {
+        for (Column& c : columns) archive(c.values);
+        archive(nodes);
     }
     /// The values of a column, empty if there is no such column.
     std::span<const double> operator[](std::string_view name) const {

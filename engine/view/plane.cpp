@@ -36,7 +36,7 @@ std::optional<ViewPlane> planeOf(const View& view, const System& system) {
 
 std::vector<FieldInfo> startsFields() {
     FieldInfo spread =
-        integerField("spread", "", 0, 2000, 0.0,
+        integerField("spread", "", 0, ViewStarts::most, 0.0,
                      "that many more starts, spread evenly over what the energy admits (section) "
                      "or over the range of the view");
     FieldInfo starts =

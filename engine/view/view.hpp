@@ -28,6 +28,7 @@ struct ViewCurve {
 /// Starts besides that of the scene, in the plane of the view's two columns: of a section, where it passes
 /// upwards with the energy of the scene's start; of a phase portrait, with the other columns of that start.
 struct ViewStarts {
+    static constexpr int most = 2000;  ///< of points, and of `spread`
     std::vector<std::pair<Number, Number>> points;
     int spread = 0;  ///< that many more, spread evenly
     bool isEmpty() const { return points.empty() && spread == 0; }

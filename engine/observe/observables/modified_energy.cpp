@@ -52,6 +52,7 @@ public:
         window_.clear();
         last_ = unknown;
     }
+    void checkpoint(Archive& archive) { archive(window_, last_); }
 
 private:
     Form form_;
@@ -61,6 +62,13 @@ private:
     std::size_t d_;
     ModifiedEnergyWindow window_;
     double last_ = unknown;
+};
+
+/// A run, as far as it has been seen.
+struct Along {
+    Sequence sequence;
+    double start = unknown;  ///< the first known value
+    long long last = -1;     ///< node
 };
 
 std::vector<Form> formsOf(const ObserveContext& context) {
@@ -147,19 +155,20 @@ ObservableEntry modified_energy() {
         o.readsQuantities = true;
         o.delay = form->r;
         o.about = "modified energy: " + form->text();
-        o.evaluate = [sequence = Sequence(*form, context), start = unknown, last = -1LL](
-                         const NodeBlock& nodes, double* values, std::size_t stride) mutable {
+        const auto along = std::make_shared<Along>(Along{Sequence(*form, context)});
+        o.evaluate = [along](const NodeBlock& nodes, double* values, std::size_t stride) {
             for (std::size_t i = 0; i < nodes.size(); ++i, values += stride) {
                 values[0] = values[1] = unknown;
                 const long long node = nodes.node(i);
-                if (node == last) continue;  // a row beside the nodes
-                if (node != last + 1) sequence.clear();
-                last = node;
-                values[0] = sequence.next(nodes.t(i), nodes.x(i), nodes.quantities(i));
-                if (std::isnan(start)) start = values[0];
-                values[1] = values[0] - start;
+                if (node == along->last) continue;  // a row beside the nodes
+                if (node != along->last + 1) along->sequence.clear();
+                along->last = node;
+                values[0] = along->sequence.next(nodes.t(i), nodes.x(i), nodes.quantities(i));
+                if (std::isnan(along->start)) along->start = values[0];
+                values[1] = values[0] - along->start;
             }
         };
+        o.checkpoint = [along](Archive& archive) { archive(along->sequence, along->start, along->last); };
         return o;
     };
     return e;

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
 #include "engine/figure/figure.hpp"
 #include "engine/run/export.hpp"
 #include "engine/run/run.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "tests/tools/test.hpp"
 
@@ -129,14 +131,53 @@ private slots:
         QVERIFY(std::abs(back.schemes[0]->trajectory["q.x"][0] - 1) < 1e-12);
         QVERIFY(std::abs(back.schemes[0]->trajectory["p.x"][0]) < 1e-12);
     }
+    /// To the exact solution, and from there, with forces that depend on time.
+    void errorControlGoesBackwardsAsWell_data() {
+        QTest::addColumn<QString>("baseline");
+        const System kepler = makeSystem(readScene(scene(R"({"end":1})", gauss, energy)).scene);
+        for (const BaselineEntry& each : baselineCatalog())
+            if (each.isAdaptive && (!each.applies || each.applies(kepler)))
+                QTest::newRow(each.item.id.c_str()) << QString::fromStdString(each.item.id);
+    }
+    void errorControlGoesBackwardsAsWell() {
+        QFETCH(QString, baseline);
+        const std::string schemes = "[{\"baseline\":\"" + baseline.toStdString() + "\",\"tolerance\":1e-10}]";
+        const Comparison exact =
+            ran(scene(R"({"start":3,"end":-7})", schemes,
+                      R"("observe":["error","energy"],"output":{"every":0.5,"dense":true})"));
+        const SchemeResult& s = *exact.schemes[0];
+        QCOMPARE(s.summary.status, RunStatus::done);
+        QCOMPARE(s.summary.tEnd, -7.0);
+        const auto t = s.trajectory["t"];
+        QVERIFY(t.size() == 21 && t[0] == -7 && t[20] == 3 && std::is_sorted(t.begin(), t.end()));
+        qInfo("error %.1e", s.summary.maxError);
+        QVERIFY(s.summary.maxError > 0 && s.summary.maxError < 2e-6);
+
+        const std::string forced = R"({"type":"lagrangian","coordinates":["x"],
+            "lagrangian":"x_t^2/2 - x^4/4 + x*sin(t) "})";
+        const Comparison there =
+            ran(scene(R"({"end":10})", schemes, R"("reference":"none")", R"({"q":[1],"p":[0]})", forced));
+        const Trajectory& rows = there.schemes[0]->trajectory;
+        const std::size_t last = rows.rows() - 1;
+        QCOMPARE(rows["t"][last], 10.0);
+        const std::string end = R"({"q":[)" + formatNumber(rows["q.x"][last]) + R"(],"p":[)" +
+                                formatNumber(rows["p.x"][last]) + "]}";
+        const Comparison back =
+            ran(scene(R"({"start":10,"end":0})", schemes, R"("reference":"none")", end, forced));
+        QCOMPARE(back.schemes[0]->trajectory["t"][0], 0.0);
+        const double missed =
+            std::hypot(back.schemes[0]->trajectory["q.x"][0] - 1, back.schemes[0]->trajectory["p.x"][0]);
+        qInfo("%.1e from the start", missed);
+        QVERIFY(missed < 1e-6);
+    }
     void whatOnlyGoesForwardsSaysSo_data() {
         QTest::addColumn<QString>("schemes");
         QTest::addColumn<QString>("rest");
         QTest::addColumn<QString>("pointer");
         const QString g = QString::fromStdString(gauss);
-        QTest::newRow("error control") << R"([{"baseline":"dopri5","tolerance":1e-6}])"
-                                       << R"("reference":"none")"
-                                       << "/schemes/0";
+        QTest::newRow("a transformed time") << R"([{"baseline":"time-transformed","step":0.1}])"
+                                            << R"("reference":"none")"
+                                            << "/schemes/0";
         QTest::newRow("steps as unknowns") << R"([{"scheme":"sem-1","step":0.1}])"
                                            << R"("reference":"none")"
                                            << "/schemes/0";

@@ -5,6 +5,7 @@
 
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "tests/tools/estimate_ratio.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::local_error_test {
@@ -18,23 +19,6 @@ Comparison planet(const std::string& schemes, const std::string& end = "200") {
         schemes + "]}");
     if (!read.errors.empty()) qFatal("%s", read.errors[0].message.c_str());
     return run(read.scene);
-}
-
-/// The least and the largest ratio of a column and the error, over the rows with an error above `floor`.
-struct Ratio {
-    double low = INFINITY, high = 0;
-    int rows = 0;
-};
-Ratio ratioOf(const SchemeResult& result, const char* column, double floor) {
-    const auto estimate = result.trajectory[column], error = result.trajectory["error"];
-    Ratio ratio;
-    for (std::size_t k = 0; k < error.size(); ++k) {
-        if (!(error[k] > floor)) continue;
-        ratio.low = std::min(ratio.low, estimate[k] / error[k]);
-        ratio.high = std::max(ratio.high, estimate[k] / error[k]);
-        ++ratio.rows;
-    }
-    return ratio;
 }
 
 }  // namespace
@@ -56,8 +40,9 @@ private slots:
     void transportedTheyAreTheErrorForLong() {
         QFETCH(QString, scheme);
         const Comparison result = planet(scheme.toStdString());
-        const Ratio bar = ratioOf(*result.schemes[0], "transported_error", 1e-10),
-                    sum = ratioOf(*result.schemes[0], "local_error_sum", 1e-10);
+        const Trajectory& rows = result.schemes[0]->trajectory;
+        const EstimateRatio bar(rows["transported_error"], rows["error"], 1e-10),
+            sum(rows["local_error_sum"], rows["error"], 1e-10);
         QVERIFY(bar.rows > 500);
         QVERIFY(bar.low >= 0.8 && bar.high <= 1.3);
         QVERIFY(sum.low < 0.3 || sum.high > 3);  // what must fail
