@@ -1,0 +1,268 @@
+#include "engine/passport/document.hpp"
+
+#include <cstdio>
+#include <string_view>
+#include <utility>
+
+namespace extremal {
+namespace {
+
+using Replacements = std::vector<std::pair<std::string_view, std::string_view>>;
+
+std::string replaced(std::string_view text, const Replacements& by) {
+    std::string out;
+    while (!text.empty()) {
+        std::size_t length = 1;
+        std::string_view put = text.substr(0, 1);
+        for (const auto& [from, to] : by)
+            if (text.starts_with(from)) {
+                length = from.size();
+                put = to;
+                break;
+            }
+        out += put;
+        text.remove_prefix(length);
+    }
+    return out;
+}
+
+std::string inHtml(std::string_view text) {
+    return replaced(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}});
+}
+
+/// Characters that mean something in Markdown; "_" between letters is a subscript and stays one.
+std::string inMarkdown(std::string_view text) {
+    return replaced(text,
+                    {{"\\", "\\\\"}, {"*", "\\*"}, {"_", "\\_"}, {"|", "\\|"}, {"<", "\\<"}, {"`", "\\`"}});
+}
+
+/// Letters that LaTeX has no input for are written as their numbers: U+2713.
+std::string withoutUnknown(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size();) {
+        const auto lead = static_cast<unsigned char>(text[i]);
+        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
+        unsigned point = lead < 0x80 ? lead : lead & (0xffu >> (length + 1));
+        for (std::size_t k = 1; k < length && i + k < text.size(); ++k)
+            point = point << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3fu);
+        if (point < 0x180) {
+            out += text.substr(i, length);
+        } else {
+            char number[16];
+            std::snprintf(number, sizeof number, "U+%04X", point);
+            out += number;
+        }
+        i += length;
+    }
+    return out;
+}
+
+std::string inLatex(std::string_view text) {
+    const std::string known = replaced(text, {{"\\", "\\textbackslash{}"},
+                                              {"{", "\\{"},
+                                              {"}", "\\}"},
+                                              {"_", "\\_"},
+                                              {"^", "\\textasciicircum{}"},
+                                              {"#", "\\#"},
+                                              {"%", "\\%"},
+                                              {"&", "\\&"},
+                                              {"$", "\\$"},
+                                              {"~", "\\textasciitilde{}"},
+                                              {"…", "\\dots{}"},
+                                              {"−", "$-$"},
+                                              {"×", "$\\times$"},
+                                              {"·", "$\\cdot$"},
+                                              {"≤", "$\\le$"},
+                                              {"′", "$'$"},
+                                              {"″", "$''$"},
+                                              {"⁻¹", "$^{-1}$"},
+                                              {"⁻", "$^{-}$"},
+                                              {"½", "$\\tfrac12$"},
+                                              {"∂", "$\\partial$"},
+                                              {"≥", "$\\ge$"},
+                                              {"∞", "$\\infty$"},
+                                              {"≈", "$\\approx$"},
+                                              {"→", "$\\to$"},
+                                              {"–", "--"},
+                                              {"’", "'"},
+                                              {"“", "``"},
+                                              {"”", "''"},
+                                              {"η", "$\\eta$"},
+                                              {"κ", "$\\kappa$"},
+                                              {"ν", "$\\nu$"},
+                                              {"χ", "$\\chi$"},
+                                              {"Δ", "$\\Delta$"},
+                                              {"⁴", "$^4$"},
+                                              {"²", "$^2$"},
+                                              {"³", "$^3$"},
+                                              {"Σ", "$\\Sigma$"},
+                                              {"√", "$\\sqrt{}$"},
+                                              {"α", "$\\alpha$"},
+                                              {"β", "$\\beta$"},
+                                              {"γ", "$\\gamma$"},
+                                              {"δ", "$\\delta$"},
+                                              {"ε", "$\\varepsilon$"},
+                                              {"θ", "$\\theta$"},
+                                              {"λ", "$\\lambda$"},
+                                              {"μ", "$\\mu$"},
+                                              {"ξ", "$\\xi$"},
+                                              {"π", "$\\pi$"},
+                                              {"ρ", "$\\rho$"},
+                                              {"σ", "$\\sigma$"},
+                                              {"τ", "$\\tau$"},
+                                              {"φ", "$\\varphi$"},
+                                              {"ψ", "$\\psi$"},
+                                              {"ω", "$\\omega$"},
+                                              {"Ω", "$\\Omega$"},
+                                              {"ħ", "$\\hbar$"},
+                                              {"₀", "$_0$"},
+                                              {"₁", "$_1$"},
+                                              {"₂", "$_2$"},
+                                              {"₃", "$_3$"},
+                                              {"₄", "$_4$"},
+                                              {"ℓ", "$\\ell$"},
+                                              {"ℒ", "$\\mathcal{L}$"}});
+    return withoutUnknown(known);
+}
+
+constexpr const char* style = R"(
+:root { --text: #1f2328; --muted: #5d6672; --line: #d9dde2; --code: #f3f4f6; }
+body { margin: 0; color: var(--text); font: 15px/1.55 Inter, "Segoe UI", "Helvetica Neue", Arial, sans-serif; }
+main { max-width: 900px; margin: 0 auto; padding: 28px 20px 60px; }
+h1 { font-size: 26px; margin: 0 0 4px; } h2 { font-size: 18px; margin: 26px 0 6px; }
+p { margin: 8px 0; }
+p.formula { margin: 6px 0 6px 24px; font-family: "STIX Two Math", Cambria, "Times New Roman", serif; font-size: 16px; }
+pre { background: var(--code); padding: 10px 14px; border-radius: 6px; overflow-x: auto; font-size: 13px; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 8px 0; }
+th, td { padding: 3px 12px 3px 0; text-align: left; border-bottom: 1px solid var(--line); }
+th { font-weight: 600; color: var(--muted); font-size: 13px; }
+)";
+
+class Markdown {
+public:
+    static std::string begin(const std::string& title) { return "# " + inMarkdown(title) + "\n"; }
+    static std::string end() { return {}; }
+    std::string operator()(const Document::Heading& h) const { return "\n## " + inMarkdown(h.text) + "\n"; }
+    std::string operator()(const Document::Paragraph& p) const { return "\n" + inMarkdown(p.text) + "\n"; }
+    std::string operator()(const Document::Formulas& f) const {
+        std::string text = "\n";
+        for (const WrittenFormula& line : f.lines) text += "    " + line.plain + "\n";
+        return text;
+    }
+    std::string operator()(const Document::Table& t) const {
+        std::string text = "\n";
+        const auto row = [&](const std::vector<std::string>& cells) {
+            text += "|";
+            for (const std::string& cell : cells) text += " " + inMarkdown(cell) + " |";
+            text += "\n";
+        };
+        row(t.columns);
+        text += "|";
+        for (std::size_t i = 0; i < t.columns.size(); ++i) text += " --- |";
+        text += "\n";
+        for (const auto& cells : t.rows) row(cells);
+        return text;
+    }
+    std::string operator()(const Document::Listing& l) const {
+        std::string text = "\n```\n";
+        for (const std::string& line : l.lines) text += line + "\n";
+        return text + "```\n";
+    }
+};
+
+class Html {
+public:
+    static std::string begin(const std::string& title) {
+        return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
+               inHtml(title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<main>\n<h1>" +
+               inHtml(title) + "</h1>\n";
+    }
+    static std::string end() { return "</main>\n</body>\n</html>\n"; }
+    std::string operator()(const Document::Heading& h) const { return "<h2>" + inHtml(h.text) + "</h2>\n"; }
+    std::string operator()(const Document::Paragraph& p) const { return "<p>" + inHtml(p.text) + "</p>\n"; }
+    std::string operator()(const Document::Formulas& f) const {
+        std::string text;
+        for (const WrittenFormula& line : f.lines)
+            text += "<p class=\"formula\">" + inHtml(line.plain) + "</p>\n";
+        return text;
+    }
+    std::string operator()(const Document::Table& t) const {
+        std::string text = "<div class=\"wide\"><table>\n";
+        const auto row = [&](const std::vector<std::string>& cells, const std::string& tag) {
+            text += "<tr>";
+            for (const std::string& cell : cells) text += "<" + tag + ">" + inHtml(cell) + "</" + tag + ">";
+            text += "</tr>\n";
+        };
+        row(t.columns, "th");
+        for (const auto& cells : t.rows) row(cells, "td");
+        return text + "</table></div>\n";
+    }
+    std::string operator()(const Document::Listing& l) const {
+        std::string text = "<pre>";
+        for (const std::string& line : l.lines) text += inHtml(line) + "\n";
+        return text + "</pre>\n";
+    }
+};
+
+class Latex {
+public:
+    static std::string begin(const std::string& title) {
+        return "\\documentclass[a4paper,10pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{"
+               "inputenc}\n"
+               "\\usepackage{amsmath,amssymb,longtable}\n\\usepackage[margin=2.2cm]{geometry}\n"
+               "\\setlength{\\parindent}{0pt}\n\\begin{document}\n\\section*{" +
+               inLatex(title) + "}\n";
+    }
+    static std::string end() { return "\\end{document}\n"; }
+    std::string operator()(const Document::Heading& h) const {
+        return "\n\\subsection*{" + inLatex(h.text) + "}\n";
+    }
+    std::string operator()(const Document::Paragraph& p) const { return "\n" + inLatex(p.text) + "\n"; }
+    std::string operator()(const Document::Formulas& f) const {
+        std::string text = "\\begin{gather*}\n";
+        for (std::size_t i = 0; i < f.lines.size(); ++i)
+            text += f.lines[i].tex + (i + 1 < f.lines.size() ? " \\\\\n" : "\n");
+        return text + "\\end{gather*}\n";
+    }
+    std::string operator()(const Document::Table& t) const {
+        std::string text =
+            "\n\\begin{longtable}[l]{@{}" + std::string(t.columns.size(), 'l') + "@{}}\n\\hline\n";
+        const auto row = [&](const std::vector<std::string>& cells) {
+            for (std::size_t i = 0; i < cells.size(); ++i) text += (i > 0 ? " & " : "") + inLatex(cells[i]);
+            text += " \\\\\n";
+        };
+        row(t.columns);
+        text += "\\hline\n";
+        for (const auto& cells : t.rows) row(cells);
+        return text + "\\hline\n\\end{longtable}\n";
+    }
+    std::string operator()(const Document::Listing& l) const {
+        std::string text = "\n{\\footnotesize\n\\begin{verbatim}\n";
+        for (const std::string& line : l.lines) text += line + "\n";
+        return text + "\\end{verbatim}\n}\n";
+    }
+};
+
+template <class Writer>
+std::string writtenBy(const Document& document) {
+    std::string text = Writer::begin(document.title);
+    for (const Document::Block& block : document.blocks) text += std::visit(Writer(), block);
+    return text + Writer::end();
+}
+
+}  // namespace
+
+std::string written(const Document& document, PageFormat format) {
+    switch (format) {
+        case PageFormat::html:
+            return writtenBy<Html>(document);
+        case PageFormat::latex:
+            return writtenBy<Latex>(document);
+        case PageFormat::markdown:
+            break;
+    }
+    return writtenBy<Markdown>(document);
+}
+
+}  // namespace extremal

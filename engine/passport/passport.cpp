@@ -1,0 +1,133 @@
+#include "engine/passport/passport.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/passport/measured.hpp"
+#include "engine/passport/scene_formula.hpp"
+#include "engine/passport/scheme_tableau.hpp"
+#include "engine/passport/tableau_page.hpp"
+
+namespace extremal {
+namespace {
+
+std::string claimsText(const Claims& claims) {
+    std::vector<std::string> words;
+    if (claims.order > 0) words.push_back("order " + std::to_string(claims.order));
+    if (claims.isSymmetric) words.emplace_back("symmetric");
+    if (claims.isSymplectic) words.emplace_back("symplectic");
+    if (!claims.isOneStep) words.emplace_back("carries more than the state from step to step");
+    std::string text = words.empty() ? "nothing" : joinNames(words);
+    if (!claims.conserves.empty()) text += "; keeps " + joinNames(claims.conserves);
+    return text;
+}
+
+std::string ruleText(const Settings& quadrature) {
+    std::string text = quadrature.type.empty() ? "by terms" : quadrature.type;
+    for (const char* key : {"nodes", "panels", "phases"})
+        if (const Value* v = quadrature.find(key); v && v->isNumber() && (*key != 'p' || v->asNumber() > 1))
+            text += ", " + formatCount(v->asNumber()) + " " + key;
+    return text;
+}
+
+void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document& page) {
+    Document::Table t{{"", ""}, {}};
+    const auto add = [&](const std::string& name, const std::string& value) {
+        if (!value.empty()) t.rows.push_back({name, value});
+    };
+    add("scene", scene.scene.title);
+    add("system", scene.system->id);
+    if (const auto formula = isMechanical(*scene.system) ? formulaOf(scene) : std::nullopt)
+        add("Lagrangian", formula->text);
+    if (scheme.family) {
+        add("family", scheme.family->item.title);
+        add("source", scheme.family->source);
+        add("space",
+            scheme.properties.space.empty() ? scheme.discretization.space.type : scheme.properties.space);
+        add("rule", ruleText(scheme.discretization.quadrature));
+        add("known as", scheme.properties.knownAs);
+    } else {
+        add("baseline", scheme.baseline->item.title);
+        add("", scheme.baseline->item.description);
+    }
+    if (scheme.isComposed()) {
+        std::string parts;
+        for (const double g : scheme.parts) parts += (parts.empty() ? "" : ", ") + formatNumber(g, 15);
+        add("composition", scheme.spec.composition.type + ", parts " + parts);
+    }
+    if (scheme.isAdaptive())
+        add("tolerance", formatNumber(scheme.spec.tolerance.value_or(0)));
+    else
+        add("step", formatNumber(scheme.spec.step.value));
+    add("claims", claimsText(scheme.claims));
+    add("caution", scheme.properties.shortfall);
+    page.blocks.emplace_back(std::move(t));
+}
+
+void addAction(const ResolvedScheme& scheme, Document& page) {
+    if (!scheme.family || !scheme.family->written) return;
+    const WrittenAction w = scheme.family->written(scheme.discretization);
+    page.blocks.emplace_back(Document::Heading{"The discrete action"});
+    page.blocks.emplace_back(Document::Paragraph{w.meaning});
+    page.blocks.emplace_back(Document::Formulas{w.action});
+    page.blocks.emplace_back(Document::Heading{"Stationarity"});
+    page.blocks.emplace_back(Document::Formulas{w.stationarity});
+}
+
+void addStability(const ResolvedScheme& scheme, const Tableau* tableau, Document& page) {
+    page.blocks.emplace_back(Document::Heading{"Stability"});
+    if (tableau) addStabilityFunction(*tableau, page);
+    const double limit = scheme.isAdaptive() ? 0 : scheme.stabilityLimit();
+    if (std::isinf(limit))
+        page.blocks.emplace_back(
+            Document::Paragraph{"On the harmonic oscillator it is stable for every step."});
+    else if (limit > 0)
+        page.blocks.emplace_back(
+            Document::Paragraph{"On the harmonic oscillator of frequency ω it is stable for h ω "
+                                "up to " +
+                                formatNumber(limit, 6) + "."});
+    else
+        page.blocks.emplace_back(Document::Paragraph{
+            "The largest stable step on the harmonic oscillator is not one number here."});
+}
+
+}  // namespace
+
+std::size_t schemeNamed(const ResolvedScene& scene, const std::string& label) {
+    std::vector<std::string> labels;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        const SchemeSpec& spec = scene.schemes[i].spec;
+        if (label.empty() ? spec.isEnabled : spec.label == label) return i;
+        labels.push_back(spec.label);
+    }
+    if (label.empty())
+        throw InvalidScene("--scheme", "no scheme is enabled", "name one of " + joinNames(labels));
+    throw InvalidScene("--scheme", "there is no scheme \"" + label + "\"", suggestName(label, labels));
+}
+
+Document passportOf(const ResolvedScene& scene, std::size_t place, const PassportOptions& options,
+                    const std::stop_token& stop) {
+    const ResolvedScheme& scheme = scene.schemes[place];
+    Document page;
+    page.title = scheme.spec.label;
+    addKind(scene, scheme, page);
+    addAction(scheme, page);
+    std::string reason;
+    const auto tableau = tableauOf(scene, scheme, reason);
+    if (tableau) {
+        addStep(*tableau, page);
+        addCoefficients(*tableau, page);
+        addOrderConditions(*tableau, page);
+        addStructure(*tableau, page);
+    } else {
+        page.blocks.emplace_back(Document::Heading{"Coefficients"});
+        page.blocks.emplace_back(Document::Paragraph{reason});
+    }
+    addStability(scheme, tableau.get(), page);
+    if (options.isMeasured) addMeasured(scene, place, options.threads, stop, page);
+    return page;
+}
+
+}  // namespace extremal

@@ -1,0 +1,237 @@
+#include "engine/passport/program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "engine/action/table.hpp"
+#include "engine/core/problem.hpp"
+#include "engine/core/text.hpp"
+#include "engine/model/typed/source_code.hpp"
+#include "engine/passport/program_text.hpp"
+#include "engine/passport/scene_formula.hpp"
+#include "engine/passport/scheme_tableau.hpp"
+#include "engine/space/typed.hpp"
+#include "engine/tableau/tableau.hpp"
+
+namespace extremal {
+namespace {
+
+using typed::Language;
+
+std::string number(double x) {
+    std::string text = formatNumber(x);
+    if (text.find_first_of(".en") == std::string::npos) text += ".0";
+    return text;
+}
+
+/// Tables and constants in the words of a language.
+class Writer {
+public:
+    explicit Writer(Language language) : isPython_(language == Language::python) {}
+
+    void comment(const std::string& line) { text += (isPython_ ? "# " : "// ") + line + "\n"; }
+    void scalar(const std::string& name, double x) {
+        text += isPython_ ? name + " = " + number(x) + "\n"
+                          : "constexpr double " + name + " = " + number(x) + ";\n";
+    }
+    void integer(const std::string& name, long long x) {
+        text += isPython_ ? name + " = " + std::to_string(x) + "\n"
+                          : "constexpr long " + name + " = " + std::to_string(x) + ";\n";
+    }
+    void vector(const std::string& name, const auto& v) {
+        text += isPython_ ? name + " = np.array(" : "constexpr double " + name + "[] = ";
+        text += row(v) + (isPython_ ? ")\n" : ";\n");
+    }
+    void matrix(const std::string& name, const auto& M) {
+        text += isPython_ ? name + " = np.array(["
+                          : "constexpr double " + name + "[][" + std::to_string(M.cols()) + "] = {";
+        for (Eigen::Index i = 0; i < M.rows(); ++i)
+            text += (i > 0 ? ",\n    " : "\n    ") + row(Eigen::VectorXd(M.row(i).transpose()));
+        text += isPython_ ? "])\n" : "};\n";
+    }
+    std::string text;
+
+private:
+    std::string row(const auto& v) const {
+        std::string list = isPython_ ? "[" : "{";
+        for (Eigen::Index i = 0; i < v.size(); ++i)
+            list += (i > 0 ? ", " : "") + number(static_cast<double>(v(i)));
+        return list + (isPython_ ? "]" : "}");
+    }
+    bool isPython_;
+};
+
+Eigen::VectorXd vectorOf(const double* x, int n) { return Eigen::Map<const Eigen::VectorXd>(x, n); }
+
+[[noreturn]] void refuse(const std::string& reason, const std::string& hint = {}) {
+    throw InvalidScene("", "cannot be exported as a program: " + reason, hint);
+}
+
+enum class Kind { galerkin, stages, rungeKutta };
+
+/// How the step is taken. An explicit tableau of separable systems is taken stage by stage.
+struct Method {
+    Kind kind = Kind::galerkin;
+    std::shared_ptr<const Tableau> tableau;
+    std::optional<Table<double>> table;
+};
+
+Method methodOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
+    Method method;
+    std::string reason;
+    method.tableau = tableauOf(scene, scheme, reason);
+    const Mechanical& mechanics = scene.system->mechanics();
+    const bool isExplicit = method.tableau && method.tableau->isExplicit() && mechanics.isSeparable &&
+                            method.tableau->scope != TableauScope::any;
+    if (isExplicit) {
+        method.kind = Kind::stages;
+        return method;
+    }
+    if (scheme.family) {
+        const Discretization& d = scheme.discretization;
+        if (!scheme.family->tableau || !(hasTable(d) || dependsOnStep(d.space))) refuse(reason);
+        method.table = scheme.family->table(withStep(d.space, scheme.spec.step.value), d.quadrature);
+        return method;
+    }
+    if (!method.tableau) refuse(reason);
+    if (method.tableau->scope != TableauScope::any)
+        refuse("kicks and drifts are not explicit for " + scene.system->id,
+               "a Galerkin or Runge-Kutta scheme");
+    method.kind = Kind::rungeKutta;
+    return method;
+}
+
+void writeGalerkin(const Table<double>& t, Writer& w, bool isPython) {
+    if (!isPython) {
+        w.text += "constexpr int n = " + std::to_string(t.nodes()) + ", m = " + std::to_string(t.unknowns()) +
+                  ";  // nodes, unknowns\n";
+    }
+    w.comment(
+        "Nodes and weights; functions and their slopes at the nodes, one row per node; test functions.");
+    w.vector("c", t.node);
+    w.vector("b", t.weight);
+    w.matrix("phi", t.value);
+    w.matrix("dphi", t.derivative);
+    w.matrix("psi", t.testValue);
+    w.matrix("dpsi", t.testDerivative);
+}
+
+void writeTableau(const Tableau& t, Writer& w, bool isPython, bool isByStages) {
+    if (!isPython)
+        w.text += "constexpr int nV = " + std::to_string(t.velocities()) +
+                  ", nF = " + std::to_string(t.forces()) + ";  // stages\n";
+    w.comment("Q_i = q_0 + h sum_j A_ij V_j, P_j = p_0 + h sum_i A_hat_ji F_i.");
+    w.matrix("A", t.A.cast<double>().eval());
+    w.matrix("A_hat", t.Ahat.cast<double>().eval());
+    w.vector("b", t.b.cast<double>().eval());
+    w.vector("b_hat", t.bHat.cast<double>().eval());
+    w.vector("c", t.c.cast<double>().eval());
+    if (isByStages) {
+        w.vector("c_hat", t.cHat.cast<double>().eval());
+        std::string order;
+        for (const auto& [isOfV, i] : stageOrder(t))
+            order += (order.empty() ? "" : ", ") + std::string(isPython ? "(" : "{") + (isOfV ? "1" : "0") +
+                     ", " + std::to_string(i) + (isPython ? ")" : "}");
+        w.text += isPython ? "order = [" + order + "]\n" : "constexpr int order[][2] = {" + order + "};\n";
+    } else {
+        w.text += isPython ? std::string("is_explicit = ") + (t.isExplicit() ? "True" : "False") + "\n"
+                           : std::string("constexpr bool is_explicit = ") +
+                                 (t.isExplicit() ? "true" : "false") + ";\n";
+    }
+}
+
+std::string indented(const std::vector<std::string>& lines) {
+    std::string text;
+    for (const std::string& line : lines) text += "    " + line + "\n";
+    return text;
+}
+
+}  // namespace
+
+std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLanguage language) {
+    const ResolvedScheme& scheme = scene.schemes[place];
+    const bool isPython = language == ProgramLanguage::python;
+    const System& system = *scene.system;
+    const auto formula = isMechanical(system) ? formulaOf(scene) : std::nullopt;
+    if (!formula)
+        refuse(system.id + " does not say its Lagrangian as a formula",
+               "a model of type \"lagrangian\", or one of those that do: " + joinNames(modelsWithFormula()));
+    if (!scheme.isFixed()) refuse("its steps are not all of one length");
+    const Method method = methodOf(scene, scheme);
+
+    Writer w(isPython ? Language::python : Language::cpp);
+    if (isPython) w.text = "#!/usr/bin/env python3\n";
+    w.comment(scheme.spec.label + " on " + (scene.scene.title.empty() ? system.id : scene.scene.title));
+    w.comment("");
+    w.comment("L = " + formula->text);
+    w.comment("");
+    w.comment(isPython ? "python3 FILE.py          prints the run of the scene as CSV"
+                       : "g++ -O2 -std=c++17 FILE.cpp && ./a.out         prints the run of the scene as CSV");
+    w.comment(
+        isPython
+            ? "python3 FILE.py RUN.csv  compares with the CSV of a run, to 1e-13"
+            : "./a.out RUN.csv                                 compares with the CSV of a run, to 1e-13");
+    w.text += isPython ? "import math\nimport sys\n\nimport numpy as np\n\n"
+                       : "#include <algorithm>\n#include <cmath>\n#include <cstdio>\n#include "
+                         "<fstream>\n#include <sstream>\n#include <stdexcept>\n#include <string>\n#include "
+                         "<vector>\n\nnamespace {\n\n";
+    const int d = system.dimension();
+    w.text += isPython ? "d = " + std::to_string(d) + "\n" : "constexpr int d = " + std::to_string(d) + ";\n";
+    for (const auto& [name, value] : formula->parameters) w.scalar("k_" + name, value);
+    const State start = initialOf(scene, scheme);
+    const double h = scheme.spec.step.value;
+    w.scalar("t_start", start.t);
+    w.scalar("h_step", h);
+    w.integer("steps_of_the_scene", std::llround((scene.scene.end.value - start.t) / h));
+    w.vector("q_start", vectorOf(start.x.data(), d));
+    w.vector("p_start", vectorOf(start.x.data() + d, d));
+    const bool isComposedByParts = scheme.isComposed() && method.kind == Kind::galerkin;
+    w.vector("parts", isComposedByParts ? vectorOf(scheme.parts.data(), static_cast<int>(scheme.parts.size()))
+                                        : Eigen::VectorXd(Eigen::VectorXd::Ones(1)));
+    std::string columns = "t";
+    for (const Quantity& q : stateColumns(system)) columns += "," + q.name;
+    w.text += isPython ? "columns = '" + columns + "'.split(',')\n"
+                       : "const char* const columns = \"" + columns + "\";\n";
+    w.text += "\n";
+    if (method.kind == Kind::galerkin)
+        writeGalerkin(*method.table, w, isPython);
+    else
+        writeTableau(*method.tableau, w, isPython, method.kind == Kind::stages);
+
+    using namespace program_text;
+    const auto lines = typed::derivativeLines(*formula, isPython ? Language::python : Language::cpp);
+    if (isPython) {
+        w.text +=
+            "\n\ndef derivatives(t, q, v):\n    \"\"\"The gradient of L in (q, v), and its Hessian.\"\"\"\n"
+            "    g, H = np.zeros(2 * d), np.zeros((2 * d, 2 * d))\n" +
+            indented(lines) +
+            "    return g, H + np.tril(H, -1).T\n\n\ndef velocity(t, q, p):\n    \"\"\"v with L_v(t, q, v) = "
+            "p, by "
+            "Newton from 0: one iteration where L is quadratic in v.\"\"\"\n    v = np.zeros(d)\n    for "
+            "iteration in range(60):\n        g, H = derivatives(t, q, v)\n        change = "
+            "np.linalg.solve(H[d:, d:], p - g[d:])\n        v = v + change\n        if np.abs(change).max() "
+            "<= "
+            "1e-15 * np.abs(v).max():\n            break\n    return v\n\n";
+        w.text += method.kind == Kind::galerkin ? pythonGalerkin
+                  : method.kind == Kind::stages ? pythonStages
+                                                : pythonRungeKutta;
+        w.text += pythonMain;
+    } else {
+        w.text +=
+            "\n/// The gradient of L in (q, v), and the lower triangle of its Hessian.\nvoid "
+            "fill([[maybe_unused]] double t, [[maybe_unused]] const double* q, [[maybe_unused]] const "
+            "double* "
+            "v, double* g, double (*H)[2 * d]) {\n" +
+            indented(lines) + "}\n";
+        w.text += cppCommon;
+        w.text += method.kind == Kind::galerkin ? cppGalerkin
+                  : method.kind == Kind::stages ? cppStages
+                                                : cppRungeKutta;
+        w.text += cppMain;
+    }
+    return w.text;
+}
+
+}  // namespace extremal

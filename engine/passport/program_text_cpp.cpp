@@ -1,0 +1,272 @@
+#include "engine/passport/program_text.hpp"
+
+namespace extremal::program_text {
+
+const char* const cppCommon = R"(
+/// X of A X = B, column by column, by elimination with partial pivoting; n rows, k columns, both by rows.
+bool solve(std::vector<double> A, std::vector<double>& B, int n, int k) {
+    for (int c = 0; c < n; ++c) {
+        int pivot = c;
+        for (int r = c + 1; r < n; ++r)
+            if (std::fabs(A[r * n + c]) > std::fabs(A[pivot * n + c])) pivot = r;
+        if (A[pivot * n + c] == 0) return false;
+        for (int j = 0; j < n; ++j) std::swap(A[c * n + j], A[pivot * n + j]);
+        for (int j = 0; j < k; ++j) std::swap(B[c * k + j], B[pivot * k + j]);
+        for (int r = 0; r < n; ++r) {
+            if (r == c || A[r * n + c] == 0) continue;
+            const double factor = A[r * n + c] / A[c * n + c];
+            for (int j = c; j < n; ++j) A[r * n + j] -= factor * A[c * n + j];
+            for (int j = 0; j < k; ++j) B[r * k + j] -= factor * B[c * k + j];
+        }
+    }
+    for (int r = 0; r < n; ++r)
+        for (int j = 0; j < k; ++j) B[r * k + j] /= A[r * n + r];
+    return true;
+}
+
+double largest(const std::vector<double>& x) {
+    double most = 0;
+    for (const double each : x) most = std::max(most, std::fabs(each));
+    return most;
+}
+
+struct Derivatives {
+    double g[2 * d], H[2 * d][2 * d];
+};
+Derivatives derivatives(double t, const double* q, const double* v) {
+    Derivatives L;
+    fill(t, q, v, L.g, L.H);
+    for (int i = 0; i < 2 * d; ++i)
+        for (int j = i + 1; j < 2 * d; ++j) L.H[i][j] = L.H[j][i];
+    return L;
+}
+
+/// v with L_v(t, q, v) = p, by Newton from 0: one iteration where L is quadratic in v.
+std::vector<double> velocity(double t, const std::vector<double>& q, const std::vector<double>& p) {
+    std::vector<double> v(d, 0.0);
+    for (int iteration = 0; iteration < 60; ++iteration) {
+        const Derivatives L = derivatives(t, q.data(), v.data());
+        std::vector<double> M(d * d), r(d);
+        for (int i = 0; i < d; ++i) {
+            r[i] = p[i] - L.g[d + i];
+            for (int j = 0; j < d; ++j) M[i * d + j] = L.H[d + i][d + j];
+        }
+        if (!solve(M, r, d, 1)) throw std::runtime_error("the Legendre transform is singular");
+        for (int i = 0; i < d; ++i) v[i] += r[i];
+        if (largest(r) <= 1e-15 * largest(v)) break;
+    }
+    return v;
+}
+)";
+
+const char* const cppGalerkin = R"(
+/// sum_i b_i (h psi_a L_q + psi_a' L_v) = 0 inside, = -p_0 for the last test function; Newton from a straight line.
+void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) {
+    const std::vector<double> v0 = velocity(t, q0, p0);
+    std::vector<double> Y(m * d), Q(d), V(d);
+    for (int k = 0; k < d; ++k) Y[(m - 1) * d + k] = h * v0[k];
+    const auto at = [&](int i) {
+        for (int k = 0; k < d; ++k) {
+            Q[k] = q0[k];
+            V[k] = 0;
+            for (int a = 0; a < m; ++a) {
+                Q[k] += phi[i][a] * Y[a * d + k];
+                V[k] += dphi[i][a] * Y[a * d + k] / h;
+            }
+        }
+        return derivatives(t + c[i] * h, Q.data(), V.data());
+    };
+    double last = HUGE_VAL;
+    for (int iteration = 0; iteration < 60; ++iteration) {
+        std::vector<double> R(m * d), J(m * d * m * d);
+        for (int k = 0; k < d; ++k) R[(m - 1) * d + k] = -p0[k];
+        for (int i = 0; i < n; ++i) {
+            const Derivatives L = at(i);
+            for (int a = 0; a < m; ++a)
+                for (int j = 0; j < d; ++j) {
+                    R[a * d + j] -= b[i] * (h * psi[i][a] * L.g[j] + dpsi[i][a] * L.g[d + j]);
+                    for (int e = 0; e < m; ++e)
+                        for (int k = 0; k < d; ++k)
+                            J[(a * d + j) * m * d + e * d + k] +=
+                                b[i] * (psi[i][a] * (h * L.H[j][k] * phi[i][e] + L.H[j][d + k] * dphi[i][e]) +
+                                        dpsi[i][a] * (L.H[d + j][k] * phi[i][e] + L.H[d + j][d + k] * dphi[i][e] / h));
+                }
+        }
+        if (!solve(J, R, m * d, 1)) throw std::runtime_error("the step is singular");
+        for (int a = 0; a < m * d; ++a) Y[a] += R[a];
+        const double size = largest(R), scale = std::max(largest(Y), largest(q0));
+        if (size <= 1e-16 * scale || (size < 1e-11 * scale && size >= last / 4)) {
+            std::vector<double> force(d, 0.0);
+            for (int i = 0; i < n; ++i) {
+                const Derivatives L = at(i);
+                for (int k = 0; k < d; ++k) force[k] += b[i] * L.g[k];
+            }
+            for (int k = 0; k < d; ++k) {
+                q0[k] += Y[(m - 1) * d + k];
+                p0[k] += h * force[k];
+            }
+            return;
+        }
+        last = size;
+    }
+    throw std::runtime_error("the step does not converge");
+}
+)";
+
+const char* const cppStages = R"(
+/// Stages in the order in which they are known: forces at Q_i, velocities at P_j.
+void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) {
+    std::vector<std::vector<double>> V(nV, std::vector<double>(d, 0.0)), F(nF, std::vector<double>(d, 0.0));
+    const std::vector<double> rest(d, 0.0);
+    for (const auto& stage : order) {
+        const int i = stage[1];
+        if (stage[0] == 1) {
+            std::vector<double> P = p0;
+            for (int j = 0; j < nF; ++j)
+                for (int k = 0; k < d; ++k) P[k] += h * A_hat[i][j] * F[j][k];
+            V[i] = velocity(t + c[i] * h, q0, P);
+        } else {
+            std::vector<double> Q = q0;
+            for (int j = 0; j < nV; ++j)
+                for (int k = 0; k < d; ++k) Q[k] += h * A[i][j] * V[j][k];
+            const Derivatives L = derivatives(t + c_hat[i] * h, Q.data(), rest.data());
+            for (int k = 0; k < d; ++k) F[i][k] = L.g[k];
+        }
+    }
+    for (int k = 0; k < d; ++k) {
+        for (int j = 0; j < nV; ++j) q0[k] += h * b[j] * V[j][k];
+        for (int j = 0; j < nF; ++j) p0[k] += h * b_hat[j] * F[j][k];
+    }
+}
+)";
+
+const char* const cppRungeKutta = R"(
+/// Hamilton's vector field and its Jacobian, from L: p = L_v, p' = L_q.
+void field(double t, const std::vector<double>& q, const std::vector<double>& p, double* f, double* J) {
+    const std::vector<double> v = velocity(t, q, p);
+    const Derivatives L = derivatives(t, q.data(), v.data());
+    std::vector<double> M(d * d), W(d * 2 * d);  // dv = M^-1 (dp - L_vq dq)
+    for (int i = 0; i < d; ++i)
+        for (int j = 0; j < d; ++j) {
+            M[i * d + j] = L.H[d + i][d + j];
+            W[i * 2 * d + j] = -L.H[d + i][j];
+            W[i * 2 * d + d + j] = i == j ? 1 : 0;
+        }
+    if (!solve(M, W, d, 2 * d)) throw std::runtime_error("the Legendre transform is singular");
+    for (int i = 0; i < d; ++i) {
+        f[i] = v[i];
+        f[d + i] = L.g[i];
+        for (int j = 0; j < 2 * d; ++j) {
+            J[i * 2 * d + j] = W[i * 2 * d + j];
+            double sum = j < d ? L.H[i][j] : 0;
+            for (int k = 0; k < d; ++k) sum += L.H[i][d + k] * W[k * 2 * d + j];
+            J[(d + i) * 2 * d + j] = sum;
+        }
+    }
+}
+
+/// K_i = f(x_0 + h sum_j a_ij K_j), with A for q and A_hat for p: stage by stage, or by Newton for all.
+void step(double t, double h, std::vector<double>& q0, std::vector<double>& p0) {
+    constexpr int w = 2 * d;
+    std::vector<double> K(nV * w, 0.0), f(w), J(w * w);
+    const auto at = [&](int i) {
+        std::vector<double> Q = q0, P = p0;
+        for (int j = 0; j < nV; ++j)
+            for (int k = 0; k < d; ++k) {
+                Q[k] += h * A[i][j] * K[j * w + k];
+                P[k] += h * A_hat[i][j] * K[j * w + d + k];
+            }
+        field(t + c[i] * h, Q, P, f.data(), J.data());
+    };
+    if (is_explicit) {
+        for (int i = 0; i < nV; ++i) {
+            at(i);
+            for (int k = 0; k < w; ++k) K[i * w + k] = f[k];
+        }
+    } else {
+        field(t, q0, p0, f.data(), J.data());
+        for (int i = 0; i < nV; ++i)
+            for (int k = 0; k < w; ++k) K[i * w + k] = f[k];
+        double last = HUGE_VAL;
+        for (int iteration = 0;; ++iteration) {
+            if (iteration == 60) throw std::runtime_error("the step does not converge");
+            std::vector<double> R(nV * w), M(nV * w * nV * w, 0.0);
+            for (int i = 0; i < nV; ++i) {
+                at(i);
+                for (int k = 0; k < w; ++k) {
+                    R[i * w + k] = f[k] - K[i * w + k];
+                    for (int j = 0; j < nV; ++j)
+                        for (int l = 0; l < w; ++l)
+                            M[(i * w + k) * nV * w + j * w + l] =
+                                (i == j && k == l ? 1 : 0) - h * (l < d ? A[i][j] : A_hat[i][j]) * J[k * w + l];
+                }
+            }
+            if (!solve(M, R, nV * w, 1)) throw std::runtime_error("the step is singular");
+            for (int k = 0; k < nV * w; ++k) K[k] += R[k];
+            const double size = largest(R), scale = largest(K);
+            if (size <= 1e-16 * scale || (size < 1e-11 * scale && size >= last / 4)) break;
+            last = size;
+        }
+    }
+    for (int j = 0; j < nV; ++j)
+        for (int k = 0; k < d; ++k) {
+            q0[k] += h * b[j] * K[j * w + k];
+            p0[k] += h * b_hat[j] * K[j * w + d + k];
+        }
+}
+)";
+
+const char* const cppMain = R"(
+/// To the next node.
+void advance(long k, std::vector<double>& q, std::vector<double>& p) {
+    double at = t_start + double(k) * h_step;
+    for (const double part : parts) {
+        step(at, part * h_step, q, p);
+        at += part * h_step;
+    }
+}
+
+/// Largest difference from the rows of a CSV of the run, relative to the largest entry of the state.
+bool test(const char* path) {
+    std::ifstream file(path);
+    std::string line;
+    if (!std::getline(file, line) || line.rfind(columns, 0) != 0)
+        throw std::runtime_error(std::string("the columns must begin with ") + columns);
+    std::vector<double> q(q_start, q_start + d), p(p_start, p_start + d);
+    long k = 0, rows = 0;
+    double worst = 0, scale = 0;
+    while (std::getline(file, line)) {
+        std::istringstream cells(line);
+        std::string cell;
+        std::vector<double> x;
+        while (x.size() < 1 + 2 * d && std::getline(cells, cell, ',')) {
+            x.push_back(0);
+            std::istringstream(cell) >> x.back();
+        }
+        for (const long node = std::lround((x[0] - t_start) / h_step); k < node; ++k) advance(k, q, p);
+        scale = std::max({scale, largest(q), largest(p)});
+        for (int i = 0; i < d; ++i)
+            worst = std::max({worst, std::fabs(q[i] - x[1 + i]), std::fabs(p[i] - x[1 + d + i])});
+        ++rows;
+    }
+    std::printf("%ld rows, largest difference %.2e of %.3g\n", rows, worst, scale);
+    return worst <= 1e-13 * scale;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc > 1) return test(argv[1]) ? 0 : 1;
+    std::vector<double> q(q_start, q_start + d), p(p_start, p_start + d);
+    std::printf("%s\n", columns);
+    for (long k = 0; k <= steps_of_the_scene; ++k) {
+        std::printf("%.17g", t_start + double(k) * h_step);
+        for (const double x : q) std::printf(",%.17g", x);
+        for (const double x : p) std::printf(",%.17g", x);
+        std::printf("\n");
+        if (k < steps_of_the_scene) advance(k, q, p);
+    }
+}
+)";
+
+}  // namespace extremal::program_text

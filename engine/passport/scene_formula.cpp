@@ -1,0 +1,28 @@
+#include "engine/passport/scene_formula.hpp"
+
+#include "engine/model/typed/typed_model.hpp"
+
+namespace extremal {
+
+std::optional<typed::Formula> formulaOf(const ResolvedScene& scene) {
+    const Settings& model = scene.scene.model;
+    const ModelEntry* const entry = findModel(model.type);
+    if (!entry) return {};
+    if (model.find("lagrangian")) return typed::formulaOf(model);
+    if (!entry->lagrangian) return {};
+    typed::Formula formula;
+    for (const Coordinate& c : scene.system->coordinates) formula.coordinates.push_back(c.name);
+    for (const auto& [key, value] : model.keys)
+        if (value.isNumber()) formula.parameters.emplace_back(key, value.asNumber());
+    formula.text = entry->lagrangian(model);
+    return formula;
+}
+
+std::vector<std::string> modelsWithFormula() {
+    std::vector<std::string> ids;
+    for (const ModelEntry& entry : modelCatalog())
+        if (entry.lagrangian) ids.push_back(entry.item.id);
+    return ids;
+}
+
+}  // namespace extremal

@@ -1,0 +1,40 @@
+#include "engine/passport/scheme_tableau.hpp"
+
+#include <algorithm>
+
+#include "engine/core/problem.hpp"
+
+namespace extremal {
+
+std::shared_ptr<const Tableau> tableauOf(const ResolvedScene& scene, const ResolvedScheme& scheme,
+                                         std::string& reason) {
+    if (!isMechanical(*scene.system)) {
+        reason =
+            "Runge-Kutta tableaus are for systems with coordinates, and " + scene.system->id + " is none.";
+        return nullptr;
+    }
+    const bool hasOne =
+        scheme.family ? scheme.family->tableau != nullptr : static_cast<bool>(scheme.baseline->tableau);
+    if (!hasOne) {
+        reason = scheme.family
+                     ? "Steps of the family \"" + scheme.family->item.title +
+                           "\" are no Runge-Kutta method with constant coefficients."
+                     : scheme.baseline->item.title +
+                           " has no tableau here: it is no Runge-Kutta method, or the library that it "
+                           "comes from keeps its coefficients to itself.";
+        return nullptr;
+    }
+    try {
+        auto tableau = scheme.family ? scheme.family->tableau(scheme.discretization, scheme.spec.step.value)
+                                     : scheme.baseline->tableau(scheme.spec.baseline);
+        if (!scheme.isComposed()) return tableau;
+        Tableau whole = composed(*tableau, {scheme.parts.begin(), scheme.parts.end()});
+        whole.known = std::max(whole.known, 1e-15);  // of the parts
+        return std::make_shared<const Tableau>(std::move(whole));
+    } catch (const InvalidScene& e) {
+        reason = "The scheme " + e.problems().front().message + ".";
+        return nullptr;
+    }
+}
+
+}  // namespace extremal
