@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "extremal/extremal.hpp"
+#include "python/own_system.hpp"
 
 namespace py = pybind11;
 
@@ -79,7 +80,8 @@ py::array arrayOf(std::span<const double> values, const Owner& owner) {
 }
 
 /// Work of the library without the lock of Python, which is taken thirty times a second to look for Ctrl-C
-/// and to call `progress(fraction)`; its False, or an exception, stops the work.
+/// and to call `progress(fraction)`; its False, or an exception, stops the work, as does one of a system that
+/// is evaluated in Python.
 template <class Work>
 auto watched(const std::optional<py::function>& progress, const Work& work) {
     std::exception_ptr failure;
@@ -87,6 +89,7 @@ auto watched(const std::optional<py::function>& progress, const Work& work) {
         const py::gil_scoped_acquire lock;
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            rethrowOfSystem();
             if (!progress) return true;
             const py::object answer = (*progress)(fraction);
             return answer.is_none() || answer.cast<bool>();
@@ -100,7 +103,24 @@ auto watched(const std::optional<py::function>& progress, const Work& work) {
         return work(look);
     }();
     if (failure) std::rethrow_exception(failure);
+    rethrowOfSystem();
     return result;
+}
+
+/// Short work of the library, in which threads may evaluate systems in Python.
+template <class Work>
+auto unlocked(const Work& work) {
+    try {
+        auto result = [&] {
+            const py::gil_scoped_release lock;
+            return work();
+        }();
+        rethrowOfSystem();
+        return result;
+    } catch (const InvalidScene&) {
+        rethrowOfSystem();  // that is why
+        throw;
+    }
 }
 
 api::ReadOptions optionsOf(const std::vector<std::string>& changes, const std::string& folder, bool trust) {
@@ -122,14 +142,17 @@ void bindScene(py::module_& m) {
         .def_static(
             "load",
             [](const std::string& name, const std::vector<std::string>& changes, const std::string& folder,
-               bool trust) { return api::Scene::load(name, optionsOf(changes, folder, trust)); },
+               bool trust) {
+                return unlocked([&] { return api::Scene::load(name, optionsOf(changes, folder, trust)); });
+            },
             py::arg("name"), py::arg("changes") = std::vector<std::string>(), py::arg("folder") = "",
             py::arg("trust") = false, "A file, or \"preset:NAME\".")
         .def_static(
             "from_dict",
             [](const py::dict& document, const std::vector<std::string>& changes, const std::string& folder,
                bool trust) {
-                return api::Scene::from(valueOf(document, ""), optionsOf(changes, folder, trust));
+                const Value value = valueOf(document, "");
+                return unlocked([&] { return api::Scene::from(value, optionsOf(changes, folder, trust)); });
             },
             py::arg("document"), py::arg("changes") = std::vector<std::string>(), py::arg("folder") = "",
             py::arg("trust") = false, "A dict as in a scene file.")
@@ -211,10 +234,21 @@ void bindResult(py::module_& m) {
         .def_property_readonly(
             "summary", [](const api::Comparison& c) { return objectOf(c.summary()); },
             "The document of summary.json.")
-        .def("write", &api::Comparison::write, py::arg("folder"),
-             "Writes what `extremal run` does; returns the names of the files.")
-        .def("figures", &api::figures, "Every plot that the scene asks for.")
-        .def("figure", &api::figure, py::arg("view"), "The plot of one view.")
+        .def(
+            "write",
+            [](const api::Comparison& c, const std::string& folder) {
+                return unlocked([&] { return c.write(folder); });
+            },
+            py::arg("folder"), "Writes what `extremal run` does; returns the names of the files.")
+        .def(
+            "figures", [](const api::Comparison& c) { return unlocked([&] { return api::figures(c); }); },
+            "Every plot that the scene asks for.")
+        .def(
+            "figure",
+            [](const api::Comparison& c, const std::string& view) {
+                return unlocked([&] { return api::figure(c, view); });
+            },
+            py::arg("view"), "The plot of one view.")
         .def("__repr__", [](const api::Comparison& c) {
             return "<extremal.Comparison of " + std::to_string(c.size()) + " schemes>";
         });
@@ -305,6 +339,7 @@ PYBIND11_MODULE(_extremal, m) {
     bindFigure(m);
     bindResult(m);
     bindStudy(m);
+    bindOwnSystem(m);
     m.def("presets", &api::presets, "The ids of the scenes that are supplied.");
     m.def("catalogue_names", &api::catalogueNames);
     m.def(

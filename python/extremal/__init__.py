@@ -9,12 +9,16 @@ A scene is the path of a file, "preset:NAME", or a dict of the same contents.
 """
 
 from ._extremal import (Comparison, Figure, InvalidScene, Scene, SchemeResult, Study, __version__, catalogue_names)
+from ._extremal import add_system as _add_system
 from ._extremal import catalogue as _catalogue
 from ._extremal import run as _run
-from .formula import (Symbol, acos, asin, atan, atan2, cos, cosh, exp, formula, log, sign, sin, sinh, sqrt, tan, tanh)
+from .formula import Symbol, formula
+from .jet import Jet, derivatives
+from .number import acos, asin, atan, atan2, cos, cosh, exp, log, sign, sin, sinh, sqrt, tan, tanh
 
-__all__ = ["Catalogue", "Comparison", "Entry", "Figure", "InvalidScene", "Scene", "SchemeResult", "Study", "Symbol",
-           "__version__", "acos", "asin", "atan", "atan2", "baselines", "catalogue", "catalogue_names", "check",
+__all__ = ["Catalogue", "Comparison", "Entry", "Figure", "InvalidScene", "Jet", "Scene", "SchemeResult", "Study",
+           "Symbol", "__version__", "acos", "add_system", "asin", "atan", "atan2", "baselines", "catalogue",
+           "catalogue_names", "check",
            "compositions", "cos", "cosh", "exp", "formula", "lagrangian", "log", "models", "observables", "presets",
            "profiles", "quadratures", "run", "scene", "schemes", "sign", "sin", "sinh", "spaces", "sqrt", "studies",
            "study", "tan", "tanh", "views"]
@@ -82,6 +86,25 @@ def lagrangian(function, coordinates, **parameters):
     if parameters:
         model["parameters"] = {name: float(value) for name, value in parameters.items()}
     return model
+
+
+def add_system(id, function, coordinates, *, title="", description="", time_dependent=False, **parameters):
+    """Adds a system whose Lagrangian L(t, q, v) is a Python function that need not be a formula.
+
+    Any branches are allowed; tables as well, by x.chain(f, df, ddf) with the derivatives at x.value. The function is
+    called at every node of every iteration, with numbers that carry their derivatives (extremal.Jet): hundreds
+    of times slower than a formula, for which extremal.lagrangian is. In a scene it is the model
+    {"type": id, parameter: value, ...}.
+
+    Systems are added before the first scene is read or catalogue asked for. An exception of the function ends the
+    run and is raised by it.
+
+    >>> def wall(t, q, v, k): return v.x**2 / 2 - (k * q.x**4 / 4 if q.x < 0 else 0)
+    >>> extremal.add_system("wall", wall, ["x"], k=100)
+    """
+    names = list(coordinates)
+    _add_system(id, title or id, description, names, {key: float(value) for key, value in parameters.items()},
+                time_dependent, lambda t, q, v, values: derivatives(function, names, t, q, v, values))
 
 
 class Entry(dict):

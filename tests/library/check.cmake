@@ -1,13 +1,7 @@
 # cmake -DROOT=.. -DBUILD=.. -DOUT=.. -P check.cmake: installs the library into an empty folder, looks at what is there,
 # builds the example of the handbook against it, and runs it.
 cmake_minimum_required(VERSION 3.25)
-function(run)
-    execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE error)
-    if(NOT status EQUAL 0)
-        message(FATAL_ERROR "${ARGV}: ${status}\n${said}${error}")
-    endif()
-    set(said "${said}" PARENT_SCOPE)
-endfunction()
+include(${ROOT}/tests/tools/run.cmake)
 
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
