@@ -16,6 +16,11 @@ void CursorLayer::draw(QCPPainter* painter) {
     const PlotCursors& c = shared_.cursors;
     if (c.pinned) drawCursor(*painter, map, *c.pinned, true);
     if (c.time) drawCursor(*painter, map, *c.time, false);
+    if (c.hoverTime && shared_.figure.x.isTime && *c.hoverTime >= map.x.low && *c.hoverTime <= map.x.high) {
+        const double x = std::round(map(*c.hoverTime, map.y.low).x()) + 0.5;
+        painter->setPen(QPen(shared_.theme.line, 1));
+        painter->drawLine(QPointF(x, map.rect.top()), QPointF(x, map.rect.bottom()));
+    }
     if (c.box) {
         QColor tint = shared_.theme.accent;
         painter->setPen(QPen(tint, 1));

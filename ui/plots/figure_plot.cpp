@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "ui/plots/axis_title.hpp"
 #include "ui/plots/map_layer.hpp"
 #include "ui/plots/plot_layers.hpp"
 #include "ui/plots/tickers.hpp"
@@ -39,7 +40,7 @@ void styleAxis(QCPAxis& axis, const Theme& theme, bool isSmall) {
 /// Number of labels for which an axis has room.
 int roomFor(double length, bool isVertical, bool isLog) {
     const double each = isVertical ? (isLog ? 26 : 30) : (isLog ? 46 : 64);
-    return std::max(2, static_cast<int>(length / each));
+    return std::max(3, static_cast<int>(length / each));
 }
 
 PlotRange toPlotRange(const std::optional<std::pair<double, double>>& range) {
@@ -140,8 +141,12 @@ void FigurePlot::prepare(QSize size) {
         axis->setTickLabels(s.figure.axes == AxisStyle::scales);
         if (s.figure.axes == AxisStyle::none) axis->setBasePen(Qt::NoPen);
     }
-    x.setLabel(QString::fromStdString(s.figure.x.title));
-    y.setLabel(QString::fromStdString(s.figure.y.title));
+    const QFontMetricsF titles(x.labelFont());
+    const QString title = QString::fromStdString(s.figure.y.title),
+                  xTitle = QString::fromStdString(s.figure.x.title);
+    x.setLabel(titles.elidedText(plainTitle(xTitle), Qt::ElideRight, size.width() - 16));
+    if (hasLoweredPart(xTitle)) x.setLabelColor(Qt::transparent);  // drawn by its own layer
+    if (hasLoweredPart(title)) y.setLabelColor(Qt::transparent);
     x.setScaleType(s.figure.x.isLog ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
     y.setScaleType(s.figure.y.isLog ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
 
@@ -149,6 +154,11 @@ void FigurePlot::prepare(QSize size) {
     s.view.setFitted(PlotAxis::y, toPlotRange(s.figure.y.range));
     QMargins margins = s.plot.axisRect()->minimumMargins();
     margins.setRight(std::max(16, scaleWidth(s.figure, s.theme)));
+    // Without room beside the axis, its title stands above the plot.
+    const double below = QFontMetricsF(x.tickLabelFont()).height() + titles.height() + 14;
+    s.isTitleAbove = titles.horizontalAdvance(title) > size.height() - 10 - below;
+    y.setLabel(s.isTitleAbove ? QString() : plainTitle(title));
+    margins.setTop(8 + (s.isTitleAbove ? static_cast<int>(std::ceil(titles.height())) : 0));
     s.plot.axisRect()->setMinimumMargins(margins);
     const QRect before = s.plot.viewport();
     s.plot.setViewport(QRect(QPoint(0, 0), size));

@@ -22,7 +22,7 @@ namespace extremal {
 
 /// Times marked by vertical lines (on curves by dots), and what the pointer is over.
 struct PlotCursors {
-    std::optional<double> time, pinned;
+    std::optional<double> time, pinned, hoverTime;
     QString hoverText;   ///< empty: nothing is under the pointer
     QPointF hoverPoint;  ///< pixels
     QColor hoverColor;

@@ -11,6 +11,9 @@ void PlotGroup::add(PlotWidget* plot) {
     if (timeRange_) plot->setTimeRange(timeRange_);
     connect(plot, &QObject::destroyed, this, [this, plot] { plots_.removeAll(plot); });
     connect(plot, &PlotWidget::cursorMoved, this, &PlotGroup::cursorMoved);
+    connect(plot, &PlotWidget::hoverMoved, this, [this](std::optional<double> t) {
+        for (PlotWidget* p : plots_) p->setHover(t);
+    });
     connect(plot, &PlotWidget::pointClicked, this, &PlotGroup::pointClicked);
     connect(plot, &PlotWidget::saveFailed, this, &PlotGroup::saveFailed);
     connect(plot, &PlotWidget::pinRequested, this, [this](std::optional<double> t) {

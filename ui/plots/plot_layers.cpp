@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/sample.hpp"
+#include "ui/plots/axis_title.hpp"
 #include "ui/plots/dense_curve.hpp"
 #include "ui/plots/map_layer.hpp"
 #include "engine/figure/phase_colour.hpp"
@@ -34,12 +36,41 @@ QColor FigurePlot::Shared::mixed(const QColor& c) const {
             mix(c.blue(), theme.panel.blue())};
 }
 
+bool FigurePlot::Shared::hasOwnTitles() const {
+    return hasLoweredPart(QString::fromStdString(figure.x.title)) ||
+           hasLoweredPart(QString::fromStdString(figure.y.title));
+}
+
+bool FigurePlot::Shared::isFaded(const Series& s) const {
+    if (highlighted.isEmpty() || s.style < 0 || QString::fromStdString(s.label) == highlighted) return false;
+    const auto all = figure.series();
+    return std::any_of(all.begin(), all.end(), [&](const Series& other) {
+        return QString::fromStdString(other.label) == highlighted && isShown(other);
+    });
+}
+
 CurvesLayer::CurvesLayer(const FigurePlot::Shared& shared)
     : QCPLayerable(&shared.plot, "main"), shared_(shared) {}
 MarksLayer::MarksLayer(const FigurePlot::Shared& shared)
     : QCPLayerable(&shared.plot, "legend"), shared_(shared) {}
 
 namespace {
+
+/// The radius of the dots of clouds: smaller where all dots that are in sight, side by side, would cover more
+/// than a part of the plot.
+double cloudRadius(const Figure& figure, const PixelMap& map) {
+    constexpr double largest = 1.7, smallest = 0.5, covered = 0.25;
+    std::size_t dots = 0;
+    for (const Series& s : figure.series()) {
+        if (!hasMarks(s.kind) || hasLine(s.kind)) continue;
+        const std::size_t stride = s.x.size() / 20000 + 1;
+        for (std::size_t i = 0; i < s.x.size(); i += stride)
+            if (map.rect.contains(map(s.x[i], s.y[i]))) dots += stride;
+    }
+    const double room = covered * map.rect.width() * map.rect.height();
+    return std::clamp(std::sqrt(room / (std::numbers::pi * std::max<double>(1, static_cast<double>(dots)))),
+                      smallest, largest);
+}
 
 /// A polyline in short pieces: one long path takes quadratic time in the stroker. The dash goes on across
 /// pieces.
@@ -273,10 +304,10 @@ void CurvesLayer::drawGuides(QCPPainter& painter, const PixelMap& map) const {
 void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const {
     const SeriesStyle style = shared_.theme.series(series.style);
     const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
-    const QColor color = series.shade ? shared_.shaded(*series.shade)
-                         : series.tone == Tone::pale
-                             ? shared_.theme.pale(shared_.colorOf(series.style), paleLine)
-                             : shared_.colorOf(series.style);
+    QColor color = series.shade                ? shared_.shaded(*series.shade)
+                   : series.tone == Tone::pale ? shared_.theme.pale(shared_.colorOf(series.style), paleLine)
+                                               : shared_.colorOf(series.style);
+    if (shared_.isFaded(series)) color = shared_.theme.pale(color, fadedLine);
     if (hasLine(series.kind)) {
         const double width = series.style == formulaStyle ? 1.1 : isHighlighted ? 2.4 : 1.5;
         QPen pen(color, width, Qt::SolidLine, Qt::FlatCap, Qt::BevelJoin);
@@ -299,20 +330,24 @@ void CurvesLayer::drawSeries(QCPPainter& painter, const PixelMap& map, const Ser
                 painter.drawLine(p - QPointF(0, half), p + QPointF(0, half));
         }
     }
-    if (hasMarks(series.kind)) {
-        constexpr std::size_t few = 100;  // more are dots: a cloud, not points to be told apart
-        const bool isCloud = (series.shade || series.x.size() > few) && !hasLine(series.kind);
-        painter.setPen(isCloud ? QPen(Qt::NoPen) : QPen(shared_.theme.panel, 1.2));
-        painter.setBrush(color);
-        const double radius = (isCloud ? 1.7 : 4.5) + (isHighlighted ? 1 : 0) * (isCloud ? 0.6 : 1.5);
-        for (std::size_t i = 0; i < series.x.size(); ++i) {
-            const QPointF p = map(series.x[i], series.y[i]);
-            const bool isKnown = std::isfinite(p.x()) && std::isfinite(p.y());
-            if (isKnown && map.rect.adjusted(-6, -6, 6, 6).contains(p))
-                painter.drawEllipse(p, radius, radius);
-        }
-        painter.setBrush(Qt::NoBrush);
+    if (hasMarks(series.kind)) drawMarks(painter, map, series, color);
+}
+
+void CurvesLayer::drawMarks(QCPPainter& painter, const PixelMap& map, const Series& series,
+                            const QColor& color) const {
+    constexpr std::size_t few = 100;  // more are dots: a cloud, not points to be told apart
+    const bool isCloud = (series.shade || series.x.size() > few) && !hasLine(series.kind);
+    const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
+    double radius = isHighlighted ? 6 : 4.5;
+    if (isCloud) radius = cloudRadius(shared_.figure, map) + (isHighlighted ? 0.4 : 0);
+    painter.setPen(isCloud ? QPen(Qt::NoPen) : QPen(shared_.theme.panel, 1.2));
+    painter.setBrush(color);
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        const QPointF p = map(series.x[i], series.y[i]);
+        const bool isKnown = std::isfinite(p.x()) && std::isfinite(p.y());
+        if (isKnown && map.rect.adjusted(-6, -6, 6, 6).contains(p)) painter.drawEllipse(p, radius, radius);
     }
+    painter.setBrush(Qt::NoBrush);
 }
 
 /// Unit squares with a hairline between them where there is room.
@@ -330,6 +365,13 @@ void CurvesLayer::drawCells(QCPPainter& painter, const PixelMap& map, const Seri
 
 void MarksLayer::draw(QCPPainter* painter) {
     const PixelMap map = shared_.map();
+    if (shared_.isTitleAbove) drawTitleAbove(*painter, map);
+    painter->setPen(shared_.theme.text);
+    for (const auto& [axis, title] : {std::pair{shared_.plot.xAxis, &shared_.figure.x.title},
+                                      std::pair{shared_.plot.yAxis, &shared_.figure.y.title}})
+        if (const QString text = QString::fromStdString(*title);
+            hasLoweredPart(text) && !(axis == shared_.plot.yAxis && shared_.isTitleAbove))
+            drawAxisTitle(*painter, *axis, text);
     drawEvents(*painter, map);
     drawFailures(*painter, map);
     if (shared_.figure.heat() && !shared_.figure.heat()->scale.empty()) drawMapScale(*painter, map, shared_);
@@ -340,6 +382,17 @@ void MarksLayer::draw(QCPPainter* painter) {
     painter->setPen(shared_.theme.muted);
     painter->drawText(map.rect.adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap,
                       QString::fromStdString(shared_.figure.message));
+}
+
+void MarksLayer::drawTitleAbove(QCPPainter& painter, const PixelMap& map) const {
+    const QCPAxis& axis = *shared_.plot.yAxis;
+    const QFontMetricsF metrics(axis.labelFont());
+    const QRectF line(4, map.rect.top() - 6 - metrics.height(), map.rect.right() - 4, metrics.height());
+    painter.setFont(axis.labelFont());
+    painter.setPen(axis.labelColor());
+    painter.drawText(
+        line, Qt::AlignLeft | Qt::AlignVCenter,
+        metrics.elidedText(QString::fromStdString(shared_.figure.y.title), Qt::ElideRight, line.width()));
 }
 
 /// The last point of a scheme's curve that is inside the plot.

@@ -18,9 +18,14 @@ struct FigurePlot::Shared {
     QString highlighted;
     bool isStale = false;
     double density = 1;
+    bool isTitleAbove = false;  ///< of the y axis: above the plot, where there is no room beside it
 
     PixelMap map() const;
     bool isShown(const Series& s) const { return !hidden.contains(QString::fromStdString(s.label)); }
+    /// Titles with lowered parts, which the axes cannot draw.
+    bool hasOwnTitles() const;
+    /// Another scheme is highlighted, and has curves here.
+    bool isFaded(const Series& s) const;
     QColor colorOf(int style) const;
     QColor shaded(double shade) const;    ///< of the figure's ColourScale
     QColor mixed(const QColor& c) const;  ///< of results that are stale
@@ -46,6 +51,7 @@ private:
     void drawGuides(QCPPainter& painter, const PixelMap& map) const;
     void drawSeries(QCPPainter& painter, const PixelMap& map, const Series& series) const;
     void drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const;
+    void drawMarks(QCPPainter& painter, const PixelMap& map, const Series& series, const QColor& color) const;
     const FigurePlot::Shared& shared_;
 };
 
@@ -56,7 +62,9 @@ public:
 protected:
     void applyDefaultAntialiasingHint(QCPPainter* painter) const override { painter->setAntialiasing(true); }
     QRect clipRect() const override {
-        const QRect rect = shared_.plot.axisRect()->rect().adjusted(-8, -8, 8, 8);
+        QRect rect = shared_.plot.axisRect()->rect().adjusted(-8, -8, 8, 8);
+        if (shared_.hasOwnTitles()) return shared_.plot.viewport();
+        if (shared_.isTitleAbove) rect.setTopLeft(shared_.plot.viewport().topLeft());
         return shared_.figure.heat() || shared_.figure.find<ColourScale>()
                    ? rect.adjusted(0, 0, shared_.plot.axisRect()->margins().right(), 0)
                    : rect;
@@ -64,6 +72,7 @@ protected:
     void draw(QCPPainter* painter) override;
 
 private:
+    void drawTitleAbove(QCPPainter& painter, const PixelMap& map) const;
     void drawEvents(QCPPainter& painter, const PixelMap& map) const;
     void drawFailures(QCPPainter& painter, const PixelMap& map) const;
     std::optional<QPointF> endOfCurve(const std::string& label, const PixelMap& map) const;

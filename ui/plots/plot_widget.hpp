@@ -17,6 +17,8 @@
 #include "engine/figure/figure.hpp"
 #include "ui/plots/view_state.hpp"
 
+class QContextMenuEvent;
+
 namespace extremal {
 
 struct Theme;
@@ -33,6 +35,8 @@ public:
     /// A time to mark; none removes the line.
     void setCursor(std::optional<double> t);
     void setPinned(std::optional<double> t);
+    /// A time that the pointer is at, here or in a linked plot: a faint line.
+    void setHover(std::optional<double> t);
     void setHighlighted(const QString& label);
     /// A value of y as a line that the user can move; none removes it.
     void setLevel(std::optional<double> y, const QString& text = {});
@@ -63,6 +67,7 @@ public:
 
 signals:
     void cursorMoved(double t);
+    void hoverMoved(std::optional<double> t);  ///< over a time axis; none: it has left
     void pointClicked(int style);
     void cellChosen(double x, double y);  ///< of a map with a scale: what the cell stands for
     void rowChosen(std::size_t row);      ///< of a study: what the point stands for
@@ -79,6 +84,8 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void showValues(QPointF at, const std::string& nearest);
+    void openMenu(const QContextMenuEvent& context);
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -3,6 +3,7 @@
 #include <qcustomplot.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -46,28 +47,48 @@ QString tickText(double value, double step) {
 
 namespace {
 
+constexpr int leastTicks = 3;
+
 class LinearTicker : public QCPAxisTicker {
 public:
     explicit LinearTicker(int room) : room_(std::max(1, room)) {}
 
 protected:
-    /// The smallest of 1, 2, 2.5, 5 times a power of ten that gives no more ticks than there is room for.
+    /// The smallest of 1, 2, 2.5, 5 times a power of ten that gives no more ticks than there is room for; a
+    /// smaller one where that would leave fewer than three.
     double getTickStep(const QCPRange& range) override {
         const double atLeast = range.size() / room_;
         const double power = std::pow(10.0, std::floor(std::log10(atLeast)));
-        for (double m : {1.0, 2.0, 2.5, 5.0, 10.0})
-            if (m * power >= atLeast * (1 - 1e-9)) return step_ = m * power;
-        return step_ = 10 * power;
+        constexpr std::array steps{0.1, 0.2, 0.25, 0.5, 1.0, 2.0, 2.5, 5.0, 10.0};
+        std::size_t i = 4;
+        while (i + 1 < steps.size() && steps[i] * power < atLeast * (1 - 1e-9)) ++i;
+        while (i > 0 && ticksIn(range, steps[i] * power) < leastTicks) --i;
+        return step_ = steps[i] * power;
+    }
+    /// A tick at the very end of the range is not lost to round-off.
+    QVector<double> createTickVector(double step, const QCPRange& range) override {
+        QVector<double> ticks = QCPAxisTicker::createTickVector(step, range);
+        for (double& tick : ticks)
+            for (const double end : {range.lower, range.upper})
+                if (std::abs(tick - end) < slack * step) tick = end;
+        return ticks;
     }
     int getSubTickCount(double) override { return 0; }
     QString getTickLabel(double tick, const QLocale&, QChar, int) override { return tickText(tick, step_); }
 
 private:
+    static constexpr double slack = 1e-9;
+    static int ticksIn(const QCPRange& range, double step) {
+        return static_cast<int>(std::floor(range.upper / step + slack) -
+                                std::ceil(range.lower / step - slack)) +
+               1;
+    }
     int room_;
     double step_ = 1;
 };
 
-/// Powers of ten; within a decade also 2 and 5 times them; on less than a factor of two, equidistant ticks.
+/// Powers of ten; within a decade also 2 and 5 times them; on less than a factor of two, and where these are
+/// fewer than three, equidistant ticks.
 class LogTicker : public QCPAxisTicker {
 public:
     explicit LogTicker(int room) : room_(std::max(1, room)) {}
@@ -83,19 +104,38 @@ public:
             ticks.push_back(value);
             if (labels) labels->push_back(text);
         };
+        const auto clear = [&] {
+            ticks.clear();
+            if (subTicks) subTicks->clear();
+            if (labels) labels->clear();
+        };
         if (high - low >= 1.5) {
             decades(low, high, add, subTicks);
-        } else if (high - low > 0.3) {
-            for (int e = static_cast<int>(std::floor(low)); e <= static_cast<int>(std::ceil(high)); ++e)
-                for (int m : {1, 2, 5}) {
-                    const double value = m * std::pow(10.0, e);
-                    if (value < range.lower * (1 - 1e-12) || value > range.upper * (1 + 1e-12)) continue;
-                    add(value, m == 1 ? powerOfTen(e) : QString::number(m) + QChar(0x00d7) + powerOfTen(e));
-                }
-        } else {
+            if (ticks.size() >= leastTicks) return;
+            clear();
+        }
+        if (high - low > 0.3)
+            for (const std::vector<int>& factors : {std::vector{1, 3}, std::vector{1, 2, 5}}) {
+                clear();
+                // Without room, a multiple of a power of ten that stands beside it is the factor alone.
+                const bool isTight = (high - low) * static_cast<double>(factors.size()) > room_ - 1;
+                const bool hasPower = std::floor(high + 1e-12) >= std::ceil(low - 1e-12);
+                for (int e = static_cast<int>(std::floor(low)); e <= static_cast<int>(std::ceil(high)); ++e)
+                    for (const int m : factors) {
+                        const double value = m * std::pow(10.0, e);
+                        if (value < range.lower * (1 - 1e-12) || value > range.upper * (1 + 1e-12)) continue;
+                        add(value, m == 1 ? powerOfTen(e)
+                                   : isTight && hasPower
+                                       ? QString::number(m)
+                                       : QString::number(m) + QChar(0x00d7) + powerOfTen(e));
+                    }
+                if (ticks.size() >= leastTicks && (factors.size() > 2 || high - low >= 1.5)) return;
+            }
+        if (ticks.size() < leastTicks) {
+            clear();
             QVector<double> even;
             QVector<QString> evenLabels;
-            LinearTicker(std::min(room_, 4))
+            LinearTicker(std::clamp(room_, leastTicks, 4))
                 .generate(range, QLocale::c(), QLatin1Char('g'), 6, even, nullptr, &evenLabels);
             for (qsizetype i = 0; i < even.size(); ++i)
                 if (even[i] >= range.lower && even[i] <= range.upper) add(even[i], evenLabels[i]);
@@ -110,6 +150,10 @@ private:
             step = candidate;
             if ((high - low) / candidate <= room_) break;
         }
+        const auto shownIn = [&](int by) {
+            return std::floor((high + 1e-9) / by) - std::ceil((low - 1e-9) / by) + 1;
+        };
+        while (step > 1 && shownIn(step) < leastTicks) step = step > 5 ? step / 2 : step - 1;
         const int first = static_cast<int>(std::ceil(low - 1e-9)),
                   last = static_cast<int>(std::floor(high + 1e-9));
         for (int e = first - 1; e <= last; ++e) {

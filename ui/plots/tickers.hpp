@@ -1,5 +1,5 @@
-/// Where the ticks of an axis stand and what they say: as many as there is room for, powers of ten with real
-/// superscripts, real minus signs.
+/// Where the ticks of an axis stand and what they say: as many as there is room for and at least three,
+/// powers of ten with real superscripts, real minus signs.
 #pragma once
 
 #include <QSharedPointer>

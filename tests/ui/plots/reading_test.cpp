@@ -1,0 +1,219 @@
+/// What one reads off a plot: labels on every axis at any size, titles that are not cut, the selected scheme
+/// in front of faded ones, dots that do not run together, and all values at the pointer.
+#include <qcustomplot.h>
+
+#include <QTest>
+
+#include <cmath>
+
+#include "engine/figure/sample.hpp"
+#include "tests/engine/figure/hand_made.hpp"
+#include "tests/tools/test.hpp"
+#include "ui/plots/axis_title.hpp"
+#include "ui/plots/figure_plot.hpp"
+#include "ui/plots/hover_table.hpp"
+#include "ui/plots/plot_group.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/plots/tickers.hpp"
+#include "ui/shell/theme.hpp"
+
+namespace extremal::reading_test {
+namespace {
+
+Figure figureOf(const char* view) {
+    static const System pendulum = handmade::pendulum();
+    View v;
+    v.id = view;
+    return makeFigure(handmade::comparison(), v, &pendulum);
+}
+
+/// Labels of an axis inside its range.
+int labelsOn(QCPAxisTicker& ticker, const QCPRange& range) {
+    QVector<double> ticks;
+    QVector<QString> labels;
+    ticker.generate(range, QLocale::c(), 'g', 6, ticks, nullptr, &labels);
+    int count = 0;
+    for (qsizetype i = 0; i < ticks.size(); ++i)
+        count += ticks[i] >= range.lower - 1e-9 * range.size() &&
+                 ticks[i] <= range.upper + 1e-9 * range.size() && !labels[i].isEmpty();
+    return count;
+}
+
+QImage picture(PlotWidget& plot, QSize size) {
+    plot.resize(size);
+    plot.show();
+    (void)QTest::qWaitForWindowExposed(&plot);
+    auto* canvas = plot.findChild<QCustomPlot*>();
+    canvas->replot();
+    return plot.grab().toImage().convertToFormat(QImage::Format_RGB32);
+}
+
+/// The number of pixels of a colour.
+int pixelsOf(const QImage& image, const QColor& color) {
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+        for (int x = 0; x < image.width(); ++x) count += image.pixel(x, y) == color.rgb();
+    return count;
+}
+
+/// A grid of dots of one motion.
+Figure cloud(int side) {
+    Figure figure;
+    figure.view = "section";
+    figure.x = {"x", false, false, std::pair{0.0, 1.0}};
+    figure.y = {"y", false, false, std::pair{0.0, 1.0}};
+    Series series;
+    series.label = "motion";
+    series.kind = SeriesKind::marks;
+    for (int i = 0; i < side; ++i)
+        for (int k = 0; k < side; ++k) {
+            series.x.push_back((i + 0.5) / side);
+            series.y.push_back((k + 0.5) / side);
+        }
+    figure.add(series);
+    return figure;
+}
+
+}  // namespace
+
+class ReadingTest : public QObject {
+    Q_OBJECT
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void everyAxisHasThreeLabels() {
+        for (const int room : {1, 2, 3, 8})
+            for (double low = -3; low < 3; low += 0.173)
+                for (double size = 1e-3; size < 1e4; size *= 1.37) {
+                    const auto linear = linearTicker(room);
+                    QVERIFY2(labelsOn(*linear, {low, low + size}) >= 3,
+                             qPrintable(QString("%1 to %2, room %3").arg(low).arg(low + size).arg(room)));
+                }
+        for (const int room : {1, 2, 3, 8})
+            for (double low = -9.3; low < 3; low += 0.271)
+                for (double decades = 0.05; decades < 18; decades *= 1.23) {
+                    const auto log = logTicker(room);
+                    const QCPRange range(std::pow(10, low), std::pow(10, low + decades));
+                    QVERIFY2(
+                        labelsOn(*log, range) >= 3,
+                        qPrintable(QString("1e%1 to 1e%2, room %3").arg(low).arg(low + decades).arg(room)));
+                }
+    }
+    void aLinearAxisHasNoMoreLabelsThanRoom() {
+        for (double size = 1e-3; size < 1e4; size *= 1.37)
+            QVERIFY(labelsOn(*linearTicker(8), {0.1, 0.1 + size}) <= 9);
+    }
+    void aTitleThatDoesNotFitBesideTheAxisStandsAboveIt() {
+        Figure figure = figureOf("energy");
+        figure.y.title = "a title of many words, with a unit  [kg m/s]";
+        PlotWidget low(Theme::light()), high(Theme::light());
+        low.setFigure(figure);
+        high.setFigure(figure);
+        (void)picture(low, {360, 150});
+        (void)picture(high, {600, 500});
+        QVERIFY(low.findChild<QCustomPlot*>()->yAxis->label().isEmpty());
+        QCOMPARE(high.findChild<QCustomPlot*>()->yAxis->label(), QString::fromStdString(figure.y.title));
+        // The letters are there: in the strip above the plot.
+        const QImage image = picture(low, {360, 150});
+        const int top = low.findChild<QCustomPlot*>()->axisRect()->rect().top();
+        QVERIFY(top > 16);
+        QVERIFY(pixelsOf(image.copy(0, 0, 300, top - 2), Theme::light().text) > 40);
+    }
+    void lowerPartsOfTitlesAreLowered() {
+        QVERIFY(hasLoweredPart("p_a  [kg m/s]"));
+        QCOMPARE(plainTitle("p_θ  [kg m²/s]"), QString("pθ  [kg m²/s]"));
+        QVERIFY(!hasLoweredPart("|H - H(0)|  [J]") && !hasLoweredPart("_x"));
+        Figure figure = figureOf("phase");
+        figure.y.title = "p_x";
+        PlotWidget plot(Theme::light());
+        plot.setFigure(figure);
+        const QImage with = picture(plot, {420, 300});
+        const int left = plot.findChild<QCustomPlot*>()->axisRect()->rect().left();
+        const QImage strip = with.copy(0, 0, left - 30, with.height());
+        QVERIFY(pixelsOf(strip, Theme::light().text) > 5);
+    }
+    void theOthersFadeBesideAHighlightedScheme() {
+        const Theme theme = Theme::light();
+        PlotWidget plot(theme);
+        plot.setFigure(figureOf("energy"));
+        const Series& first = plot.figure().series().front();
+        const Series& second = plot.figure().series()[1];
+        const QColor own = theme.series(first.style).color, other = theme.series(second.style).color;
+        QVERIFY(pixelsOf(picture(plot, {500, 320}), other) > 50);
+        plot.setHighlighted(QString::fromStdString(first.label));
+        const QImage image = picture(plot, {500, 320});
+        QVERIFY(pixelsOf(image, own) > 50);
+        QCOMPARE(pixelsOf(image, other), 0);
+        QVERIFY(pixelsOf(image, theme.pale(other, fadedLine)) > 30);
+        // A scheme that has nothing here fades nothing.
+        plot.setHighlighted("elsewhere");
+        QVERIFY(pixelsOf(picture(plot, {500, 320}), other) > 50);
+    }
+    void theDotsOfAFullSectionLeaveRoomBetweenThem() {
+        const Theme theme = Theme::light();
+        for (const int side : {20, 60, 110}) {
+            PlotWidget plot(theme);
+            plot.setFigure(cloud(side));
+            const QImage image = picture(plot, {360, 260});
+            const QRect rect = plot.findChild<QCustomPlot*>()->axisRect()->rect();
+            int bare = 0;
+            for (int y = rect.top(); y < rect.bottom(); ++y)
+                for (int x = rect.left(); x < rect.right(); ++x)
+                    bare += qGray(image.pixel(x, y)) > 215;  // the ground, and the grid
+            // Without smaller dots nothing of the plot stays free at 110 x 110.
+            QVERIFY2(bare > 0.4 * rect.width() * rect.height(),
+                     qPrintable(QString("%1: %2").arg(side).arg(static_cast<double>(bare) /
+                                                                (rect.width() * rect.height()))));
+        }
+    }
+    void thePointerShowsAllValuesAndTheirDifferences() {
+        const Figure figure = figureOf("error");
+        const Theme theme = Theme::light();
+        const double t = 0.5 * figure.x.range->second, pinned = 0.25 * figure.x.range->second;
+        const QString text = valuesAt(figure, t, std::nullopt, figure.series().front().label, theme);
+        QVERIFY(text.contains("t = "));
+        QVERIFY(text.contains("straight line"));
+        for (const Series& s : figure.series())
+            if (const auto p = pointAt(s, t); p && std::isfinite(p->second)) {
+                QVERIFY(text.contains(QString::fromStdString(s.label).toHtmlEscaped()));
+                QVERIFY(text.contains(QString::number(p->second, 'g', 6).replace('-', QChar(0x2212))));
+            }
+        const Series& first = figure.series().front();
+        const double difference = pointAt(first, t)->second - pointAt(first, pinned)->second;
+        const QString both = valuesAt(figure, t, pinned, {}, theme);
+        QVERIFY(both.contains(QString::number(difference, 'g', 6).replace('-', QChar(0x2212))));
+        QVERIFY(valuesAt(figure, 1e9, std::nullopt, {}, theme).isEmpty());
+    }
+    void hoveringMarksTheTimeInAllPlots() {
+        QWidget window;
+        auto* energy = new PlotWidget(Theme::light(), &window);
+        auto* error = new PlotWidget(Theme::light(), &window);
+        energy->setGeometry(0, 0, 400, 300);
+        error->setGeometry(0, 300, 400, 300);
+        energy->setFigure(figureOf("energy"));
+        error->setFigure(figureOf("error"));
+        window.resize(700, 600);
+        window.show();
+        (void)QTest::qWaitForWindowExposed(&window);
+        PlotGroup group;
+        group.add(energy);
+        group.add(error);
+        auto* canvas = energy->findChild<QCustomPlot*>();
+        canvas->replot();
+        QTest::mouseMove(canvas, canvas->axisRect()->rect().center());
+        auto* table = window.findChild<HoverTable*>("hoverTable", Qt::FindDirectChildrenOnly);
+        QVERIFY(table && table->isVisible());
+        QVERIFY(table->text().contains("t = "));
+        QVERIFY(window.rect().contains(table->geometry()));
+        QEvent leave(QEvent::Leave);
+        QApplication::sendEvent(canvas, &leave);
+        QVERIFY(!table->isVisible());
+    }
+};
+
+EXTREMAL_TEST(ReadingTest)
+}  // namespace extremal::reading_test
+
+#include "reading_test.moc"
