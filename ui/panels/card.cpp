@@ -7,6 +7,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 #include "ui/shell/theme.hpp"
 
 namespace extremal {
@@ -57,7 +59,7 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
     body_->setSpacing(6);
     header_ = new QHBoxLayout;
     header_->setSpacing(6);
-    title_ = makeLabel(title, "title");
+    title_ = makeElidedLabel(title, "title");
     subtitle_ = makeElidedLabel({}, "caption");
     header_->addWidget(title_);
     header_->addWidget(subtitle_, 1);
@@ -68,15 +70,36 @@ Card::Card(const QString& title, QWidget* parent) : QFrame(parent) {
 }
 
 void Card::setTitle(const QString& title) {
+    title_->setToolTip({});
     title_->setText(title);
     title_->setVisible(!title.isEmpty());
     setAccessibleName(title);
+    shareHeader();
+}
+
+/// The title has room first; what is left for the subtitle must be worth showing.
+void Card::shareHeader() {
+    constexpr int leastSubtitle = 48;
+    const QMargins m = body_->contentsMargins();
+    int room = width() - m.left() - m.right();
+    for (int i = 2; i < header_->count(); ++i)
+        if (const QWidget* other = header_->itemAt(i)->widget(); other && !other->isHidden())
+            room -= other->sizeHint().width() + header_->spacing();
+    const int left = room - title_->sizeHint().width() - header_->spacing();
+    subtitle_->setVisible(!subtitle_->text().isEmpty() &&
+                          left >= std::min(leastSubtitle, subtitle_->sizeHint().width()));
+    subtitle_->setMaximumWidth(std::max(0, left));
+}
+
+void Card::resizeEvent(QResizeEvent* event) {
+    QFrame::resizeEvent(event);
+    shareHeader();
 }
 
 void Card::setSubtitle(const QString& subtitle) {
     subtitle_->setToolTip({});
     subtitle_->setText(subtitle);
-    subtitle_->setVisible(!subtitle.isEmpty());
+    shareHeader();
 }
 
 void Card::mouseDoubleClickEvent(QMouseEvent* event) {

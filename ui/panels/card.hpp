@@ -30,8 +30,10 @@ signals:
 
 protected:
     void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
+    void shareHeader();
     QVBoxLayout* body_;
     QBoxLayout* header_;
     QLabel *title_, *subtitle_;

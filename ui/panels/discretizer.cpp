@@ -1,10 +1,12 @@
 #include "ui/panels/discretizer.hpp"
 
+#include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QRegularExpression>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/family/scheme.hpp"
@@ -24,14 +26,14 @@ DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent)
     setObjectName("cell." + QString::fromStdString(choice_.id));
     const QString title = QString::fromStdString(choice_.title);
     setAccessibleName(title.at(0).toUpper() + title.mid(1));
-    setToolTip(tooltip(known));
-    setAccessibleDescription(toolTip().remove(QRegularExpression("<[^>]*>")));
+    about_ = textAbout(known);
+    setAccessibleDescription(QString(about_).replace("<br>", "; ").remove(QRegularExpression("<[^>]*>")));
     setFocusPolicy(Qt::TabFocus);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setCursor(isPossible ? Qt::PointingHandCursor : Qt::ArrowCursor);
 }
 
-QString DiscretizerCell::tooltip(const Properties& known) const {
+QString DiscretizerCell::textAbout(const Properties& known) const {
     const QString discretization = QString::fromStdString(choice_.title);
     if (!known.refusal.empty())
         return tr("<b>%1</b><br>No scheme: %2")
@@ -41,8 +43,7 @@ QString DiscretizerCell::tooltip(const Properties& known) const {
             .arg(discretization, QString::fromStdString(known.instability).toHtmlEscaped());
     if (!known.remark.empty())
         return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + discretization + "<br>" +
-               QString::fromStdString(known.remark) + "<br><i>" + tr("Click to add it to the comparison.") +
-               "</i>";
+               QString::fromStdString(known.remark);
     QString text =
         "<b>" +
         (known.knownAs.empty() ? discretization : QString::fromStdString(known.knownAs).toHtmlEscaped()) +
@@ -65,19 +66,28 @@ QString DiscretizerCell::tooltip(const Properties& known) const {
     else if (known.stabilityLimit > 0)
         text += "<br>" + tr("stable on the harmonic oscillator for h ω below %1")
                              .arg(shortNumber(known.stabilityLimit, 3));
-    return text + "<br><i>" + tr("Click to add it to the comparison.") + "</i>";
+    return text;
 }
 
 void DiscretizerCell::setTheme(const Theme& theme) {
     theme_ = &theme;
+    setMinimumSize(minimumSizeHint() * std::max(1.0, theme.fontScale));
     update();
 }
 
-void DiscretizerCell::setUse(Use use) {
-    if (use_ == use) return;
+void DiscretizerCell::setUse(Use use, int style) {
+    if (use_ == use && style_ == style) return;
     use_ = use;
+    style_ = style;
     setProperty("use", use == Use::on ? "on" : use == Use::off ? "off" : "none");
     update();
+}
+
+/// Cells that are no scheme are disabled, and say why all the same.
+bool DiscretizerCell::event(QEvent* event) {
+    if (event->type() == QEvent::Enter || event->type() == QEvent::FocusIn) emit pointedAt(true);
+    if (event->type() == QEvent::Leave || event->type() == QEvent::FocusOut) emit pointedAt(false);
+    return QAbstractButton::event(event);
 }
 
 void DiscretizerCell::paintEvent(QPaintEvent*) {
@@ -86,10 +96,13 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     painter.setRenderHint(QPainter::Antialiasing);
     const QRectF box = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
     const bool isOn = use_ == Use::on;
-    QColor ground = isOn ? theme_->accent : theme_->field;
+    const QColor own = theme_->series(style_).color;
+    QColor ground = isOn ? own : theme_->field;
     if (!isEnabled()) ground = Qt::transparent;
     if (isEnabled() && underMouse() && !isOn) ground = theme_->selection;
-    painter.setPen(hasFocus() || use_ == Use::off ? QPen(theme_->accent, 1) : QPen(Qt::NoPen));
+    painter.setPen(hasFocus()         ? QPen(theme_->accent, 1.5)
+                   : use_ == Use::off ? QPen(own, 1.2)
+                                      : QPen(Qt::NoPen));
     painter.setBrush(ground);
     painter.drawRoundedRect(box, 4, 4);
     if (!isEnabled()) {
@@ -108,7 +121,8 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     const double orderWidth = order.isEmpty() ? 0 : smallMetrics.horizontalAdvance(order) + 1;
     const double left = (width() - metrics.horizontalAdvance(name) - orderWidth) / 2;
     const double baseline = (height() + metrics.capHeight()) / 2;
-    painter.setPen(isOn ? theme_->onAccent : theme_->text);
+    const QColor light("#FFFFFF"), dark("#0B1526");
+    painter.setPen(!isOn ? theme_->text : contrast(own, light) >= contrast(own, dark) ? light : dark);
     painter.setFont(font);
     painter.drawText(QPointF(left, baseline), name);
     painter.setFont(small);
@@ -117,8 +131,24 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
 
 Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     : Card(tr("Discretizer"), parent), workspace_(workspace) {
+    about_ = makeLabel({}, "caption");
+    about_->setObjectName("aboutCell");
+    about_->setWordWrap(true);
+    about_->setTextFormat(Qt::RichText);
+    about_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    constexpr int lines = 4;  // so that the card keeps its height
+    about_->setMinimumHeight(lines * fontMetrics().lineSpacing());
+    body()->addWidget(about_);
+    showAbout(nullptr);
     refresh();
     connect(&workspace_, &Workspace::sceneChanged, this, &Discretizer::refresh);
+}
+
+void Discretizer::showAbout(const DiscretizerCell* cell) {
+    about_->setText(
+        cell ? cell->about()
+             : tr("Point at a cell: what it is, its order and what it keeps. A click adds it to the "
+                  "comparison."));
 }
 
 void Discretizer::fill(const ChoiceGrid& choices) {
@@ -130,7 +160,8 @@ void Discretizer::fill(const ChoiceGrid& choices) {
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setHorizontalSpacing(3);
     grid->setVerticalSpacing(3);
-    body()->addWidget(grid_);
+    body()->insertWidget(body()->count() - 1, grid_);
+    showAbout(nullptr);
     setSubtitle(QString::fromStdString(choices.subtitle));
     const auto addHeading = [&](const ChoiceGrid::Heading& heading, int row, int column) {
         QLabel* label = makeLabel(QString::fromStdString(heading.text), "caption");
@@ -151,6 +182,8 @@ void Discretizer::fill(const ChoiceGrid& choices) {
             auto* cell = new DiscretizerCell(choice);
             if (theme_) cell->setTheme(*theme_);
             connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
+            connect(cell, &DiscretizerCell::pointedAt, this,
+                    [this, cell](bool isPointedAt) { showAbout(isPointedAt ? cell : nullptr); });
             cells_.push_back(cell);
             shown_.push_back(choice.id);
             grid->addWidget(cell, row + 1, column + 1);
@@ -175,15 +208,16 @@ void Discretizer::refresh() {
     const bool isSame = ids == shown_ && !cells_.empty() &&
                         cells_.front()->space().type == choices.cells.front().discretization.space.type;
     if (!isSame) fill(choices);
-    for (DiscretizerCell* cell : cells_) cell->setUse(useOf(*cell));
+    for (DiscretizerCell* cell : cells_) showUse(*cell);
 }
 
-DiscretizerCell::Use Discretizer::useOf(const DiscretizerCell& cell) const {
+void Discretizer::showUse(DiscretizerCell& cell) const {
     const Scene& scene = workspace_.scene();
     const int there = findPair(scene, cell.space(), cell.quadrature());
-    if (there < 0) return DiscretizerCell::Use::none;
-    return scene.schemes[static_cast<std::size_t>(there)].isEnabled ? DiscretizerCell::Use::on
-                                                                    : DiscretizerCell::Use::off;
+    if (there < 0) return cell.setUse(DiscretizerCell::Use::none, 0);
+    const auto place = static_cast<std::size_t>(there);
+    cell.setUse(scene.schemes[place].isEnabled ? DiscretizerCell::Use::on : DiscretizerCell::Use::off,
+                styleOf(scene.schemes[place], place));
 }
 
 void Discretizer::choose(const DiscretizerCell& cell) {

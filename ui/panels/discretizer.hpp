@@ -1,6 +1,7 @@
 /// The discretizer: what the family of the model offers side by side (family/choices.hpp), usually function
 /// spaces as rows and quadratures as columns. A cell says which scheme the discretization is and its order; a
-/// click adds it to the comparison. Unsupported combinations are grey and say why.
+/// click adds it to the comparison. Unsupported combinations are grey. A strip below the cells says what the
+/// one is that is pointed at, or why it is no scheme; cells in use have the colour of their scheme.
 #pragma once
 
 #include <QAbstractButton>
@@ -11,6 +12,7 @@
 #include "ui/panels/card.hpp"
 
 class QGridLayout;
+class QLabel;
 
 namespace extremal {
 
@@ -26,22 +28,30 @@ public:
     const Settings& space() const { return choice_.discretization.space; }
     const Settings& quadrature() const { return choice_.discretization.quadrature; }
     void setTheme(const Theme& theme);
-    /// Whether a scheme of the scene is this discretization, and whether it is switched on: filled, or
-    /// outlined.
+    /// Whether a scheme of the scene is this discretization, and whether it is switched on: filled with its
+    /// colour, or outlined.
     enum class Use { none, off, on };
-    void setUse(Use use);
+    void setUse(Use use, int style);
     Use use() const { return use_; }
+    /// What there is to say of it, as rich text: name, order, properties, or why it is no scheme.
+    const QString& about() const { return about_; }
     QSize sizeHint() const override { return {34, 23}; }
     QSize minimumSizeHint() const override { return {26, 23}; }
 
+signals:
+    void pointedAt(bool isPointedAt);  ///< by the mouse, or with the focus of the keyboard
+
 protected:
+    bool event(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    QString tooltip(const Properties& known) const;
+    QString textAbout(const Properties& known) const;
 
     ChoiceGrid::Cell choice_;
+    QString about_;
     Use use_ = Use::none;
+    int style_ = 0;
     const Theme* theme_ = nullptr;
 };
 
@@ -56,12 +66,14 @@ private:
     void fill(const ChoiceGrid& grid);
     void refresh();
     void choose(const DiscretizerCell& cell);
-    DiscretizerCell::Use useOf(const DiscretizerCell& cell) const;
+    void showUse(DiscretizerCell& cell) const;
+    void showAbout(const DiscretizerCell* cell);
 
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;
     std::vector<std::string> shown_;  ///< ids of the cells
     QWidget* grid_ = nullptr;
+    QLabel* about_;  ///< of the cell that is pointed at
     const Theme* theme_ = nullptr;
 };
 

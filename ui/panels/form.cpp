@@ -4,6 +4,7 @@
 #include <QLabel>
 
 #include "ui/panels/card.hpp"
+#include "ui/panels/scrub_label.hpp"
 #include "ui/panels/value_edit.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -38,9 +39,19 @@ void Form::addRow(FormField field) {
             label += " " + QString::fromStdString(info.symbol).toHtmlEscaped();
     }
     const int row = 2 * static_cast<int>(rows_.size());
-    auto* name = new QLabel(label);
-    name->setMinimumWidth(64);
     auto* edit = new ValueEdit(info);
+    QLabel* name = nullptr;
+    if (info.type == FieldType::number) {
+        auto* scrub = new ScrubLabel(label);
+        connect(scrub, &ScrubLabel::scrubbed, edit, &ValueEdit::scaleBy);
+        connect(scrub, &ScrubLabel::clicked, edit, [edit] { edit->setFocus(); });
+        scrub->setToolTip(tr("Drag sideways to change %1").arg(QString::fromStdString(info.title)));
+        name = scrub;
+    } else {
+        name = new QLabel(label);
+    }
+    name->setObjectName("label." + QString::fromStdString(info.key));
+    name->setMinimumWidth(64);
     name->setBuddy(edit);
     constexpr int roomOfUnit = 72;  // a longer one would leave the field no room
     const QString unitText = QString::fromStdString(info.unit);

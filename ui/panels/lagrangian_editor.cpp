@@ -42,6 +42,7 @@ QString joined(const Value* names) {
 
 LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     : QWidget(parent), workspace_(workspace) {
+    setProperty("help", "lagrangian");  // of F1
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(5);

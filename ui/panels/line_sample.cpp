@@ -6,6 +6,16 @@
 
 namespace extremal {
 
+void drawLineSample(QPainter& painter, const QRectF& box, const Theme& theme, int style, bool isOn) {
+    painter.setRenderHint(QPainter::Antialiasing);
+    const SeriesStyle series = theme.series(style);
+    QPen pen(isOn ? series.color : theme.line, 2);
+    pen.setCapStyle(Qt::FlatCap);
+    if (!series.dash.isEmpty()) pen.setDashPattern(series.dash);
+    painter.setPen(pen);
+    painter.drawLine(QPointF(box.left(), box.center().y()), QPointF(box.right(), box.center().y()));
+}
+
 LineSample::LineSample(QWidget* parent) : QAbstractButton(parent) {
     setFixedSize(sizeHint());
     setCursor(Qt::PointingHandCursor);
@@ -22,14 +32,7 @@ void LineSample::show(const Theme& theme, int style, bool isOn) {
 void LineSample::paintEvent(QPaintEvent*) {
     if (!theme_) return;
     QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    const SeriesStyle series = theme_->series(style_);
-    QPen pen(isOn_ ? series.color : theme_->line, 2);
-    pen.setCapStyle(Qt::FlatCap);
-    if (!series.dash.isEmpty()) pen.setDashPattern(series.dash);
-    painter.setPen(pen);
-    const double y = height() / 2.0;
-    painter.drawLine(QPointF(0, y), QPointF(width() - 2, y));
+    drawLineSample(painter, QRectF(rect()).adjusted(0, 0, -2, 0), *theme_, style_, isOn_);
     if (hasFocus() || underMouse()) {
         painter.setPen(QPen(theme_->accent, 1));
         painter.setBrush(Qt::NoBrush);

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <QAbstractButton>
+#include <QRectF>
+
+class QPainter;
 
 namespace extremal {
 
 struct Theme;
+
+/// The line across the middle of a box, grey if the scheme is off.
+void drawLineSample(QPainter& painter, const QRectF& box, const Theme& theme, int style, bool isOn);
 
 class LineSample : public QAbstractButton {
     Q_OBJECT

@@ -29,10 +29,62 @@ bool isTyped(const ModelEntry& entry) {
                        [](const FieldInfo& field) { return field.type == FieldType::names; });
 }
 
-std::vector<FormField> parameterFields(const ModelEntry& entry) {
+bool isPlainText(const Value& value) { return value.isNumber() || value.isString() || value.isBool(); }
+
+/// Whether a value is an object of numbers and texts, which has a row for each.
+bool isSmallObject(const Value* value) {
+    return value && value->isObject() && !value->asObject().empty() &&
+           std::all_of(value->asObject().begin(), value->asObject().end(),
+                       [](const Value::Member& m) { return isPlainText(m.second); });
+}
+
+/// A parameter: one row, or where it is a small object (a potential by name, a wave packet) one for each of
+/// its members. What the object is, its member `name` or `packet`, brings the defaults of its kind.
+void addFields(const Workspace& workspace, const FieldInfo& info, const std::string& place,
+               std::vector<FormField>& fields) {
+    const Value* value = valueAt(workspace.document(), place);
+    if (info.type != FieldType::json || !isSmallObject(value)) {
+        fields.push_back({info, place, {}, {}});
+        return;
+    }
+    for (const auto& [key, member] : value->asObject()) {
+        const bool isKind = key == "name" || key == "packet";
+        FieldInfo row = isKind ? textField(key, info.title, nullptr, info.description)
+                               : numberField(key, key, "", 0, info.description);
+        std::replace(row.title.begin(), row.title.end(), '_', ' ');
+        std::vector<Edit> others;  // of another kind they would be unknown
+        for (const Value::Member& other : value->asObject())
+            if (other.first != key) others.push_back({place + "/" + other.first, std::nullopt});
+        const std::string pointer = place + "/" + key;
+        const auto change = [pointer, others](const Value& chosen) {
+            std::vector<Edit> edits = others;
+            edits.push_back({pointer, chosen});
+            return edits;
+        };
+        fields.push_back({std::move(row),
+                          pointer,
+                          {},
+                          isKind ? change : std::function<std::vector<Edit>(const Value&)>{}});
+    }
+}
+
+/// The members of the small objects in a part of the scene: other members need other rows.
+std::string shapeOf(const Workspace& workspace, const std::vector<FieldInfo>& infos,
+                    const std::string& part) {
+    std::string shape;
+    for (const FieldInfo& info : infos) {
+        const Value* value = valueAt(workspace.document(), part + info.key);
+        if (info.type != FieldType::json || !isSmallObject(value)) continue;
+        shape += ' ' + info.key;
+        for (const Value::Member& member : value->asObject()) shape += '.' + member.first;
+    }
+    return shape;
+}
+
+std::vector<FormField> parameterFields(const Workspace& workspace, const ModelEntry& entry) {
     std::vector<FormField> fields;
     for (const FieldInfo& info : entry.item.parameters)
-        fields.push_back({info, "/model/" + info.key, {}, {}});
+        addFields(workspace, info, "/model/" + info.key, fields);
     return fields;
 }
 
@@ -42,7 +94,7 @@ std::vector<FormField> initialFields(const Workspace& workspace, const System& s
     if (const ModelEntry* entry = findModel(workspace.scene().model.type))
         for (const FieldInfo& info : entry->initial)
             if (valueAt(workspace.document(), "/initial/" + info.key))
-                fields.push_back({info, "/initial/" + info.key, {}, {}});
+                addFields(workspace, info, "/initial/" + info.key, fields);
     const auto add = [&](const char* key, const QString& letter, bool isMomentum) {
         for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
             const Coordinate& c = system.coordinates[i];
@@ -84,7 +136,7 @@ std::vector<FormField> initialFields(const Workspace& workspace, const System& s
 
 /// The references that need no more than their name, and the one there is.
 FormField referenceField(const Workspace& workspace, const std::string& now) {
-    std::vector<std::string> kinds{"auto", "exact", "companion", "none"};
+    std::vector<std::string> kinds = format::plainReferences;
     if (std::find(kinds.begin(), kinds.end(), now) == kinds.end()) kinds.push_back(now);
     const auto edits = [&workspace](const Value& type) {
         std::vector<Edit> all{{"/reference/type", type}};
@@ -191,7 +243,10 @@ ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
             workspace_.edit({{"/events/" + std::to_string(count - 1), std::nullopt}}, tr("Remove an event"));
     });
     menu()->addAction(tr("Compare with a file..."), this, &ScenePanel::compareWithFile);
-    menu()->addAction(tr("Compare with the selected scheme"), this, &ScenePanel::compareWithSelected);
+    QAction* compare =
+        menu()->addAction(tr("Compare with the selected scheme"), this, &ScenePanel::compareWithSelected);
+    connect(menu(), &QMenu::aboutToShow, this,
+            [this, compare] { compare->setEnabled(workspace_.selectedScheme() >= 0); });
     connect(&workspace_, &Workspace::sceneChanged, this, &ScenePanel::rebuild);
     connect(&workspace_, &Workspace::opened, this, [this] { shownModel_.clear(); });
 }
@@ -212,15 +267,17 @@ void ScenePanel::rebuild() {
     std::string keys = std::to_string(static_cast<int>(scene.initial.second));
     for (const auto& [key, value] : scene.initial.given.keys) keys += ' ' + key;
     if (const Value* names = scene.model.find("coordinates")) keys += writeCompactJson(*names);
-    if (scene.model.type == shownModel_ && keys == shownInitial_) return;
     const ModelEntry* entry = findModel(scene.model.type);
     if (!entry) return;
+    keys += shapeOf(workspace_, entry->item.parameters, "/model/") +
+            shapeOf(workspace_, entry->initial, "/initial/");
+    if (scene.model.type == shownModel_ && keys == shownInitial_) return;
     shownModel_ = scene.model.type;
     shownInitial_ = keys;
     model_->setCurrentIndex(model_->findData(QString::fromStdString(shownModel_)));
     model_->setToolTip(QString::fromStdString(entry->item.description));
     const System system = entry->make(scene.model);
-    parameters_->setFields(isTyped(*entry) ? std::vector<FormField>{} : parameterFields(*entry));
+    parameters_->setFields(isTyped(*entry) ? std::vector<FormField>{} : parameterFields(workspace_, *entry));
     parameters_->setVisible(!isTyped(*entry));
     lagrangian_->setVisible(isTyped(*entry));
     lagrangian_->refresh();

@@ -3,20 +3,25 @@
 #include "engine/run/event_files.hpp"
 
 #include <QGridLayout>
+#include <QGuiApplication>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMouseEvent>
+#include <QPainter>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QToolButton>
+#include <QToolTip>
 #include <QVBoxLayout>
 #include <cmath>
 
 #include "ui/panels/card.hpp"
+#include "ui/panels/explain.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/line_sample.hpp"
 #include "ui/panels/scheme_editor.hpp"
+#include "ui/panels/scrub_label.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
@@ -78,9 +83,12 @@ void SchemeCard::makeHeader() {
     row->setSpacing(4);
     line_ = new LineSample;
     line_->setObjectName("toggle");
-    connect(line_, &QAbstractButton::clicked, this, [this] {
-        workspace_.edit(editsForToggle(workspace_.scene(), index_),
-                        tr("Switch %1").arg(QString::fromStdString(spec().label)));
+    connect(line_, &QAbstractButton::clicked, this, &SchemeCard::toggleOrSolo);
+    line_->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(line_, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+        QMenu menu(this);
+        fillColours(menu);
+        menu.exec(line_->mapToGlobal(at));
     });
     name_ = makeElidedLabel({}, "strong");
     nameEdit_ = new QLineEdit;
@@ -88,8 +96,19 @@ void SchemeCard::makeHeader() {
     nameEdit_->setAccessibleName(tr("Name of the scheme"));
     nameEdit_->hide();
     connect(nameEdit_, &QLineEdit::editingFinished, this, &SchemeCard::finishName);
-    step_ = makeLabel({}, "strong");
-    step_->setToolTip(tr("Type a number to change the step of the selected scheme"));
+    step_ = new ScrubLabel;
+    step_->setProperty("role", "strong");
+    step_->setObjectName("stepLabel");
+    step_->setToolTip(tr(
+        "Click to type; drag sideways to scale it; the wheel over the selected scheme doubles or halves it, "
+        "with Ctrl in smaller steps"));
+    connect(step_, &ScrubLabel::clicked, this, [this] { editStep(); });
+    connect(step_, &ScrubLabel::scrubbed, this,
+            [this](int notches) { scaleStep(std::pow(10, 0.02 * notches)); });
+    connect(step_, &ScrubLabel::turned, this, [this](int notches) {
+        const bool isFine = QGuiApplication::keyboardModifiers() & Qt::ControlModifier;
+        scaleStep(std::pow(isFine ? 1.1 : 2, notches));
+    });
     stepEdit_ = new QLineEdit;
     stepEdit_->setObjectName("step");
     stepEdit_->setAccessibleName(tr("Step"));
@@ -121,6 +140,11 @@ void SchemeCard::makeMenu(QToolButton& dots) {
     menu->addAction(tr("Edit"), this, [this] { setEditing(!isEditing()); });
     menu->addAction(tr("Rename"), this, [this] { editName(); });
     menu->addAction(tr("On or off"), line_, [this] { line_->click(); });
+    menu->addAction(tr("This scheme alone, or all"), this, [this] {
+        workspace_.edit(editsForSolo(workspace_.scene(), index_), tr("Only %1").arg(name_->text()));
+    });
+    auto* colours = menu->addMenu(tr("Colour"));
+    connect(colours, &QMenu::aboutToShow, this, [this, colours] { fillColours(*colours); });
     menu->addAction(tr("Duplicate"), this, [this] {
         workspace_.edit(editsForDuplicate(workspace_.scene(), index_), tr("Duplicate scheme"));
     });
@@ -132,26 +156,62 @@ void SchemeCard::makeMenu(QToolButton& dots) {
     });
 }
 
+/// Colours with their dashes.
+void SchemeCard::fillColours(QMenu& menu) {
+    menu.clear();
+    const int count = static_cast<int>(theme_->seriesColors.size());
+    for (int style = 0; style < count; ++style) {
+        QPixmap sample(QSize(30, 14) * devicePixelRatioF());
+        sample.setDevicePixelRatio(devicePixelRatioF());
+        sample.fill(Qt::transparent);
+        QPainter painter(&sample);
+        drawLineSample(painter, QRectF(0, 0, 30, 14), *theme_, style, true);
+        painter.end();
+        QAction* action = menu.addAction(QIcon(sample), tr("Colour %1").arg(style + 1), this, [this, style] {
+            const std::vector<Edit> edits = editsForStyle(workspace_.scene(), index_, style);
+            if (!edits.empty()) workspace_.edit(edits, tr("Change the colour of %1").arg(name_->text()));
+        });
+        action->setEnabled(style != styleOf(spec(), static_cast<std::size_t>(index_)));
+    }
+}
+
+/// With Alt this scheme alone stays on.
+void SchemeCard::toggleOrSolo() {
+    const bool isSolo = QGuiApplication::keyboardModifiers() & Qt::AltModifier;
+    workspace_.edit(
+        isSolo ? editsForSolo(workspace_.scene(), index_) : editsForToggle(workspace_.scene(), index_),
+        tr("Switch %1").arg(QString::fromStdString(spec().label)));
+}
+
+void SchemeCard::scaleStep(double factor) {
+    const std::vector<Edit> edits = editsForStep(workspace_.scene(), index_, factor);
+    if (!edits.empty())
+        workspace_.edit(edits, tr("Change the step"), QString::fromStdString(edits[0].pointer));
+}
+
 void SchemeCard::makeFigures() {
     figures_ = new QWidget;
     auto* grid = new QGridLayout(figures_);
     grid->setContentsMargins(0, 2, 0, 0);
-    grid->setSpacing(1);
+    grid->setVerticalSpacing(1);
+    grid->setHorizontalSpacing(6);
     int column = 0;
-    const auto add = [&](const QString& caption, const QString& tip) {
+    const auto add = [&](const QString& caption) {
         Figure figure{makeLabel(caption, "caption"), makeLabel({}, "strong")};
-        figure.caption->setToolTip(tip);
-        figure.value->setToolTip(tip);
         figure.value->setObjectName(caption);
+        for (QLabel* label : {figure.caption, figure.value}) {
+            label->setCursor(Qt::WhatsThisCursor);
+            label->installEventFilter(this);
+        }
         grid->addWidget(figure.caption, 0, column);
         grid->addWidget(figure.value, 1, column);
         grid->setColumnStretch(column++, 1);
         return figure;
     };
-    cost_ = add(tr("cost"), tr("CPU time of the scheme's steps"));
-    error_ = add(tr("error"), tr("Largest distance from the reference over the run"));
-    order_ = add(tr("order"), tr("Claimed order; ✓ if the measured order agrees"));
-    steps_ = add(tr("steps"), tr("Number of steps"));
+    cost_ = add(tr("cost"));
+    error_ = add(tr("error"));
+    order_ = add(tr("order"));
+    steps_ = add(tr("steps"));
     layout_->addWidget(figures_);
 }
 
@@ -173,9 +233,12 @@ void SchemeCard::showSpec() {
     parts_->setToolTip({});
     parts_->setText(s.isEnabled ? schemeText(s) : schemeText(s) + tr(" · off"));
     line_->show(*theme_, styleOf(s, static_cast<std::size_t>(index_)), s.isEnabled);
-    line_->setToolTip(tr("Switch this scheme on or off (key %1)").arg(index_ + 1));
+    line_->setToolTip(tr("Switch this scheme on or off (key %1); with Alt: this one alone, or all. A right "
+                         "click chooses the "
+                         "colour")
+                          .arg(index_ + 1));
     line_->setAccessibleName(line_->toolTip());
-    if (!s.isEnabled) showResult(nullptr, false);
+    if (!s.isEnabled) showResult(nullptr, false, {});
     showCaution();
 }
 
@@ -235,7 +298,7 @@ void SchemeCard::showFailure(const Summary& summary) {
     failure_->setText(text);
 }
 
-void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
+void SchemeCard::showResult(const SchemeResult* result, bool isStale, const ReferenceInfo& reference) {
     static const Summary nothing;
     const Summary& summary = result ? result->summary : nothing;
     const bool isRunning =
@@ -252,18 +315,20 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
     error_.value->setText(isMeasured ? shortNumber(summary.maxError) : QStringLiteral("–"));
     const bool hasOrder = isMeasured && summary.orderClaimed > 0;
     QString order = hasOrder ? QString::number(summary.orderClaimed) : QStringLiteral("–");
-    QString orderTip =
-        summary.orderClaimed > 0 ? tr("claimed: %1").arg(summary.orderClaimed) : tr("no claimed order");
     if (std::isfinite(summary.orderMeasured)) {
         const bool agrees = std::abs(summary.orderMeasured - summary.orderClaimed) < 0.3;
         order = QString::number(summary.orderMeasured, 'f', 1);
         if (summary.orderClaimed > 0) order += agrees ? QStringLiteral(" ✓") : QStringLiteral(" ≠");
-        orderTip += tr(", measured: %1").arg(summary.orderMeasured, 0, 'f', 2);
     }
     order_.value->setText(order);
-    order_.value->setToolTip(orderTip);
     steps_.value->setText(summary.steps > 0 ? QString::number(summary.steps) : QStringLiteral("–"));
-    for (QLabel* label : {cost_.value, error_.value, order_.value, steps_.value}) label->setEnabled(!isStale);
+    for (const auto& [figure, text] :
+         {std::pair{&cost_, explainCost(summary)}, std::pair{&error_, explainError(summary, reference)},
+          std::pair{&order_, explainOrder(summary)}, std::pair{&steps_, explainSteps(summary)}}) {
+        figure->value->setEnabled(!isStale);
+        figure->value->setToolTip(text);
+        figure->caption->setToolTip(text);
+    }
     showFailure(summary);
     const std::string events = result ? eventsText(*result) : std::string();
     events_->setVisible(!events.empty());
@@ -273,6 +338,7 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale) {
 void SchemeCard::setSelected(bool isSelected) {
     if (property("selected").toBool() == isSelected) return;
     setProperty("selected", isSelected);
+    step_->setTurnable(isSelected);
     repolish(*this);
 }
 
@@ -354,11 +420,25 @@ void SchemeCard::setEditing(bool isOpen) {
     layout_->insertWidget(2, editor_);
 }
 
-void SchemeCard::mousePressEvent(QMouseEvent* event) {
-    workspace_.selectScheme(index_);
-    QFrame::mousePressEvent(event);
+/// A click on a number explains it at once.
+bool SchemeCard::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::MouseButtonRelease)
+        if (auto* label = qobject_cast<QLabel*>(watched))
+            QToolTip::showText(label->mapToGlobal(QPoint(0, label->height())), label->toolTip(), label);
+    return QFrame::eventFilter(watched, event);
 }
 
-void SchemeCard::mouseDoubleClickEvent(QMouseEvent*) { setEditing(!isEditing()); }
+void SchemeCard::mousePressEvent(QMouseEvent* event) {
+    workspace_.selectScheme(index_);
+    event->accept();  // beside the cards a click ends the selection
+}
+
+/// The name is edited in place, all else in the editor.
+void SchemeCard::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (name_->geometry().contains(event->position().toPoint()))
+        editName();
+    else
+        setEditing(!isEditing());
+}
 
 }  // namespace extremal

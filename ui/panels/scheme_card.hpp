@@ -10,6 +10,7 @@
 class QLabel;
 class QLineEdit;
 class QProgressBar;
+class QMenu;
 class QPushButton;
 class QToolButton;
 class QVBoxLayout;
@@ -18,6 +19,7 @@ namespace extremal {
 
 class LineSample;
 class SchemeEditor;
+class ScrubLabel;
 struct Theme;
 class Workspace;
 
@@ -34,7 +36,7 @@ public:
     /// Shows the scheme as it stands in the scene.
     void showSpec();
     /// Shows results, null if there are none; stale ones are dimmed.
-    void showResult(const SchemeResult* result, bool isStale);
+    void showResult(const SchemeResult* result, bool isStale, const ReferenceInfo& reference);
     void setSelected(bool isSelected);
     void editName();
     /// Opens the step for editing; typing at a selected card begins with what was typed.
@@ -49,6 +51,7 @@ protected:
     void mousePressEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     bool event(QEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
 
 private:
@@ -58,6 +61,9 @@ private:
     void makeHeader();
     void makeFigures();
     void makeMenu(QToolButton& dots);
+    void fillColours(QMenu& menu);
+    void toggleOrSolo();
+    void scaleStep(double factor);
     void showFailure(const Summary& summary);
     void showCaution();
     void takeRemedy();
@@ -71,7 +77,8 @@ private:
     const Theme* theme_;
     QVBoxLayout* layout_;
     LineSample* line_;
-    QLabel *name_, *step_, *parts_, *caution_, *events_, *failure_, *advice_;
+    ScrubLabel* step_;
+    QLabel *name_, *parts_, *caution_, *events_, *failure_, *advice_;
     QPushButton* remedy_;
     QLineEdit *nameEdit_, *stepEdit_;
     QWidget* figures_;

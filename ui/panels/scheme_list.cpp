@@ -54,6 +54,8 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
     connect(&run_, &RunControl::resultsChanged, this, &SchemeList::showResults);
 }
 
+void SchemeList::mousePressEvent(QMouseEvent*) { workspace_.selectScheme(-1); }
+
 void SchemeList::fillAddMenu() {
     addMenu_->clear();
     const ChoiceGrid grid = choicesFor(workspace_.scene());
@@ -168,7 +170,8 @@ void SchemeList::showResults() {
         if (results)
             for (const auto& result : results->schemes)
                 if (result->spec.label == scene.schemes[i].label) found = result.get();
-        cards_[i]->showResult(scene.schemes[i].isEnabled ? found : nullptr, run_.isStale());
+        cards_[i]->showResult(scene.schemes[i].isEnabled ? found : nullptr, run_.isStale(),
+                              results ? results->reference : ReferenceInfo());
     }
 }
 
@@ -190,6 +193,11 @@ void SchemeList::duplicateSelected() {
     if (!card(index)) return;
     if (workspace_.edit(editsForDuplicate(workspace_.scene(), index), tr("Duplicate scheme")))
         workspace_.selectScheme(index + 1);
+}
+
+void SchemeList::soloSelected() {
+    const int index = workspace_.selectedScheme();
+    if (card(index)) workspace_.edit(editsForSolo(workspace_.scene(), index), tr("Selected scheme alone"));
 }
 
 void SchemeList::removeSelected() {

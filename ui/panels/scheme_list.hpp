@@ -28,9 +28,13 @@ public:
     void editSelected();
     void renameSelected();
     void duplicateSelected();
+    void soloSelected();
     void removeSelected();
     void moveSelected(int by);
     void toggle(int index);
+
+protected:
+    void mousePressEvent(QMouseEvent* event) override;
 
 private:
     void rebuild();

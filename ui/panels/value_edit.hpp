@@ -21,6 +21,8 @@ public:
     /// Shows a value; does not disturb what is being typed.
     void show(const Value& value);
     void setInvalid(bool isInvalid);
+    /// Changes a number: by units of the tenth of its leading digit.
+    void scaleBy(int notches);
 
 signals:
     void edited(const Value& value);
@@ -28,7 +30,6 @@ signals:
 private:
     void makeText();
     void submitText();
-    void scaleBy(int notches);
     bool eventFilter(QObject* watched, QEvent* event) override;
 
     FieldInfo info_;

@@ -77,6 +77,7 @@ private slots:
         for (QAction* action : panel->menu()->actions())
             if (action->text() == "Compare with the selected scheme") selected = action;
         QVERIFY(selected);
+        window.workspace().selectScheme(0);
         selected->trigger();
         QCoreApplication::processEvents();
         QCOMPARE(kind(), QString("scheme"));
@@ -100,6 +101,31 @@ private slots:
         QVERIFY(constantsFrom("").isObject());
         QVERIFY(constantsFrom("a = 1, b").isString());
         QVERIFY(constantsFrom("a = ").isString());
+    }
+    void potentialsAndPacketsAreSmallForms() {
+        MainWindow window(Theme::light(), false);
+        window.resize(1400, 900);
+        window.show();
+        QVERIFY(window.open("preset:tunnelling"));
+        const auto field = [&](const char* key) {
+            return window.findChild<QLineEdit*>(QString("field.") + key);
+        };
+        QTRY_VERIFY(field("height"));
+        QCOMPARE(field("height")->text(), QString("60"));
+        QCOMPARE(field("wave_number")->text(), QString("10"));
+        for (const QLineEdit* edit : window.findChildren<QLineEdit*>())
+            QVERIFY2(!edit->text().contains('{'), qPrintable(edit->text()));
+        enter(field("height"), "45");
+        QCOMPARE(valueAt(window.workspace().document(), "/model/potential/height")->asNumber(), 45.0);
+        // Another kind comes with its own defaults; one that there is not is refused and stays in the field.
+        enter(field("name"), "nonsense");
+        QCOMPARE(valueAt(window.workspace().document(), "/model/potential/name")->asString(),
+                 std::string("barrier"));
+        QCOMPARE(field("name")->text(), QString("nonsense"));
+        enter(field("name"), "harmonic");
+        QTRY_VERIFY(!field("height") || !field("height")->isVisible());
+        QCOMPARE(valueAt(window.workspace().document(), "/model/potential/name")->asString(),
+                 std::string("harmonic"));
     }
 };
 

@@ -1,0 +1,168 @@
+/// What is edited in place: steps, names, colours and parameters, with the mouse.
+#include <QApplication>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QTest>
+#include <QToolButton>
+
+#include "tests/tools/test.hpp"
+#include "tests/ui/window.hpp"
+#include "ui/panels/explain.hpp"
+#include "ui/panels/scheme_card.hpp"
+#include "ui/panels/scrub_label.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/playback.hpp"
+#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal::rows_test {
+namespace {
+
+void wheel(QWidget& at, int notches, Qt::KeyboardModifiers keys = Qt::NoModifier) {
+    const QPoint centre = at.rect().center();
+    QWheelEvent event(centre, at.mapToGlobal(centre), {}, {0, 120 * notches}, Qt::NoButton, keys,
+                      Qt::NoScrollPhase, false);
+    QApplication::sendEvent(&at, &event);
+}
+
+void drag(QWidget& label, int pixels) {
+    const QPoint from = label.rect().center();
+    QTest::mousePress(&label, Qt::LeftButton, {}, from);
+    for (int k = 1; k <= 10; ++k) {
+        const QPointF at = from + QPointF(pixels * k / 10.0, 0);
+        QMouseEvent move(QEvent::MouseMove, at, label.mapToGlobal(at), Qt::NoButton, Qt::LeftButton,
+                         Qt::NoModifier);
+        QApplication::sendEvent(&label, &move);
+    }
+    QTest::mouseRelease(&label, Qt::LeftButton, {}, from + QPoint(pixels, 0));
+}
+
+}  // namespace
+
+class RowsTest : public QObject {
+    Q_OBJECT
+
+    struct Window : MainWindow {
+        Window() : MainWindow(Theme::light(), false) {
+            resize(1400, 900);
+            show();
+            open("preset:spring-pendulum");
+            QVERIFY(waitForResults(*this));
+        }
+        SchemeCard* card(int index) { return findChild<SchemeCard*>(QString("scheme.%1").arg(index)); }
+        ScrubLabel* step(int index) { return card(index)->findChild<ScrubLabel*>("stepLabel"); }
+        double h(int index) {
+            return workspace().scene().schemes[static_cast<std::size_t>(index)].step.value;
+        }
+        std::vector<bool> on() {
+            std::vector<bool> all;
+            for (const SchemeSpec& s : workspace().scene().schemes) all.push_back(s.isEnabled);
+            return all;
+        }
+    };
+
+private slots:
+    void initTestCase() {
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+    }
+    void theWheelDoublesTheStepOfTheSelectedScheme() {
+        Window window;
+        const double before = window.h(0);
+        wheel(*window.step(0), 1);  // not selected: the list scrolls
+        QCOMPARE(window.h(0), before);
+        window.workspace().selectScheme(0);
+        wheel(*window.step(0), 1);
+        QCOMPARE(window.h(0), 2 * before);
+        wheel(*window.step(0), -2);
+        QCOMPARE(window.h(0), before / 2);
+        window.workspace().undo();
+        QCOMPARE(window.h(0), before);  // one change
+    }
+    void aDragScalesTheStepAndAClickOpensIt() {
+        Window window;
+        const double before = window.h(1);
+        drag(*window.step(1), 50);  // ten notches of a fiftieth of a decade
+        QVERIFY(std::abs(window.h(1) / before - std::pow(10, 0.2)) < 0.02 * std::pow(10, 0.2));
+        auto* field = window.card(1)->findChild<QLineEdit*>("step");
+        QVERIFY(!field->isVisible());
+        QTest::mouseClick(window.step(1), Qt::LeftButton);
+        QVERIFY(field->isVisible());
+        QCOMPARE(window.workspace().selectedScheme(), 1);
+    }
+    void soloLeavesOneSchemeAndBringsAllBack() {
+        Window window;
+        window.workspace().selectScheme(2);
+        window.actions().find("solo")->trigger();
+        QCOMPARE(window.on(), (std::vector<bool>{false, false, true, false, false}));
+        window.actions().find("solo")->trigger();
+        QCOMPARE(window.on(), std::vector<bool>(5, true));
+    }
+    void aColourThatIsTakenIsExchanged() {
+        Window window;
+        const Scene before = window.workspace().scene();
+        QVERIFY(window.workspace().edit(editsForStyle(before, 0, 3), "colour"));
+        const Scene& after = window.workspace().scene();
+        QCOMPARE(styleOf(after.schemes[0], 0), 3);
+        QCOMPARE(styleOf(after.schemes[3], 3), 0);
+        QCOMPARE(styleOf(after.schemes[1], 1), 1);
+        QVERIFY(editsForStyle(after, 0, 3).empty());
+    }
+    void aDoubleClickOnTheNameRenames() {
+        Window window;
+        SchemeCard* card = window.card(0);
+        QTest::mouseDClick(card, Qt::LeftButton, {}, QPoint(70, 18));
+        auto* name = card->findChild<QLineEdit*>("name");
+        QVERIFY(name->isVisible() && !card->isEditing());
+    }
+    void aParameterIsScrubbedByItsLabel() {
+        Window window;
+        const double before = window.workspace().scene().model.number("g");
+        drag(*window.findChild<ScrubLabel*>("label.g"), 50);
+        QVERIFY(window.workspace().scene().model.number("g") > before);
+        window.workspace().undo();
+        QCOMPARE(window.workspace().scene().model.number("g"), before);
+    }
+    void numbersAreExplained() {
+        Window window;
+        const auto tip = [&](const char* name) {
+            return window.card(0)->findChild<QLabel*>(name)->toolTip();
+        };
+        const ReferenceInfo& reference = window.runControl().results()->reference;
+        QVERIFY(tip("error").contains(QString::fromStdString(reference.description)));
+        QVERIFY(tip("error").contains("good to"));
+        QVERIFY(tip("cost").contains("per step") && tip("order").contains("claims the order 8"));
+        Summary summary;
+        summary.maxError = 1e-9;
+        QVERIFY(explainError(summary, {"computed", 1e-8, "x", {}}).contains("upper bound"));
+        QVERIFY(explainError(summary, {"computed", 1e-12, "x", {}}).contains("0.1 %"));
+        QVERIFY(explainError(summary, {}).contains("no reference"));
+    }
+    void aMotionStartsFromTheCursor() {
+        Window window;
+        window.workspace().selectScheme(1);
+        window.playback().setTime(5);
+        const auto result = window.runControl().results()->schemes[1];
+        window.actions().find("startHere")->trigger();
+        const Initial& initial = window.workspace().scene().initial;
+        std::size_t row = 0;
+        const auto t = result->trajectory["t"];
+        while (row + 1 < t.size() && t[row] < 5 - 1e-9) ++row;
+        QCOMPARE(initial.q[1].value, result->trajectory["q.theta"][row]);
+        QCOMPARE(initial.pOrV[0].value, result->trajectory["p.a"][row]);
+        window.workspace().undo();
+        QCOMPARE(window.workspace().scene().initial.q[1].value, 1.0);
+    }
+    void escapeTakesTheSelectionAway() {
+        Window window;
+        window.workspace().selectScheme(1);
+        window.actions().find("stop")->trigger();
+        QCOMPARE(window.workspace().selectedScheme(), -1);
+    }
+};
+
+EXTREMAL_TEST(RowsTest)
+}  // namespace extremal::rows_test
+
+#include "rows_test.moc"
