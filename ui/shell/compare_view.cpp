@@ -1,6 +1,5 @@
 #include "ui/shell/compare_view.hpp"
 
-#include <QGridLayout>
 #include <QMenu>
 #include <QApplication>
 #include <QPointer>
@@ -8,6 +7,7 @@
 #include <QTimer>
 
 #include <algorithm>
+#include <map>
 
 #include "engine/figure/figure.hpp"
 #include "engine/core/text.hpp"
@@ -28,6 +28,8 @@
 
 namespace extremal {
 namespace {
+
+constexpr int wideWidth = 1250;  // of the page, from which three columns have room
 
 /// Views of the same plot: their part and curve may differ, which follow the parameters, but for keys that
 /// choose its axes.
@@ -54,9 +56,8 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     inside_ = new QWidget;
     inside_->setProperty("ground", "window");
-    grid_ = new QGridLayout(inside_);
-    grid_->setContentsMargins(0, 0, 2, 0);
-    grid_->setSpacing(10);
+    cardLayout_ = new CardLayout(inside_);
+    cardLayout_->setContentsMargins(0, 0, 2, 0);
     scroll->setWidget(inside_);
     layout->addWidget(scroll);
 
@@ -70,6 +71,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     connectDrawing();
 
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
+        arranged_.clear();
         for (const auto& s : slots_) delete s->card;
         slots_.clear();
         maximized_ = nullptr;
@@ -77,12 +79,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     });
     connect(&workspace_, &Workspace::sceneChanged, this, &CompareView::rebuild);
     connect(&workspace_, &Workspace::selectionChanged, this, [this] {
-        const int i = workspace_.selectedScheme();
-        const auto& schemes = workspace_.scene().schemes;
-        const QString label = i >= 0 && i < static_cast<int>(schemes.size())
-                                  ? QString::fromStdString(schemes[static_cast<std::size_t>(i)].label)
-                                  : QString();
-        for (const auto& s : slots_) s->plot->setHighlighted(label);
+        for (const auto& s : slots_) s->plot->setHighlighted(selectedLabel());
     });
     connect(&run_, &RunControl::resultsChanged, this, &CompareView::refresh);
     connect(&run_, &RunControl::stateChanged, this, [this] {
@@ -102,6 +99,14 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
 }
 
 CompareView::~CompareView() = default;
+
+QString CompareView::selectedLabel() const {
+    const int i = workspace_.selectedScheme();
+    const auto& schemes = workspace_.scene().schemes;
+    return i >= 0 && i < static_cast<int>(schemes.size())
+               ? QString::fromStdString(schemes[static_cast<std::size_t>(i)].label)
+               : QString();
+}
 
 void CompareView::connectDrawing() {
     draw_ = stageCard_->menu()->addAction(tr("Draw the initial profile"));
@@ -163,12 +168,10 @@ void CompareView::rebuild() {
     for (const auto& slot : before) {
         if (!slot) continue;
         if (slot->card == maximized_) maximized_ = nullptr;
+        std::erase_if(arranged_, [&](const auto& c) { return c.first == slot->card; });
         delete slot->card;
     }
-    if (!isSameSet) {
-        columns_ = 0;
-        arrange();
-    }
+    if (!isSameSet) arrange();
     refresh();
 }
 
@@ -182,7 +185,6 @@ void CompareView::makeMaximizable(Card& card) {
 
 void CompareView::maximize(Card* card) {
     maximized_ = maximized_ == card ? nullptr : card;
-    columns_ = 0;
     arrange();
 }
 
@@ -211,6 +213,7 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     menu->addAction(tr("Copy picture"), plot, &PlotWidget::copyImage);
     menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
     group_->add(plot);
+    plot->setHighlighted(selectedLabel());
     connect(plot, &PlotWidget::cellChosen, this,
             [this, &slot](double value, double step) { loadCase(slot.view, value, step); });
     connectStarting(slot);
@@ -276,48 +279,51 @@ void CompareView::addSceneActions(QMenu& menu, Slot& slot) {
     });
 }
 
+int CompareView::columns() const {
+    switch (pageLayout_) {
+        case PageLayout::oneColumn:
+            return 1;
+        case PageLayout::twoColumns:
+            return 2;
+        case PageLayout::threeColumns:
+            return 3;
+        default:
+            return width() >= wideWidth ? 3 : width() >= 500 ? 2 : 1;
+    }
+}
+
+void CompareView::setPageLayout(PageLayout layout) {
+    pageLayout_ = layout;
+    arrange();
+}
+
+/// Puts the cards in their places, if anything that decides on these has changed.
 void CompareView::arrange() {
-    const int columns = width() >= 500 ? 2 : 1;
-    if (columns == columns_) return;
-    columns_ = columns;
-    while (QLayoutItem* item = grid_->takeAt(0)) delete item;
-    for (int r = 0; r < grid_->rowCount(); ++r)
-        grid_->setRowStretch(r, 0);  // rows that are gone keep no room
-    // Six half-columns: the stage is a little wider than what stands beside it.
-    const int plotHeight = 168;
-    stageCard_->setMinimumHeight(columns == 2 ? 225 : 240);
-    stageCard_->setVisible(maximized_ ? maximized_ == stageCard_ : hasStage_);
-    for (const auto& s : slots_) s->card->setVisible(!maximized_ || maximized_ == s->card);
+    const bool showsStage = hasStage_ && pageLayout_ != PageLayout::plotsOnly;
+    std::vector<std::pair<Card*, CardShape>> cards;
     if (maximized_) {
-        grid_->addWidget(maximized_, 0, 0, 1, 12);
-        grid_->setRowStretch(0, 1);
-        return;
-    }
-    int row = 0;
-    if (!hasStage_) {
-        if (!slots_.empty()) grid_->addWidget(slots_[0]->card, 0, 0, 1, 12);
-    } else if (columns == 2) {
-        grid_->addWidget(stageCard_, 0, 0, 1, 7);
-        if (!slots_.empty()) grid_->addWidget(slots_[0]->card, 0, 7, 1, 5);
+        cards.emplace_back(maximized_, CardShape::plot);
     } else {
-        grid_->addWidget(stageCard_, 0, 0, 1, 12);
-        if (!slots_.empty()) grid_->addWidget(slots_[0]->card, ++row, 0, 1, 12);
+        if (showsStage) cards.emplace_back(stageCard_, CardShape::stage);
+        for (const auto& s : slots_)
+            cards.emplace_back(s->card,
+                               s->plot->figure().aspect == Aspect::equal && !isEmpty(s->plot->figure())
+                                   ? CardShape::square
+                                   : CardShape::plot);
     }
-    grid_->setRowStretch(0, 6);
-    for (std::size_t i = 1; i < slots_.size(); ++i) {
-        const bool isLastAlone = columns == 2 && i + 1 == slots_.size() && i % 2 == 1;
-        if (columns == 1 || i % 2 == 1) ++row;
-        if (columns == 1 || isLastAlone)
-            grid_->addWidget(slots_[i]->card, row, 0, 1, 12);
-        else
-            grid_->addWidget(slots_[i]->card, row, i % 2 == 1 ? 0 : 6, 1, 6);
-        grid_->setRowStretch(row, 5);
-    }
-    for (const auto& s : slots_) s->card->setMinimumHeight(plotHeight);
-    for (int c = 0; c < 12; ++c) {
-        grid_->setColumnStretch(c, 1);
-        grid_->setColumnMinimumWidth(c, 1);
-    }
+    if (columns() == columns_ && cards == arranged_) return;
+    columns_ = columns();
+    arranged_ = std::move(cards);
+    cardLayout_->clear();
+    cardLayout_->setColumns(columns_);
+    const auto isPlaced = [&](const Card* card) {
+        return std::any_of(arranged_.begin(), arranged_.end(),
+                           [&](const auto& c) { return c.first == card; });
+    };
+    for (const auto& [card, shape] : arranged_) cardLayout_->addCard(card, shape);
+    stageCard_->setVisible(isPlaced(stageCard_));
+    for (const auto& s : slots_) s->card->setVisible(isPlaced(s->card));
+    QTimer::singleShot(0, this, &CompareView::alignMargins);
 }
 
 void CompareView::resizeEvent(QResizeEvent* event) {
@@ -339,7 +345,6 @@ void CompareView::refresh() {
         if (const bool draws = system_->independent == "t";
             draws != hasStage_) {  // nothing moves along a place
             hasStage_ = draws;
-            columns_ = 0;
             arrange();
         }
     }
@@ -412,6 +417,7 @@ void CompareView::take(FigureSet made) {
         stage_->setTime(playback_.time());
     }
     if (made.figures.empty()) return;
+    arrange();
     showStarts();
     QTimer::singleShot(0, this, &CompareView::alignMargins);
     emit figuresChanged();
@@ -432,17 +438,14 @@ void CompareView::loadCase(const View& view, double value, double step) {
     emit caseLoaded(text);
 }
 
+/// Plots below each other share their left edge: the widest margin of those that begin at the same place.
 void CompareView::alignMargins() {
-    // Plots above each other share their left edge: the widest margin of each column.
-    for (const int parity : {0, 1}) {
-        int widest = 0;
-        for (std::size_t i = 1; i < slots_.size(); ++i)
-            if (columns_ == 1 || static_cast<int>(i % 2) == parity)
-                widest = std::max(widest, slots_[i]->plot->leftMargin());
-        for (std::size_t i = 1; i < slots_.size(); ++i)
-            if (columns_ == 1 || static_cast<int>(i % 2) == parity)
-                slots_[i]->plot->setLeftMargin(std::min(widest, 90));
+    std::map<int, int> widest;
+    for (const auto& s : slots_) {
+        int& margin = widest[s->card->x()];
+        margin = std::max(margin, s->plot->leftMargin());
     }
+    for (const auto& s : slots_) s->plot->setLeftMargin(std::min(widest[s->card->x()], 90));
 }
 
 void CompareView::fitAll() {

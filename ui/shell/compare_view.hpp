@@ -10,11 +10,11 @@
 
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
+#include "ui/shell/card_layout.hpp"
 #include "ui/shell/figure_job.hpp"
 #include "ui/shell/profile_drawing.hpp"
 
 class QAction;
-class QGridLayout;
 class QMenu;
 
 namespace extremal {
@@ -28,6 +28,15 @@ class StageWidget;
 struct Theme;
 class Workspace;
 
+/// How the cards of the page share its room.
+enum class PageLayout {
+    automatic,  ///< as many columns as the window has room for
+    oneColumn,
+    twoColumns,
+    threeColumns,
+    plotsOnly,  ///< as automatic, without the stage
+};
+
 class CompareView : public QWidget {
     Q_OBJECT
 public:
@@ -39,7 +48,11 @@ public:
     /// The plot that was last clicked, else the first one; null if there is none.
     PlotWidget* currentPlot() const;
     StageWidget* stage() const { return stage_; }
+    bool hasStage() const { return hasStage_; }
     std::vector<PlotWidget*> plots() const;
+    void setPageLayout(PageLayout layout);
+    PageLayout pageLayout() const { return pageLayout_; }
+    int columns() const;
     /// One card takes the whole page; the same one again, or restore(), brings the others back.
     void maximize(Card* card);
     /// False if nothing was maximised.
@@ -73,13 +86,14 @@ private:
     Slot& makeSlot(const View& view);
     void makeMaximizable(Card& card);
     void addSceneActions(QMenu& menu, Slot& slot);
-    void arrange();  ///< the same cards, another width
+    void arrange();
     void refresh();  ///< new results
     FigureJob missing() const;
     void startJob();
     void take(FigureSet made);
     void alignMargins();
     void loadCase(const View& view, double value, double step);
+    QString selectedLabel() const;     ///< empty: no scheme is selected
     void connectDrawing();             ///< of initial profiles, on the stage
     void connectStarting(Slot& slot);  ///< of motions, in its plot
     void showStarts();                 ///< the handles of the scene's start
@@ -92,7 +106,9 @@ private:
     const Theme* theme_;
     PlotGroup* group_;
     QWidget* inside_;
-    QGridLayout* grid_;
+    CardLayout* cardLayout_;
+    PageLayout pageLayout_ = PageLayout::automatic;
+    std::vector<std::pair<Card*, CardShape>> arranged_;
     Card *stageCard_, *maximized_ = nullptr;
     QAction* draw_ = nullptr;
     std::optional<ProfileDrawing> drawing_;  ///< of the stroke that is being made

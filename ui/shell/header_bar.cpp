@@ -58,6 +58,7 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     auto* save = button(tr("Export"), tr("Export everything into a folder (Ctrl+Shift+E)"), this);
     auto* palette = button(tr("Ctrl+K"), tr("Find an action or a preset"), this);
     for (QPushButton* b : {runButton_, step, save, palette}) row->addWidget(b);
+    secondary_ = {step, save};
     connect(runButton_, &QPushButton::clicked, this, [this] {
         if (run_.isRunning())
             emit stopRequested();
@@ -75,6 +76,13 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     showScene();
     showState();
     showChoice();
+}
+
+void HeaderBar::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    constexpr int narrow = 940;  // below, what menus and the title of the window have as well gives way
+    file_->setVisible(width() >= narrow);
+    for (QPushButton* button : secondary_) button->setVisible(width() >= narrow);
 }
 
 void HeaderBar::showScene() {

@@ -3,6 +3,8 @@
 
 #include <QWidget>
 
+#include <vector>
+
 class QLabel;
 class QPushButton;
 class QSlider;
@@ -25,6 +27,9 @@ signals:
     void exportRequested();
     void paletteRequested();
 
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
 private:
     void showScene();
     void showState();
@@ -33,6 +38,7 @@ private:
     Workspace& workspace_;
     RunControl& run_;
     QLabel *title_, *file_, *choice_;
+    std::vector<QPushButton*> secondary_;  ///< which a narrow window does without
     QSlider* wanted_;
     QPushButton* runButton_;
 };

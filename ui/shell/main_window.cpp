@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -38,6 +39,7 @@
 #include "ui/shell/notices.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/timeline.hpp"
 #include "ui/shell/typeset.hpp"
@@ -64,6 +66,7 @@ MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), i
         restoreGeometry(settings.value("window/geometry").toByteArray());
         autosave_ = new Autosave(*workspace_, *notices_, Autosave::defaultDirectory(), this);
         offerUnsaved();
+        keepRecent();
     }
     showScene();
     showStatus();
@@ -178,8 +181,7 @@ void MainWindow::makePages() {
     splitter_->addWidget(centre);
     splitter_->addWidget(schemes_);
     splitter_->setStretchFactor(1, 1);
-    left->setMinimumWidth(264);  // the discretizer's six columns and a scroll bar
-    schemes_->setMinimumWidth(208);
+    left_ = left;
     auto* work = new QWidget;
     auto* workRow = new QVBoxLayout(work);
     workRow->setContentsMargins(12, 12, 12, 4);
@@ -198,6 +200,15 @@ void MainWindow::makePages() {
     connect(startPage_, &StartPage::presetChosen, this,
             [this](const QString& name) { open("preset:" + name); });
     connect(startPage_, &StartPage::openRequested, this, &MainWindow::openDialog);
+    connect(startPage_, &StartPage::newRequested, this, &MainWindow::newFromLagrangian);
+    connect(startPage_, &StartPage::fileChosen, this, [this](const QString& path) { open(path); });
+    for (const auto& [widget, page] : {std::pair<QWidget*, const char*>{left_, "models"},
+                                       {discretizer_, "spaces"},
+                                       {compare_, "observables"},
+                                       {studies_, "studies"},
+                                       {schemes_, "schemes"},
+                                       {startPage_, "tour"}})
+        widget->setProperty("help", page);  // of F1
     stack_ = new QStackedWidget;
     stack_->addWidget(startPage_);
     stack_->addWidget(work);
@@ -212,6 +223,8 @@ void MainWindow::makePages() {
 void MainWindow::connectState() {
     connect(workspace_, &Workspace::sceneChanged, this, &MainWindow::showScene);
     connect(workspace_, &Workspace::fileChanged, this, &MainWindow::showScene);
+    connect(workspace_, &Workspace::fileChanged, this, &MainWindow::keepRecent);
+    connect(workspace_, &Workspace::opened, this, &MainWindow::keepRecent);
     connect(workspace_, &Workspace::agreedToRead, this, [this](const QString& name) { open(name, true); });
     connect(notices_, &Notices::logRequested, this, &MainWindow::showLog);
     connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);
@@ -236,6 +249,29 @@ bool MainWindow::open(const QString& scene, bool isTrusted) {
     return isOpen;
 }
 
+void MainWindow::newFromLagrangian() {
+    if (!mayLeaveScene()) return;
+    workspace_->adopt(newLagrangianScene());
+    stack_->setCurrentIndex(1);
+}
+
+/// Files that were opened or saved, the latest first; of the last session as well.
+void MainWindow::keepRecent() {
+    if (!isRemembered_) return;
+    constexpr qsizetype most = 8;
+    QSettings settings;
+    QStringList files = settings.value("window/recent").toStringList();
+    if (const QString path = workspace_->path(); !path.isEmpty()) {
+        const QString file = QFileInfo(path).absoluteFilePath();
+        files.removeAll(file);
+        files.prepend(file);
+    }
+    files.removeIf([](const QString& file) { return !QFileInfo::exists(file); });
+    files = files.mid(0, most);
+    settings.setValue("window/recent", files);
+    startPage_->setRecent(files);
+}
+
 void MainWindow::setTheme(const Theme& theme) {
     theme_ = theme;
     applyTheme(*qApp, theme_);
@@ -244,6 +280,7 @@ void MainWindow::setTheme(const Theme& theme) {
     compare_->setTheme(theme_);
     studies_->setTheme(theme_);
     startPage_->setTheme(theme_);
+    shareWidth();
     if (isRemembered_) {
         QSettings settings;
         settings.setValue("window/dark", theme_.isDark);
@@ -350,9 +387,18 @@ void MainWindow::dropEvent(QDropEvent* event) {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
     QMainWindow::resizeEvent(event);
+    shareWidth();
+}
+
+/// The side panels are as wide as their texts ask for, unless they are folded.
+void MainWindow::shareWidth() {
     if (splitter_->count() < 3) return;
-    const int side = std::clamp(width() * 18 / 100, 250, 300);
-    const int right = std::clamp(width() * 19 / 100, 208, 310);
+    const double scale = std::max(1.0, theme_.fontScale);
+    const auto scaled = [&](int width) { return static_cast<int>(std::lround(scale * width)); };
+    left_->setMinimumWidth(scaled(264));  // the discretizer's six columns and a scroll bar
+    schemes_->setMinimumWidth(scaled(208));
+    const int side = left_->isHidden() ? 0 : std::clamp(width() * 18 / 100, scaled(264), scaled(300));
+    const int right = schemes_->isHidden() ? 0 : std::clamp(width() * 19 / 100, scaled(208), scaled(310));
     splitter_->setSizes({side, width() - side - right - 48, right});
 }
 

@@ -4,6 +4,11 @@
 
 #include <QMainWindow>
 
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+
 #include "ui/shell/theme.hpp"
 
 class QLabel;
@@ -19,9 +24,11 @@ class Actions;
 class Autosave;
 class CompareView;
 class Discretizer;
+struct ExportParts;
 class HelpWindow;
 class LogWindow;
 class Notices;
+class PassportWindow;
 class Playback;
 class RunControl;
 class SchemeList;
@@ -67,19 +74,33 @@ private:
     void addFileActions();
     void addEditActions();
     void addViewActions();
+    void addLayoutActions(const QString& menu);
     void fillPlots(QMenu& menu);
     void toggleScheme(int index);
     void addRunActions();
     void addStudyActions();
+    void startFromCursor();
+    void shareWidth();
     void showScene();
     void showStatus();
     void offerUnsaved();
     bool mayLeaveScene();
     void showLog();
+    void showHelp(const QString& page);
     void showValues();
     void openDialog();
+    void newFromLagrangian();
+    void keepRecent();
     void save(bool asksName);
     void exportDialog();
+    std::optional<ExportParts> partsOfExport();
+    void startExport(const QString& folder);
+    void continueExport(const std::shared_ptr<std::deque<std::function<QString()>>>& steps,
+                        const QString& problem, const QString& folder);
+    bool tellOfExport(const QString& problem, const QString& file, const QString& folder);
+    void exportReport();
+    void copyScene();
+    void pasteScene();
     void showPalette();
     double rowStep() const;
 
@@ -100,10 +121,12 @@ private:
     ValuesTable* values_;
     HelpWindow* help_ = nullptr;
     LogWindow* log_ = nullptr;
+    PassportWindow* passport_ = nullptr;
     QStackedWidget* stack_;  ///< start page or work page
     QStackedWidget* pages_;  ///< Compare, Notes, Studies
     QTabBar* tabs_;
     QSplitter* splitter_;
+    QWidget* left_;  ///< the panel of the scene
     QTextBrowser* notes_;
     QLabel* status_;
 };

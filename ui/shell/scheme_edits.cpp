@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/core/text.hpp"
 #include "engine/view/catalog.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
@@ -235,11 +236,58 @@ std::vector<Edit> editsForToggle(const Scene& scene, int index) {
     return {{place(index) + "/enabled", !scene.schemes[static_cast<std::size_t>(index)].isEnabled}};
 }
 
+std::vector<Edit> editsForSolo(const Scene& scene, int index) {
+    const auto own = static_cast<std::size_t>(index);
+    bool isAlone = scene.schemes[own].isEnabled;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+        isAlone = isAlone && (i == own || !scene.schemes[i].isEnabled);
+    std::vector<Edit> edits;
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i)
+        if (const bool isOn = isAlone || i == own; isOn != scene.schemes[i].isEnabled)
+            edits.push_back({place(static_cast<int>(i)) + "/enabled", isOn});
+    return edits;
+}
+
+std::vector<Edit> editsForStyle(const Scene& scene, int index, int style) {
+    std::vector<StyledScheme> schemes = styledSchemes(scene);
+    int& own = schemes[static_cast<std::size_t>(index)].style;
+    if (own == style) return {};
+    for (StyledScheme& other : schemes)
+        if (other.style == style) other.style = own;
+    own = style;
+    return editsForSchemes(std::move(schemes));
+}
+
+std::vector<Edit> editsForStep(const Scene& scene, int index, double factor) {
+    const SchemeSpec& spec = scene.schemes[static_cast<std::size_t>(index)];
+    const double now = spec.tolerance ? *spec.tolerance : spec.step.value;
+    if (!(now > 0)) return {};
+    const double unit = std::pow(10.0, std::floor(std::log10(now * factor)) - 2);
+    // Through text, so that the number is the shortest one.
+    const auto next = parseNumber(formatNumber(std::round(now * factor / unit) * unit, 3));
+    if (!next || *next == now) return {};
+    return {{place(index) + (spec.tolerance ? "/tolerance" : "/step"), *next}};
+}
+
 Value exampleModel(const ModelEntry& entry) {
     Value model(Value::Object{{"type", entry.item.id}});
     for (const FieldInfo& field : entry.item.parameters)
         if (!field.example.isNull()) model.set(field.key, field.example);
     return model;
+}
+
+Value newLagrangianScene() {
+    const ModelEntry* entry = findModel("lagrangian");
+    const double step = entry->exampleStep > 0 ? entry->exampleStep : 0.1;
+    Value scene(Value::Object{{"extremal", 1}, {"title", "A Lagrangian of my own"}});
+    scene.set("model", exampleModel(*entry));
+    scene.set("time", Value(Value::Object{{"start", 0}, {"end", 200 * step}}));
+    scene.set("schemes",
+              Value(Value::Array{
+                  Value(Value::Object{
+                      {"label", "Galerkin Gauss 4"}, {"step", step}, {"scheme", "galerkin-gauss-2"}}),
+                  Value(Value::Object{{"label", "RK4"}, {"step", step}, {"baseline", "rk4"}})}));
+    return scene;
 }
 
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry) {

@@ -29,8 +29,16 @@ std::vector<Edit> editsForDuplicate(const Scene& scene, int index);
 std::vector<Edit> editsForRemoval(const Scene& scene, int index);
 std::vector<Edit> editsForMove(const Scene& scene, int index, int by);
 std::vector<Edit> editsForToggle(const Scene& scene, int index);
+/// This scheme alone is on; all of them, if it is that already.
+std::vector<Edit> editsForSolo(const Scene& scene, int index);
+/// Another colour and dash; a scheme that has these takes the old ones.
+std::vector<Edit> editsForStyle(const Scene& scene, int index, int style);
+/// The step, or the tolerance, times a factor, to three digits; none for a scheme that has neither.
+std::vector<Edit> editsForStep(const Scene& scene, int index, double factor);
 /// The model with the values it starts from, where they are not its defaults.
 Value exampleModel(const ModelEntry& entry);
+/// A scene to begin with: a Lagrangian to be typed, and two schemes.
+Value newLagrangianScene();
 /// Another model: its example data and views, and a step that suits it for every scheme. Schemes that the
 /// model has no use for turn into discretizations of the same order, or go.
 std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);

@@ -1,10 +1,12 @@
 #include "ui/shell/start_page.hpp"
 
 #include <QApplication>
+#include <QFileInfo>
 #include <QGridLayout>
+#include <QHideEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QLocale>
-#include <QMouseEvent>
 #include <QPointer>
 #include <QPushButton>
 #include <QScrollArea>
@@ -12,60 +14,16 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <functional>
-#include <optional>
 
-#include "engine/figure/figure.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
 #include "ui/panels/card.hpp"
-#include "ui/plots/plot_renderer.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/banners.hpp"
+#include "ui/shell/card_picture.hpp"
+#include "ui/stage/surface.hpp"
 
 namespace extremal {
-namespace {
-
-constexpr QSize pictureSize(300, 170);
-
-/// A card that is one big button.
-class PresetCard : public Card {
-public:
-    PresetCard(const QString& title, std::function<void()> act, QWidget* parent)
-        : Card(title, parent), act_(std::move(act)) {
-        setFocusPolicy(Qt::StrongFocus);
-        setCursor(Qt::PointingHandCursor);
-        setAccessibleName(title);
-    }
-
-protected:
-    void mouseReleaseEvent(QMouseEvent* event) override {
-        if (event->button() == Qt::LeftButton && rect().contains(event->pos())) act_();
-    }
-    void keyPressEvent(QKeyEvent* event) override {
-        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space)
-            act_();
-        else
-            Card::keyPressEvent(event);
-    }
-    void enterEvent(QEnterEvent*) override { setSelected(true); }
-    void leaveEvent(QEvent*) override { setSelected(hasFocus()); }
-    void focusInEvent(QFocusEvent*) override { setSelected(true); }
-    void focusOutEvent(QFocusEvent*) override { setSelected(false); }
-
-private:
-    std::function<void()> act_;
-};
-
-}  // namespace
-
-struct StartPage::Entry {
-    Scene scene;
-    PresetCard* card;
-    QLabel* picture;
-    Comparison result;
-    std::optional<UnsavedScene> unsaved;  ///< else a preset
-};
 
 StartPage::StartPage(const Theme& theme, Notices& notices, QWidget* parent)
     : QWidget(parent), theme_(&theme), timer_(new QTimer(this)) {
@@ -74,24 +32,13 @@ StartPage::StartPage(const Theme& theme, Notices& notices, QWidget* parent)
     auto* scroll = new QScrollArea;
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     inside_ = new QWidget;
     inside_->setProperty("ground", "window");
     auto* column = new QVBoxLayout(inside_);
     column->setContentsMargins(24, 20, 24, 20);
     column->setSpacing(14);
-    auto* head = new QHBoxLayout;
-    auto* words = new QVBoxLayout;
-    words->setSpacing(3);
-    words->addWidget(makeLabel(tr("Choose a comparison"), "heading"));
-    words->addWidget(makeLabel(
-        tr("Pick a function space and a quadrature rule: the stationarity of the discrete action is the "
-           "integrator. Each card is a finished comparison; change anything in it."),
-        "caption"));
-    head->addLayout(words, 1);
-    auto* open = new QPushButton(tr("Open a scene..."));
-    connect(open, &QPushButton::clicked, this, &StartPage::openRequested);
-    head->addWidget(open);
-    column->addLayout(head);
+    makeHead(*column);
     column->addWidget(new Banners(notices));
     unsaved_ = new QWidget;
     unsaved_->setObjectName("unsaved");
@@ -104,109 +51,156 @@ StartPage::StartPage(const Theme& theme, Notices& notices, QWidget* parent)
     unsavedColumn->addLayout(unsavedGrid_);
     unsaved_->hide();
     column->addWidget(unsaved_);
-    grid_ = new QGridLayout;
-    grid_->setSpacing(12);
-    column->addLayout(grid_);
+    gallery_ = new QVBoxLayout;
+    gallery_->setSpacing(14);
+    column->addLayout(gallery_);
     column->addStretch();
     scroll->setWidget(inside_);
     layout->addWidget(scroll);
-
     timer_->setInterval(25);
     connect(timer_, &QTimer::timeout, this, &StartPage::work);
 }
 
-StartPage::~StartPage() { reading_.request_stop(); }
-
-/// Reads the presets in another thread, some of which take a while, and adds their cards as they come: the
-/// headline first, then the others by name.
-void StartPage::readPresets() {
-    hasReadPresets_ = true;
-    runInBackground([self = QPointer(this), stop = reading_.get_token()] {
-        std::vector<const Preset*> order;
-        for (const Preset& p : presets()) order.push_back(&p);
-        std::stable_partition(order.begin(), order.end(),
-                              [](const Preset* p) { return p->id == "spring-pendulum"; });
-        for (const Preset* p : order) {
-            if (stop.stop_requested()) return;
-            auto read = std::make_shared<ReadScene>(readScene(p->json));
-            if (!read->errors.empty()) continue;
-            QMetaObject::invokeMethod(
-                qApp,
-                [self, read, id = QString::fromUtf8(p->id.data(), static_cast<qsizetype>(p->id.size()))] {
-                    if (self) self->addPreset(id, std::move(read->scene));
-                },
-                Qt::QueuedConnection);
-        }
+void StartPage::makeHead(QVBoxLayout& column) {
+    auto* head = new QHBoxLayout;
+    auto* words = new QVBoxLayout;
+    words->setSpacing(3);
+    words->addWidget(makeLabel(tr("Choose a comparison"), "heading"));
+    auto* about = makeLabel(
+        tr("Pick a function space and a quadrature rule: the stationarity of the discrete action is the "
+           "integrator. Each card is a finished comparison; change anything in it."),
+        "caption");
+    about->setWordWrap(true);
+    words->addWidget(about);
+    head->addLayout(words, 1);
+    search_ = new QLineEdit;
+    search_->setObjectName("search");
+    search_->setPlaceholderText(tr("Search"));
+    search_->setAccessibleName(tr("Search the presets"));
+    search_->setClearButtonEnabled(true);
+    search_->setMinimumWidth(160);
+    connect(search_, &QLineEdit::textChanged, this, [this] {
+        columns_ = 0;
+        arrange();
     });
+    connect(search_, &QLineEdit::returnPressed, this, [this] {
+        if (const QStringList shown = shownPresets(); !shown.isEmpty()) emit presetChosen(shown.front());
+    });
+    head->addWidget(search_, 0, Qt::AlignVCenter);
+    auto* lagrangian = new QPushButton(tr("New from a Lagrangian"));
+    lagrangian->setObjectName("newLagrangian");
+    connect(lagrangian, &QPushButton::clicked, this, &StartPage::newRequested);
+    head->addWidget(lagrangian, 0, Qt::AlignVCenter);
+    auto* open = new QPushButton(tr("Open a scene..."));
+    connect(open, &QPushButton::clicked, this, &StartPage::openRequested);
+    head->addWidget(open, 0, Qt::AlignVCenter);
+    column.addLayout(head);
+    recent_ = new QWidget;
+    recentRow_ = new QHBoxLayout(recent_);
+    recentRow_->setContentsMargins(0, 0, 0, 0);
+    recent_->hide();
+    column.addWidget(recent_);
 }
 
-void StartPage::addPreset(const QString& id, Scene scene) {
-    const QString title = QString::fromStdString(scene.title), lesson = QString::fromStdString(scene.lesson);
-    const Entry& entry = addCard(std::move(scene), title, lesson, [this, id] { emit presetChosen(id); });
-    const int at = grid_->count();
-    if (columns_ > 0) grid_->addWidget(entry.card, at / columns_, at % columns_);
-    if (isVisible()) timer_->start();
+void StartPage::makeSections() {
+    for (const GallerySection& section : readGallery()) {
+        auto* box = new QWidget;
+        auto* inBox = new QVBoxLayout(box);
+        inBox->setContentsMargins(0, 4, 0, 0);
+        auto* title = new QHBoxLayout;
+        title->addWidget(makeLabel(section.title, "title"));
+        title->addWidget(makeElidedLabel(section.about, "caption"), 1);
+        inBox->addLayout(title);
+        auto* grid = new QGridLayout;
+        grid->setSpacing(12);
+        inBox->addLayout(grid);
+        gallery_->addWidget(box);
+        Section& made = sections_.emplace_back(Section{box, grid, {}});
+        for (const GalleryItem& item : section.items) {
+            made.entries.push_back(entries_.size());
+            auto* card = new GalleryCard(item.title, item.lesson, box);
+            card->setObjectName("preset." + item.id);
+            connect(card, &GalleryCard::chosen, this, [this, id = item.id] { emit presetChosen(id); });
+            entries_.push_back(std::make_unique<Entry>(Entry{card, item.id, item}));
+        }
+    }
 }
 
-StartPage::Entry& StartPage::addCard(Scene scene, const QString& title, const QString& text,
-                                     std::function<void()> act) {
-    auto entry = std::make_unique<Entry>();
-    entry->scene = std::move(scene);
-    entry->card = new PresetCard(title, std::move(act), inside_);
-    entry->picture = new QLabel(entry->card);
-    entry->picture->setFixedHeight(pictureSize.height());
-    entry->picture->setAlignment(Qt::AlignCenter);
-    entry->card->body()->addWidget(entry->picture);
-    auto* label = makeLabel(text, "caption", entry->card);
-    label->setWordWrap(true);
-    label->setMinimumHeight(34);
-    label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-    entry->card->body()->addWidget(label);
-    waiting_.push_back(entries_.size());
-    return *entries_.emplace_back(std::move(entry));
+void StartPage::setRecent(const QStringList& files) {
+    while (QLayoutItem* item = recentRow_->takeAt(0)) {
+        if (item->widget()) item->widget()->deleteLater();
+        delete item;
+    }
+    recentRow_->addWidget(makeLabel(tr("Recent"), "title"));
+    for (const QString& file : files) {
+        auto* button = new QPushButton(QFileInfo(file).fileName());
+        button->setProperty("kind", "flat");
+        button->setToolTip(file);
+        connect(button, &QPushButton::clicked, this, [this, file] { emit fileChosen(file); });
+        recentRow_->addWidget(button);
+    }
+    recentRow_->addStretch();
+    recent_->setVisible(!files.isEmpty());
 }
 
 void StartPage::offer(std::vector<UnsavedScene> scenes) {
-    std::erase_if(entries_, [](const auto& entry) {
-        if (entry->unsaved) entry->card->deleteLater();
-        return entry->unsaved.has_value();
-    });
     waiting_.clear();
-    for (std::size_t i = 0; i < entries_.size(); ++i)
-        if (entries_[i]->picture->pixmap().isNull()) waiting_.push_back(i);
-    for (UnsavedScene& scene : scenes) {
+    run_.reset();
+    for (const auto& entry : unsavedEntries_) entry->card->deleteLater();
+    unsavedEntries_.clear();
+    for (const UnsavedScene& scene : scenes) {
         ReadScene read = readScene(scene.document);
         const QString when = QLocale().toString(scene.time, "d MMMM, HH:mm"),
                       title = QString::fromStdString(read.scene.title);
-        Entry& entry = addCard(std::move(read.scene), scene.name,
-                               title.isEmpty() ? when : title + QStringLiteral("  ·  ") + when,
-                               [this, scene] { emit restoreRequested(scene); });
-        entry.unsaved = scene;
-        auto* discard = new QPushButton(tr("Discard"), entry.card);
+        auto* card = new GalleryCard(
+            scene.name, title.isEmpty() ? when : title + QStringLiteral("  ·  ") + when, unsaved_);
+        connect(card, &GalleryCard::chosen, this, [this, scene] { emit restoreRequested(scene); });
+        auto* discard = new QPushButton(tr("Discard"), card);
         discard->setProperty("kind", "flat");
         discard->setAccessibleName(tr("Discard %1").arg(scene.name));
         connect(discard, &QPushButton::clicked, this, [this, scene] { emit discardRequested(scene); });
-        entry.card->header()->addWidget(discard);
-        waiting_.pop_back();  // its picture is the first one to be made
-        if (read.errors.empty()) waiting_.push_front(entries_.size() - 1);
+        card->header()->addWidget(discard);
+        Entry& entry = *unsavedEntries_.emplace_back(std::make_unique<Entry>(Entry{card, {}}));
+        if (!read.errors.empty()) continue;
+        entry.scene = std::move(read.scene);
+        waiting_.push_back(&entry);
     }
     unsaved_->setVisible(!scenes.empty());
     columns_ = 0;
     arrange();
-    if (isVisible()) timer_->start();
+    if (hasLoaded_) loadPictures();
 }
 
 void StartPage::setTheme(const Theme& theme) {
     theme_ = &theme;
     waiting_.clear();
-    for (std::size_t i = 0; i < entries_.size(); ++i) waiting_.push_back(i);
-    if (isVisible()) timer_->start();
+    for (const auto& entry : unsavedEntries_)
+        if (entry->scene) waiting_.push_back(entry.get());
+    hasLoaded_ = false;
+    if (isVisible()) loadPictures();
 }
 
 void StartPage::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
-    if (!hasReadPresets_) readPresets();
+    if (sections_.empty()) {
+        makeSections();
+        columns_ = 0;
+        arrange();
+        hasLoaded_ = false;
+    }
+    if (!hasLoaded_) loadPictures();
     timer_->start();
+}
+
+/// The cards are made anew when the page is shown again: a change of theme would style all of them.
+void StartPage::hideEvent(QHideEvent* event) {
+    QWidget::hideEvent(event);
+    if (event->spontaneous()) return;
+    run_.reset();
+    std::erase_if(waiting_, [](const Entry* entry) { return !entry->preset.isEmpty(); });
+    for (const Section& section : sections_) section.box->deleteLater();
+    sections_.clear();
+    entries_.clear();
 }
 
 void StartPage::resizeEvent(QResizeEvent* event) {
@@ -214,48 +208,114 @@ void StartPage::resizeEvent(QResizeEvent* event) {
     arrange();
 }
 
+void StartPage::search(const QString& text) { search_->setText(text); }
+
+QStringList StartPage::shownPresets() const {
+    QStringList shown;
+    for (const Section& section : sections_)
+        for (const std::size_t i : section.entries)
+            if (!entries_[i]->card->isHidden()) shown << entries_[i]->preset;
+    return shown;
+}
+
 void StartPage::arrange() {
-    const int columns = std::max(1, (width() - 40) / (pictureSize.width() + 44));
+    const int columns = std::max(1, (width() - 40) / (cardPictureSize.width() + 44));
     if (columns == columns_) return;
     columns_ = columns;
-    for (QGridLayout* grid : {grid_, unsavedGrid_})
-        while (QLayoutItem* item = grid->takeAt(0)) delete item;
-    for (const auto& entry : entries_) {
-        QGridLayout* grid = entry->unsaved ? unsavedGrid_ : grid_;
-        const int at = grid->count();
-        grid->addWidget(entry->card, at / columns, at % columns);
-    }
-    for (int c = 0; c < columns; ++c) {
-        unsavedGrid_->setColumnStretch(c, 1);  // one card alone is as wide as the others
-        unsavedGrid_->setColumnMinimumWidth(c, 1);
+    const auto fill = [&](QGridLayout& grid, const std::vector<GalleryCard*>& cards) {
+        while (QLayoutItem* item = grid.takeAt(0)) delete item;
+        int at = 0;
+        for (GalleryCard* card : cards) {
+            grid.addWidget(card, at / columns, at % columns);
+            ++at;
+        }
+        for (int c = 0; c < std::max(columns, grid.columnCount()); ++c) {
+            grid.setColumnStretch(c, c < columns ? 1 : 0);  // one card alone is as wide as the others
+            grid.setColumnMinimumWidth(c, c < columns ? 1 : 0);
+        }
+    };
+    std::vector<GalleryCard*> cards;
+    for (const auto& entry : unsavedEntries_) cards.push_back(entry->card);
+    fill(*unsavedGrid_, cards);
+    const QString text = search_->text();
+    for (const Section& section : sections_) {
+        cards.clear();
+        for (const std::size_t i : section.entries) {
+            const bool isFound = matches(entries_[i]->item, text);
+            entries_[i]->card->setVisible(isFound);
+            if (isFound) cards.push_back(entries_[i]->card);
+        }
+        fill(*section.grid, cards);
+        section.box->setVisible(!cards.empty());
     }
 }
 
+/// Pictures come from files, read in another thread; what has none is made afterwards.
+void StartPage::loadPictures() {
+    hasLoaded_ = true;
+    QStringList presets;
+    for (const auto& entry : entries_) presets << entry->preset;
+    runInBackground(
+        [self = QPointer(this), presets, folder = presetPictureFolder(), isDark = theme_->isDark] {
+            for (qsizetype i = 0; i < presets.size(); ++i) {
+                QImage image(presetPictureFile(folder, presets[i], isDark));
+                image.setDevicePixelRatio(cardPictureRatio);
+                QMetaObject::invokeMethod(
+                    qApp,
+                    [self, i, image, isDark] {
+                        if (!self || self->theme_->isDark != isDark) return;
+                        if (static_cast<std::size_t>(i) >= self->entries_.size()) return;  // hidden meanwhile
+                        Entry& entry = *self->entries_[static_cast<std::size_t>(i)];
+                        if (!image.isNull()) return entry.card->setPicture(image);
+                        self->waiting_.push_back(&entry);
+                        self->timer_->start();
+                    },
+                    Qt::QueuedConnection);
+            }
+        });
+    timer_->start();
+}
+
 void StartPage::work() {
+    if (isReading_) return;
     if (!isVisible() || waiting_.empty()) {
         timer_->stop();
         run_.reset();
         return;
     }
-    Entry& entry = *entries_[waiting_.front()];
-    if (entry.result.schemes.empty()) {
+    Entry& entry = *waiting_.front();
+    if (!entry.scene) {  // some presets take a while to be read
+        isReading_ = true;
+        runInBackground([self = QPointer(this), id = entry.preset] {
+            const Preset* preset = findPreset(id.toStdString());
+            auto read = std::make_shared<ReadScene>(readScene(preset->json));
+            QMetaObject::invokeMethod(
+                qApp,
+                [self, read, id] {
+                    if (!self) return;
+                    self->isReading_ = false;
+                    for (const auto& e : self->entries_)
+                        if (e->preset == id) e->scene = sceneOfPicture(std::move(read->scene));
+                },
+                Qt::QueuedConnection);
+        });
+        return;
+    }
+    if (!entry.result) {
         if (!run_) {
-            run_ = std::make_unique<Run>(entry.scene, RunOptions{1});
+            RunOptions options{.threads = 1, .products = {Product::denseOutput}};
+            options.isTimed = false;
+            run_ = std::make_unique<Run>(sceneOfPicture(*entry.scene), options);
             run_->start();
         }
         if (!run_->isFinished()) return;
-        entry.result = run_->latest();
+        entry.result = std::make_shared<const Comparison>(run_->latest());
         run_.reset();
     }
-    const std::vector<View> views = plotViews(entry.scene);
-    if (!views.empty()) {
-        const Figure figure = makeFigure(entry.result, views.front());
-        PlotOptions options;
-        options.hasHeader = options.hasLegend = false;
-        const double ratio = devicePixelRatioF();
-        QImage image = renderFigure(figure, pictureSize, *theme_, ratio, options);
-        image.setDevicePixelRatio(ratio);
-        entry.picture->setPixmap(QPixmap::fromImage(image));
+    try {
+        entry.card->setPicture(cardPicture(entry.result, *theme_, devicePixelRatioF()));
+    } catch (const OpenGlUnavailable&) {
+        // A card without a picture.
     }
     waiting_.pop_front();
 }

@@ -1,66 +1,88 @@
-/// The start page: a gallery of the presets, each with a picture rendered by the program itself and its
-/// lesson; before them the scenes that an earlier session has left unsaved.
+/// The start page: the scenes that an earlier session has left unsaved, the recent files, and the presets in
+/// sections, each with its picture and its lesson; a field searches them.
 #pragma once
 
 #include <QWidget>
 
 #include <deque>
-#include <functional>
 #include <memory>
-#include <stop_token>
-#include <string>
+#include <optional>
+#include <vector>
 
 #include "engine/run/run.hpp"
 #include "engine/scene/scene.hpp"
 #include "ui/shell/autosave.hpp"
+#include "ui/shell/gallery.hpp"
 
 class QGridLayout;
-class QPushButton;
+class QHBoxLayout;
+class QLineEdit;
 class QTimer;
+class QVBoxLayout;
 
 namespace extremal {
 
-struct Theme;
-
 class Notices;
+struct Theme;
 
 class StartPage : public QWidget {
     Q_OBJECT
 public:
     StartPage(const Theme& theme, Notices& notices, QWidget* parent = nullptr);
-    ~StartPage() override;
     void setTheme(const Theme& theme);
     /// Replaces the scenes that are offered to go on with.
     void offer(std::vector<UnsavedScene> scenes);
+    /// The latest first.
+    void setRecent(const QStringList& files);
+    void search(const QString& text);
+    /// The presets that are in sight, from the first on.
+    QStringList shownPresets() const;
 
 signals:
     void presetChosen(const QString& name);
     void openRequested();
+    void newRequested();
+    void fileChosen(const QString& path);
     void restoreRequested(const UnsavedScene& scene);
     void discardRequested(const UnsavedScene& scene);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
     void showEvent(QShowEvent* event) override;
+    void hideEvent(QHideEvent* event) override;
 
 private:
-    struct Entry;
-    void readPresets();
-    void addPreset(const QString& id, Scene scene);
-    Entry& addCard(Scene scene, const QString& title, const QString& text, std::function<void()> act);
+    struct Entry {
+        GalleryCard* card;
+        QString preset;                   ///< empty: an unsaved scene
+        GalleryItem item = {};            ///< of a preset
+        std::optional<Scene> scene = {};  ///< read for a picture that is not there yet
+        std::shared_ptr<const Comparison> result = {};
+    };
+    struct Section {
+        QWidget* box;
+        QGridLayout* grid;
+        std::vector<std::size_t> entries;
+    };
+    void makeHead(QVBoxLayout& column);
+    void makeSections();
     void arrange();
-    void work();  ///< renders the next picture, a little at a time
+    void loadPictures();
+    void work();  ///< makes the next picture that no file has, a little at a time
 
     const Theme* theme_;
-    QWidget *inside_, *unsaved_;
-    QGridLayout *grid_, *unsavedGrid_;
-    std::vector<std::unique_ptr<Entry>> entries_;
-    std::deque<std::size_t> waiting_;
-    std::stop_source reading_;  ///< of the presets
+    QWidget *inside_, *unsaved_, *recent_;
+    QHBoxLayout* recentRow_;
+    QGridLayout* unsavedGrid_;
+    QLineEdit* search_;
+    QVBoxLayout* gallery_;  ///< sections, only while the page is in sight: hundreds of widgets
+    std::vector<std::unique_ptr<Entry>> entries_, unsavedEntries_;
+    std::vector<Section> sections_;
+    std::deque<Entry*> waiting_;
     std::unique_ptr<Run> run_;
     QTimer* timer_;
     int columns_ = 0;
-    bool hasReadPresets_ = false;
+    bool isReading_ = false, hasLoaded_ = false;
 };
 
 }  // namespace extremal

@@ -85,6 +85,28 @@ StartEdits editsForMove(const Scene& scene, const View& view, const System& syst
     return {{{"/initial", initial}}, {}};
 }
 
+StartEdits editsForStartAt(const System& system, const SchemeResult& result, double t) {
+    if (!isMechanical(system))
+        return {{}, QObject::tr("the state of this model is more than coordinates and momenta")};
+    const std::vector<Quantity> columns = stateColumns(system);
+    const auto times = result.trajectory["t"];
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (std::abs(times[i] - t) < std::abs(times[row] - t)) row = i;
+    std::vector<double> x;
+    for (const Quantity& column : columns) {
+        const auto values = result.trajectory[column.name];
+        if (row >= values.size() || !std::isfinite(values[row]))
+            return {{}, QObject::tr("%1 has no state there").arg(QString::fromStdString(result.spec.label))};
+        x.push_back(values[row]);
+    }
+    const auto d = static_cast<std::size_t>(system.dimension());
+    Value initial{Value::Object{}};
+    initial.set("q", numbersOf(x, 0, d, {}));
+    initial.set("p", numbersOf(x, d, d, {}));
+    return {{{"/initial", initial}}, {}};
+}
+
 void addStartActions(QMenu& menu, Workspace& workspace, const std::function<View()>& view) {
     if (!keysOf(view().id, nullptr).hasStarts) return;
     const auto change = [&workspace, view](const auto& edit, const QString& what) {
@@ -96,10 +118,10 @@ void addStartActions(QMenu& menu, Workspace& workspace, const std::function<View
     QAction* spread = menu.addAction(QObject::tr("Spread starts..."), &menu, [&menu, view, change] {
         bool isChosen = false;
         const int now = view().starts.spread;
-        const int count =
-            QInputDialog::getInt(menu.parentWidget(), QObject::tr("Spread starts"),
-                                 QObject::tr("Motions that start evenly spread over the plot, 0 to 2000"),
-                                 now > 0 ? now : 200, 0, 2000, 10, &isChosen);
+        const int count = QInputDialog::getInt(
+            menu.parentWidget(), QObject::tr("Spread starts"),
+            QObject::tr("Motions that start evenly spread over the plot, 0 to %1").arg(ViewStarts::most),
+            now > 0 ? now : 200, 0, ViewStarts::most, 10, &isChosen);
         if (isChosen)
             change([count](ViewStarts& starts) { starts.spread = count; }, QObject::tr("Spread starts"));
     });

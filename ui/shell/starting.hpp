@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/model/system.hpp"
+#include "engine/run/comparison.hpp"
 #include "engine/scene/scene.hpp"
 #include "ui/shell/document.hpp"
 
@@ -36,6 +37,10 @@ struct StartEdits {
 };
 StartEdits editsForStart(const Scene& scene, const View& view, const System& system, QPointF place);
 StartEdits editsForMove(const Scene& scene, const View& view, const System& system, QPointF place);
+
+/// The start of the scene moved to where a scheme is at a time: at its nearest row, where the state consists
+/// of coordinates and momenta.
+StartEdits editsForStartAt(const System& system, const SchemeResult& result, double t);
 
 /// Spread starts over the plot, and remove them: shown for views that take starts.
 void addStartActions(QMenu& menu, Workspace& workspace, const std::function<View()>& view);

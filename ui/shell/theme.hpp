@@ -27,6 +27,8 @@ namespace extremal {
 
 /// The share of its colour that a second curve of a scheme has, in percent.
 inline constexpr int paleLine = 50;
+/// The same of the other schemes while one is selected.
+inline constexpr int fadedLine = 28;
 
 /// How a scheme is drawn everywhere. The dash is in units of the pen's width, as QPen wants it; empty is
 /// solid.

@@ -1,13 +1,22 @@
 /// Everything the main window can do, each with its key.
+#include <QActionGroup>
 #include <QApplication>
+#include <QClipboard>
+#include <QDesktopServices>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QMenu>
 #include <QMessageBox>
+#include <QPointer>
+#include <QSaveFile>
+#include <QSettings>
 #include <QStatusBar>
 #include <QTabBar>
+#include <QTimer>
+#include <QUrl>
 
-#include "engine/run/export.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/json.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/view_choices.hpp"
 #include "engine/view/catalog.hpp"
@@ -16,15 +25,19 @@
 #include "ui/panels/values_table.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/compare_view.hpp"
+#include "ui/shell/export_folder.hpp"
 #include "ui/shell/help_window.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/notices.hpp"
+#include "ui/shell/passport_window.hpp"
 #include "ui/shell/palette_dialog.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/starting.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
 #include "ui/study/study_page.hpp"
@@ -32,7 +45,6 @@
 #include <QStackedWidget>
 
 #include <algorithm>
-#include <filesystem>
 #include <tuple>
 
 namespace extremal {
@@ -43,14 +55,17 @@ void MainWindow::makeActions() {
     addViewActions();
     addRunActions();
     addStudyActions();
-    actions_->add("help", tr("Help"), tr("Handbook"), {QKeySequence(Qt::Key_F1)}, [this] {
-        if (!help_) help_ = new HelpWindow(this);
-        help_->open("index");
-    });
-    actions_->add("keys", tr("Help"), tr("Keys"), {QKeySequence(Qt::SHIFT | Qt::Key_F1)}, [this] {
-        if (!help_) help_ = new HelpWindow(this);
-        help_->open("keys");
-    });
+    actions_->add("help", tr("Help"), tr("Handbook, for what has the focus"), {QKeySequence(Qt::Key_F1)},
+                  [this] { showHelp(helpPageOf(QApplication::focusWidget())); });
+    actions_->add("searchHelp", tr("Help"), tr("Search the handbook..."),
+                  {QKeySequence(Qt::CTRL | Qt::Key_F)}, [this] {
+                      showHelp(QStringLiteral("index"));
+                      help_->focusSearch();
+                  });
+    actions_->add("paper", tr("Help"), tr("Map of the paper"), {QKeySequence(Qt::ALT | Qt::Key_F1)},
+                  [this] { showHelp(QStringLiteral("paper")); });
+    actions_->add("keys", tr("Help"), tr("Keys"), {QKeySequence(Qt::SHIFT | Qt::Key_F1)},
+                  [this] { showHelp(QStringLiteral("keys")); });
     actions_->add("log", tr("Help"), tr("Log"), {QKeySequence(Qt::CTRL | Qt::Key_L)}, [this] { showLog(); });
     actions_->add("about", tr("Help"), tr("About Extremal"), {QKeySequence(Qt::CTRL | Qt::Key_F1)}, [this] {
         QMessageBox::about(
@@ -61,10 +76,24 @@ void MainWindow::makeActions() {
     });
 }
 
+void MainWindow::showHelp(const QString& page) {
+    if (!help_) {
+        help_ = new HelpWindow(this);
+        connect(help_, &HelpWindow::presetRequested, this, [this](const QString& id) {
+            if (!open("preset:" + id)) return;
+            raise();
+            activateWindow();
+        });
+    }
+    help_->open(page);
+}
+
 void MainWindow::addFileActions() {
     const QString menu = tr("File");
     actions_->add("gallery", menu, tr("New from the gallery"), {QKeySequence::New},
                   [this] { stack_->setCurrentIndex(0); });
+    actions_->add("newLagrangian", menu, tr("New from a Lagrangian"),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_N)}, [this] { newFromLagrangian(); });
     actions_->add("open", menu, tr("Open..."), {QKeySequence::Open}, [this] { openDialog(); });
     actions_->add("save", menu, tr("Save"), {QKeySequence::Save}, [this] { save(false); });
     actions_->add("saveAs", menu, tr("Save as..."), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_S)},
@@ -75,6 +104,14 @@ void MainWindow::addFileActions() {
     });
     actions_->add("exportAll", menu, tr("Export everything..."),
                   {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, [this] { exportDialog(); });
+    actions_->add(
+        "report", menu, tr("Save a page for browsers..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_E)},
+        [this] { exportReport(); }, tr("Notes, schemes and pictures in one HTML file"));
+    actions_->addSeparator(menu);
+    actions_->add("copyScene", menu, tr("Copy the scene as text"),
+                  {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_C)}, [this] { copyScene(); });
+    actions_->add("pasteScene", menu, tr("Paste a scene"), {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_V)},
+                  [this] { pasteScene(); });
     actions_->addSeparator(menu);
     actions_->add("quit", menu, tr("Quit"), {QKeySequence(Qt::CTRL | Qt::Key_Q)}, [this] { close(); });
 }
@@ -89,6 +126,10 @@ void MainWindow::addEditActions() {
                   [this] { schemes_->openAddMenu(); });
     actions_->add("editScheme", menu, tr("Edit scheme"), {QKeySequence(Qt::Key_F3)},
                   [this] { schemes_->editSelected(); });
+    actions_->add("passport", menu, tr("Passport of the scheme"), {QKeySequence(Qt::Key_F4)}, [this] {
+        if (!passport_) passport_ = new PassportWindow(*workspace_, *notices_, this);
+        passport_->open();
+    });
     actions_->add("rename", menu, tr("Rename scheme"), {QKeySequence(Qt::Key_F2)},
                   [this] { schemes_->renameSelected(); });
     actions_->add("duplicate", menu, tr("Duplicate scheme"), {QKeySequence(Qt::CTRL | Qt::Key_D)},
@@ -99,6 +140,8 @@ void MainWindow::addEditActions() {
                   [this] { schemes_->moveSelected(-1); });
     actions_->add("down", menu, tr("Move scheme down"), {QKeySequence(Qt::CTRL | Qt::Key_Down)},
                   [this] { schemes_->moveSelected(1); });
+    actions_->add("solo", menu, tr("Selected scheme alone, or all"), {QKeySequence(Qt::Key_S)},
+                  [this] { schemes_->soloSelected(); });
     for (int i = 0; i < 9; ++i)
         actions_->add(QStringLiteral("toggle%1").arg(i + 1), menu,
                       tr("Switch scheme %1 on or off").arg(i + 1), {QKeySequence(Qt::Key_1 + i)},
@@ -158,6 +201,7 @@ void MainWindow::addViewActions() {
     actions_->addSubmenu(menu, plots);
     actions_->add("plots", menu, tr("Choose plots..."), {QKeySequence(Qt::Key_P)},
                   [this, plots] { plots->popup(compare_->mapToGlobal(QPoint(24, 24))); });
+    addLayoutActions(menu);
     actions_->add("theme", menu, tr("Light or dark"), {QKeySequence(Qt::CTRL | Qt::Key_T)}, [this] {
         Theme theme = theme_.isDark ? Theme::light() : Theme::dark();
         theme.fontScale = theme_.fontScale;
@@ -175,6 +219,9 @@ void MainWindow::addViewActions() {
     actions_->add("resetLayout", menu, tr("Reset layout"), {QKeySequence(Qt::CTRL | Qt::Key_0)}, [this] {
         Theme theme = theme_.isDark ? Theme::dark() : Theme::light();
         setTheme(theme);
+        actions_->find("layout0")->trigger();
+        for (const char* panel : {"scenePanel", "schemesPanel"})
+            if (QAction* action = actions_->find(panel); !action->isChecked()) action->trigger();
         showNormal();
         resize(1600, 1000);
     });
@@ -184,6 +231,40 @@ void MainWindow::addViewActions() {
         else
             showFullScreen();
     });
+}
+
+/// The layout of the Compare page and the side panels, which the next session finds as they are.
+void MainWindow::addLayoutActions(const QString& menu) {
+    actions_->addSeparator(menu);
+    auto* group = new QActionGroup(this);
+    const QStringList names{tr("Layout: automatic"), tr("Layout: one column"), tr("Layout: two columns"),
+                            tr("Layout: three columns"), tr("Layout: plots only")};
+    for (int i = 0; i < names.size(); ++i) {
+        QAction* action = actions_->add(QStringLiteral("layout%1").arg(i), menu, names[i],
+                                        {QKeySequence(Qt::ALT | (Qt::Key_1 + i))}, [this, i] {
+                                            compare_->setPageLayout(static_cast<PageLayout>(i));
+                                            if (isRemembered_) QSettings().setValue("window/layout", i);
+                                        });
+        action->setCheckable(true);
+        group->addAction(action);
+    }
+    const int last = isRemembered_ ? QSettings().value("window/layout").toInt() : 0;
+    group->actions().at(std::clamp(last, 0, static_cast<int>(names.size()) - 1))->trigger();
+    const auto addPanel = [&](const char* id, const QString& text, const QKeySequence& key, QWidget* panel) {
+        QAction* action = actions_->add(id, menu, text, {key}, [this, id, panel] {
+            panel->setVisible(panel->isHidden());
+            shareWidth();
+            if (isRemembered_) QSettings().setValue(QStringLiteral("window/%1").arg(id), !panel->isHidden());
+        });
+        action->setCheckable(true);
+        const bool isShown =
+            !isRemembered_ || QSettings().value(QStringLiteral("window/%1").arg(id), true).toBool();
+        panel->setVisible(isShown);
+        action->setChecked(isShown);
+    };
+    addPanel("scenePanel", tr("Panel of the scene"), QKeySequence(Qt::Key_F7), left_);
+    addPanel("schemesPanel", tr("Panel of the schemes"), QKeySequence(Qt::Key_F8), schemes_);
+    actions_->addSeparator(menu);
 }
 
 void MainWindow::addRunActions() {
@@ -199,12 +280,38 @@ void MainWindow::addRunActions() {
                   [this] { playback_->setTime(playback_->start()); });
     actions_->add("end", menu, tr("To the end"), {QKeySequence(Qt::Key_End)},
                   [this] { playback_->setTime(playback_->end()); });
+    actions_->add(
+        "startHere", menu, tr("Start from the state at the cursor"), {QKeySequence(Qt::CTRL | Qt::Key_I)},
+        [this] { startFromCursor(); },
+        tr("The initial data are where the selected scheme, or the first one, is at the cursor"));
     actions_->addSeparator(menu);
     actions_->add("restart", menu, tr("Compute again"), {QKeySequence(Qt::Key_R)}, [this] { run_->start(); });
     actions_->add("stop", menu, tr("Stop computing"), {QKeySequence(Qt::Key_Escape)}, [this] {
         if (studies_->isVisible() && studies_->stop()) return;
-        if (!compare_->restore()) run_->stop();
+        if (compare_->restore()) return;
+        if (!run_->isRunning()) workspace_->selectScheme(-1);
+        run_->stop();
     });
+}
+
+void MainWindow::startFromCursor() {
+    const auto results = run_->results();
+    if (!results || results->schemes.empty() || !results->system) return;
+    const int selected = workspace_->selectedScheme();
+    const SchemeResult* from = results->schemes.front().get();
+    for (const auto& s : results->schemes)
+        if (selected >= 0 &&
+            s->spec.label == workspace_->scene().schemes[static_cast<std::size_t>(selected)].label)
+            from = s.get();
+    const StartEdits start = editsForStartAt(*results->system, *from, playback_->time());
+    if (start.problem.isEmpty())
+        workspace_->edit(start.edits, tr("Start from the cursor"));
+    else
+        notices_->post({Notice::Kind::information,
+                        "start",
+                        tr("No motion starts there: %1.").arg(start.problem),
+                        tr("models with coordinates can be started from the cursor"),
+                        {}});
 }
 
 void MainWindow::addStudyActions() {
@@ -253,42 +360,115 @@ void MainWindow::save(bool asksName) {
 void MainWindow::exportDialog() {
     if (!run_->results()) return;
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Export everything into a folder"));
-    if (!folder.isEmpty()) exportEverything(folder);
+    if (!folder.isEmpty()) startExport(folder);
+}
+
+/// Files of the run in another thread, then picture after picture, between which the window answers.
+void MainWindow::startExport(const QString& folder) {
+    const auto parts = partsOfExport();
+    if (!parts) return;
+    notices_->post({Notice::Kind::information, "export", tr("Exporting to %1 ...").arg(folder), {}, {}});
+    auto steps = std::make_shared<std::deque<std::function<QString()>>>();
+    for (auto& step : exportSteps(*parts, folder)) steps->push_back(std::move(step));
+    runInBackground([self = QPointer(this), steps, folder] {
+        const QString problem = steps->front()();
+        QMetaObject::invokeMethod(
+            qApp,
+            [self, steps, folder, problem] {
+                steps->pop_front();
+                if (self) self->continueExport(steps, problem, folder);
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void MainWindow::continueExport(const std::shared_ptr<std::deque<std::function<QString()>>>& steps,
+                                const QString& problem, const QString& folder) {
+    if (!problem.isEmpty() || steps->empty()) {
+        tellOfExport(problem, folder, folder);
+        return;
+    }
+    QTimer::singleShot(0, this, [this, steps, folder] {
+        const QString next = steps->front()();
+        steps->pop_front();
+        continueExport(steps, next, folder);
+    });
+}
+
+std::optional<ExportParts> MainWindow::partsOfExport() {
+    const auto results = run_->results();
+    if (!results) return {};
+    compare_->complete();
+    ExportParts parts;
+    parts.comparison = results;
+    for (const PlotWidget* plot : compare_->plots()) parts.figures.push_back(plot->figure());
+    if (compare_->hasStage()) parts.stage = compare_->stage()->picture(2);
+    return parts;
 }
 
 bool MainWindow::exportEverything(const QString& folder) {
-    const auto results = run_->results();
-    if (!results) return false;
-    QString problem;
-    try {
-        const std::filesystem::path path(folder.toStdString());
-        exportComparison(*results, path);
-        // The command that makes the same files again.
-        writeFile(path / "command.txt", "extremal run scene.json --out .\n");
-    } catch (const ExportError& e) {
-        problem = QString::fromStdString(e.path.string()) + ": " + e.what();
-    }
-    compare_->complete();
-    for (std::size_t i = 0; problem.isEmpty() && i < compare_->plots().size(); ++i) {
-        const PlotWidget* plot = compare_->plots()[i];
-        const QString name = QStringLiteral("%1/%2-%3")
-                                 .arg(folder)
-                                 .arg(i + 1)
-                                 .arg(QString::fromStdString(plot->figure().view));
-        for (const char* ending : {".png", ".svg"})
-            if (problem.isEmpty()) const_cast<PlotWidget*>(plot)->save(name + ending, 2, &problem);
-    }
-    if (problem.isEmpty() && !compare_->stage()->picture(2).save(folder + "/stage.png"))
-        problem = tr("stage.png cannot be written");
-    if (problem.isEmpty())
-        notices_->addToLog(tr("Exported everything to %1").arg(folder));
-    else
+    const auto parts = partsOfExport();
+    return parts && tellOfExport(exportFolder(*parts, folder), folder, folder);
+}
+
+/// A banner says where it is, or what went wrong.
+bool MainWindow::tellOfExport(const QString& problem, const QString& file, const QString& folder) {
+    if (!problem.isEmpty()) {
         notices_->post({Notice::Kind::error,
                         "export",
                         tr("The export failed: %1").arg(problem),
                         tr("choose another folder"),
                         {}});
-    return problem.isEmpty();
+        return false;
+    }
+    notices_->post(
+        {Notice::Kind::information,
+         "export",
+         tr("Exported to %1").arg(file),
+         {},
+         {{tr("Open folder"), [folder] { QDesktopServices::openUrl(QUrl::fromLocalFile(folder)); }}}});
+    return true;
+}
+
+void MainWindow::exportReport() {
+    if (!run_->results()) return;
+    const QString path = QFileDialog::getSaveFileName(
+        this, tr("Save a page for browsers"), QFileInfo(workspace_->fileName()).completeBaseName() + ".html",
+        tr("Pages (*.html)"));
+    if (path.isEmpty()) return;
+    QSaveFile file(path);
+    const ExportParts parts = *partsOfExport();
+    std::vector<QImage> pictures;
+    for (const Figure& figure : parts.figures) pictures.push_back(reportPicture(figure));
+    const QByteArray page = reportPage(parts, pictures).toUtf8();
+    const bool isWritten =
+        file.open(QIODevice::WriteOnly) && file.write(page) == page.size() && file.commit();
+    tellOfExport(isWritten ? QString() : file.errorString(), path, QFileInfo(path).absolutePath());
+}
+
+void MainWindow::copyScene() {
+    if (!workspace_->hasScene()) return;
+    QApplication::clipboard()->setText(QString::fromStdString(writeJson(workspace_->document())));
+    statusBar()->showMessage(tr("The scene is on the clipboard, as text"), 6000);
+}
+
+void MainWindow::pasteScene() {
+    const std::string text = QApplication::clipboard()->text().toStdString();
+    if (!mayLeaveScene()) return;
+    QString problem;
+    try {
+        if (workspace_->adopt(parseJson(text))) return stack_->setCurrentIndex(1);
+        problem = workspace_->openProblems().empty()
+                      ? QString()
+                      : QString::fromStdString(workspace_->openProblems().front().message);
+    } catch (const InvalidScene& error) {
+        problem = QString::fromStdString(error.problems().front().message);
+    }
+    notices_->post({Notice::Kind::error,
+                    "paste",
+                    tr("The clipboard has no scene: %1").arg(problem),
+                    tr("copy the text of a scene file first"),
+                    {}});
 }
 
 void MainWindow::showPalette() {

@@ -175,11 +175,10 @@ bool Workspace::open(const QString& name, bool isTrusted) {
     drafts_.clear();
     problems_.clear();
     history_.clear();
-    selected_ = -1;
     Value document = toValue(read.scene);
     saved_ = document;
     setDocument(std::move(document), std::move(read.scene), std::move(read.warnings));
-    selectScheme(scene_.schemes.empty() ? -1 : 0);
+    selectScheme(-1);
     emit opened();
     emit draftsChanged();
     emit sceneChanged();
@@ -201,7 +200,7 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
     saved_ = Value();
     Value resolved = toValue(read.scene);
     setDocument(std::move(resolved), std::move(read.scene), std::move(read.warnings));
-    selectScheme(scene_.schemes.empty() ? -1 : 0);
+    selectScheme(-1);
     emit opened();
     emit draftsChanged();
     emit sceneChanged();

@@ -122,9 +122,9 @@ private slots:
         };
         QTRY_VERIFY(cell("1midpoint.1trapezoid"));
         QVERIFY(!cell("1midpoint.1trapezoid")->isEnabled());
-        QVERIFY(cell("1midpoint.1trapezoid")->toolTip().contains("does not see the mass"));
+        QVERIFY(cell("1midpoint.1trapezoid")->about().contains("does not see the mass"));
         QVERIFY(cell("1exact.1trapezoid")->isEnabled());
-        QVERIFY(cell("1exact.1trapezoid")->toolTip().contains("order 2, stable for c dt/dx up to 0.577"));
+        QVERIFY(cell("1exact.1trapezoid")->about().contains("order 2, stable for c dt/dx up to 0.577"));
         QVERIFY(!cell("cell-problem.1trapezoid"));
         // In a medium there are elements that know it.
         window.open("preset:multiscale-wave");

@@ -2,14 +2,21 @@
 #include <QDir>
 #include <QFile>
 #include <QListWidget>
+#include <QRegularExpression>
 #include <QTest>
 #include <QTextBrowser>
 
+#include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
+#include "ui/panels/discretizer.hpp"
+#include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
+#include "ui/shell/compare_view.hpp"
 #include "ui/shell/help_window.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/theme.hpp"
+#include "ui/shell/workspace.hpp"
+#include "ui/study/study_page.hpp"
 
 namespace extremal::help_test {
 namespace {
@@ -75,6 +82,88 @@ private slots:
             QVERIFY2(pages->currentItem()->data(Qt::UserRole).toString() == file.chopped(3),
                      qPrintable(file));
             QVERIFY2(text->toPlainText().size() > 200, qPrintable(file));
+        }
+    }
+    void theSearchFindsPagesAndTheirPlaces() {
+        HelpWindow help;
+        auto* pages = help.findChild<QListWidget*>();
+        auto* text = help.findChild<QTextBrowser*>();
+        help.search("Chebyshev time");
+        QStringList shown;
+        for (int i = 0; i < pages->count(); ++i)
+            if (!pages->item(i)->isHidden()) shown << pages->item(i)->data(Qt::UserRole).toString();
+        QVERIFY(!shown.isEmpty() && shown.size() < pages->count() / 2);
+        QVERIFY(shown.contains(help.page()));
+        QVERIFY(text->toPlainText().contains("chebyshev", Qt::CaseInsensitive));
+        QVERIFY(!text->extraSelections().isEmpty());
+        QCOMPARE(text->textCursor().selectedText().toLower(), QString("chebyshev"));
+        help.search("no page has these words xyzzy");
+        for (int i = 0; i < pages->count(); ++i) QVERIFY(pages->item(i)->isHidden());
+        help.search({});
+        QVERIFY(!pages->item(0)->isHidden() && text->extraSelections().isEmpty());
+    }
+    void theWayBackLeadsToWhereOneWas() {
+        HelpWindow help;
+        help.open("tour");
+        help.open("scenes#time");
+        help.open("keys");
+        QCOMPARE(help.page(), QString("keys"));
+        help.back();
+        QCOMPARE(help.page(), QString("scenes"));
+        help.back();
+        QCOMPARE(help.page(), QString("tour"));
+        help.forward();
+        QCOMPARE(help.page(), QString("scenes"));
+        help.open("orders");  // what was ahead is given up
+        help.forward();
+        QCOMPARE(help.page(), QString("orders"));
+    }
+    void examplesOpenInTheWindow() {
+        const QString page = withPresetLinks(
+            "Presets `kepler` and `nowhere`. Run `extremal run preset:pendulum --out x`.\n\n```console\n$ "
+            "extremal run "
+            "preset:duffing\n```\n");
+        QVERIFY(page.contains("[kepler](preset:kepler)") && page.contains("`nowhere`"));
+        QVERIFY(page.contains("--out x` ([open](preset:pendulum))"));
+        QVERIFY(page.contains("[duffing](preset:duffing)"));
+        QVERIFY(page.contains("$ extremal run preset:duffing\n"));  // the code stays as it is
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.actions().find("paper")->trigger();
+        auto* help = window.findChild<HelpWindow*>();
+        QVERIFY(help && help->isVisible());
+        emit help->findChild<QTextBrowser*>()->anchorClicked(QUrl("preset:seed-spring"));
+        QCOMPARE(window.workspace().origin(), QString("preset:seed-spring"));
+    }
+    void f1OpensThePageOfWhatHasTheFocus() {
+        MainWindow window(Theme::light(), false);
+        QVERIFY(window.open("preset:spring-pendulum"));
+        QCOMPARE(helpPageOf(window.findChild<QWidget*>("field.k")), QString("models"));
+        QCOMPARE(helpPageOf(window.discretizer().cell(3, "lobatto")), QString("spaces"));
+        QCOMPARE(helpPageOf(&window.studies()), QString("studies"));
+        QCOMPARE(helpPageOf(window.findChild<QWidget*>("add")), QString("schemes"));
+        QCOMPARE(helpPageOf(window.compareView().currentPlot()), QString("observables"));
+        QCOMPARE(helpPageOf(nullptr), QString("index"));
+    }
+    /// Every preset that shows something of the paper is on its map, and what the map names exists.
+    void theMapOfThePaperIsComplete() {
+        QFile file(QStringLiteral(EXTREMAL_SOURCE_DIR "/resources/handbook/paper.md"));
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        const QString page = QString::fromUtf8(file.readAll());
+        static const QRegularExpression quoted("`([\\w.-]+)`");
+        QStringList names;
+        for (const QRegularExpressionMatch& match : quoted.globalMatch(page)) names << match.captured(1);
+        for (const Preset& preset : presets()) {
+            const QString id = QString::fromUtf8(preset.id.data(), static_cast<qsizetype>(preset.id.size()));
+            if (QByteArray(preset.json.data(), static_cast<qsizetype>(preset.json.size()))
+                    .contains("\"source\": \"Leok"))
+                QVERIFY2(names.contains(id), qPrintable(id));
+        }
+        for (const QString& name : names) {
+            if (findPreset(name.toStdString())) continue;
+            const QString test = QString(name).replace('.', '/');
+            QVERIFY2(QFile::exists(QStringLiteral(EXTREMAL_SOURCE_DIR "/tests/%1_test.cpp").arg(test)),
+                     qPrintable(name));
         }
     }
 };

@@ -9,6 +9,9 @@
 #include <QSignalSpy>
 #include <QSpinBox>
 #include <QTemporaryDir>
+#include <QClipboard>
+#include <QFileInfo>
+#include <QProcess>
 #include <QTest>
 
 #include <algorithm>
@@ -100,12 +103,50 @@ private slots:
         window.open("preset:harmonic-oscillator");
         QVERIFY(waitForResults(window));
         QVERIFY(window.exportEverything(folder.path()));
-        for (const char* name : {"scene.json", "summary.csv", "summary.json", "command.txt", "stage.png"})
+        for (const char* name : {"scene.json", "summary.csv", "summary.json", "command.txt", "stage.png",
+                                 "report.html", "2-energy.pdf"})
             QVERIFY2(QFile::exists(folder.filePath(name)), name);
         const QStringList pictures = QDir(folder.path()).entryList({"*.svg"});
         QCOMPARE(static_cast<std::size_t>(pictures.size()), window.compareView().plots().size());
+        // A banner that leads to the folder.
+        QCOMPARE(window.notices().all().back().choices.front().text, QString("Open folder"));
+        QFile report(folder.filePath("report.html"));
+        QVERIFY(report.open(QIODevice::ReadOnly));
+        const QString page = QString::fromUtf8(report.readAll());
+        for (const SchemeSpec& s : window.workspace().scene().schemes)
+            QVERIFY(page.contains(QString::fromStdString(s.label).toHtmlEscaped()));
+        QCOMPARE(page.count("<img "), pictures.size() + 1);
+        QVERIFY(!page.contains("http") && !page.contains("file:"));  // whole in itself
+        // The commands make the figures as well.
+        QProcess shell;
+        shell.setWorkingDirectory(folder.path());
+        QVERIFY(QFile::remove(folder.filePath("2-energy.svg")) &&
+                QFile::remove(folder.filePath("stage.png")));
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        environment.insert("PATH",
+                           QFileInfo(EXTREMAL_BINARY).absolutePath() + ":" + environment.value("PATH"));
+        shell.setProcessEnvironment(environment);
+        shell.start("sh", {"-e", "command.txt"});
+        QVERIFY(shell.waitForFinished(60000));
+        QCOMPARE(shell.exitCode(), 0);
+        QVERIFY(QFile::exists(folder.filePath("2-energy.svg")) &&
+                QFile::exists(folder.filePath("stage.png")));
         QVERIFY(!window.exportEverything("/proc/nowhere"));
-        QVERIFY(!window.notices().all().empty());  // a banner, not a box
+        QVERIFY(window.notices().all().back().kind == Notice::Kind::error);  // a banner, not a box
+    }
+    void aSceneIsCopiedAndPasted() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        QVERIFY(window.open("preset:pendulum"));
+        const Value document = window.workspace().document();
+        window.actions().find("copyScene")->trigger();
+        QVERIFY(window.open("preset:kepler"));
+        window.actions().find("pasteScene")->trigger();
+        QVERIFY(window.workspace().document() == document);
+        QGuiApplication::clipboard()->setText("no scene");
+        window.actions().find("pasteScene")->trigger();
+        QVERIFY(window.workspace().document() == document);
+        QVERIFY(window.notices().all().back().kind == Notice::Kind::error);
     }
     void plotsAreChosenFromTheMenu() {
         MainWindow window(Theme::light(), false);

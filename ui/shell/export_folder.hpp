@@ -1,0 +1,43 @@
+/// Everything of a comparison in a folder: the files of `extremal run`, the figures as PNG, SVG and PDF, the
+/// stage, a page that can be read in any browser, and the commands that make files and figures again.
+#pragma once
+
+#include <QImage>
+#include <QString>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "engine/figure/figure.hpp"
+#include "engine/run/comparison.hpp"
+
+namespace extremal {
+
+struct ExportParts {
+    std::shared_ptr<const Comparison> comparison;
+    std::vector<Figure> figures;
+    QImage stage;  ///< null: there is none
+};
+
+/// An export in steps, each of a tenth of a second or so, which return what went wrong, empty if nothing did.
+/// The first, which writes the files of the run, may be made in any thread; the others draw, in that of the
+/// window.
+std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, const QString& folder);
+
+/// All steps at once.
+QString exportFolder(const ExportParts& parts, const QString& folder);
+
+/// One file of HTML with everything in it: notes, schemes with their errors and costs, pictures. `pictures`:
+/// of the figures.
+QString reportPage(const ExportParts& parts, const std::vector<QImage>& pictures);
+/// The picture of a figure in it.
+QImage reportPicture(const Figure& figure);
+
+/// The commands, one per line, to be run in the folder.
+QString commandsFor(const ExportParts& parts);
+
+/// The name of the figure at a place, without an ending: "2-energy".
+QString figureName(const ExportParts& parts, std::size_t place);
+
+}  // namespace extremal
