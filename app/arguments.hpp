@@ -10,13 +10,16 @@ namespace extremal::app {
 
 struct Arguments {
     std::string verb;  ///< empty: the window
-    std::string scene, folder, kind;
+    std::string scene, kind;
     bool isVersion = false, isVerbose = false;
     CommonOptions common;
+    RunVerbOptions run;
     SnapshotOptions snapshot;
     StudyOptions study;
     WisdomOptions wisdom;
     AtlasRunOptions atlas;
+    PassportRequest passport;
+    ProgramRequest program;
 };
 
 /// Reads the arguments. Empty if there is nothing left to do (--help, --version, or an error that was

@@ -37,6 +37,8 @@ std::vector<std::string> wordsOf(const std::string& verb, const std::string& nam
     if (name == "SHELL") return {"bash", "zsh", "fish"};
     if (name == "KIND") return verb == "list" ? catalogueNames() : with(idsIn("studies"), "merge");
     if (name == "--view") return with(idsIn("views"), "all");
+    if (name == "--format") return {"md", "html", "tex"};
+    if (name == "--language") return {"cpp", "python"};
     if (name == "--systems") return idsIn("presets");
     if (name == "--metric") return {"error", "energy", "momentum", "norm", "phase"};
     return {};

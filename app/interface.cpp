@@ -124,6 +124,39 @@ void addAtlas(CLI::App& app, Arguments& arguments) {
     addCommon(verb, arguments.common);
 }
 
+void addPassport(CLI::App& app, Arguments& arguments) {
+    PassportRequest& passport = arguments.passport;
+    CLI::App& verb =
+        addVerb(app, arguments, "passport",
+                "all that is known of a scheme: its action, tableau, order conditions, stability, "
+                "measured orders",
+                true);
+    verb.add_option("--scheme", passport.scheme, "the label of a scheme; the first enabled one by default")
+        ->type_name("LABEL");
+    verb.add_option("--format", passport.format, "md, html or tex; by the ending of --out, else md")
+        ->type_name("FORMAT")
+        ->check(CLI::IsMember({"md", "html", "tex"}).description(""));
+    verb.add_option("--out", passport.out, "the file; standard output by default")->type_name("FILE");
+    verb.add_flag("--measure,!--no-measure", passport.isMeasured,
+                  "run the scheme at five steps for its order and cost (default)");
+    addCommon(verb, arguments.common);
+}
+
+void addProgram(CLI::App& app, Arguments& arguments) {
+    ProgramRequest& program = arguments.program;
+    CLI::App& verb = addVerb(app, arguments, "program",
+                             "a scheme and the equations of its system as one C++ or Python file", true);
+    verb.add_option("--out", program.out, "the file, which tests itself against the CSV of a run")
+        ->required()
+        ->type_name("FILE");
+    verb.add_option("--scheme", program.scheme, "the label of a scheme; the first enabled one by default")
+        ->type_name("LABEL");
+    verb.add_option("--language", program.language, "cpp or python; by the ending of --out")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"cpp", "python"}).description(""));
+    addCommon(verb, arguments.common);
+}
+
 void addWisdom(CLI::App& app, Arguments& arguments) {
     CLI::App& verb =
         addVerb(app, arguments, "wisdom",
@@ -146,10 +179,18 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
         {"", {"extremal preset:kepler", "extremal run preset:kepler --out kepler", "extremal run --help"}},
         {"run",
          {"extremal run preset:pendulum --out pendulum",
-          "extremal run preset:kepler --set '/schemes/*/step=0.1' --set /time/end=20 --out kepler"}},
+          "extremal run preset:kepler --set '/schemes/*/step=0.1' --set /time/end=20 --out kepler",
+          "extremal run preset:kepler --set /time/end=1e4 --out long --resume"}},
         {"snapshot",
          {"extremal snapshot preset:pendulum --out pendulum.png",
           "extremal snapshot preset:kepler --view energy --size 900x600 --out energy.svg"}},
+        {"passport",
+         {"extremal passport preset:pendulum --no-measure",
+          "extremal passport preset:kepler --set '/schemes/-={\"label\": \"G4\", \"scheme\": "
+          "\"galerkin-gauss-4\", \"step\": 0.1}' --scheme G4 --out passport.html"}},
+        {"program",
+         {"extremal program preset:pendulum --out pendulum.cpp",
+          "extremal program preset:kepler --out kepler.py"}},
         {"check",
          {"extremal check preset:kepler",
           "extremal check preset:kepler --set '/schemes/-={\"scheme\": \"galerkin-gauss-4\", \"step\": "
@@ -180,11 +221,19 @@ std::unique_ptr<CLI::App> makeInterface(Arguments& arguments) {
     addCommon(app, arguments.common);
     CLI::App& run =
         addVerb(app, arguments, "run", "integrate every enabled scheme; write CSV files and a summary", true);
-    run.add_option("--out", arguments.folder, "folder for the files, created if missing")
+    run.add_option("--out", arguments.run.out, "folder for the files, created if missing")
         ->required()
         ->type_name("DIR");
+    run.add_flag("--resume", arguments.run.isResumed,
+                 "go on from the checkpoints in DIR of a run that was ended");
+    run.add_option("--checkpoint", arguments.run.checkpoint,
+                   "seconds between checkpoints, 20 by default; 0: none")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(0.0, 1e6).description(""));
     addCommon(run, arguments.common);
     addSnapshot(app, arguments);
+    addPassport(app, arguments);
+    addProgram(app, arguments);
     addCommon(addVerb(app, arguments, "check", "report every error and warning of a scene", true),
               arguments.common);
     CLI::App& list = addVerb(app, arguments, "list", "list what a scene may contain", false);

@@ -31,10 +31,14 @@ int dispatch(int argc, char** argv) {
             return unusable;
         }
     }
-    if (arguments->verb == "run") return runVerb(arguments->scene, arguments->folder, arguments->common);
+    if (arguments->verb == "run") return runVerb(arguments->scene, arguments->run, arguments->common);
     if (arguments->verb == "study") return studyVerb(arguments->scene, arguments->study, arguments->common);
     if (arguments->verb == "atlas") return atlasVerb(arguments->atlas, arguments->common);
     if (arguments->verb == "study merge") return mergeVerb(arguments->study, arguments->common);
+    if (arguments->verb == "passport")
+        return passportVerb(arguments->scene, arguments->passport, arguments->common);
+    if (arguments->verb == "program")
+        return programVerb(arguments->scene, arguments->program, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);
     if (arguments->verb == "snapshot")

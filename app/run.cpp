@@ -65,12 +65,18 @@ int printResult(const Comparison& comparison, const std::string& folder, int cod
 
 }  // namespace
 
-int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options) {
+int runVerb(const std::string& scene, const RunVerbOptions& given, const CommonOptions& options) {
+    const std::string& folder = given.out;
     const ReadScene read = loadScene(scene, options);
     if (!reportScene(scene, read, options)) return unusable;
     try {
         InterruptWatch watch;
-        Run run(read.scene, {options.threads});
+        RunOptions how{options.threads};
+        constexpr double never = 1e6;
+        if (given.checkpoint > 0 || given.isResumed)
+            how.checkpoints = {folder, versionText(), given.checkpoint > 0 ? given.checkpoint : never,
+                               given.isResumed};
+        Run run(read.scene, how);
         prepareFolder(folder);
         run.start();
         const bool isInterrupted = waitFor(run, watch, options);
@@ -78,10 +84,19 @@ int runVerb(const std::string& scene, const std::string& folder, const CommonOpt
         exportComparison(result, folder);
         printFailures(result, sceneName(scene));
         const int code = printResult(result, folder, exitCode(result, isInterrupted), options);
-        if (isInterrupted) printProblem("", "interrupted: the results are partial");
+        if (const std::string failure = run.checkpointFailure(); !failure.empty())
+            printProblem(folder, "warning: a checkpoint could not be written: " + failure);
+        if (isInterrupted)
+            printProblem("", "interrupted: the results are partial",
+                         run.hasCheckpoints() ? "--resume goes on from the last checkpoint" : "");
+        else
+            run.removeCheckpoints();
         return code;
     } catch (const InvalidScene& e) {
-        printProblems(sceneName(scene), e.problems());
+        if (const Problem& first = e.problems().front(); first.pointer == "--resume")
+            printProblem(first.pointer, first.message, first.hint);
+        else
+            printProblems(sceneName(scene), e.problems());
         return unusable;
     } catch (const ExportError& e) {
         printProblem(e.path.string(), std::string("cannot be written: ") + e.what(), "another --out DIR");

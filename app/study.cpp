@@ -11,6 +11,7 @@
 #include "app/signals.hpp"
 #include "app/verbs.hpp"
 #include "app/watch_run.hpp"
+#include "engine/core/fingerprint.hpp"
 #include "engine/core/text.hpp"
 #include "engine/figure/study_figure.hpp"
 #include "engine/run/export.hpp"

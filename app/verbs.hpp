@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/run/checkpoints.hpp"
 #include "engine/study/request.hpp"
 
 namespace extremal::app {
@@ -26,6 +27,12 @@ struct SnapshotOptions {
     bool hasTime = false;
 };
 
+struct RunVerbOptions {
+    std::string out;
+    bool isResumed = false;
+    double checkpoint = CheckpointPlan{}.seconds;  ///< seconds between two; 0: none
+};
+
 struct WisdomOptions {
     std::string out;
     std::vector<std::string> modes;  ///< "256" or "256x256"
@@ -43,7 +50,22 @@ struct AtlasRunOptions {
     bool isQuick = false, isResumed = false;
 };
 
-int runVerb(const std::string& scene, const std::string& folder, const CommonOptions& options);
+struct PassportRequest {
+    std::string scheme;  ///< its label; empty: the first enabled one
+    std::string format;  ///< "md", "html" or "tex"; empty: by the ending of the file, else "md"
+    std::string out;     ///< empty: standard output
+    bool isMeasured = true;
+};
+
+struct ProgramRequest {
+    std::string scheme;    ///< its label; empty: the first enabled one
+    std::string language;  ///< "cpp" or "python"; empty: by the ending of the file
+    std::string out;
+};
+
+int runVerb(const std::string& scene, const RunVerbOptions& run, const CommonOptions& options);
+int passportVerb(const std::string& scene, const PassportRequest& request, const CommonOptions& options);
+int programVerb(const std::string& scene, const ProgramRequest& request, const CommonOptions& options);
 int checkVerb(const std::string& scene, const CommonOptions& options);
 int listVerb(const std::string& kind, const CommonOptions& options);
 int wisdomVerb(const WisdomOptions& wisdom, const CommonOptions& options);
@@ -53,6 +75,8 @@ int atlasVerb(const AtlasRunOptions& atlas, const CommonOptions& options);
 int mergeVerb(const StudyOptions& study, const CommonOptions& options);
 int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, const CommonOptions& options);
 
+/// The version and the commit, on one line.
+std::string versionText();
 /// The version; with `isVerbose` also the commit, the libraries, the instruction set and what draws.
 int versionVerb(bool isVerbose);
 /// The completions of bash, zsh or fish, and the manual page, made from the options.

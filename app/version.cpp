@@ -26,6 +26,8 @@ std::string drawingBackend() {
 
 }  // namespace
 
+std::string versionText() { return EXTREMAL_VERSION " " EXTREMAL_COMMIT; }
+
 int versionVerb(bool isVerbose) {
     std::string text = "extremal " EXTREMAL_VERSION "\n";
     if (isVerbose) {

@@ -76,6 +76,59 @@ private slots:
         QCOMPARE(faultOf(folder_.filePath("killed"), whole()), "");
     }
 
+    void killedAtAnyMomentARunIsResumed() {
+        const QStringList longer = {"run",  "preset:spring-pendulum", "--set", "/time/end=20", "--quiet",
+                                    "--out"};
+        const QDir unbroken(folder_.filePath("unbroken"));
+        QElapsedTimer timer;
+        timer.start();
+        QCOMPARE(runProgram(longer + QStringList{unbroken.path()}).code, 0);
+        const auto duration = static_cast<double>(timer.elapsed());
+        int killed = 0, resumed = 0;
+        double part = 0;
+        for (int i = 0; i < 200 && killed < 50; ++i) {
+            const QDir folder(folder_.filePath("resumed"));
+            QDir(folder).removeRecursively();
+            part = std::fmod(part + 0.381966, 1);
+            QProcess process;
+            process.start(QStringLiteral(EXTREMAL_BINARY),
+                          longer + QStringList{folder.path(), "--checkpoint", "0.001"});
+            QVERIFY(process.waitForStarted());
+            if (!process.waitForFinished(static_cast<int>(part * duration))) {
+                ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
+                process.waitForFinished();
+                ++killed;
+            }
+            resumed += !folder.entryList({"*.checkpoint"}, QDir::Files).isEmpty();
+            const Answer answer = runProgram(longer + QStringList{folder.path(), "--resume"});
+            QVERIFY2(answer.code == 0, qPrintable(answer.err));
+            QCOMPARE(faultOf(folder, unbroken), "");
+            QCOMPARE(folder.entryList(QDir::Files), unbroken.entryList(QDir::Files));
+        }
+        qInfo("%d killed, %d of them with checkpoints", killed, resumed);
+        QCOMPARE(killed, 50);
+        QVERIFY(resumed >= 5);
+    }
+
+    void aCheckpointOfAnotherSceneIsAnError() {
+        const QString folder = folder_.filePath("other");
+        QProcess process;
+        process.start(QStringLiteral(EXTREMAL_BINARY),
+                      {"run", "preset:spring-pendulum", "--set", "/time/end=600", "--quiet", "--out", folder,
+                       "--checkpoint", "0.001"});
+        QVERIFY(process.waitForStarted());
+        QTRY_VERIFY_WITH_TIMEOUT(!QDir(folder).entryList({"*.checkpoint"}).isEmpty(), 30000);
+        ::kill(static_cast<pid_t>(process.processId()), SIGINT);
+        QVERIFY(process.waitForFinished());
+        QCOMPARE(process.exitCode(), 130);
+        const QString said = QString::fromUtf8(process.readAllStandardError());
+        QVERIFY2(said.contains("--resume goes on"), qPrintable(said));
+        const Answer answer = runProgram(scene + QStringList{folder, "--resume"});
+        QCOMPARE(answer.code, 2);
+        QVERIFY2(answer.err.contains("--resume: ") && answer.err.contains("another scene"),
+                 qPrintable(answer.err));
+    }
+
     void aFileThatIsNotWholeIsFound() {
         const QString folder = folder_.filePath("cut");
         QVERIFY(QDir().mkpath(folder));

@@ -39,8 +39,9 @@ class ReadmeTest : public QObject {
 private slots:
     void everyCommandWorks_data() {
         QTest::addColumn<QString>("page");
-        for (const char* page : {"README.md", "resources/handbook/tour.md",
-                                 "resources/handbook/command-line.md", "resources/handbook/studies.md"})
+        for (const char* page :
+             {"README.md", "resources/handbook/tour.md", "resources/handbook/command-line.md",
+              "resources/handbook/studies.md", "resources/handbook/passport.md"})
             QTest::newRow(page) << page;
     }
 

@@ -1,0 +1,214 @@
+/// Passports and exported programs: pages of every kind, and programs that compile, run and agree with the
+/// CSV of the run.
+#include <QDir>
+#include <QFile>
+#include <QProcess>
+#include <QStandardPaths>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "engine/model/typed/typed_mechanics.hpp"
+#include "engine/passport/passport.hpp"
+#include "engine/passport/scene_formula.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
+#include "tests/app/program.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::passport_test {
+namespace {
+
+using tests::contentOf;
+using tests::runProgram;
+
+struct Said {
+    int code = -1;
+    QString text;
+};
+Said run(const QString& program, const QStringList& arguments) {
+    QProcess process;
+    process.setProcessChannelMode(QProcess::MergedChannels);
+    process.start(program, arguments);
+    if (!process.waitForFinished(120000)) return {};
+    return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
+            QString::fromUtf8(process.readAll())};
+}
+
+}  // namespace
+
+class PassportTest : public QObject {
+    Q_OBJECT private slots : void everySchemeOfEveryPresetHasAPage() {
+        for (const Preset& preset : presets()) {
+            const ReadScene read = readScene(preset.json);
+            if (!read.resolved || preset.json.size() > 20000) continue;
+            for (std::size_t i = 0; i < read.resolved->schemes.size(); ++i) {
+                const Document page = passportOf(*read.resolved, i, {.isMeasured = false});
+                const std::string where = std::string(preset.id) + " " + page.title;
+                QVERIFY2(written(page, PageFormat::markdown).size() > 300, where.c_str());
+                QVERIFY2(written(page, PageFormat::html).ends_with("</html>\n"), where.c_str());
+                // Of what pdflatex does not know nothing is left: letters of Latin-1 alone.
+                for (const QChar c : QString::fromStdString(written(page, PageFormat::latex)))
+                    QVERIFY2(c.unicode() < 0x180, qPrintable(QString::fromStdString(where) + ": U+" +
+                                                             QString::number(c.unicode(), 16)));
+            }
+        }
+    }
+
+    void aPassportSaysWhatIsKnown() {
+        const tests::Answer answer =
+            runProgram({"passport", "preset:pendulum", "--set",
+                        R"~(/schemes/-={"label": "G2", "scheme": "galerkin-gauss-2", "step": 0.1})~", "--set",
+                        "/time/end=2", "--scheme", "G2"});
+        QCOMPARE(answer.code, 0);
+        for (const char* line :
+             {"# G2", "S(q\\_0, q\\_1)", "A[1,2] = -0.038675134594812882254574390251", "b[1] = 1/2",
+              "| f'(f'(f'(f))) | 4 | 1/24 |", "R(z) = (1 + 1/2 z + 1/12 z^2) / (1 − 1/2 z + 1/12 z^2)",
+              "stable for every step", "Measured order: 4"})
+            if (QString(line).startsWith("S("))
+                QVERIFY2(answer.out.contains("S(q_0, q_1) = h Σ_i b_i L(t_0 + c_i h, Q_i, V_i)"), line);
+            else
+                QVERIFY2(answer.out.contains(line), qPrintable(line + QString("\n") + answer.out));
+        const tests::Answer wave = runProgram({"passport", "preset:coherent-state", "--no-measure"});
+        QCOMPARE(wave.code, 0);
+        QVERIFY2(wave.out.contains("Runge-Kutta tableaus are for systems with coordinates"),
+                 qPrintable(wave.out));
+        const tests::Answer unknown = runProgram({"passport", "preset:pendulum", "--scheme", "nothing"});
+        QCOMPARE(unknown.code, 2);
+        QVERIFY2(unknown.err.contains("there is no scheme \"nothing\""), qPrintable(unknown.err));
+    }
+
+    /// Their formulas are the models: derivatives agree at states away from symmetry.
+    void builtInModelsSayTheirLagrangian() {
+        int found = 0;
+        for (const std::string& id : modelsWithFormula()) {
+            const ModelEntry& entry = *findModel(id);
+            ResolvedScene scene;
+            scene.scene.model.type = id;
+            for (const FieldInfo& f : entry.item.parameters) {
+                Value value = f.firstValue();
+                if (value.isNumber()) value = 1.25 * value.asNumber();
+                scene.scene.model.keys.emplace_back(f.key, value);
+            }
+            scene.system = std::make_shared<const System>(entry.make(scene.scene.model));
+            const Mechanics<double> typed = typed::makeMechanics(*formulaOf(scene)).mechanics;
+            const Mechanics<double>& own = scene.system->mechanics();
+            const auto d = static_cast<std::size_t>(own.dimension);
+            std::vector<double> q(d), v(d), a(2 * d), b(2 * d), A(4 * d * d), B(4 * d * d);
+            for (std::size_t i = 0; i < d; ++i) {
+                q[i] = 0.3 + 0.2 * static_cast<double>(i);
+                v[i] = 0.7 - 0.4 * static_cast<double>(i);
+            }
+            double L = 0, M = 0;
+            typed.jet(typed.model.get(), 0, q.data(), v.data(), &L, a.data(), A.data());
+            own.jet(own.model.get(), 0, q.data(), v.data(), &M, b.data(), B.data());
+            QVERIFY2(std::abs(L - M) <= 1e-13 * std::abs(L), id.c_str());
+            for (std::size_t i = 0; i < 2 * d; ++i)
+                QVERIFY2(std::abs(a[i] - b[i]) <= 1e-12 * (1 + std::abs(a[i])), id.c_str());
+            for (std::size_t i = 0; i < 4 * d * d; ++i)
+                QVERIFY2(std::abs(A[i] - B[i]) <= 1e-12 * (1 + std::abs(A[i])), id.c_str());
+            ++found;
+        }
+        QVERIFY(found >= 6);
+    }
+
+    void programsAgreeWithTheRun_data() {
+        QTest::addColumn<QString>("preset");
+        QTest::addColumn<QString>("scheme");
+        QTest::addColumn<QString>("end");
+        // Galerkin of two degrees, explicit, a typed Lagrangian, and schemes of the user's.
+        QTest::newRow("pendulum, Gauss 2") << "pendulum"
+                                           << R"~({"scheme": "galerkin-gauss-2", "step": 0.1})~"
+                                           << "5";
+        QTest::newRow("kepler, Lobatto 3") << "kepler"
+                                           << R"~({"scheme": "galerkin-lobatto-3", "step": 0.1})~"
+                                           << "5";
+        QTest::newRow("kepler, splitting") << "kepler"
+                                           << R"~({"baseline": "blanes-moan-s6", "step": 0.05})~"
+                                           << "5";
+        QTest::newRow("henon-heiles, Verlet") << "henon-heiles"
+                                              << R"~({"scheme": "stormer-verlet-pair", "step": 0.05})~"
+                                              << "5";
+        QTest::newRow("double pendulum, spline")
+            << "double-pendulum"
+            << R"~({"space": {"type": "spline", "degree": 2, "cells": 2}, "quadrature": "gauss", "step": 0.05})~"
+            << "1";
+        QTest::newRow("spring pendulum, Gauss collocation")
+            << "spring-pendulum"
+            << R"~({"baseline": {"type": "gauss-collocation", "stages": 3}, "step": 0.001})~"
+            << "0.1";
+        QTest::newRow("harmonic oscillator, RK4") << "harmonic-oscillator"
+                                                  << R"~({"baseline": "rk4", "step": 0.05})~"
+                                                  << "5";
+        QTest::newRow("duffing, composition")
+            << "duffing"
+            << R"~({"scheme": "midpoint", "step": 0.05, "composition": {"type": "suzuki"}})~"
+            << "2";
+        QTest::newRow("oscillator, fitted functions")
+            << "harmonic-oscillator"
+            << R"~({"space": {"type": "typed", "functions": [1, "tau", "cos(h*tau)", "sin(h*tau)"]}, "step": 0.2})~"
+            << "5";
+    }
+    void programsAgreeWithTheRun() {
+        QFETCH(QString, preset);
+        QFETCH(QString, scheme);
+        QFETCH(QString, end);
+        QTemporaryDir folder;
+        const QString own = scheme.chopped(1) + R"~(, "label": "own"})~";
+        const QStringList scene{"preset:" + preset, "--set", "/schemes/-=" + own, "--set",
+                                "/time/end=" + end};
+        const tests::Answer ran =
+            runProgram(QStringList{"run"} + scene + QStringList{"--out", folder.filePath("run")});
+        QVERIFY2(ran.code == 0, qPrintable(ran.err));
+        const QString csv = folder.filePath("run/own.csv");
+        for (const QString& file : {folder.filePath("own.cpp"), folder.filePath("own.py")}) {
+            const tests::Answer made =
+                runProgram(QStringList{"program"} + scene + QStringList{"--scheme", "own", "--out", file});
+            QVERIFY2(made.code == 0, qPrintable(made.err));
+            Said said;
+            if (file.endsWith(".cpp")) {
+                said =
+                    run("g++", {"-O1", "-std=c++17", "-Wall", "-Werror", "-o", folder.filePath("own"), file});
+                QVERIFY2(said.code == 0, qPrintable(said.text));
+                said = run(folder.filePath("own"), {csv});
+            } else {
+                said = run(QStringLiteral(EXTREMAL_PYTHON), {file, csv});
+            }
+            qInfo("%s: %s", qPrintable(QFileInfo(file).suffix()), qPrintable(said.text.trimmed()));
+            QVERIFY2(said.code == 0, qPrintable(said.text));
+        }
+        // The test of the program can fail: another state is found out.
+        QFile rows(csv);
+        QVERIFY(rows.open(QIODevice::ReadOnly));
+        QList<QByteArray> lines = rows.readAll().split('\n');
+        rows.close();
+        QList<QByteArray> cells = lines[5].split(',');
+        cells[1] = QByteArray::number(cells[1].toDouble() + 1e-9, 'g', 17);
+        lines[5] = cells.join(',');
+        QVERIFY(rows.open(QIODevice::WriteOnly));
+        rows.write(lines.join('\n'));
+        rows.close();
+        QCOMPARE(run(folder.filePath("own"), {csv}).code, 1);
+        QCOMPARE(run(QStringLiteral(EXTREMAL_PYTHON), {folder.filePath("own.py"), csv}).code, 1);
+    }
+
+    void whatCannotBeTakenAlongSaysWhy() {
+        QTemporaryDir folder;
+        const QString file = folder.filePath("x.py");
+        const tests::Answer wave = runProgram({"program", "preset:coherent-state", "--out", file});
+        QCOMPARE(wave.code, 2);
+        QVERIFY2(wave.err.contains("does not say its Lagrangian as a formula"), qPrintable(wave.err));
+        const tests::Answer adaptive =
+            runProgram({"program", "preset:kepler", "--set",
+                        R"~(/schemes/-={"label": "dp", "baseline": "dopri5", "tolerance": 1e-9})~",
+                        "--scheme", "dp", "--out", file});
+        QCOMPARE(adaptive.code, 2);
+        QVERIFY2(adaptive.err.contains("not all of one length"), qPrintable(adaptive.err));
+        QVERIFY(!QFile::exists(file));
+    }
+};
+
+EXTREMAL_TEST(PassportTest)
+
+}  // namespace extremal::passport_test
+
+#include "passport_test.moc"
