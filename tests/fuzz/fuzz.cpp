@@ -1,7 +1,8 @@
 /// Long fuzzing: `tool.fuzz KIND COUNT [SEED [FIRST]]`, or KIND all. The cases run in a process of their own
 /// with bounded memory; where it dies, takes more than ten seconds of processor time for a case (two minutes,
 /// where it waits) or finds a fault, the text is kept in fuzz/ below the current folder, and the next case
-/// goes on. Prints the counts; ends with 1 if anything was found.
+/// goes on. Prints the counts, those so far where it is ended by SIGINT or SIGTERM; ends with 1 if anything
+/// was found.
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -39,6 +40,9 @@ struct Board {
     char text[mostText];
 };
 
+volatile std::sig_atomic_t isEnded = 0;
+void askToEnd(int) { isEnded = 1; }
+
 struct Counts {
     std::uint64_t cases = 0, faults = 0, deaths = 0, hangs = 0;
 };
@@ -57,20 +61,22 @@ public:
     Counts run(std::uint64_t first, std::uint64_t count) {
         Counts counts;
         const std::uint64_t end = first + count;
-        for (std::uint64_t at = first; at < end;) {
+        std::uint64_t at = first;
+        while (at < end && isEnded == 0) {
             const pid_t child = fork();
             if (child == 0) cases(at, end);
             const bool isDone = watch(child, counts);
             at = isDone ? end : board_->number + 1;
         }
-        counts.cases = count;
+        counts.cases = at - first;
         counts.faults = board_->faults;
         return counts;
     }
 
 private:
     [[noreturn]] void cases(std::uint64_t at, std::uint64_t end) {
-        // A sanitizer's shadow memory is larger than any limit.
+        for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+            // A sanitizer's shadow memory is larger than any limit.
 #ifndef __SANITIZE_ADDRESS__
         const rlimit memory{mostMemory, mostMemory};
         setrlimit(RLIMIT_AS, &memory);
@@ -101,6 +107,11 @@ private:
                 if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return true;
                 ++counts.deaths;
                 keep("death");
+                return false;
+            }
+            if (isEnded != 0) {
+                kill(child, SIGKILL);
+                waitpid(child, &status, 0);
                 return false;
             }
             if (board_->number != seen) {
@@ -145,8 +156,9 @@ int main(int argc, char** argv) {
     const std::uint64_t seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
     const std::uint64_t first = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 0;
     bool isClean = true, isKnown = false;
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, askToEnd);
     for (const Kind& kind : kinds()) {
-        if (wanted != "all" && wanted != kind.name) continue;
+        if ((wanted != "all" && wanted != kind.name) || isEnded != 0) continue;
         isKnown = count > 0;
         const Counts counts = Campaign(kind, seed).run(first, count);
         std::printf(

@@ -1,13 +1,7 @@
 # cmake -DROOT=.. -DBUILD=.. -DOUT=.. -P check.cmake: installs the program into an empty folder, runs it there, and validates
 # what desktops read, as far as their tools are installed.
 cmake_minimum_required(VERSION 3.25)
-function(run)
-    execute_process(COMMAND ${ARGV} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE error)
-    if(NOT status EQUAL 0)
-        message(FATAL_ERROR "${ARGV}: ${status}\n${said}${error}")
-    endif()
-    set(said "${said}${error}" PARENT_SCOPE)
-endfunction()
+include(${ROOT}/tests/tools/run.cmake)
 
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
@@ -18,6 +12,13 @@ set(expected bin/extremal share/applications/org.extremal.Extremal.desktop share
     share/fish/vendor_completions.d/extremal.fish share/icons/hicolor/scalable/apps/org.extremal.Extremal.svg
     share/man/man1/extremal.1.gz share/metainfo/org.extremal.Extremal.metainfo.xml share/mime/packages/extremal.xml
     share/zsh/vendor-completions/_extremal)
+# Two pictures of every preset, on light and on dark ground.
+file(GLOB presets RELATIVE ${ROOT}/presets ${ROOT}/presets/*.json)
+list(REMOVE_ITEM presets scene.schema.json)
+foreach(preset ${presets})
+    string(REGEX REPLACE "\\.json$" "" preset ${preset})
+    list(APPEND expected share/extremal/pictures/${preset}-light.png share/extremal/pictures/${preset}-dark.png)
+endforeach()
 list(SORT files)
 list(SORT expected)
 if(NOT files STREQUAL expected)
@@ -41,8 +42,8 @@ endif()
 find_program(DESKTOP desktop-file-validate)
 if(DESKTOP)
     run(${DESKTOP} ${OUT}/usr/share/applications/org.extremal.Extremal.desktop)
-    if(NOT said STREQUAL "")
-        message(FATAL_ERROR "${said}")
+    if(NOT "${said}${error}" STREQUAL "")
+        message(FATAL_ERROR "${said}${error}")
     endif()
 endif()
 # The type of a scene is found by its name; other JSON files stay what they are.
