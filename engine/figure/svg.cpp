@@ -6,6 +6,7 @@
 #include <set>
 #include <span>
 
+#include "engine/core/markup.hpp"
 #include "engine/core/text.hpp"
 #include "engine/figure/palette.hpp"
 #include "engine/figure/phase_colour.hpp"
@@ -29,23 +30,6 @@ Rgb rgbOf(const char* hex) {
     const auto digit = [&](std::size_t i) { return hex[i] <= '9' ? hex[i] - '0' : (hex[i] | 32) - 'a' + 10; };
     return {(16 * digit(1) + digit(2)) / 255.0, (16 * digit(3) + digit(4)) / 255.0,
             (16 * digit(5) + digit(6)) / 255.0};
-}
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '&')
-            safe += "&amp;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
 }
 
 /// Pixels, to a tenth.
@@ -129,8 +113,8 @@ public:
                "\" height=\"" + std::to_string(height_) + "\" viewBox=\"0 0 " + std::to_string(width_) + " " +
                std::to_string(height_) +
                "\" font-family=\"Inter, Helvetica, Arial, sans-serif\" role=\"img\">\n";
-        out_ +=
-            "<title>" + escaped(figure_.title) + "</title>\n<desc>" + escaped(figure_.summary) + "</desc>\n";
+        out_ += "<title>" + markupText(figure_.title) + "</title>\n<desc>" + markupText(figure_.summary) +
+                "</desc>\n";
         out_ += "<rect width=\"100%\" height=\"100%\" fill=\"" + std::string(colours_.ground) + "\"/>\n";
         word(left_, 20, figure_.title, colours_.text, "start", 14, "font-weight=\"600\"");
         if (!figure_.subtitle.empty()) word(left_, 37, figure_.subtitle, colours_.muted, "start", 11);
@@ -186,7 +170,7 @@ private:
               int size, const std::string& more = {}) {
         if (text.empty()) return;
         out_ += "<text x=\"" + px(x) + "\" y=\"" + px(y) + "\" fill=\"" + colour + "\" text-anchor=\"" +
-                anchor + "\" font-size=\"" + std::to_string(size) + "\" " + more + ">" + escaped(text) +
+                anchor + "\" font-size=\"" + std::to_string(size) + "\" " + more + ">" + markupText(text) +
                 "</text>\n";
     }
     void line(double x1, double y1, double x2, double y2, const std::string& colour,

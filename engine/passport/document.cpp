@@ -1,39 +1,21 @@
 #include "engine/passport/document.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cstdio>
 #include <string_view>
-#include <utility>
+
+#include "engine/core/markup.hpp"
 
 namespace extremal {
 namespace {
 
-using Replacements = std::vector<std::pair<std::string_view, std::string_view>>;
-
-std::string replaced(std::string_view text, const Replacements& by) {
-    std::string out;
-    while (!text.empty()) {
-        std::size_t length = 1;
-        std::string_view put = text.substr(0, 1);
-        for (const auto& [from, to] : by)
-            if (text.starts_with(from)) {
-                length = from.size();
-                put = to;
-                break;
-            }
-        out += put;
-        text.remove_prefix(length);
-    }
-    return out;
-}
-
-std::string inHtml(std::string_view text) {
-    return replaced(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}});
-}
-
 /// Characters that mean something in Markdown; "_" between letters is a subscript and stays one.
 std::string inMarkdown(std::string_view text) {
-    return replaced(text,
-                    {{"\\", "\\\\"}, {"*", "\\*"}, {"_", "\\_"}, {"|", "\\|"}, {"<", "\\<"}, {"`", "\\`"}});
+    static constexpr std::array<Replacement, 6> special = {
+        {{"\\", "\\\\"}, {"*", "\\*"}, {"_", "\\_"}, {"|", "\\|"}, {"<", "\\<"}, {"`", "\\`"}}};
+    return replaced(text, special);
 }
 
 /// Letters that LaTeX has no input for are written as their numbers: U+2713.
@@ -57,8 +39,8 @@ std::string withoutUnknown(std::string_view text) {
     return out;
 }
 
-std::string inLatex(std::string_view text) {
-    const std::string known = replaced(text, {{"\\", "\\textbackslash{}"},
+std::string lettersInLatex(std::string_view text) {
+    static constexpr Replacement special[] = {{"\\", "\\textbackslash{}"},
                                               {"{", "\\{"},
                                               {"}", "\\}"},
                                               {"_", "\\_"},
@@ -121,8 +103,40 @@ std::string inLatex(std::string_view text) {
                                               {"₃", "$_3$"},
                                               {"₄", "$_4$"},
                                               {"ℓ", "$\\ell$"},
-                                              {"ℒ", "$\\mathcal{L}$"}});
-    return withoutUnknown(known);
+                                              {"ℒ", "$\\mathcal{L}$"}};
+    return withoutUnknown(replaced(text, special));
+}
+
+/// The length of an index or exponent that begins there: one or two letters or digits, or few of them in
+/// brackets.
+std::size_t scriptLength(std::string_view text) {
+    constexpr std::size_t most = 6;
+    if (text.starts_with('(')) {
+        const std::size_t end = text.find(')');
+        return end <= most ? end + 1 : 0;
+    }
+    const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    const auto end = std::find_if_not(text.begin(), text.end(), isWord);
+    return end - text.begin() <= 2 ? static_cast<std::size_t>(end - text.begin()) : 0;
+}
+
+/// "a_t^2" is set as in formulas.
+std::string inLatex(std::string_view text) {
+    std::string out;
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const std::size_t length = text[i] == '_' || text[i] == '^' ? scriptLength(text.substr(i + 1)) : 0;
+        if (length == 0) continue;
+        out += lettersInLatex(text.substr(from, i - from));
+        out += std::string("$") + text[i] + "{" + std::string(text.substr(i + 1, length)) + "}$";
+        i += length;
+        from = i + 1;
+    }
+    return out + lettersInLatex(text.substr(from));
+}
+
+bool isEmpty(const std::vector<std::string>& cells) {
+    return std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); });
 }
 
 constexpr const char* style = R"(
@@ -175,32 +189,37 @@ class Html {
 public:
     static std::string begin(const std::string& title) {
         return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
-               inHtml(title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<main>\n<h1>" +
-               inHtml(title) + "</h1>\n";
+               markupText(title) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<main>\n<h1>" +
+               markupText(title) + "</h1>\n";
     }
     static std::string end() { return "</main>\n</body>\n</html>\n"; }
-    std::string operator()(const Document::Heading& h) const { return "<h2>" + inHtml(h.text) + "</h2>\n"; }
-    std::string operator()(const Document::Paragraph& p) const { return "<p>" + inHtml(p.text) + "</p>\n"; }
+    std::string operator()(const Document::Heading& h) const {
+        return "<h2>" + markupText(h.text) + "</h2>\n";
+    }
+    std::string operator()(const Document::Paragraph& p) const {
+        return "<p>" + markupText(p.text) + "</p>\n";
+    }
     std::string operator()(const Document::Formulas& f) const {
         std::string text;
         for (const WrittenFormula& line : f.lines)
-            text += "<p class=\"formula\">" + inHtml(line.plain) + "</p>\n";
+            text += "<p class=\"formula\">" + markupText(line.plain) + "</p>\n";
         return text;
     }
     std::string operator()(const Document::Table& t) const {
         std::string text = "<div class=\"wide\"><table>\n";
         const auto row = [&](const std::vector<std::string>& cells, const std::string& tag) {
             text += "<tr>";
-            for (const std::string& cell : cells) text += "<" + tag + ">" + inHtml(cell) + "</" + tag + ">";
+            for (const std::string& cell : cells)
+                text += "<" + tag + ">" + markupText(cell) + "</" + tag + ">";
             text += "</tr>\n";
         };
-        row(t.columns, "th");
+        if (!isEmpty(t.columns)) row(t.columns, "th");
         for (const auto& cells : t.rows) row(cells, "td");
         return text + "</table></div>\n";
     }
     std::string operator()(const Document::Listing& l) const {
         std::string text = "<pre>";
-        for (const std::string& line : l.lines) text += inHtml(line) + "\n";
+        for (const std::string& line : l.lines) text += markupText(line) + "\n";
         return text + "</pre>\n";
     }
 };
@@ -210,7 +229,7 @@ public:
     static std::string begin(const std::string& title) {
         return "\\documentclass[a4paper,10pt]{article}\n\\usepackage[T1]{fontenc}\n\\usepackage[utf8]{"
                "inputenc}\n"
-               "\\usepackage{amsmath,amssymb,longtable}\n\\usepackage[margin=2.2cm]{geometry}\n"
+               "\\usepackage{amsmath,amssymb,longtable}\n\\usepackage[margin=1.7cm]{geometry}\n"
                "\\setlength{\\parindent}{0pt}\n\\begin{document}\n\\section*{" +
                inLatex(title) + "}\n";
     }
@@ -232,8 +251,10 @@ public:
             for (std::size_t i = 0; i < cells.size(); ++i) text += (i > 0 ? " & " : "") + inLatex(cells[i]);
             text += " \\\\\n";
         };
-        row(t.columns);
-        text += "\\hline\n";
+        if (!isEmpty(t.columns)) {
+            row(t.columns);
+            text += "\\hline\n";
+        }
         for (const auto& cells : t.rows) row(cells);
         return text + "\\hline\n\\end{longtable}\n";
     }

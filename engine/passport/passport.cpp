@@ -13,7 +13,8 @@
 namespace extremal {
 namespace {
 
-std::string claimsText(const Claims& claims) {
+std::string claimsText(Claims claims, const System& system) {
+    if (!isWave(system)) std::erase(claims.conserves, "norm");  // splittings are for wave functions as well
     std::vector<std::string> words;
     if (claims.order > 0) words.push_back("order " + std::to_string(claims.order));
     if (claims.isSymmetric) words.emplace_back("symmetric");
@@ -61,7 +62,7 @@ void addKind(const ResolvedScene& scene, const ResolvedScheme& scheme, Document&
         add("tolerance", formatNumber(scheme.spec.tolerance.value_or(0)));
     else
         add("step", formatNumber(scheme.spec.step.value));
-    add("claims", claimsText(scheme.claims));
+    add("claims", claimsText(scheme.claims, *scene.system));
     add("caution", scheme.properties.shortfall);
     page.blocks.emplace_back(std::move(t));
 }

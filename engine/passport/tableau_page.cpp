@@ -9,7 +9,10 @@
 namespace extremal {
 namespace {
 
-constexpr int digits = 30, digitsInFormulas = 12, mostStages = 8, mostOrder = 6;
+constexpr int digits = 30, mostStages = 8, mostOrder = 6;
+
+/// Formulas of a step with many stages must fit on a line; the listing has all digits.
+int digitsInFormulas(Eigen::Index stages) { return stages > 4 ? 6 : 12; }
 
 using Matrix = Tableau::Matrix;
 using Vector = Tableau::Vector;
@@ -19,8 +22,8 @@ bool isZero(const Quad& x, double known) { return abs(x) <= known; }
 /// How many decimals are known: fewer where entries come from printed digits.
 int digitsOf(const Tableau& t) { return t.known > 1e-20 ? 15 : digits; }
 
-std::string texNumber(const Quad& x, double known) {
-    const std::string text = numberText(abs(x), digitsInFormulas, known);
+std::string texNumber(const Quad& x, int decimals, double known) {
+    const std::string text = numberText(abs(x), decimals, known);
     const auto slash = text.find('/');
     if (slash == std::string::npos) return text;
     return "\\tfrac{" + text.substr(0, slash) + "}{" + text.substr(slash + 1) + "}";
@@ -31,18 +34,19 @@ WrittenFormula combination(const std::string& left, const std::string& start, co
                            const std::string& name, double known) {
     WrittenFormula f{left + " = " + start, left + " = " + start};
     std::string plain, tex;
+    const int decimals = digitsInFormulas(row.size());
     Eigen::Index terms = 0;
     for (Eigen::Index j = 0; j < row.size(); ++j) {
         const Quad& a = row(j);
         if (isZero(a, known)) continue;
         const bool isOne = isZero(abs(a) - 1, known);
-        const std::string number = numberText(abs(a), digitsInFormulas, known);
+        const std::string number = numberText(abs(a), decimals, known);
         const std::string of = name + "_" + std::to_string(j + 1),
                           ofTex = name + "_{" + std::to_string(j + 1) + "}";
         const char* const sign = a < 0 ? (terms > 0 ? " − " : "−") : (terms > 0 ? " + " : "");
         const char* const signTex = a < 0 ? " - " : (terms > 0 ? " + " : "");
         plain.append(sign).append(isOne ? "" : number + " ").append(of);
-        tex.append(signTex).append(isOne ? "" : texNumber(a, known) + "\\, ").append(ofTex);
+        tex.append(signTex).append(isOne ? "" : texNumber(a, decimals, known) + "\\, ").append(ofTex);
         ++terms;
     }
     if (terms == 0) return f;
@@ -115,6 +119,7 @@ std::string small(const Quad& x) { return formatNumber(static_cast<double>(abs(x
 WrittenFormula polynomial(const std::vector<Quad>& c, const std::string& z, const std::string& zTex,
                           int power, double known) {
     WrittenFormula f;
+    const int decimals = digitsInFormulas(static_cast<Eigen::Index>(c.size()) - 1);
     for (std::size_t k = 0; k < c.size(); ++k) {
         if (isZero(c[k], 1e-28)) continue;
         const int n = power * static_cast<int>(k);
@@ -122,9 +127,9 @@ WrittenFormula polynomial(const std::vector<Quad>& c, const std::string& z, cons
         const std::string sign = c[k] < 0 ? (f.plain.empty() ? "−" : " − ") : (f.plain.empty() ? "" : " + ");
         const std::string signTex = c[k] < 0 ? "-" : (f.tex.empty() ? "" : "+");
         const std::string exponent = n > 1 ? "^" + std::to_string(n) : "";
-        const std::string number = isOne ? "" : numberText(abs(c[k]), digitsInFormulas, known);
+        const std::string number = isOne ? "" : numberText(abs(c[k]), decimals, known);
         f.plain += sign + number + (n > 0 ? (isOne ? "" : " ") + z + exponent : "");
-        f.tex += signTex + (isOne ? "" : texNumber(c[k], known)) +
+        f.tex += signTex + (isOne ? "" : texNumber(c[k], decimals, known)) +
                  (n > 0 ? zTex + (n > 1 ? "^{" + std::to_string(n) + "}" : "") : "");
     }
     return f;

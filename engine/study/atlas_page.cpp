@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/markup.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/atlas.hpp"
 
@@ -32,17 +33,6 @@ td.none { color: var(--muted); }
 @media print { body { background: white; } section { border: 0; padding: 0; break-inside: avoid-page; } }
 )";
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text)
-        out += c == '&'   ? "&amp;"
-               : c == '<' ? "&lt;"
-               : c == '>' ? "&gt;"
-               : c == '"' ? "&quot;"
-                          : std::string(1, c);
-    return out;
-}
-
 /// "3.2·10⁻⁷" as "3.2e-07" without its leading zeros.
 std::string number(double value, int digits) {
     std::string text = formatNumber(value, digits);
@@ -57,7 +47,7 @@ std::string seconds(double value) {
 
 std::string cell(const std::string& text, const char* kind = "") {
     if (text.empty()) return "<td class=\"none\">–</td>";
-    return (*kind ? "<td class=\"" + std::string(kind) + "\">" : std::string("<td>")) + escaped(text) +
+    return (*kind ? "<td class=\"" + std::string(kind) + "\">" : std::string("<td>")) + markupText(text) +
            "</td>";
 }
 const char* kindOf(Verdict verdict) {
@@ -86,7 +76,7 @@ std::string tableOf(const AtlasSystem& system, const std::vector<AtlasRow>& rows
         "<div class=\"wide\"><table>\n<thead><tr><th>scheme</th><th>order<br/>claimed</th>"
         "<th>order<br/>measured</th><th>error</th><th>CPU time</th><th>CPU time<br/>for 1e-6</th>";
     for (std::size_t i = 1; i < system.parts.size(); ++i)
-        html += "<th>" + escaped(system.parts[i].metric) + "</th>";
+        html += "<th>" + markupText(system.parts[i].metric) + "</th>";
     html += "<th class=\"text\">claims</th><th class=\"text\">ended</th></tr></thead>\n<tbody>\n";
     for (const AtlasRow& row : rows) {
         html += "<tr>" + cell(row.label) +
@@ -116,12 +106,12 @@ std::string atlasPage(const std::vector<AtlasSystem>& systems, const std::string
             ++(v == Verdict::kept ? kept : v == Verdict::below ? below : unknown);
         }
         const Scene& scene = system.errors().scene().scene;
-        links += "<a href=\"#" + system.id + "\">" + escaped(system.title) + "</a> ";
-        sections += "<section id=\"" + system.id + "\">\n<h2>" + escaped(system.title) +
+        links += "<a href=\"#" + system.id + "\">" + markupText(system.title) + "</a> ";
+        sections += "<section id=\"" + system.id + "\">\n<h2>" + markupText(system.title) +
                     "</h2>\n<p class=\"muted\">" + "preset <code>" + system.id +
                     "</code>, t = " + number(scene.start.value, 6) + " to " + number(scene.end.value, 6) +
                     ", compared at h = " + number(system.step, 4) +
-                    "; reference: " + escaped(system.errors().reference().type) +
+                    "; reference: " + markupText(system.errors().reference().type) +
                     (std::isfinite(system.errors().reference().estimatedError)
                          ? ", good to " + number(system.errors().reference().estimatedError, 1)
                          : "") +
@@ -133,7 +123,7 @@ std::string atlasPage(const std::vector<AtlasSystem>& systems, const std::string
            "<title>Atlas of schemes</title>\n<style>" +
            std::string(style) +
            "</style>\n</head>\n<body>\n<main>\n<h1>Atlas of schemes</h1>\n<p class=\"muted\">Extremal " +
-           escaped(version) + "; measured on " + escaped(machine) + ".</p>\n" +
+           markupText(version) + "; measured on " + markupText(machine) + ".</p>\n" +
            (isComplete ? "" : "<p><strong>Interrupted: not all of it has been measured.</strong></p>\n") +
            "<p>" + std::to_string(cases) +
            " pairs of a scheme and a system. The measured order is the claimed one, or above, in " +
