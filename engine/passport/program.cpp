@@ -148,6 +148,66 @@ std::string indented(const std::vector<std::string>& lines) {
     return text;
 }
 
+/// What the program is, how it is called, and what it includes.
+void writeHead(const std::string& label, const std::string& title, const std::string& lagrangian, Writer& w,
+               bool isPython) {
+    if (isPython) w.text = "#!/usr/bin/env python3\n";
+    w.comment(label + " on " + title);
+    w.comment("");
+    w.comment("L = " + lagrangian);
+    w.comment("");
+    if (isPython) {
+        w.comment("python3 FILE.py          prints the run of the scene as CSV");
+        w.comment("python3 FILE.py RUN.csv  compares with the CSV of a run, to 1e-13");
+    } else {
+        w.comment("g++ -O2 -std=c++17 FILE.cpp && ./a.out         prints the run of the scene as CSV");
+        w.comment("./a.out RUN.csv                                 compares with the CSV of a run, to 1e-13");
+    }
+    w.text += isPython ? program_text::pythonHead : program_text::cppHead;
+}
+
+/// Parameters, the start, the step, and the columns of the CSV.
+void writeScene(const ResolvedScene& scene, const ResolvedScheme& scheme, const typed::Formula& formula,
+                const std::vector<double>& parts, Writer& w, bool isPython) {
+    const int d = scene.system->dimension();
+    w.text += isPython ? "d = " + std::to_string(d) + "\n" : "constexpr int d = " + std::to_string(d) + ";\n";
+    for (const auto& [name, value] : formula.parameters) w.scalar("k_" + name, value);
+    const State start = initialOf(scene, scheme);
+    const double h = scheme.spec.step.value;
+    w.scalar("t_start", start.t);
+    w.scalar("h_step", h);
+    w.integer("steps_of_the_scene", std::llround((scene.scene.end.value - start.t) / h));
+    w.vector("q_start", vectorOf(start.x.data(), d));
+    w.vector("p_start", vectorOf(start.x.data() + d, d));
+    w.vector("parts", vectorOf(parts.data(), static_cast<int>(parts.size())));
+    std::string columns = "t";
+    for (const Quantity& q : stateColumns(*scene.system)) columns += "," + q.name;
+    w.text += isPython ? "columns = '" + columns + "'.split(',')\n"
+                       : "const char* const columns = \"" + columns + "\";\n";
+    w.text += "\n";
+}
+
+/// The derivatives of the Lagrangian, the step, and what runs and compares it.
+void writeFunctions(const typed::Formula& formula, Kind kind, Writer& w, bool isPython) {
+    using namespace program_text;
+    const auto lines = indented(typed::derivativeLines(formula, isPython ? Language::python : Language::cpp));
+    const auto step = [&](const char* galerkin, const char* stages, const char* rungeKutta) {
+        return kind == Kind::galerkin ? galerkin : kind == Kind::stages ? stages : rungeKutta;
+    };
+    if (isPython)
+        w.text.append(pythonDerivatives)
+            .append(lines)
+            .append(pythonCommon)
+            .append(step(pythonGalerkin, pythonStages, pythonRungeKutta))
+            .append(pythonMain);
+    else
+        w.text.append(cppDerivatives)
+            .append(lines)
+            .append(cppCommon)
+            .append(step(cppGalerkin, cppStages, cppRungeKutta))
+            .append(cppMain);
+}
+
 }  // namespace
 
 std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLanguage language) {
@@ -162,75 +222,16 @@ std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLang
     const Method method = methodOf(scene, scheme);
 
     Writer w(isPython ? Language::python : Language::cpp);
-    if (isPython) w.text = "#!/usr/bin/env python3\n";
-    w.comment(scheme.spec.label + " on " + (scene.scene.title.empty() ? system.id : scene.scene.title));
-    w.comment("");
-    w.comment("L = " + formula->text);
-    w.comment("");
-    w.comment(isPython ? "python3 FILE.py          prints the run of the scene as CSV"
-                       : "g++ -O2 -std=c++17 FILE.cpp && ./a.out         prints the run of the scene as CSV");
-    w.comment(
-        isPython
-            ? "python3 FILE.py RUN.csv  compares with the CSV of a run, to 1e-13"
-            : "./a.out RUN.csv                                 compares with the CSV of a run, to 1e-13");
-    w.text += isPython ? "import math\nimport sys\n\nimport numpy as np\n\n"
-                       : "#include <algorithm>\n#include <cmath>\n#include <cstdio>\n#include "
-                         "<fstream>\n#include <sstream>\n#include <stdexcept>\n#include <string>\n#include "
-                         "<vector>\n\nnamespace {\n\n";
-    const int d = system.dimension();
-    w.text += isPython ? "d = " + std::to_string(d) + "\n" : "constexpr int d = " + std::to_string(d) + ";\n";
-    for (const auto& [name, value] : formula->parameters) w.scalar("k_" + name, value);
-    const State start = initialOf(scene, scheme);
-    const double h = scheme.spec.step.value;
-    w.scalar("t_start", start.t);
-    w.scalar("h_step", h);
-    w.integer("steps_of_the_scene", std::llround((scene.scene.end.value - start.t) / h));
-    w.vector("q_start", vectorOf(start.x.data(), d));
-    w.vector("p_start", vectorOf(start.x.data() + d, d));
+    writeHead(scheme.spec.label, scene.scene.title.empty() ? system.id : scene.scene.title, formula->text, w,
+              isPython);
     const bool isComposedByParts = scheme.isComposed() && method.kind == Kind::galerkin;
-    w.vector("parts", isComposedByParts ? vectorOf(scheme.parts.data(), static_cast<int>(scheme.parts.size()))
-                                        : Eigen::VectorXd(Eigen::VectorXd::Ones(1)));
-    std::string columns = "t";
-    for (const Quantity& q : stateColumns(system)) columns += "," + q.name;
-    w.text += isPython ? "columns = '" + columns + "'.split(',')\n"
-                       : "const char* const columns = \"" + columns + "\";\n";
-    w.text += "\n";
+    writeScene(scene, scheme, *formula, isComposedByParts ? scheme.parts : std::vector<double>{1}, w,
+               isPython);
     if (method.kind == Kind::galerkin)
         writeGalerkin(*method.table, w, isPython);
     else
         writeTableau(*method.tableau, w, isPython, method.kind == Kind::stages);
-
-    using namespace program_text;
-    const auto lines = typed::derivativeLines(*formula, isPython ? Language::python : Language::cpp);
-    if (isPython) {
-        w.text +=
-            "\n\ndef derivatives(t, q, v):\n    \"\"\"The gradient of L in (q, v), and its Hessian.\"\"\"\n"
-            "    g, H = np.zeros(2 * d), np.zeros((2 * d, 2 * d))\n" +
-            indented(lines) +
-            "    return g, H + np.tril(H, -1).T\n\n\ndef velocity(t, q, p):\n    \"\"\"v with L_v(t, q, v) = "
-            "p, by "
-            "Newton from 0: one iteration where L is quadratic in v.\"\"\"\n    v = np.zeros(d)\n    for "
-            "iteration in range(60):\n        g, H = derivatives(t, q, v)\n        change = "
-            "np.linalg.solve(H[d:, d:], p - g[d:])\n        v = v + change\n        if np.abs(change).max() "
-            "<= "
-            "1e-15 * np.abs(v).max():\n            break\n    return v\n\n";
-        w.text += method.kind == Kind::galerkin ? pythonGalerkin
-                  : method.kind == Kind::stages ? pythonStages
-                                                : pythonRungeKutta;
-        w.text += pythonMain;
-    } else {
-        w.text +=
-            "\n/// The gradient of L in (q, v), and the lower triangle of its Hessian.\nvoid "
-            "fill([[maybe_unused]] double t, [[maybe_unused]] const double* q, [[maybe_unused]] const "
-            "double* "
-            "v, double* g, double (*H)[2 * d]) {\n" +
-            indented(lines) + "}\n";
-        w.text += cppCommon;
-        w.text += method.kind == Kind::galerkin ? cppGalerkin
-                  : method.kind == Kind::stages ? cppStages
-                                                : cppRungeKutta;
-        w.text += cppMain;
-    }
+    writeFunctions(*formula, method.kind, w, isPython);
     return w.text;
 }
 

@@ -3,12 +3,18 @@
 
 namespace extremal::program_text {
 
-// Python: what every program has behind its tables and its function derivatives(t, q, v).
+// Python: imports before the tables; behind them the function derivatives(t, q, v), between its head and its
+// end, which is followed by the velocity; the step, one of three; and what runs and compares it.
+extern const char* const pythonHead;
+extern const char* const pythonDerivatives;
+extern const char* const pythonCommon;
 extern const char* const pythonGalerkin;
 extern const char* const pythonStages;
 extern const char* const pythonRungeKutta;
 extern const char* const pythonMain;
 // C++ likewise.
+extern const char* const cppHead;
+extern const char* const cppDerivatives;
 extern const char* const cppCommon;
 extern const char* const cppGalerkin;
 extern const char* const cppStages;

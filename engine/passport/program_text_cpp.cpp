@@ -2,7 +2,26 @@
 
 namespace extremal::program_text {
 
-const char* const cppCommon = R"(
+const char* const cppHead = R"(#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+)";
+
+const char* const cppDerivatives = R"(
+/// The gradient of L in (q, v), and the lower triangle of its Hessian.
+void fill([[maybe_unused]] double t, [[maybe_unused]] const double* q, [[maybe_unused]] const double* v, double* g, double (*H)[2 * d]) {
+)";
+
+const char* const cppCommon = R"(}
+
 /// X of A X = B, column by column, by elimination with partial pivoting; n rows, k columns, both by rows.
 bool solve(std::vector<double> A, std::vector<double>& B, int n, int k) {
     for (int c = 0; c < n; ++c) {

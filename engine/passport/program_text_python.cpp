@@ -2,6 +2,36 @@
 
 namespace extremal::program_text {
 
+const char* const pythonHead = R"(import math
+import sys
+
+import numpy as np
+
+)";
+
+const char* const pythonDerivatives = R"(
+
+def derivatives(t, q, v):
+    """The gradient of L in (q, v), and its Hessian."""
+    g, H = np.zeros(2 * d), np.zeros((2 * d, 2 * d))
+)";
+
+const char* const pythonCommon = R"(    return g, H + np.tril(H, -1).T
+
+
+def velocity(t, q, p):
+    """v with L_v(t, q, v) = p, by Newton from 0: one iteration where L is quadratic in v."""
+    v = np.zeros(d)
+    for iteration in range(60):
+        g, H = derivatives(t, q, v)
+        change = np.linalg.solve(H[d:, d:], p - g[d:])
+        v = v + change
+        if np.abs(change).max() <= 1e-15 * np.abs(v).max():
+            break
+    return v
+
+)";
+
 const char* const pythonGalerkin = R"(
 def step(t, h, q0, p0):
     """sum_i b_i (h psi_a L_q + psi_a' L_v) = 0 inside, = -p_0 for the last test function; Newton from a straight line."""
