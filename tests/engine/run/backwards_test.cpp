@@ -34,6 +34,13 @@ std::string list(const Trajectory& rows, std::size_t row) {
     const auto at = [&](const char* name) { return formatNumber(rows[name][row]); };
     return R"({"q":[)" + at("q.x") + "," + at("q.y") + R"(],"p":[)" + at("p.x") + "," + at("p.y") + "]}";
 }
+/// One coordinate with a force that depends on time, and the state of its last row.
+const std::string forced = R"({"type":"lagrangian","coordinates":["x"],
+    "lagrangian":"x_t^2/2 - x^4/4 + x*sin(t) "})";
+std::string endOf(const Trajectory& rows) {
+    return R"({"q":[)" + formatNumber(rows["q.x"].back()) + R"(],"p":[)" + formatNumber(rows["p.x"].back()) +
+           "]}";
+}
 std::string stepping(const std::string& scheme, double h) {
     return "{" + scheme + ",\"step\":" + formatNumber(h) + "}";
 }
@@ -118,16 +125,10 @@ private slots:
         QVERIFY(std::is_sorted(x.begin(), x.end()));
     }
     void forcesThatDependOnTimeAreThoseOfTheirTime() {
-        const std::string forced = R"({"type":"lagrangian","coordinates":["x"],
-            "lagrangian":"x_t^2/2 - x^4/4 + x*sin(t) "})";
         const Comparison there =
             ran(scene(R"({"end":10})", gauss, R"("reference":"none")", R"({"q":[1],"p":[0]})", forced));
-        const Trajectory& rows = there.schemes[0]->trajectory;
-        const std::size_t last = rows.rows() - 1;
-        const std::string end = R"({"q":[)" + formatNumber(rows["q.x"][last]) + R"(],"p":[)" +
-                                formatNumber(rows["p.x"][last]) + "]}";
-        const Comparison back =
-            ran(scene(R"({"start":10,"end":0})", gauss, R"("reference":"none")", end, forced));
+        const Comparison back = ran(scene(R"({"start":10,"end":0})", gauss, R"("reference":"none")",
+                                          endOf(there.schemes[0]->trajectory), forced));
         QVERIFY(std::abs(back.schemes[0]->trajectory["q.x"][0] - 1) < 1e-12);
         QVERIFY(std::abs(back.schemes[0]->trajectory["p.x"][0]) < 1e-12);
     }
@@ -153,17 +154,12 @@ private slots:
         qInfo("error %.1e", s.summary.maxError);
         QVERIFY(s.summary.maxError > 0 && s.summary.maxError < 2e-6);
 
-        const std::string forced = R"({"type":"lagrangian","coordinates":["x"],
-            "lagrangian":"x_t^2/2 - x^4/4 + x*sin(t) "})";
         const Comparison there =
             ran(scene(R"({"end":10})", schemes, R"("reference":"none")", R"({"q":[1],"p":[0]})", forced));
         const Trajectory& rows = there.schemes[0]->trajectory;
-        const std::size_t last = rows.rows() - 1;
-        QCOMPARE(rows["t"][last], 10.0);
-        const std::string end = R"({"q":[)" + formatNumber(rows["q.x"][last]) + R"(],"p":[)" +
-                                formatNumber(rows["p.x"][last]) + "]}";
+        QCOMPARE(rows["t"].back(), 10.0);
         const Comparison back =
-            ran(scene(R"({"start":10,"end":0})", schemes, R"("reference":"none")", end, forced));
+            ran(scene(R"({"start":10,"end":0})", schemes, R"("reference":"none")", endOf(rows), forced));
         QCOMPARE(back.schemes[0]->trajectory["t"][0], 0.0);
         const double missed =
             std::hypot(back.schemes[0]->trajectory["q.x"][0] - 1, back.schemes[0]->trajectory["p.x"][0]);

@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "engine/figure/sample.hpp"
-#include "tests/engine/figure/hand_made.hpp"
+#include "tests/engine/figure/hand_made_figure.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
@@ -18,13 +18,6 @@
 
 namespace extremal::plot_widget_test {
 namespace {
-
-Figure figureOf(const char* view) {
-    static const System pendulum = handmade::pendulum();
-    View v;
-    v.id = view;
-    return makeFigure(handmade::comparison(), v, &pendulum);
-}
 
 QCustomPlot& canvas(PlotWidget& plot) { return *plot.findChild<QCustomPlot*>(); }
 /// The middle of the axis rectangle.
@@ -40,7 +33,7 @@ void wheel(PlotWidget& plot, QPoint at, int notches) {
 std::unique_ptr<PlotWidget> shown(const char* view) {
     auto plot = std::make_unique<PlotWidget>(Theme::light());
     plot->resize(600, 400);
-    plot->setFigure(figureOf(view));
+    plot->setFigure(handmade::figureOf(view));
     plot->show();
     (void)QTest::qWaitForWindowExposed(plot.get());
     canvas(*plot).replot();
@@ -59,7 +52,7 @@ private slots:
         wheel(*plot, middle(*plot), 3);
         const PlotRange zoomed = plot->visibleRange(PlotAxis::x);
         QVERIFY(zoomed.high - zoomed.low < 0.7 * (before.high - before.low));
-        Figure longer = figureOf("energy");
+        Figure longer = handmade::figureOf("energy");
         longer.x.range = {0, 1000};
         plot->setFigure(longer);
         canvas(*plot).replot();
@@ -180,7 +173,7 @@ private slots:
         QVERIFY(std::abs(moved[0][0].toDouble() - (r.low + r.high) / 2) < 0.05 * (r.high - r.low));
     }
     void valuesThatCannotBeDrawnAreGapsAndCounted() {
-        const Figure energy = figureOf("energy");  // a log axis: zeros and infinities
+        const Figure energy = handmade::figureOf("energy");  // a log axis: zeros and infinities
         int hidden = 0;
         for (const Series& s : energy.series()) {
             hidden += s.hidden;
@@ -215,7 +208,7 @@ private slots:
         QVERIFY(!plot->save(dir.filePath("missing/h.png"), 1, &error));
     }
     void csvOfTheVisiblePartIsAPart() {
-        Figure part = figureOf("energy");
+        Figure part = handmade::figureOf("energy");
         const std::string all = figureCsv(part, false);
         part.x.range = {2, 3};
         const std::string visible = figureCsv(part, true);

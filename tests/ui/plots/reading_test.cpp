@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "engine/figure/sample.hpp"
-#include "tests/engine/figure/hand_made.hpp"
+#include "tests/engine/figure/hand_made_figure.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/plots/axis_title.hpp"
 #include "ui/plots/figure_plot.hpp"
@@ -19,13 +19,6 @@
 
 namespace extremal::reading_test {
 namespace {
-
-Figure figureOf(const char* view) {
-    static const System pendulum = handmade::pendulum();
-    View v;
-    v.id = view;
-    return makeFigure(handmade::comparison(), v, &pendulum);
-}
 
 /// Labels of an axis inside its range.
 int labelsOn(QCPAxisTicker& ticker, const QCPRange& range) {
@@ -106,7 +99,7 @@ private slots:
             QVERIFY(labelsOn(*linearTicker(8), {0.1, 0.1 + size}) <= 9);
     }
     void aTitleThatDoesNotFitBesideTheAxisStandsAboveIt() {
-        Figure figure = figureOf("energy");
+        Figure figure = handmade::figureOf("energy");
         figure.y.title = "a title of many words, with a unit  [kg m/s]";
         PlotWidget low(Theme::light()), high(Theme::light());
         low.setFigure(figure);
@@ -125,7 +118,7 @@ private slots:
         QVERIFY(hasLoweredPart("p_a  [kg m/s]"));
         QCOMPARE(plainTitle("p_θ  [kg m²/s]"), QString("pθ  [kg m²/s]"));
         QVERIFY(!hasLoweredPart("|H - H(0)|  [J]") && !hasLoweredPart("_x"));
-        Figure figure = figureOf("phase");
+        Figure figure = handmade::figureOf("phase");
         figure.y.title = "p_x";
         PlotWidget plot(Theme::light());
         plot.setFigure(figure);
@@ -137,7 +130,7 @@ private slots:
     void theOthersFadeBesideAHighlightedScheme() {
         const Theme theme = Theme::light();
         PlotWidget plot(theme);
-        plot.setFigure(figureOf("energy"));
+        plot.setFigure(handmade::figureOf("energy"));
         const Series& first = plot.figure().series().front();
         const Series& second = plot.figure().series()[1];
         const QColor own = theme.series(first.style).color, other = theme.series(second.style).color;
@@ -169,7 +162,7 @@ private slots:
         }
     }
     void thePointerShowsAllValuesAndTheirDifferences() {
-        const Figure figure = figureOf("error");
+        const Figure figure = handmade::figureOf("error");
         const Theme theme = Theme::light();
         const double t = 0.5 * figure.x.range->second, pinned = 0.25 * figure.x.range->second;
         const QString text = valuesAt(figure, t, std::nullopt, figure.series().front().label, theme);
@@ -192,8 +185,8 @@ private slots:
         auto* error = new PlotWidget(Theme::light(), &window);
         energy->setGeometry(0, 0, 400, 300);
         error->setGeometry(0, 300, 400, 300);
-        energy->setFigure(figureOf("energy"));
-        error->setFigure(figureOf("error"));
+        energy->setFigure(handmade::figureOf("energy"));
+        error->setFigure(handmade::figureOf("error"));
         window.resize(700, 600);
         window.show();
         (void)QTest::qWaitForWindowExposed(&window);
