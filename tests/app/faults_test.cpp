@@ -7,6 +7,7 @@
 #include <QTest>
 
 #include <algorithm>
+#include <boost/crc.hpp>
 #include <cmath>
 #include <csignal>
 
@@ -22,11 +23,28 @@ using tests::runProgram;
 
 const QStringList scene = {"run", "preset:spring-pendulum", "--quiet", "--out"};
 
+/// Whether the bytes of a checkpoint are those that were written: a line of JSON that says whose they are,
+/// a line with the CRC-32 of the others, and these.
+bool isWholeCheckpoint(const QByteArray& bytes) {
+    const auto first = bytes.indexOf('\n'), second = bytes.indexOf('\n', first + 1);
+    if (first < 0 || second < 0 || QJsonDocument::fromJson(bytes.left(first)).isNull()) return false;
+    const QByteArray rest = bytes.mid(second + 1);
+    boost::crc_32_type crc;
+    crc.process_bytes(rest.constData(), static_cast<std::size_t>(rest.size()));
+    return bytes.mid(first + 1, second - first - 1).toUInt(nullptr, 16) == crc.checksum();
+}
+
 /// What is wrong with the files of a run, next to those of a whole one: a file must be whole, or not be
-/// there. Those that name processor times have as many lines as the whole ones.
+/// there. Those that name processor times have as many lines as the whole ones; checkpoints, which a run that
+/// ended does not have, are compared with their checksum.
 QString faultOf(const QDir& folder, const QDir& whole) {
     for (const QString& name : folder.entryList(QDir::Files)) {
-        const QByteArray here = contentOf(folder.filePath(name)), there = contentOf(whole.filePath(name));
+        const QByteArray here = contentOf(folder.filePath(name));
+        if (name.endsWith(".checkpoint")) {
+            if (!isWholeCheckpoint(here)) return name + " is not whole";
+            continue;
+        }
+        const QByteArray there = contentOf(whole.filePath(name));
         if (name == "summary.json" && QJsonDocument::fromJson(here).isNull()) return name + " is no document";
         const bool hasTimes = name.startsWith("summary.");
         if (hasTimes ? here.count('\n') != there.count('\n') || !here.endsWith('\n') : here != there)
@@ -50,7 +68,7 @@ private slots:
     }
 
     void killedAtAnyMomentFilesAreWholeOrAbsent() {
-        int killed = 0;
+        int killed = 0, withCheckpoints = 0;
         double part = 0;  // of the shortest run so far
         for (int i = 0; i < 200 && killed < 50; ++i) {
             const QString folder = folder_.filePath("killed");
@@ -58,7 +76,8 @@ private slots:
             QElapsedTimer timer;
             timer.start();
             QProcess process;
-            process.start(QStringLiteral(EXTREMAL_BINARY), scene + QStringList{folder});
+            process.start(QStringLiteral(EXTREMAL_BINARY),
+                          scene + QStringList{folder, "--checkpoint", "0.001"});
             QVERIFY(process.waitForStarted());
             part = std::fmod(part + 0.381966, 1);  // the golden section: moments spread evenly
             if (process.waitForFinished(static_cast<int>(part * static_cast<double>(duration_)))) {
@@ -69,8 +88,10 @@ private slots:
                 process.waitForFinished();
             }
             QCOMPARE(faultOf(folder, whole()), "");
+            withCheckpoints += !QDir(folder).entryList({"*.checkpoint"}).isEmpty();
         }
         QCOMPARE(killed, 50);
+        QVERIFY(withCheckpoints > 0);
         // What was left behind does not stand in the way.
         QCOMPARE(runProgram(scene + QStringList{folder_.filePath("killed")}).code, 0);
         QCOMPARE(faultOf(folder_.filePath("killed"), whole()), "");
@@ -132,12 +153,18 @@ private slots:
     void aFileThatIsNotWholeIsFound() {
         const QString folder = folder_.filePath("cut");
         QVERIFY(QDir().mkpath(folder));
+        const auto write = [&](const QString& name, const QByteArray& bytes) {
+            QFile file(QDir(folder).filePath(name));
+            return file.open(QFile::WriteOnly) && file.write(bytes) == bytes.size();
+        };
         const QByteArray bytes = contentOf(QDir(whole()).filePath("midpoint.csv"));
-        QFile cut(QDir(folder).filePath("midpoint.csv"));
-        QVERIFY(cut.open(QFile::WriteOnly));
-        cut.write(bytes.left(bytes.size() / 2));
-        cut.close();
+        QVERIFY(write("midpoint.csv", bytes.left(bytes.size() / 2)));
         QCOMPARE(faultOf(folder, whole()), "midpoint.csv is not whole");
+        QVERIFY(write("midpoint.csv", bytes));
+        QVERIFY(write("midpoint.checkpoint", "{}\ncbf43926\n123456789"));  // the check value of CRC-32
+        QCOMPARE(faultOf(folder, whole()), "");
+        QVERIFY(write("midpoint.checkpoint", "{}\ncbf43926\n12345678"));
+        QCOMPARE(faultOf(folder, whole()), "midpoint.checkpoint is not whole");
     }
 
     void twoInOneFolder() {
