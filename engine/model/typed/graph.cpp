@@ -75,6 +75,16 @@ std::vector<Graph::Operand> Graph::ordered(std::vector<Operand> operands) const 
     return operands;
 }
 
+bool Graph::isNegative(const Node& node) {
+    return node.kind == Kind::sum && (node.number != 0 ? node.number : node.operands[0].factor) < 0;
+}
+
+int Graph::negative(int node) {
+    std::vector<Operand> terms = at(node).operands;
+    for (Operand& o : terms) o.factor = -o.factor;
+    return sum(-at(node).number, terms);
+}
+
 int Graph::sum(double constant, const std::vector<Operand>& operands) {
     Node node;
     node.kind = Kind::sum;
@@ -89,6 +99,8 @@ int Graph::sum(double constant, const std::vector<Operand>& operands) {
         else if (isScaled || (inner.kind == Kind::sum && std::fabs(factor) == 1)) {
             node.number += factor * inner.number;
             for (const Operand& o : inner.operands) terms.push_back({o.node, factor * o.factor});
+        } else if (isNegative(inner)) {
+            terms.push_back({negative(operand), -factor});
         } else {
             terms.push_back({operand, factor});
         }
@@ -121,12 +133,9 @@ int Graph::product(const std::vector<Operand>& operands) {
             coefficient *=
                 exponent == 1 ? inner.operands[0].factor : std::pow(inner.operands[0].factor, exponent);
             self(self, inner.operands[0].node, exponent);
-        } else if (inner.kind == Kind::sum && exponent != 1 && isInteger(exponent) &&
-                   (inner.number != 0 ? inner.number : inner.operands[0].factor) < 0) {
+        } else if (isNegative(inner) && isInteger(exponent)) {
             if (std::fmod(exponent, 2) != 0) coefficient = -coefficient;
-            std::vector<Operand> terms = inner.operands;
-            for (Operand& o : terms) o.factor = -o.factor;
-            factors.push_back({sum(-inner.number, terms), exponent});
+            factors.push_back({negative(operand), exponent});
         } else if (inner.kind == Kind::product && isInteger(exponent)) {
             for (const Operand& o : inner.operands) factors.push_back({o.node, o.factor * exponent});
         } else {

@@ -1,15 +1,15 @@
 /// Formulas as a graph in which equal parts are one node: what symbolic differentiation is flattened to.
 ///
 ///     sum     = number + sum_k factor_k operand_k
-///     product = prod_k operand_k ^ factor_k          (no number in it: c x is a sum of one term; of a sum to
-///                                                     an integer power other than 1 the number is positive,
-///                                                     or without one the first factor)
+///     product = prod_k operand_k ^ factor_k          (no number in it: c x is a sum of one term)
 ///     call    = function(operand_0 [, operand_1])
 ///
-/// Every node is made through the functions below, which bring it into this form, combine like terms and like
-/// powers, and fold numbers. Operands are ordered by a hash of their structure alone, before numbers are
-/// folded, so that equal formulas give equal graphs, to the last bit, whatever the order they were made in:
-/// that of GiNaC depends on addresses. A symbol is a number chosen by the caller.
+/// Of a sum inside a sum or to an integer power the number is positive, or without one the first factor:
+/// c (a - b) and -c (b - a) are the same. Every node is made through the functions below, which bring it into
+/// this form, combine like terms and like powers, and fold numbers. Operands are ordered by a hash of their
+/// structure alone, before numbers are folded, so that equal formulas give equal graphs, to the last bit,
+/// whatever the order they were made in: that of GiNaC depends on addresses. A symbol is a number chosen by
+/// the caller.
 #pragma once
 
 #include <cstdint>
@@ -80,6 +80,9 @@ public:
 
 private:
     int intern(Node node);
+    /// Of a sum: whether its number, or without one its first factor, is negative.
+    static bool isNegative(const Node& node);
+    int negative(int node);
     std::vector<Operand> ordered(std::vector<Operand> operands) const;
 
     std::vector<Node> nodes_;
