@@ -174,6 +174,7 @@ void StartPage::offer(std::vector<UnsavedScene> scenes) {
 void StartPage::setTheme(const Theme& theme) {
     theme_ = &theme;
     waiting_.clear();
+    run_.reset();  // it was of one that no longer waits
     for (const auto& entry : unsavedEntries_)
         if (entry->scene) waiting_.push_back(entry.get());
     hasLoaded_ = false;

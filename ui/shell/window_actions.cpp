@@ -454,10 +454,11 @@ void MainWindow::copyScene() {
 
 void MainWindow::pasteScene() {
     const std::string text = QApplication::clipboard()->text().toStdString();
-    if (!mayLeaveScene()) return;
     QString problem;
     try {
-        if (workspace_->adopt(parseJson(text))) return stack_->setCurrentIndex(1);
+        const Value document = parseJson(text);
+        if (!mayLeaveScene()) return;
+        if (workspace_->adopt(document)) return stack_->setCurrentIndex(1);
         problem = workspace_->openProblems().empty()
                       ? QString()
                       : QString::fromStdString(workspace_->openProblems().front().message);
