@@ -43,10 +43,16 @@ const std::shared_ptr<const StaticProblem>& problemOf(const System& system) {
 std::shared_ptr<const KnotProfile> profileOf(const System& system, const Settings& space) {
     using Key = std::pair<Settings, Settings>;
     static MemoCache<Key, std::shared_ptr<const KnotProfile>> known(32);
+    static MemoCache<Settings, std::shared_ptr<const KnotProfile>> fineOnes(8);
     const StaticProblem& problem = *problemOf(system);
     return known.get(Key{problem.settings, space}, [&] {
-        return std::make_shared<const KnotProfile>(
-            findProfile(problem, space.integer("elements"), knotsOf(space)));
+        const int elements = space.integer("elements");
+        const Knots knots = knotsOf(space);
+        if (knots == Knots::equal)
+            return std::make_shared<const KnotProfile>(findProfile(problem, elements, knots));
+        const auto fine = fineOnes.get(
+            problem.settings, [&] { return std::make_shared<const KnotProfile>(fineProfile(problem)); });
+        return std::make_shared<const KnotProfile>(findProfile(problem, elements, knots, *fine));
     });
 }
 

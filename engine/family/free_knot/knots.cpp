@@ -6,22 +6,34 @@
 #include <numeric>
 
 #include "engine/mesh/equidistribution.hpp"
+#include "engine/model/typed/typed_function.hpp"
 #include "engine/solve/band_lu.hpp"
 
 namespace extremal {
 namespace {
 
-/// Elements of the solution from which densities are known.
+/// Elements of the solution from which densities are known, at least four times as many as any other has.
 constexpr int fineElements = 4000;
 /// Free knots start from those of the density, moved by these parts of their distance: the energy has many
 /// minima, some of them, which are symmetric, only saddle points of the others. The least one counts.
 constexpr double shifts[] = {0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 0.85};
 
+/// What one search may evaluate, in instructions of the energy density: about three seconds. 512 free knots
+/// on a steep profile need 1.5e8; what needs more has no minimum, for the most part.
+constexpr double mostWork = 2e8;
+
 /// Values and knots, (u_i, x_i) one after the other, with the energy and its derivatives.
 class Profile {
 public:
-    Profile(const StaticProblem& problem, const std::vector<double>& x, const std::vector<double>& u)
-        : problem_(problem), n_(x.size()), elements_(n_ - 1), lu_(static_cast<int>(2 * n_), 3) {
+    /// `left`: what the search may still evaluate.
+    Profile(const StaticProblem& problem, const std::vector<double>& x, const std::vector<double>& u,
+            double& left)
+        : problem_(problem),
+          n_(x.size()),
+          elements_(n_ - 1),
+          lu_(static_cast<int>(2 * n_), 3),
+          left_(left),
+          work_(workOf(problem, elements_.size())) {
         z_.resize(2 * n_);
         for (std::size_t i = 0; i < n_; ++i) {
             z_[2 * i] = u[i];
@@ -31,16 +43,16 @@ public:
         evaluate();
     }
 
-    /// Stationary in the values, and in the knots where they are free.
-    Outcome solve(bool areFree, Cost& cost) {
+    /// Stationary in the values, and in the knots where they are free; `enough`: the residual, relative.
+    Outcome solve(bool areFree, Cost& cost, double enough = 1e-13) {
         constexpr int mostSteps = 2000;
-        constexpr double enough = 1e-13, lost = 1e14, known = 1e-14;
+        constexpr double lost = 1e14, known = 1e-14;
         areFree_ = areFree;
         double damping = 1e-3;
         evaluate();
         for (int i = 0; i < mostSteps; ++i) {
             if (residual() <= enough * scale()) return Outcome::converged;
-            if (damping > lost) break;
+            if (damping > lost || left_ < 0) break;
             ++cost.iterations;
             const std::vector<double> before = z_;
             const double energy = energy_, residualBefore = residual();
@@ -96,7 +108,14 @@ private:
         return isEnd || !areFree_ || isLeast(i - 1) || isLeast(i);
     }
 
+    /// Of one evaluation: panels, and the two ends of elements.
+    static double workOf(const StaticProblem& problem, std::size_t elements) {
+        const double panels = problem.length() / problem.resolution + static_cast<double>(elements);
+        return panels * static_cast<double>(20 + problem.W->length());
+    }
+
     void evaluate() {
+        left_ -= work_;
         energy_ = 0;
         std::fill(gradient_.begin(), gradient_.end(), 0.0);
         for (std::size_t e = 0; e + 1 < n_; ++e) {
@@ -162,6 +181,8 @@ private:
     std::vector<StaticElement> elements_;
     double energy_ = 0;
     BandLu lu_;
+    double& left_;
+    double work_;
 };
 
 std::vector<double> equalKnots(const StaticProblem& problem, int elements) {
@@ -213,34 +234,54 @@ std::vector<double> densityOf(const KnotProfile& fine, Knots knots, bool hasSlop
 
 double KnotProfile::total() const { return std::accumulate(energy.begin(), energy.end(), 0.0); }
 
-KnotProfile findProfile(const StaticProblem& problem, int elements, Knots knots) {
+KnotProfile fineProfile(const StaticProblem& problem) {
     Cost cost;
+    double left = mostWork;
+    KnotProfile found;
+    // For densities only. From few elements to many: most iterations are spent where they cost least.
+    constexpr double enough = 1e-9;
+    for (const int elements : {fineElements / 16, fineElements / 4, fineElements}) {
+        const std::vector<double> x = equalKnots(problem, elements);
+        Profile profile(problem, x, found.x.empty() ? straight(problem, x) : valuesOf(found, x), left);
+        const Outcome outcome = profile.solve(false, cost, enough);
+        found = profile.result();
+        found.outcome = outcome;
+    }
+    found.cost = cost;
+    return found;
+}
+
+KnotProfile findProfile(const StaticProblem& problem, int elements, Knots knots, const KnotProfile& fine) {
+    Cost cost;
+    double left = mostWork;
     std::vector<double> x = equalKnots(problem, elements), u = straight(problem, x);
     Outcome outcome = Outcome::converged;
     if (knots != Knots::equal) {
-        const std::vector<double> places = equalKnots(problem, std::max(fineElements, 4 * elements));
-        Profile fine(problem, places, straight(problem, places));
-        outcome = fine.solve(false, cost);
-        const KnotProfile found = fine.result();
-        equidistribute(found.x, densityOf(found, knots, problem.stiffness > 0), x);
-        u = valuesOf(found, x);
+        cost = fine.cost;
+        outcome = fine.outcome;
+        equidistribute(fine.x, densityOf(fine, knots, problem.stiffness > 0), x);
+        u = valuesOf(fine, x);
     }
     KnotProfile best;
+    int failures = 0;
     const auto seek = [&](const std::vector<double>& start, bool areFree) {
-        Profile profile(problem, start, u);
+        Profile profile(problem, start, u, left);
         Outcome own = outcome;
         if (own == Outcome::converged) own = profile.solve(false, cost);
         if (own == Outcome::converged && areFree) own = profile.solve(true, cost);
         KnotProfile found = profile.result();
         found.outcome = own;
         const bool isDone = own == Outcome::converged, wasDone = best.outcome == Outcome::converged;
+        if (!isDone) ++failures;
         if (best.x.empty() || (isDone && !wasDone) || (isDone == wasDone && found.total() < best.total()))
             best = std::move(found);
     };
     if (knots != Knots::free) {
         seek(x, false);
     } else {
+        constexpr int mostFailures = 3;
         for (const double shift : shifts) {
+            if (left < 0 || failures >= mostFailures) break;
             std::vector<double> start = x;
             for (std::size_t i = 1; i + 1 < x.size(); ++i) start[i] += shift * (x[i + 1] - x[i]);
             seek(start, true);
@@ -248,6 +289,11 @@ KnotProfile findProfile(const StaticProblem& problem, int elements, Knots knots)
     }
     best.cost = cost;
     return best;
+}
+
+KnotProfile findProfile(const StaticProblem& problem, int elements, Knots knots) {
+    return findProfile(problem, elements, knots,
+                       knots == Knots::equal ? KnotProfile{} : fineProfile(problem));
 }
 
 }  // namespace extremal

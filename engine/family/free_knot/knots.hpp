@@ -39,6 +39,13 @@ struct KnotProfile {
     std::size_t elements() const { return energy.size(); }
 };
 
+/// The solution on so many equal elements that densities are known from it: once for all searches of a
+/// problem.
+KnotProfile fineProfile(const StaticProblem& problem);
+
+/// `fine`: fineProfile(problem); not needed for equal knots. A search that would evaluate too much ends with
+/// Outcome::diverged.
+KnotProfile findProfile(const StaticProblem& problem, int elements, Knots knots, const KnotProfile& fine);
 KnotProfile findProfile(const StaticProblem& problem, int elements, Knots knots);
 
 }  // namespace extremal

@@ -23,6 +23,8 @@ public:
     /// Fills f, then the gradient, then the lower triangle of the Hessian row by row; any of the last two may
     /// be null.
     void evaluate(const double* y, double* value, double* gradient, double* hessian) const;
+    /// Instructions of one evaluation with all derivatives.
+    std::size_t length() const { return all_.length(); }
     double operator()(const double* y) const {
         double value = 0;
         evaluate(y, &value, nullptr, nullptr);

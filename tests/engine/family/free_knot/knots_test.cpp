@@ -150,6 +150,22 @@ private slots:
         QVERIFY(spreadOf(found) > 0.2);  // 0.32
         QVERIFY(imbalanceOf(found) < 1e-8);
     }
+    /// A domain of 1e16 periods has no profile that could be found: the search ends, and says so.
+    void searchesAreBounded() {
+        StaticProblem problem = kink("(1+0.4*sin(x))*(1-cos(u))");
+        problem.left = -1e16;
+        problem.resolution = 0.005 * problem.length();
+        const KnotProfile fine = fineProfile(problem), found = findProfile(problem, 16, Knots::free, fine);
+        qInfo("%lld and %lld iterations", fine.cost.iterations, found.cost.iterations);
+        QVERIFY(found.outcome != Outcome::converged);
+        QVERIFY(found.cost.iterations < 10000);  // 20534 without a bound
+    }
+    void densitiesCostFewIterations() {
+        const KnotProfile fine = fineProfile(steep());
+        qInfo("%lld iterations", fine.cost.iterations);
+        QCOMPARE(fine.outcome, Outcome::converged);
+        QVERIFY(fine.cost.iterations < 20);  // 9, on all levels together
+    }
     void knotsOfAJumpMeet() {
         const StaticProblem problem = jump();
         for (const int n : {8, 16, 32, 64}) {
