@@ -1,8 +1,8 @@
 /// Long fuzzing: `tool.fuzz KIND COUNT [SEED [FIRST]]`, or KIND all. The cases run in a process of their own
 /// with bounded memory; where it dies, takes more than ten seconds of processor time for a case (two minutes,
 /// where it waits) or finds a fault, the text is kept in fuzz/ below the current folder, and the next case
-/// goes on. Prints the counts, those so far where it is ended by SIGINT or SIGTERM; ends with 1 if anything
-/// was found.
+/// goes on. Prints the counts and the slowest case, those so far where it is ended by SIGINT or SIGTERM; ends
+/// with 1 if anything was found.
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -36,6 +36,8 @@ constexpr std::size_t mostText = 1 << 20, mostMemory = std::size_t{4} << 30;
 struct Board {
     std::atomic<std::uint64_t> number;  ///< of the case that runs
     std::atomic<std::uint64_t> faults;
+    std::atomic<double> slowest;  ///< processor seconds that a case took
+    std::atomic<std::uint64_t> slowestNumber;
     std::atomic<std::size_t> length;
     char text[mostText];
 };
@@ -45,6 +47,8 @@ void askToEnd(int) { isEnded = 1; }
 
 struct Counts {
     std::uint64_t cases = 0, faults = 0, deaths = 0, hangs = 0;
+    double slowest = 0;
+    std::uint64_t slowestNumber = 0;
 };
 
 class Campaign {
@@ -70,6 +74,8 @@ public:
         }
         counts.cases = at - first;
         counts.faults = board_->faults;
+        counts.slowest = board_->slowest;
+        counts.slowestNumber = board_->slowestNumber;
         return counts;
     }
 
@@ -86,11 +92,17 @@ private:
             std::memcpy(board_->text, text.data(), std::min(text.size(), mostText));
             board_->length = std::min(text.size(), mostText);
             board_->number = at;
+            const double before = ownSeconds();
             if (const std::string fault = judgeCase(kind_, text); !fault.empty()) {
                 ++board_->faults;
                 std::printf("%s %llu: %s\n", kind_.name.data(), static_cast<unsigned long long>(at),
                             fault.c_str());
                 keep("fault");
+            }
+            const double took = ownSeconds() - before;
+            if (took > board_->slowest) {
+                board_->slowest = took;
+                board_->slowestNumber = at;
             }
         }
         std::fflush(stdout);
@@ -130,8 +142,12 @@ private:
 
     static double processorSeconds(pid_t process) {
         clockid_t clock{};
+        return clock_getcpuclockid(process, &clock) == 0 ? secondsOf(clock) : 0;
+    }
+    static double ownSeconds() { return secondsOf(CLOCK_PROCESS_CPUTIME_ID); }
+    static double secondsOf(clockid_t clock) {
         timespec time{};
-        if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+        if (clock_gettime(clock, &time) != 0) return 0;
         return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
     }
 
@@ -161,10 +177,12 @@ int main(int argc, char** argv) {
         if ((wanted != "all" && wanted != kind.name) || isEnded != 0) continue;
         isKnown = count > 0;
         const Counts counts = Campaign(kind, seed).run(first, count);
-        std::printf(
-            "%s: %llu cases, %llu faults, %llu deaths, %llu hangs\n", kind.name.data(),
-            static_cast<unsigned long long>(counts.cases), static_cast<unsigned long long>(counts.faults),
-            static_cast<unsigned long long>(counts.deaths), static_cast<unsigned long long>(counts.hangs));
+        std::printf("%s: %llu cases, %llu faults, %llu deaths, %llu hangs; the slowest, %llu, took %.2f s\n",
+                    kind.name.data(), static_cast<unsigned long long>(counts.cases),
+                    static_cast<unsigned long long>(counts.faults),
+                    static_cast<unsigned long long>(counts.deaths),
+                    static_cast<unsigned long long>(counts.hangs),
+                    static_cast<unsigned long long>(counts.slowestNumber), counts.slowest);
         std::fflush(stdout);
         isClean = isClean && counts.faults + counts.deaths + counts.hangs == 0;
     }
