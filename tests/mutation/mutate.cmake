@@ -1,11 +1,12 @@
 # Mutation testing: each small fault of mutants.json is put into a copy of the sources, built, and given to the tests that
 # should see it. A fault that no test sees is a survivor: it gets a test, or it makes no difference and goes from the list.
 #
-#     cmake -DBUILD=build-mutation [-DONLY=REGEX] [-DFIRST=N] -P tests/mutation/mutate.cmake
+#     cmake -DBUILD=build-mutation [-DONLY=REGEX] [-DFIRST=N] [-DLAST=N] [-DNAMED=ON] [-DJOBS=N] -P tests/mutation/mutate.cmake
 #
-# ONLY: faults in files whose path matches; FIRST: where to go on in the list. The copy and its build are in BUILD; a checkout
-# that is there for the purpose, and is built, can take their place (-DSOURCE=FOLDER -DTREE=FOLDER). The report is
-# BUILD/report.txt.
+# The tests that the list names are run first, and what they do not see is given to all tests of their folders, which takes
+# minutes (NAMED: is not). ONLY: faults in files whose path matches; FIRST, LAST: a part of the list; JOBS: of the build. The
+# copy and its build are in BUILD; a checkout that is there for the purpose, and is built, can take their place
+# (-DSOURCE=FOLDER -DTREE=FOLDER). The report is BUILD/report.txt.
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 if(NOT BUILD)
@@ -15,6 +16,10 @@ get_filename_component(BUILD ${BUILD} ABSOLUTE)
 if(NOT FIRST)
     set(FIRST 0)
 endif()
+set(jobs)
+if(JOBS)
+    set(jobs -j ${JOBS})
+endif()
 
 function(must_run what)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
@@ -23,33 +28,56 @@ function(must_run what)
     endif()
 endfunction()
 
-# Builds the programs of these tests and runs the tests. `outcome`: the first that fails, "survived", or "not built".
-function(judge tests outcome)
-    set(programs)
-    foreach(test IN LISTS tests)
-        string(REGEX REPLACE "\\..*" "" folder ${test})
-        list(APPEND programs test.${folder})
-        if(folder MATCHES "^(app|golden)$")
-            list(APPEND programs extremal)
-        endif()
-    endforeach()
-    list(REMOVE_DUPLICATES programs)
-    execute_process(COMMAND ninja -C ${build} ${programs} RESULT_VARIABLE result OUTPUT_VARIABLE log ERROR_VARIABLE log)
+# Whether the program of a test can be built; what it depends on is built with it.
+function(build_program folder isBuilt)
+    set(programs test.${folder})
+    if(folder MATCHES "^(app|golden)$")
+        list(APPEND programs extremal)
+    endif()
+    execute_process(COMMAND ninja -C ${build} ${jobs} ${programs} RESULT_VARIABLE result OUTPUT_VARIABLE log
+        ERROR_VARIABLE log)
+    set(${isBuilt} TRUE PARENT_SCOPE)
     if(NOT result EQUAL 0)
         file(WRITE ${BUILD}/not-built.log "${log}")
-        set(${outcome} "not built" PARENT_SCOPE)
-        return()
+        set(${isBuilt} FALSE PARENT_SCOPE)
     endif()
+endfunction()
+
+# Gives the fault to its tests, one after the other, and what they do not see to all tests of their folders. `outcome`: the
+# first test that fails, "survived", or "not built".
+function(judge tests outcome)
+    set(folders)
     foreach(test IN LISTS tests)
+        string(REGEX REPLACE "\\..*" "" folder ${test})
+        list(APPEND folders ${folder})
+        build_program(${folder} isBuilt)
+        if(NOT isBuilt)
+            set(${outcome} "not built" PARENT_SCOPE)
+            return()
+        endif()
         string(REPLACE "." "\\." pattern ${test})
-        execute_process(COMMAND ctest --test-dir ${build} -R "^${pattern}$" --timeout 300 RESULT_VARIABLE result
-            OUTPUT_QUIET ERROR_QUIET)
+        execute_process(COMMAND ctest --test-dir ${build} -R "^${pattern}$" --no-tests=error --timeout 300
+            RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE error)
+        if(error MATCHES "No tests were found")
+            message(FATAL_ERROR "mutants.json names a test that does not exist: ${test}")
+        endif()
         if(NOT result EQUAL 0)
             set(${outcome} "seen by ${test}" PARENT_SCOPE)
             return()
         endif()
     endforeach()
+    if(NAMED)
+        set(${outcome} "survived its tests" PARENT_SCOPE)
+        return()
+    endif()
+    list(REMOVE_DUPLICATES folders)
+    list(JOIN folders "|" either)
+    execute_process(COMMAND ctest --test-dir ${build} -R "^(${either})\\." --stop-on-failure --timeout 300
+        OUTPUT_VARIABLE output ERROR_VARIABLE output)
     set(${outcome} "survived" PARENT_SCOPE)
+    if(output MATCHES "[0-9]+ - ([^ ]+) \\((Failed|Timeout|SEGFAULT|[^)]*)\\)")
+        set(${outcome} "seen by ${CMAKE_MATCH_1}, which the list does not name" PARENT_SCOPE)
+    endif()
 endfunction()
 
 if(SOURCE AND TREE)
@@ -65,6 +93,9 @@ endif()
 file(READ ${CMAKE_CURRENT_LIST_DIR}/mutants.json mutants)
 string(JSON count LENGTH "${mutants}")
 math(EXPR last "${count} - 1")
+if(DEFINED LAST AND LAST LESS last)
+    set(last ${LAST})
+endif()
 set(survivors 0)
 set(faults 0)
 foreach(i RANGE ${FIRST} ${last})

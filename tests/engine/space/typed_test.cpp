@@ -187,6 +187,27 @@ private slots:
         qInfo("error %.1e at h = 1/8, slope %.2f", fine, slope);
         QVERIFY(std::abs(slope - order) < 0.3);
     }
+    /// What a fitted space loses of smooth curves, which the bounds on the order at the nodes do not show.
+    void curvesBetweenTheNodesHaveTheirOrder() {
+        const auto error = [&](int steps) {
+            const double h = 1.0 / steps;
+            const ReadScene scene = read(pendulum, typed(waves, "h"), h, 1, gauss(8));
+            const auto integrator = tests::integratorOf(scene);
+            State state = scene.resolved->initial;
+            integrator->begin(state);
+            for (int k = 1; k <= steps; ++k)
+                if (integrator->advance(state, k * h).outcome != Outcome::converged) return 1e300;
+            std::vector<double> middle(2);
+            integrator->denseOutput(0.5, middle);
+            const auto exact = after(read(pendulum, polynomials(8), h / 2, 1), 2 * steps - 1);
+            return std::abs(middle[0] - exact[0]);
+        };
+        const ReadScene scene = read(pendulum, typed(waves, "h"), 0.125, 1, gauss(8));
+        QCOMPARE(scene.resolved->schemes[0].properties.curveOrder, 4);
+        const double coarse = error(32), fine = error(64), slope = std::log2(coarse / fine);
+        qInfo("error %.1e at h = 1/64, slope %.2f", fine, slope);
+        QVERIFY(std::abs(slope - 4) < 0.2);
+    }
     void symmetryIsThatOfTheSpace() {
         const auto isSymmetric = [](const std::string& space) {
             return read(pendulum, space, 0.1, 1).resolved->schemes[0].claims.isSymmetric;
