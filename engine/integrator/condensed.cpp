@@ -122,7 +122,7 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
         if (isMechanical(system) && !system.mechanics().isSeparable)
             throw InvalidScene(
                 "/solver/method",
-                "fixed-point iteration needs a separable Lagrangian, and that of " + system.id + " is not",
+                "fixed-point iteration alone is for separable Lagrangians, and that of " + system.id + " is not",
                 "use newton or auto");
     }
     policy.tolerance = solver.number("tolerance");

@@ -32,7 +32,8 @@
 ///
 /// Every coordinate k may have a table of its own, with its own functions and m_k of them, on the same nodes:
 /// then Y_a and R_a above are those of one coordinate. A separable Lagrangian on one slow table is solved for
-/// all nodes together.
+/// all nodes together (node_iteration.hpp), and so is another one with as many nodes as unknowns
+/// (velocity_iteration.hpp); where that is slow, by Newton's method.
 ///
 /// T: scalar; D: dimension d at compile time or Eigen::Dynamic. All buffers are allocated in the constructor.
 /// Array shapes: Y is coordinate by coordinate, entry a of coordinate k at offset(k) + a; node quantities are
@@ -45,6 +46,7 @@
 #include <stop_token>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "engine/action/table.hpp"
@@ -52,6 +54,7 @@
 #include "engine/core/outcome.hpp"
 #include "engine/integrator/force_defect.hpp"
 #include "engine/integrator/node_iteration.hpp"
+#include "engine/integrator/velocity_iteration.hpp"
 #include "engine/integrator/small_product.hpp"
 #include "engine/model/mechanics.hpp"
 #include "engine/solve/newton_policy.hpp"
@@ -99,13 +102,13 @@ public:
     /// Forgets the previous curve: the next step starts from a Taylor guess.
     void restart() {
         hasPrevious_ = false;
-        if (fixedPointSolver_) fixedPointSolver_->forget();
+        withFixedPoint([](auto& solver) { solver.forget(); });
     }
 
     /// What the next step depends on besides its start (Integrator::checkpoint).
     void checkpoint(Archive& archive) requires std::is_same_v<T, double> {
         archive(previousY_, hasPrevious_, carryQ_, carryP_, lastQ_, lastP_, ladder_, newtonSteps_);
-        if (fixedPointSolver_) archive(*fixedPointSolver_);
+        withFixedPoint([&](auto& solver) { archive(solver); });
     }
 
 private:
@@ -144,6 +147,24 @@ private:
     }
     int offset(int k) const { return offset_[static_cast<std::size_t>(k)]; }
     void addProduct(const Square& A, int height, const T* B, int columns, T* C, int strideC) const;
+    bool hasFixedPoint() const { return fixedPointSolver_.index() > 0; }
+    /// use(solver), where there is one.
+    template <class Use>
+    void withFixedPoint(Use&& use) {
+        std::visit(
+            [&](auto& solver) {
+                if constexpr (!std::is_same_v<std::decay_t<decltype(solver)>, std::monostate>) use(solver);
+            },
+            fixedPointSolver_);
+    }
+    template <class Use>
+    void withFixedPoint(Use&& use) const {
+        std::visit(
+            [&](const auto& solver) {
+                if constexpr (!std::is_same_v<std::decay_t<decltype(solver)>, std::monostate>) use(solver);
+            },
+            fixedPointSolver_);
+    }
     void scaleToStep();
     void placeNodes();
     void evaluateGradients(const T& t);
@@ -163,6 +184,7 @@ private:
     Attempt newton(const T& t, StartingValue start, const std::stop_token& stop);
     Attempt fromElsewhere(const T& t, const std::stop_token& stop);
     Attempt anyRoot(const T& t, const std::stop_token& stop);
+    void rememberNodes();
     Attempt fixedPoint(const T& t, const std::stop_token& stop);
     Attempt solve(const T& t, const std::stop_token& stop);
     void resume(const T* q, const T* p);
@@ -197,14 +219,15 @@ private:
     Square applied_;               ///< (i, c): a row of the Hessian applied to function c
     Square jacobian_;
     Eigen::PartialPivLU<Square> lu_;
-    bool hasPrevious_ = false;                          ///< Y_ of Newton's last step can be extrapolated
-    bool continues_ = true;                             ///< so can those of all steps of its tables
-    std::optional<NodeIteration<T>> fixedPointSolver_;  ///< separable Lagrangians
-    bool isSolvedByFixedPoint_ = false;                 ///< it solved the last step
-    std::optional<ForceDefect<T>> defect_;              ///< not of oscillatory functions
-    T nearness_ = T(0);                                 ///< first correction of the last iteration
-    Flat motion_;                                       ///< states and rates of the explicit steps
-    std::vector<Accumulator> impulse_;                  ///< change of h sum_i b_i L_q(i) of a variation
+    bool hasPrevious_ = false;  ///< Y_ of Newton's last step can be extrapolated
+    bool continues_ = true;     ///< so can those of all steps of its tables
+    /// Where it applies; else Newton's method alone.
+    std::variant<std::monostate, NodeIteration<T>, VelocityIteration<T>> fixedPointSolver_;
+    bool isSolvedByFixedPoint_ = false;     ///< it solved the last step
+    std::optional<ForceDefect<T>> defect_;  ///< not of oscillatory functions
+    T nearness_ = T(0);                     ///< first correction of the last iteration
+    Flat motion_;                           ///< states and rates of the explicit steps
+    std::vector<Accumulator> impulse_;      ///< change of h sum_i b_i L_q(i) of a variation
     StartingLadder ladder_;
     int newtonSteps_ = 0;  ///< steps for which Newton is preferred after the fixed point was slow
     StepReport report_;

@@ -13,6 +13,7 @@
 #include "engine/integrator/galerkin_step_sums.hpp"
 #include "engine/integrator/galerkin_step_tangent.hpp"
 #include "engine/integrator/node_iteration_build.hpp"
+#include "engine/integrator/velocity_iteration_build.hpp"
 
 namespace extremal {
 template <class T, int D>
@@ -69,8 +70,13 @@ GalerkinStep<T, D>::GalerkinStep(Mechanics<T> mechanics, std::vector<Table<T>> t
     applied_ = Square::Zero(rows(), widest);
     jacobian_ = Square::Zero(size, size);
     lu_ = Eigen::PartialPivLU<Square>(size);
-    if (mechanics_.isSeparable && parts_.empty() && tables_.size() == 1 && tables_.front().frequency == T(0))
-        fixedPointSolver_.emplace(mechanics_, tables_.front(), h_, tolerance_);
+    if (parts_.empty() && tables_.size() == 1 && tables_.front().frequency == T(0)) {
+        const Table<T>& own = tables_.front();
+        if (mechanics_.isSeparable)
+            fixedPointSolver_.template emplace<NodeIteration<T>>(mechanics_, own, h_, tolerance_);
+        else if (VelocityIteration<T>::applies(mechanics_, own))
+            fixedPointSolver_.template emplace<VelocityIteration<T>>(mechanics_, own, h_, tolerance_);
+    }
     if (tables_.front().frequency == T(0)) defect_.emplace(mechanics_, tables_, parts_);
     motion_ = Flat::Zero(8 * d());
     impulse_.assign(static_cast<std::size_t>(d()), Accumulator(0));
@@ -96,7 +102,7 @@ void GalerkinStep<T, D>::setStep(const T& step) {
     kineticScale_ *= step / h_;
     h_ = step;
     scaleToStep();
-    if (fixedPointSolver_) fixedPointSolver_->setStep(step);
+    withFixedPoint([&](auto& solver) { solver.setStep(step); });
     restart();
 }
 
@@ -107,7 +113,7 @@ void GalerkinStep<T, D>::coefficients(T* Y) const {
         return;
     }
     Square own(m(0), d()), forces(n(), d());
-    fixedPointSolver_->coefficients(own, forces);
+    withFixedPoint([&](const auto& solver) { solver.coefficients(own, forces); });
     std::copy_n(own.data(), own.size(), Y);
 }
 
@@ -184,7 +190,7 @@ void GalerkinStep<T, D>::denseOutput(const T& tau, T* q, T* p) const {
     Square Y, forces = gradient_.leftCols(d());
     if (isSolvedByFixedPoint_) {
         Y.resize(m(0), d());
-        fixedPointSolver_->coefficients(Y, forces);
+        withFixedPoint([&](const auto& solver) { solver.coefficients(Y, forces); });
     }
     std::vector<T> value, slope;
     for (int k = 0; k < d(); ++k) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "engine/integrator/galerkin_step.hpp"
 
@@ -168,32 +169,46 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::newton(const T& t, Star
     for (;;) {
         if (!startFrom(t, start)) return Attempt::singular;
         const Attempt result = iterate(t, start, stop);
-        if (result == Attempt::solved && fixedPointSolver_)
-            fixedPointSolver_->remember(gradient_.leftCols(d()));
+        if (result == Attempt::solved) rememberNodes();
         if (result == Attempt::solved || result == Attempt::stopped || start == StartingValue::fallback)
             return result;
         start = ladder_.below(start, tables_.front().smoothExtrapolation.size() > 0);
     }
 }
 
+/// What the fixed point goes on from after a step of Newton's method.
+template <class T, int D>
+void GalerkinStep<T, D>::rememberNodes() {
+    withFixedPoint([&](auto& solver) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(solver)>, NodeIteration<T>>)
+            solver.remember(gradient_.leftCols(d()));
+        else
+            solver.remember(nodeV_.topRows(n()));
+    });
+}
+
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fixedPoint(const T& t, const std::stop_token& stop) {
-    using Result = typename NodeIteration<T>::Result;
-    switch (fixedPointSolver_->solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(),
-                                     policy_.maxIterations, stop, report_)) {
-        case Result::solved: {
-            fixedPointSolver_->increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
-            nearness_ = fixedPointSolver_->nearness();
-            return dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
+    Attempt attempt = Attempt::failed;
+    withFixedPoint([&](auto& solver) {
+        switch (solver.solve(t, q0_.data(), p0_.data(), carryQ_.data(), carryP_.data(), policy_.maxIterations,
+                             stop, report_)) {
+            case FixedPointResult::solved:
+                solver.increments(dq_.data(), dp_.data(), carryQ_.data(), carryP_.data());
+                nearness_ = solver.nearness();
+                attempt = dq_.allFinite() && dp_.allFinite() ? Attempt::solved : Attempt::notFinite;
+                break;
+            case FixedPointResult::stopped:
+                attempt = Attempt::stopped;
+                break;
+            case FixedPointResult::notFinite:
+                attempt = Attempt::notFinite;
+                break;
+            case FixedPointResult::slow:
+                break;
         }
-        case Result::stopped:
-            return Attempt::stopped;
-        case Result::notFinite:
-            return Attempt::notFinite;
-        case Result::slow:
-            break;
-    }
-    return Attempt::failed;
+    });
+    return attempt;
 }
 
 template <class T, int D>
@@ -218,7 +233,7 @@ template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fromElsewhere(const T& t,
                                                                        const std::stop_token& stop) {
     isSolvedByFixedPoint_ = false;
-    if (fixedPointSolver_) fixedPointSolver_->forget();
+    withFixedPoint([](auto& solver) { solver.forget(); });
     carryQ_.setZero();
     carryP_.setZero();
     newtonSteps_ = stepsWithNewton;
@@ -234,7 +249,7 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::fromElsewhere(const T& 
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::anyRoot(const T& t, const std::stop_token& stop) {
     isSolvedByFixedPoint_ = false;
-    if (fixedPointSolver_ && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
+    if (hasFixedPoint() && policy_.method != SolverMethod::newton && newtonSteps_ == 0) {
         Attempt result = fixedPoint(t, stop);
         // Forces continued from the step before may be a poor start where steps are large.
         if (policy_.method == SolverMethod::fixedPoint && result != Attempt::solved &&

@@ -17,7 +17,9 @@ namespace extremal {
 template <class T, int D>
 bool GalerkinStep<T, D>::linearise(const T& t) {
     if (isSolvedByFixedPoint_)
-        fixedPointSolver_->coefficients(Eigen::Map<Square>(Y_.data(), m(0), d()), gradient_.leftCols(d()));
+        withFixedPoint([&](const auto& solver) {
+            solver.coefficients(Eigen::Map<Square>(Y_.data(), m(0), d()), gradient_.leftCols(d()));
+        });
     placeNodes();
     return assembleJacobian(t);
 }

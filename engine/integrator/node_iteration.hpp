@@ -37,6 +37,8 @@
 
 namespace extremal {
 
+enum class FixedPointResult { solved, slow, notFinite, stopped };
+
 template <class T>
 class NodeIteration {
 public:
@@ -44,12 +46,10 @@ public:
 
     NodeIteration(const Mechanics<T>& mechanics, const Table<T>& table, const T& h, const T& tolerance);
 
-    enum class Result { solved, slow, notFinite, stopped };
-
     /// Solves the step from (t, q, p); carryQ and carryP, arrays of length d, are what q and p have lost to
     /// rounding. Counts into the report.
-    Result solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP, int maxIterations,
-                 const std::stop_token& stop, StepReport& report);
+    FixedPointResult solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
+                           int maxIterations, const std::stop_token& stop, StepReport& report);
 
     /// Of the step last solved: the increments of q and p; what rounding takes from them is added to the
     /// carries.

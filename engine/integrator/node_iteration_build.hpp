@@ -199,9 +199,8 @@ T NodeIteration<T>::largestChange(const T* q) const {
 }
 
 template <class T>
-typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ,
-                                                          const T* carryP, int maxIterations,
-                                                          const std::stop_token& stop, StepReport& report) {
+FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
+                                         int maxIterations, const std::stop_token& stop, StepReport& report) {
     using Verdict = typename NewtonPolicy<T>::Verdict;
     NewtonPolicy<T> policy(NewtonLimits<T>::fixedPoint(tolerance_));
     place(t, p, carryQ, carryP);
@@ -221,7 +220,7 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
     sweep_(s);
     useImpulses();
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
-        if (stop.stop_requested()) return Result::stopped;
+        if (stop.stop_requested()) return FixedPointResult::stopped;
         evaluateForces();
         sweep_(s);
         ++report.cost.iterations;
@@ -231,8 +230,8 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
         report.residual = static_cast<double>(size);
         hasForces_ = false;
         const Verdict verdict = policy.judge(size);
-        if (verdict == Verdict::notFinite) return Result::notFinite;
-        if (verdict == Verdict::slow || verdict == Verdict::diverged) return Result::slow;
+        if (verdict == Verdict::notFinite) return FixedPointResult::notFinite;
+        if (verdict == Verdict::slow || verdict == Verdict::diverged) return FixedPointResult::slow;
         if (verdict == Verdict::proceed) continue;
         // The forces are taken where the last sweep has put the nodes: left where the nodes were they would
         // have a bias that adds up over millions of steps.
@@ -242,9 +241,9 @@ typename NodeIteration<T>::Result NodeIteration<T>::solve(const T& t, const T* q
             report.cost.evaluations += n_;
         }
         hasForces_ = true;
-        return Result::solved;
+        return FixedPointResult::solved;
     }
-    return Result::slow;
+    return FixedPointResult::slow;
 }
 
 template <class T>

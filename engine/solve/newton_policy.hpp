@@ -52,6 +52,9 @@ struct NewtonLimits {
     /// Corrections with the same Jacobian before a slow contraction counts: the first one says nothing of it,
     /// as it is that of the starting value.
     int patience = 2;
+    /// Corrections that shrink by less are slow. A tenth: then round-off is 16 corrections away, and a new
+    /// Jacobian costs less than what it saves.
+    T slow = T(0.1);
     /// So many corrections in a row, none smaller than the one before, do not come back: one or two happen
     /// where the starting value is far away.
     int mostGrowing = 4;
@@ -72,13 +75,15 @@ struct NewtonLimits {
     /// The fixed point over all nodes. Solved to round-off it ends where one more sweep would change a
     /// hundredth of the last place: left at round-off itself the forces have a bias that adds up over
     /// millions of steps. It has no Jacobian to renew: where it is still slow after four sweeps, Newton's
-    /// method is cheaper.
+    /// method is cheaper, whose step costs 20 to 60 sweeps; and a contraction near that of round-off would
+    /// not be told from it.
     static NewtonLimits fixedPoint(const T& tolerance) {
         NewtonLimits l;
         const bool isExact = tolerance <= std::numeric_limits<T>::epsilon();
         l.tolerance = isExact ? T(0) : tolerance;
         l.predicted = isExact ? T(0.01) * tolerance : T(0);
         l.patience = 4;
+        l.slow = T(0.2);
         return l;
     }
     /// Newton's method of the Lie group step, whose evaluations are dear: the last is not made where the next
@@ -136,7 +141,7 @@ public:
         if (isStalled && size < limits_.illConditioned && ++stalls_ >= mostStalls) return Verdict::converged;
         ++sinceJacobian_;
         growing_ = size >= last_ ? growing_ + 1 : 0;
-        const bool isSlow = sinceJacobian_ >= limits_.patience && size > last_ * T(slowContraction) &&
+        const bool isSlow = sinceJacobian_ >= limits_.patience && size > last_ * limits_.slow &&
                             size > limits_.stagnation;
         last_ = size;
         if (growing_ >= limits_.mostGrowing) return Verdict::diverged;
@@ -148,8 +153,6 @@ public:
 private:
     /// Corrections at round-off vary by less than a factor of four; those that shrink by less are at it.
     static constexpr double stall = 0.25;
-    /// A tenth: then round-off is 16 corrections away, and a new Jacobian costs less than what it saves.
-    static constexpr double slowContraction = 0.1;
     static constexpr int mostStalls = 3;
 
     bool isNextSmall(const T& size, bool isFirst) const {

@@ -112,7 +112,7 @@ private slots:
         add("local errors", "local-errors", {"/time/end=200"});
         add("exponents", "henon-heiles",
             {"/time/end=400", "/observe/-=lyapunov-spectrum", "/observe/-=lyapunov"});
-        add("order", "pendulum", {"/time/end=100", "/observe/-=order"});
+        add("order", "pendulum", {"/time/end=1000", "/observe/-=order"});
         add("events", "events", {"/time/end=2000", "/events/2/expression=t-1900"});
         add("sections", "poincare-section", {"/time/end=400"});
         add("rows from dense output", "pendulum",
