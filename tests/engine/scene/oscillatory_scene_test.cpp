@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
+#include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::oscillatory_scene_test {
@@ -132,6 +134,21 @@ private slots:
         qInfo("typed %.1e, with an estimated frequency %.1e off", number - builtIn, estimated - builtIn);
         QVERIFY(std::abs(number - builtIn) < 1e-12);
         QVERIFY(std::abs(estimated - builtIn) < 1e-9);
+    }
+    /// The frequency is that of the coordinate that is fastest by itself, wherever it stands.
+    void theFastestCoordinateIsMeasured() {
+        for (const char* const lagrangian :
+             {"x_t^2/2+y_t^2/2-x^2/2-5000*y^2", "x_t^2/2+y_t^2/2-5000*x^2-y^2/2"}) {
+            const ReadScene read = readScene(
+                R"({"extremal":1,"model":{"type":"lagrangian","lagrangian":")" + std::string(lagrangian) +
+                R"(","coordinates":["x","y"]},"initial":{"q":[0.5,0.5],"p":[0,0]},"time":{"end":2},"schemes":[)" +
+                R"({"step":0.01,"baseline":"stormer-verlet"}],"reference":"none"})");
+            for (const Problem& p : read.errors) qWarning("%s: %s", p.pointer.c_str(), p.message.c_str());
+            QVERIFY(read.resolved);
+            const double w = estimateFrequency(*read.resolved->system, read.resolved->initial);
+            qInfo("%s: %.2e off", lagrangian, w / 100 - 1);
+            QVERIFY(std::abs(w / 100 - 1) < 1e-3);
+        }
     }
 };
 

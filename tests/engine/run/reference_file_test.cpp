@@ -1,0 +1,84 @@
+/// References from CSV files: rows are found although times are rounded, and wrong rows are named.
+#include <QTest>
+
+#include <cmath>
+#include <sstream>
+
+#include "engine/core/problem.hpp"
+#include "engine/run/reference_file.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
+#include "engine/scene/resolve.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::reference_file_test {
+namespace {
+
+Reference read(const std::string& rows) {
+    static const ReadScene pendulum = readScene(findPreset("pendulum")->json);
+    std::istringstream in("t,q.theta,p.theta\n" + rows);
+    return readReference(in, "reference.csv", *pendulum.resolved->system);
+}
+
+std::string refusal(const std::string& rows) {
+    try {
+        (void)read(rows);
+        return {};
+    } catch (const InvalidScene& e) {
+        return e.problems().front().message;
+    }
+}
+
+}  // namespace
+
+class ReferenceFileTest : public QObject {
+    Q_OBJECT
+private slots:
+    /// 3 * 0.1 is not 0.3, which is what a file says.
+    void rowsAreFoundAtRoundedTimes() {
+        const ExactSolution solution = read("0,1,0\n0.3,0.5,0.25\n1000,2,3\n").make();
+        double x[2];
+        QVERIFY(3 * 0.1 != 0.3);
+        solution(3 * 0.1, x);
+        QCOMPARE(x[0], 0.5);
+        QCOMPARE(x[1], 0.25);
+        solution(1000 * (1 + 1e-10), x);
+        QCOMPARE(x[0], 2.0);
+    }
+    void betweenRowsNothingIsKnown() {
+        const ExactSolution solution = read("0,1,0\n0.3,0.5,0.25\n").make();
+        double x[2];
+        for (const double t : {0.3 + 1e-8, 0.3 - 1e-8, 0.2, 1.0}) {
+            solution(t, x);
+            QVERIFY(std::isnan(x[0]) && std::isnan(x[1]));
+        }
+    }
+    void wrongRowsAreNamed_data() {
+        QTest::addColumn<QString>("rows");
+        QTest::addColumn<QString>("message");
+        QTest::newRow("time") << "0,1,0\nnan,1,0\n"
+                              << "line 3: has no time";
+        QTest::newRow("empty time") << ",1,0\n"
+                                    << "line 2: has no time";
+        QTest::newRow("cell") << "0,1,0\n\n1,x,0\n"
+                              << "line 4: \"x\" is no number";
+        QTest::newRow("short") << "0,1\n"
+                               << "line 2: has 2 cells";
+        QTest::newRow("twice") << "0,1,0\n1,1,0\n0,2,0\n"
+                               << "two rows at t = 0";
+        QTest::newRow("none") << ""
+                              << "has no rows";
+    }
+    void wrongRowsAreNamed() {
+        QFETCH(QString, rows);
+        QFETCH(QString, message);
+        const std::string found = refusal(rows.toStdString());
+        QVERIFY2(found.find(message.toStdString()) != found.npos, found.c_str());
+    }
+};
+
+EXTREMAL_TEST(ReferenceFileTest)
+
+}  // namespace extremal::reference_file_test
+
+#include "reference_file_test.moc"
