@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/family/free_knot/free_knots.hpp"
 #include "engine/family/free_knot/knots.hpp"
 #include "engine/model/typed/typed_function.hpp"
 #include "tests/tools/test.hpp"
@@ -165,6 +166,20 @@ private slots:
         qInfo("%lld iterations", fine.cost.iterations);
         QCOMPARE(fine.outcome, Outcome::converged);
         QVERIFY(fine.cost.iterations < 20);  // 9, on all levels together
+    }
+    void denseOutputIsTheLineBetweenTheKnots() {
+        const auto profile = std::make_shared<const KnotProfile>(findProfile(steep(), 4, Knots::equal));
+        const auto integrator = makeFreeKnots(profile);
+        State state = knotStart(*profile);
+        for (std::size_t e = 0; e < profile->elements(); ++e) {
+            QCOMPARE(integrator->advance(state, 1).outcome, Outcome::converged);
+            QCOMPARE(state.x[0], profile->u[e + 1]);
+            double x[4];
+            for (const double tau : {0.0, 0.25, 1.0}) {
+                integrator->denseOutput(tau, x);
+                QCOMPARE(x[0], (1 - tau) * profile->u[e] + tau * profile->u[e + 1]);
+            }
+        }
     }
     void knotsOfAJumpMeet() {
         const StaticProblem problem = jump();
