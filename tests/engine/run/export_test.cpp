@@ -94,6 +94,27 @@ private slots:
         QCOMPARE(filesIn(folder), expected);
     }
 
+    /// Each number of a summary has its own column.
+    void numbersStandBelowTheirNames() {
+        Comparison c = comparison();
+        auto known = result("known", 3);
+        Summary& s = known->summary;
+        s.maxEnergyError = 1;
+        s.energyDrift = 2;
+        s.maxMomentumError = 3;
+        s.maxNormError = 4;
+        s.maxError = 5;
+        s.finalError = 6;
+        s.orderClaimed = 7;
+        s.orderMeasured = 8;
+        c.schemes = {known};
+        QTemporaryDir temporary;
+        const fs::path folder = temporary.path().toStdString();
+        exportComparison(c, folder);
+        const std::string table = contents(folder / "summary.csv");
+        QVERIFY2(table.ends_with(",1,2,3,4,5,6,7,8\n"), table.c_str());
+    }
+
     void aFullDiskLeavesNoHalfFile() {
         QTemporaryDir temporary;
         const fs::path folder = temporary.path().toStdString();

@@ -50,6 +50,18 @@ private slots:
         QVERIFY(!view.isUserChosen());
         QVERIFY(!view.back());
     }
+    /// A gesture that changed nothing is no step back.
+    void backSkipsWhatDidNothing() {
+        ViewState view;
+        view.setFitted(PlotAxis::x, {0, 1});
+        view.remember();
+        view.choose(PlotAxis::x, {0.25, 0.5});
+        view.remember();
+        view.remember();
+        QVERIFY(view.back());
+        QCOMPARE(view.range(PlotAxis::x).high, 1.0);
+        QVERIFY(!view.back());
+    }
     void rangesStayDrawable() {
         ViewState view;
         view.setFitted(PlotAxis::x, {0, 1});
