@@ -4,6 +4,7 @@
 #include "engine/core/text.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/scene/lesson_steps.hpp"
 #include "engine/scene/overrides.hpp"
 #include "engine/scene/read_parts.hpp"
 
@@ -48,6 +49,7 @@ ReadScene readParts(const Value& document, const std::string& directory) {
     readObserve(reader, document, model, scene);
     readEvents(reader, document, model, scene);
     readViews(reader, document, model, scene);
+    readLessonSteps(reader, document, scene);
     ResolvedScene resolved;
     resolved.scene = scene;
     if (system) resolved.system = std::make_shared<const System>(*system);

@@ -7,8 +7,10 @@
 namespace extremal::format {
 
 inline const std::vector<std::string> root = {
-    "$schema", "extremal", "title",     "source",  "lesson", "notes",  "model", "initial",
-    "time",    "schemes",  "reference", "observe", "events", "output", "views", "limits"};
+    "$schema", "extremal",  "title",   "source", "lesson", "notes", "model",  "initial", "time",
+    "schemes", "reference", "observe", "events", "output", "views", "limits", "steps"};
+inline const std::vector<std::string> lessonStep = {"text", "scheme", "view", "time", "set", "until"};
+inline const std::vector<std::string> goal = {"above", "below"};
 inline const std::vector<std::string> time = {"start", "end"};
 inline const std::vector<std::string> initial = {"q", "p", "v", "q1", "at"};
 inline const std::vector<std::string> directions = {"both", "up", "down"};

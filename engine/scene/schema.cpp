@@ -258,6 +258,22 @@ Value viewChoice() {
     return anyOf({enumeration(idsOf(viewCatalog())), object(p, {"view"})});
 }
 
+Value lessonStep() {
+    Value bounds{Value::Object{}}, byPlace = typed("object", "What the step makes of places of the scene.");
+    for (const std::string& key : format::goal) bounds.set(key, reference("number"));
+    Value goals = typed("object", "When the step is done: values of places, or bounds on them.");
+    goals.set("additionalProperties",
+              anyOf({object(bounds, {}), typed("number"), typed("string"), typed("boolean")}));
+    Value p{Value::Object{}};
+    p.set("text", typed("string", "What the reader is told: Markdown with formulas."));
+    p.set("scheme", typed("string", "The label of the scheme that is selected."));
+    p.set("view", enumeration(idsOf(viewCatalog())));
+    p.set("time", reference("number"));
+    p.set("set", byPlace);
+    p.set("until", goals);
+    return object(p, {"text"}, "A step of a lesson.");
+}
+
 Value rootProperties() {
     Value version{Value::Object{}}, time{Value::Object{}}, output{Value::Object{}}, limits{Value::Object{}};
     version.set("const", 1);
@@ -287,6 +303,7 @@ Value rootProperties() {
     p.set("output", object(output, {}));
     p.set("views", arrayOf(viewChoice()));
     p.set("limits", object(limits, {}));
+    p.set("steps", arrayOf(lessonStep(), "A lesson: what a reader does next, one after the other."));
     return p;
 }
 

@@ -95,7 +95,7 @@ private slots:
         QCOMPARE(extremal({"run", resolved, "--quiet", "--threads", "7", "--out", dir.filePath("c")}).code,
                  0);
         const QStringList files = filesIn(dir.filePath("a"));
-        QCOMPARE(files.size(), 8);
+        QCOMPARE(files.size(), 9);
         for (const char* other : {"b", "c"}) {
             QCOMPARE(filesIn(dir.filePath(other)), files);
             for (const QString& file : files)

@@ -95,9 +95,9 @@ private slots:
         Window window;
         window.workspace().selectScheme(2);
         window.actions().find("solo")->trigger();
-        QCOMPARE(window.on(), (std::vector<bool>{false, false, true, false, false}));
+        QCOMPARE(window.on(), (std::vector<bool>{false, false, true, false, false, false}));
         window.actions().find("solo")->trigger();
-        QCOMPARE(window.on(), std::vector<bool>(5, true));
+        QCOMPARE(window.on(), std::vector<bool>(6, true));
     }
     void aColourThatIsTakenIsExchanged() {
         Window window;
