@@ -36,6 +36,8 @@ if [ -z "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
     headless
 fi
 status=0
+# The pictures of the start page are made while the window is open already; without them it draws its own.
+ninja -C "$root/build" extremal_pictures >/dev/null 2>&1 &
 "$program" "$scene" || status=$?
 # The program gives 2 for a scene it cannot use, which it has named, and for a display it cannot open.
 if [ "$status" -eq 2 ] && "$program" check "$scene" --quiet >/dev/null 2>&1; then

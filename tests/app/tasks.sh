@@ -61,7 +61,7 @@ finish 04 change-a-step 5
 # Ctrl+S, so that what was done so far can be read
 key ctrl+s; settle; text "$folder/edited.json"; key Return; settle; xdotool windowfocus "$id"; actions=0
 check "stiffness 20000" 'grep -q "\"k\": 20000" edited.json'
-check "six schemes" '[ $(grep -c "\"label\"" edited.json) -ge 6 ]'
+check "seven schemes" '[ $(grep -c "\"label\"" edited.json) -ge 7 ]'
 check "step 0.02" 'grep -q "\"step\": 0.02" edited.json'
 
 xdotool mousemove 560 470; click 560 470 4; click 560 470 4; click 560 470 4
@@ -75,7 +75,7 @@ finish 07 export-a-figure 5
 check "figure.pdf" '[ -s figure.pdf ]'
 
 key ctrl+shift+e; settle; key Return  # into the folder of the last dialog
-for _ in $(seq 120); do [ -s report.html ] && break; sleep 0.5; done
+for _ in $(seq 120); do [ -s stage.png ] && break; sleep 0.5; done
 finish 08 export-everything 5
 check "the command and the report" '[ -s command.txt ] && [ -s report.html ]'
 

@@ -15,6 +15,21 @@ namespace extremal {
 
 namespace {
 
+/// The words of a text that have room, and an ellipsis; a first word that has none is cut.
+QString shortenedTo(const QString& text, const QFontMetrics& metrics, int room) {
+    const QString cut = metrics.elidedText(text, Qt::ElideRight, room);
+    if (cut == text) return text;
+    const qsizetype kept = cut.size() - 1;
+    const bool isBetweenWords = kept < text.size() && text[kept] == ' ';
+    const qsizetype end = isBetweenWords ? kept : text.lastIndexOf(' ', std::max<qsizetype>(0, kept - 1));
+    if (end <= 0 || end > kept) return cut;
+    QString words = text.left(end);
+    while (!words.isEmpty() && !words.back().isLetterOrNumber() && words.back() != ')') words.chop(1);
+    if (words.isEmpty()) return cut;
+    const QString spaced = words + QStringLiteral(" …");
+    return metrics.horizontalAdvance(spaced) <= room ? spaced : words + QStringLiteral("…");
+}
+
 /// QLabel has no ellipsis of its own.
 class ElidedLabel : public QLabel {
 public:
@@ -26,7 +41,7 @@ protected:
         QPainter painter(this);
         painter.setFont(font());
         painter.setPen(palette().color(foregroundRole()));
-        const QString shown = fontMetrics().elidedText(text(), Qt::ElideRight, width());
+        const QString shown = shortenedTo(text(), fontMetrics(), width());
         if (shown != text() && (toolTip().isEmpty() || toolTip() == ownTip_)) setToolTip(ownTip_ = text());
         painter.drawText(rect(), Qt::AlignVCenter | static_cast<int>(alignment() & Qt::AlignHorizontal_Mask),
                          shown);

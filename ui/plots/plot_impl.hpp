@@ -14,6 +14,7 @@
 #include "ui/plots/figure_plot.hpp"
 #include "ui/plots/hover_table.hpp"
 #include "ui/plots/plot_widget.hpp"
+#include "ui/plots/replot_queue.hpp"
 
 namespace extremal {
 
@@ -42,7 +43,7 @@ struct PlotWidget::Impl {
     std::optional<PlotRange> awaited;  ///< the time range of the group, until there is a figure
 
     explicit Impl(const Theme& t) : theme(t) {}
-    void replot() { plot->replot(QCustomPlot::rpQueuedReplot); }
+    void replot() { queueReplot(*plot); }
     void replotCursor() { plot->layer("cursor")->replot(); }
     /// The cell of a map under a pixel.
     std::optional<HeatCell> cellAt(QPointF pixel) const {

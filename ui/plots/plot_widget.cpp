@@ -20,7 +20,7 @@ public:
 protected:
     void resizeEvent(QResizeEvent*) override {
         setViewport(rect());
-        replot(rpQueuedReplot);
+        queueReplot(*this);
     }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -240,18 +241,23 @@ template <class Add, class Cut>
 void clipLine(std::span<const double> x, std::span<const double> y, const PixelMap& map, bool isWhole,
               const Add& add, const Cut& cut) {
     const QRectF outer = map.rect.adjusted(-clipMargin, -clipMargin, clipMargin, clipMargin);
+    const double left = outer.left(), right = outer.right(), top = outer.top(), bottom = outer.bottom();
     QPointF previous;
     bool hasPrevious = false, isOpen = false;  // open: the piece ends in `previous`
+    bool wasInside = false;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const QPointF p = map(x[i], y[i]);
         if (std::isnan(p.x()) || std::isnan(p.y())) {
             if (hasPrevious && !isOpen && outer.contains(previous)) add(previous);  // a lonely point
             cut();
-            hasPrevious = isOpen = false;
+            hasPrevious = isOpen = wasInside = false;
             continue;
         }
+        const bool isInside = p.x() >= left && p.x() <= right && p.y() >= top && p.y() <= bottom;
         double from = 0, to = 1;
-        if (hasPrevious && clip(outer, previous, p, from, to)) {
+        if (isOpen && wasInside && isInside) {  // nearly all points of a long run
+            add(p);
+        } else if (hasPrevious && clip(outer, previous, p, from, to)) {
             if (!isOpen || from > 0) {
                 if (!isWhole) cut();
                 add(previous + from * (p - previous));
@@ -263,20 +269,50 @@ void clipLine(std::span<const double> x, std::span<const double> y, const PixelM
         }
         previous = p;
         hasPrevious = true;
+        wasInside = isInside;
     }
     if (hasPrevious && !isOpen && outer.contains(previous)) add(previous);
 }
 
+/// The rows of a monotone x that a plot needs: those inside it, and the neighbours on both sides.
+std::pair<std::size_t, std::size_t> rowsInside(std::span<const double> x, const PixelMap& map) {
+    constexpr std::size_t few = 1000;
+    if (x.size() < few || std::any_of(x.begin(), x.end(), [](double v) { return std::isnan(v); }))
+        return {0, x.size()};
+    const double low = map.xAt(map.rect.left() - clipMargin), high = map.xAt(map.rect.right() + clipMargin);
+    const bool isRising = x.back() > x.front();
+    const auto before = [&](double a, double b) { return isRising ? a < b : a > b; };
+    const auto first = std::lower_bound(x.begin(), x.end(), isRising ? low : high, before);
+    const auto last = std::upper_bound(first, x.end(), isRising ? high : low, before);
+    const auto from = static_cast<std::size_t>(first - x.begin()),
+               to = static_cast<std::size_t>(last - x.begin());
+    return {from > 0 ? from - 1 : 0, std::min(to + 1, x.size())};
+}
+
+/// Without points closer than the distance to the last one kept, but for the ends of pieces.
 std::vector<QPolygonF> clippedPieces(std::span<const double> x, std::span<const double> y,
-                                     const PixelMap& map) {
+                                     const PixelMap& map, double distance) {
     std::vector<QPolygonF> pieces;
     QPolygonF piece;
+    std::optional<QPointF> left;  // the last point, where it was left out
     const auto cut = [&] {
+        if (left && *left != piece.back()) piece.push_back(*left);
+        left.reset();
         if (!piece.isEmpty()) pieces.push_back(std::move(piece));
         piece = {};
     };
-    clipLine(
-        x, y, map, false, [&](QPointF p) { piece.push_back(p); }, cut);
+    const auto add = [&](QPointF p) {
+        if (!piece.isEmpty()) {
+            const QPointF d = p - piece.back();
+            if (QPointF::dotProduct(d, d) < distance * distance) {
+                left = p;
+                return;
+            }
+        }
+        piece.push_back(p);
+        left.reset();
+    };
+    clipLine(x, y, map, false, add, cut);
     cut();
     return pieces;
 }
@@ -307,15 +343,17 @@ double PixelMap::yAt(double pixel) const {
 VisibleLine visibleLine(std::span<const double> x, std::span<const double> y, const PixelMap& map,
                         double density) {
     PixelColumns columns(density);
+    const auto [from, to] = rowsInside(x, map);
     clipLine(
-        x, y, map, true, [&](QPointF p) { columns.add(p); }, [&] { columns.cut(); });
+        x.subspan(from, to - from), y.subspan(from, to - from), map, true, [&](QPointF p) { columns.add(p); },
+        [&] { columns.cut(); });
     return assemble(columns.all());
 }
 
 VisibleLine visibleCurve(std::span<const double> x, std::span<const double> y, const PixelMap& map,
                          double density) {
     VisibleLine visible;
-    visible.lines = clippedPieces(x, y, map);
+    visible.lines = clippedPieces(x, y, map, 0.5 / density);
     double length = 0;
     for (double distance = 0.5 / density;; distance *= 1.5) {
         qsizetype count = 0;

@@ -50,7 +50,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
       group_(new PlotGroup(this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
-    auto* scroll = new QScrollArea;
+    auto* scroll = scroll_ = new QScrollArea;
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
@@ -135,10 +135,15 @@ void CompareView::connectDrawing() {
     });
 }
 
-void CompareView::setTheme(const Theme& theme) {
+std::vector<std::function<void()>> CompareView::partsOfTheme(const Theme& theme) {
     theme_ = &theme;
-    stage_->setTheme(theme);
-    for (const auto& s : slots_) s->plot->setTheme(theme);
+    std::vector<std::function<void()>> parts;
+    parts.emplace_back([this, &theme] { stage_->setTheme(theme); });
+    for (const auto& s : slots_)
+        parts.emplace_back([plot = QPointer(s->plot), &theme] {
+            if (plot) plot->setTheme(theme);
+        });
+    return parts;
 }
 
 void CompareView::rebuild() {
@@ -446,6 +451,20 @@ void CompareView::alignMargins() {
         margin = std::max(margin, s->plot->leftMargin());
     }
     for (const auto& s : slots_) s->plot->setLeftMargin(std::min(widest[s->card->x()], 90));
+}
+
+void CompareView::pointAt(const QString& view) {
+    const auto mark = [&](Card* card, bool isMeant) {
+        card->setSelected(isMeant);
+        if (isMeant) scroll_->ensureWidgetVisible(card);
+    };
+    mark(stageCard_, view == "stage");
+    bool isFirst = true;
+    for (const auto& s : slots_) {
+        const bool isMeant = isFirst && s->view.id == view.toStdString();
+        mark(s->card, isMeant);
+        isFirst = isFirst && !isMeant;
+    }
 }
 
 void CompareView::fitAll() {

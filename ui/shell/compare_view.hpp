@@ -4,6 +4,7 @@
 
 #include <QWidget>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,6 +17,7 @@
 
 class QAction;
 class QMenu;
+class QScrollArea;
 
 namespace extremal {
 
@@ -43,8 +45,11 @@ public:
     CompareView(Workspace& workspace, RunControl& run, Playback& playback, const Theme& theme,
                 QWidget* parent = nullptr);
     ~CompareView() override;
-    void setTheme(const Theme& theme);
+    /// Puts another theme on the stage and the plots, one after the other.
+    std::vector<std::function<void()>> partsOfTheme(const Theme& theme);
     void fitAll();
+    /// Brings the card of a view into sight and marks it; that of no view ("") marks none.
+    void pointAt(const QString& view);
     /// The plot that was last clicked, else the first one; null if there is none.
     PlotWidget* currentPlot() const;
     StageWidget* stage() const { return stage_; }
@@ -105,6 +110,7 @@ private:
     Playback& playback_;
     const Theme* theme_;
     PlotGroup* group_;
+    QScrollArea* scroll_;
     QWidget* inside_;
     CardLayout* cardLayout_;
     PageLayout pageLayout_ = PageLayout::automatic;

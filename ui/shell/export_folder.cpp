@@ -3,10 +3,12 @@
 #include <QBuffer>
 #include <QTextDocument>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "engine/core/text.hpp"
+#include "engine/figure/svg.hpp"
 #include "engine/run/export.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/plots/plot_renderer.hpp"
@@ -19,14 +21,24 @@ constexpr QSize figureSize(720, 440);
 
 QString escaped(const std::string& text) { return QString::fromStdString(text).toHtmlEscaped(); }
 
+QString embedded(const QByteArray& bytes, const char* kind, long width, const QString& what) {
+    return QStringLiteral("<img alt=\"%1\" width=\"%2\" src=\"data:image/%3;base64,%4\">")
+        .arg(what.toHtmlEscaped())
+        .arg(width)
+        .arg(QLatin1String(kind), QString::fromLatin1(bytes.toBase64()));
+}
+
 QString embedded(const QImage& image, const QString& what) {
     QByteArray bytes;
     QBuffer buffer(&bytes);
     image.save(&buffer, "PNG");
-    return QStringLiteral("<img alt=\"%1\" width=\"%2\" src=\"data:image/png;base64,%3\">")
-        .arg(what.toHtmlEscaped())
-        .arg(std::lround(image.width() / image.devicePixelRatio()))
-        .arg(QString::fromLatin1(bytes.toBase64()));
+    return embedded(bytes, "png", std::lround(image.width() / image.devicePixelRatio()), what);
+}
+
+QString embedded(const Figure& figure) {
+    const std::string svg = svgOf(figure, {figureSize.width(), figureSize.height(), false});
+    return embedded(QByteArray::fromStdString(svg), "svg+xml", figureSize.width(),
+                    QString::fromStdString(figure.title));
 }
 
 /// Notes with their formulas: what stands between the tags of the body.
@@ -73,9 +85,7 @@ QString commandsFor(const ExportParts& parts) {
     return text;
 }
 
-QImage reportPicture(const Figure& figure) { return renderFigure(figure, figureSize, Theme::light(), 2); }
-
-QString reportPage(const ExportParts& parts, const std::vector<QImage>& pictures) {
+QString reportPage(const ExportParts& parts) {
     const Comparison& comparison = *parts.comparison;
     const Scene& scene = comparison.scene;
     QString html =
@@ -102,20 +112,15 @@ QString reportPage(const ExportParts& parts, const std::vector<QImage>& pictures
             "<p class=m>Errors are distances from: " + escaped(comparison.reference.description) + ".</p>\n";
     if (!parts.stage.isNull())
         html += "<figure>" + embedded(parts.stage, "Stage") + "<figcaption>Stage</figcaption></figure>\n";
-    for (std::size_t i = 0; i < parts.figures.size() && i < pictures.size(); ++i) {
-        const Figure& figure = parts.figures[i];
-        QImage picture = pictures[i];
-        picture.setDevicePixelRatio(2);
-        html += "<figure>" + embedded(picture, QString::fromStdString(figure.title)) + "<figcaption>" +
+    for (const Figure& figure : parts.figures)
+        html += "<figure>" + embedded(figure) + "<figcaption>" +
                 QString::fromStdString(figure.summary).toHtmlEscaped() + "</figcaption></figure>\n";
-    }
     return html + "<h2>The same again</h2>\n<pre>" + commandsFor(parts).toHtmlEscaped() +
            "</pre>\n<p class=m>In the folder of scene.json.</p>\n</body></html>\n";
 }
 
 std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, const QString& folder) {
     const auto shared = std::make_shared<const ExportParts>(parts);
-    const auto pictures = std::make_shared<std::vector<QImage>>();
     const std::filesystem::path path(folder.toStdString());
     const auto guarded = [](const std::function<void()>& write) {
         try {
@@ -130,13 +135,14 @@ std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, cons
         return guarded([&] {
             exportComparison(*shared->comparison, path);
             writeFile(path / "command.txt", commandsFor(*shared).toStdString());
+            writeFile(path / "report.html", reportPage(*shared).toStdString());
         });
     });
     for (std::size_t i = 0; i < parts.figures.size(); ++i) {
         const QString stem = folder + '/' + figureName(parts, i);
         steps.push_back([=] {
-            pictures->push_back(reportPicture(shared->figures[i]));
-            return pictures->back().save(stem + ".png") ? QString() : stem + ".png cannot be written";
+            const QImage picture = renderFigure(shared->figures[i], figureSize, Theme::light(), 2);
+            return picture.save(stem + ".png") ? QString() : stem + ".png cannot be written";
         });
         for (const char* ending : {".svg", ".pdf"})
             steps.push_back(
@@ -145,9 +151,20 @@ std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, cons
     steps.push_back([=] {
         if (!shared->stage.isNull() && !shared->stage.save(folder + "/stage.png"))
             return QStringLiteral("stage.png cannot be written");
-        return guarded(
-            [&] { writeFile(path / "report.html", reportPage(*shared, *pictures).toStdString()); });
+        return QString();
     });
+    return steps;
+}
+
+std::vector<std::function<QString()>> frameSteps(const QString& folder, double start, double end, int count,
+                                                 const std::function<QImage(double)>& picture) {
+    std::vector<std::function<QString()>> steps;
+    for (int i = 0; i < count; ++i)
+        steps.push_back([=] {
+            const QString file = QStringLiteral("%1/frame-%2.png").arg(folder).arg(i + 1, 4, 10, QChar('0'));
+            const QImage image = picture(start + (end - start) * i / std::max(1, count - 1));
+            return image.save(file) ? QString() : file + " cannot be written";
+        });
     return steps;
 }
 

@@ -21,18 +21,21 @@ struct ExportParts {
 };
 
 /// An export in steps, each of a tenth of a second or so, which return what went wrong, empty if nothing did.
-/// The first, which writes the files of the run, may be made in any thread; the others draw, in that of the
-/// window.
+/// The first, which writes the files of the run and the page, may be made in any thread; the others draw, in
+/// that of the window.
 std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, const QString& folder);
 
 /// All steps at once.
 QString exportFolder(const ExportParts& parts, const QString& folder);
 
-/// One file of HTML with everything in it: notes, schemes with their errors and costs, pictures. `pictures`:
-/// of the figures.
-QString reportPage(const ExportParts& parts, const std::vector<QImage>& pictures);
-/// The picture of a figure in it.
-QImage reportPicture(const Figure& figure);
+/// One file of HTML with everything in it: notes, schemes with their errors and costs, pictures as SVG. Any
+/// thread may make it.
+QString reportPage(const ExportParts& parts);
+
+/// The stage at evenly spaced times, one picture "frame-0001.png" per step. `picture`: of the stage
+/// at a time.
+std::vector<std::function<QString()>> frameSteps(const QString& folder, double start, double end, int count,
+                                                 const std::function<QImage(double)>& picture);
 
 /// The commands, one per line, to be run in the folder.
 QString commandsFor(const ExportParts& parts);

@@ -4,6 +4,7 @@
 #include <QImage>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QPushButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -29,6 +30,10 @@ GalleryItem itemOf(const Preset& preset) {
                      textAt(scene, "lesson"),
                      {}};
     item.words = (QStringList{item.id, item.title, item.lesson, textAt(scene, "source")}).join(' ').toLower();
+    if (const Value* steps = scene.find("steps")) {
+        item.steps = static_cast<int>(steps->asArray().size());
+        item.words += QStringLiteral(" lesson steps");
+    }
     if (const Value* model = scene.find("model")) item.words += ' ' + textAt(*model, "type");
     return item;
 }
@@ -79,6 +84,14 @@ GalleryCard::GalleryCard(const QString& title, const QString& text, QWidget* par
 void GalleryCard::setPicture(const QImage& image) {
     hasPicture_ = !image.isNull();
     picture_->setPixmap(QPixmap::fromImage(image));
+}
+
+void GalleryCard::offerLesson(int steps) {
+    auto* button = new QPushButton(tr("Lesson in %n steps", nullptr, steps), this);
+    button->setObjectName("lesson");
+    button->setProperty("kind", "chip");
+    connect(button, &QPushButton::clicked, this, &GalleryCard::lessonChosen);
+    header()->addWidget(button);
 }
 
 void GalleryCard::mouseReleaseEvent(QMouseEvent* event) {

@@ -16,6 +16,7 @@ namespace extremal {
 struct GalleryItem {
     QString id, title, lesson;
     QString words;  ///< what a search looks at
+    int steps = 0;  ///< of its lesson; 0: it has none
 };
 
 struct GallerySection {
@@ -36,9 +37,12 @@ public:
     GalleryCard(const QString& title, const QString& text, QWidget* parent = nullptr);
     void setPicture(const QImage& image);
     bool hasPicture() const { return hasPicture_; }
+    /// A button for the lesson of so many steps.
+    void offerLesson(int steps);
 
 signals:
     void chosen();
+    void lessonChosen();
 
 protected:
     void mouseReleaseEvent(QMouseEvent* event) override;

@@ -33,14 +33,19 @@
 #include "ui/shell/autosave.hpp"
 #include "ui/shell/banners.hpp"
 #include "ui/shell/compare_view.hpp"
+#include "ui/shell/copies_window.hpp"
 #include "ui/shell/formula_text.hpp"
 #include "ui/shell/header_bar.hpp"
+#include "ui/shell/inspector_window.hpp"
+#include "ui/shell/lesson_bar.hpp"
 #include "ui/shell/log_window.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/playback.hpp"
+#include "ui/shell/race_window.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/start_page.hpp"
+#include "ui/shell/theme_switch.hpp"
 #include "ui/shell/timeline.hpp"
 #include "ui/shell/typeset.hpp"
 #include "ui/shell/workspace.hpp"
@@ -52,6 +57,7 @@ MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), i
     setAcceptDrops(true);
     setMinimumSize(760, 520);
     resize(1600, 1000);
+    themeSwitch_ = new ThemeSwitch(this);
     notices_ = new Notices(this);
     workspace_ = new Workspace(*notices_, this);
     run_ = new RunControl(*workspace_, *notices_, this);
@@ -115,6 +121,8 @@ void MainWindow::makePages() {
     tabs_->addTab(tr("Studies"));
     centreColumn->addWidget(tabs_);
     centreColumn->addWidget(new Banners(*notices_));
+    lesson_ = new LessonBar(*workspace_, *playback_);
+    centreColumn->addWidget(lesson_);
     pages_ = new QStackedWidget;
     compare_ = new CompareView(*workspace_, *run_, *playback_, theme_);
     notes_ = new QTextBrowser;
@@ -133,6 +141,10 @@ void MainWindow::makePages() {
     connect(tabs_, &QTabBar::currentChanged, this, [this](int page) {
         pages_->setCurrentIndex(page);
         timeline_->setVisible(page == 0);  // nothing else follows the time
+    });
+    connect(lesson_, &LessonBar::viewPointed, this, [this](const QString& view) {
+        if (!view.isEmpty()) tabs_->setCurrentIndex(0);
+        compare_->pointAt(view);
     });
     connect(compare_, &CompareView::startRefused, this, [this](const QString& reason) {
         notices_->post({Notice::Kind::information,
@@ -199,6 +211,9 @@ void MainWindow::makePages() {
     });
     connect(startPage_, &StartPage::presetChosen, this,
             [this](const QString& name) { open("preset:" + name); });
+    connect(startPage_, &StartPage::lessonChosen, this, [this](const QString& name) {
+        if (open("preset:" + name)) startLesson();
+    });
     connect(startPage_, &StartPage::openRequested, this, &MainWindow::openDialog);
     connect(startPage_, &StartPage::newRequested, this, &MainWindow::newFromLagrangian);
     connect(startPage_, &StartPage::fileChosen, this, [this](const QString& path) { open(path); });
@@ -273,14 +288,26 @@ void MainWindow::keepRecent() {
 }
 
 void MainWindow::setTheme(const Theme& theme) {
+    const bool isOfColours = theme.fontScale == theme_.fontScale;
     theme_ = theme;
-    applyTheme(*qApp, theme_);
-    discretizer_->setTheme(theme_);
-    schemes_->setTheme(theme_);
-    compare_->setTheme(theme_);
-    studies_->setTheme(theme_);
-    startPage_->setTheme(theme_);
-    shareWidth();
+    std::vector<std::function<void()>> parts;
+    parts.emplace_back([this] { discretizer_->setTheme(theme_); });
+    parts.emplace_back([this] { schemes_->setTheme(theme_); });
+    for (auto& part : compare_->partsOfTheme(theme_)) parts.push_back(std::move(part));
+    parts.emplace_back([this] { studies_->setTheme(theme_); });
+    parts.emplace_back([this] { startPage_->setTheme(theme_); });
+    parts.emplace_back([this] {
+        if (inspector_) inspector_->setTheme(theme_);
+        if (race_) race_->setTheme(theme_);
+        if (copies_) copies_->setTheme(theme_);
+    });
+    if (isOfColours) {
+        themeSwitch_->start(theme_, parts);
+    } else {
+        applyTheme(*qApp, theme_);
+        for (const auto& part : parts) part();
+        shareWidth();
+    }
     if (isRemembered_) {
         QSettings settings;
         settings.setValue("window/dark", theme_.isDark);

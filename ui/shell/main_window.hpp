@@ -23,17 +23,22 @@ namespace extremal {
 class Actions;
 class Autosave;
 class CompareView;
+class CopiesWindow;
 class Discretizer;
 struct ExportParts;
 class HelpWindow;
+class InspectorWindow;
+class LessonBar;
 class LogWindow;
 class Notices;
 class PassportWindow;
+class RaceWindow;
 class Playback;
 class RunControl;
 class SchemeList;
 class StartPage;
 class StudyPage;
+class ThemeSwitch;
 class Timeline;
 class ValuesTable;
 class Workspace;
@@ -48,6 +53,7 @@ public:
 
     /// A path or "preset:NAME". Asks first what becomes of changes that are not saved.
     bool open(const QString& scene, bool isTrusted = false);
+    /// The colours change some turns of the event loop later.
     void setTheme(const Theme& theme);
     /// Everything into a folder: files as `extremal run`, the figures, and the command that makes them again.
     bool exportEverything(const QString& folder);
@@ -60,6 +66,7 @@ public:
     Discretizer& discretizer() { return *discretizer_; }
     Notices& notices() { return *notices_; }
     StudyPage& studies() { return *studies_; }
+    ThemeSwitch& themeSwitch() { return *themeSwitch_; }
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -79,6 +86,8 @@ private:
     void toggleScheme(int index);
     void addRunActions();
     void addStudyActions();
+    void addLessonActions();
+    void startLesson();
     void startFromCursor();
     void shareWidth();
     void showScene();
@@ -99,6 +108,8 @@ private:
                         const QString& problem, const QString& folder);
     bool tellOfExport(const QString& problem, const QString& file, const QString& folder);
     void exportReport();
+    void exportFrames();
+    void exportSized();
     void copyScene();
     void pasteScene();
     void showPalette();
@@ -106,6 +117,7 @@ private:
 
     Theme theme_;
     bool isRemembered_;
+    ThemeSwitch* themeSwitch_;
     Notices* notices_;
     Workspace* workspace_;
     RunControl* run_;
@@ -113,6 +125,7 @@ private:
     Autosave* autosave_ = nullptr;
     Actions* actions_;
     CompareView* compare_;
+    LessonBar* lesson_;
     Discretizer* discretizer_;
     SchemeList* schemes_;
     StartPage* startPage_;
@@ -122,6 +135,9 @@ private:
     HelpWindow* help_ = nullptr;
     LogWindow* log_ = nullptr;
     PassportWindow* passport_ = nullptr;
+    InspectorWindow* inspector_ = nullptr;
+    RaceWindow* race_ = nullptr;
+    CopiesWindow* copies_ = nullptr;
     QStackedWidget* stack_;  ///< start page or work page
     QStackedWidget* pages_;  ///< Compare, Notes, Studies
     QTabBar* tabs_;

@@ -87,6 +87,11 @@ void StartPage::makeHead(QVBoxLayout& column) {
         if (const QStringList shown = shownPresets(); !shown.isEmpty()) emit presetChosen(shown.front());
     });
     head->addWidget(search_, 0, Qt::AlignVCenter);
+    auto* lessons = new QPushButton(tr("Lessons"));
+    lessons->setObjectName("lessons");
+    lessons->setToolTip(tr("Presets with steps that lead through them"));
+    connect(lessons, &QPushButton::clicked, this, [this] { search(tr("lesson steps")); });
+    head->addWidget(lessons, 0, Qt::AlignVCenter);
     auto* lagrangian = new QPushButton(tr("New from a Lagrangian"));
     lagrangian->setObjectName("newLagrangian");
     connect(lagrangian, &QPushButton::clicked, this, &StartPage::newRequested);
@@ -121,6 +126,8 @@ void StartPage::makeSections() {
             auto* card = new GalleryCard(item.title, item.lesson, box);
             card->setObjectName("preset." + item.id);
             connect(card, &GalleryCard::chosen, this, [this, id = item.id] { emit presetChosen(id); });
+            if (item.steps > 0) card->offerLesson(item.steps);
+            connect(card, &GalleryCard::lessonChosen, this, [this, id = item.id] { emit lessonChosen(id); });
             entries_.push_back(std::make_unique<Entry>(Entry{card, item.id, item}));
         }
     }

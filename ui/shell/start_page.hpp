@@ -40,6 +40,7 @@ public:
 
 signals:
     void presetChosen(const QString& name);
+    void lessonChosen(const QString& name);  ///< the lesson of a preset
     void openRequested();
     void newRequested();
     void fileChosen(const QString& path);

@@ -153,8 +153,14 @@ QString loadFonts() {
 }
 
 void applyTheme(QApplication& application, const Theme& theme) {
-    if (application.style()->name().compare(QLatin1String("fusion"), Qt::CaseInsensitive) != 0)
+    // With a style sheet the style that the application names is not the one that was set.
+    constexpr const char* isSet = "hasFusion";
+    if (!application.property(isSet).toBool())
         QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    application.setProperty(isSet, true);
+    // Qt replaces a sheet by one for each widget and again for each of its parents; taken away and set, it
+    // is a fifth of the work.
+    application.setStyleSheet(QString());
     QApplication::setPalette(theme.palette());
     QApplication::setFont(theme.body());
     application.setStyleSheet(theme.styleSheet());

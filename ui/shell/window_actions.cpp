@@ -1,22 +1,15 @@
 /// Everything the main window can do, each with its key.
 #include <QActionGroup>
 #include <QApplication>
-#include <QClipboard>
-#include <QDesktopServices>
 #include <QFileDialog>
-#include <QFileInfo>
 #include <QMenu>
 #include <QMessageBox>
-#include <QPointer>
-#include <QSaveFile>
 #include <QSettings>
 #include <QStatusBar>
 #include <QTabBar>
 #include <QTimer>
-#include <QUrl>
 
 #include "engine/scene/bind.hpp"
-#include "engine/scene/json.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/view_choices.hpp"
 #include "engine/view/catalog.hpp"
@@ -25,16 +18,18 @@
 #include "ui/panels/values_table.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
-#include "ui/shell/background.hpp"
 #include "ui/shell/compare_view.hpp"
-#include "ui/shell/export_folder.hpp"
+#include "ui/shell/copies_window.hpp"
 #include "ui/shell/help_window.hpp"
+#include "ui/shell/inspector_window.hpp"
+#include "ui/shell/lesson_bar.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/passport_window.hpp"
 #include "ui/shell/palette_dialog.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/plot_edits.hpp"
+#include "ui/shell/race_window.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/starting.hpp"
@@ -55,6 +50,7 @@ void MainWindow::makeActions() {
     addViewActions();
     addRunActions();
     addStudyActions();
+    addLessonActions();
     actions_->add("help", tr("Help"), tr("Handbook, for what has the focus"), {QKeySequence(Qt::Key_F1)},
                   [this] { showHelp(helpPageOf(QApplication::focusWidget())); });
     actions_->add("searchHelp", tr("Help"), tr("Search the handbook..."),
@@ -74,6 +70,32 @@ void MainWindow::makeActions() {
                "quadrature rule; the stationarity of the discrete action is the integrator.<br><br>"
                "GPL-3.0-or-later. With Qt, QCustomPlot, Eigen and Boost."));
     });
+}
+
+void MainWindow::startLesson() {
+    if (!lesson_->hasLesson()) {
+        notices_->post({Notice::Kind::information,
+                        "lesson",
+                        tr("This scene has no lesson."),
+                        tr("the start page marks the presets that have one"),
+                        {{tr("Start page"), [this] { stack_->setCurrentIndex(0); }}}});
+        return;
+    }
+    tabs_->setCurrentIndex(0);
+    lesson_->start();
+}
+
+void MainWindow::addLessonActions() {
+    const QString menu = tr("Help");
+    actions_->add(
+        "lesson", menu, tr("Start the lesson"), {QKeySequence(Qt::ALT | Qt::Key_L)},
+        [this] { startLesson(); }, tr("What this scene teaches, step by step"));
+    actions_->add("lessonNext", menu, tr("Next step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Right)},
+                  [this] { lesson_->next(); });
+    actions_->add("lessonBack", menu, tr("Step back in the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Left)},
+                  [this] { lesson_->back(); });
+    actions_->add("lessonDo", menu, tr("Do the step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Return)},
+                  [this] { lesson_->doStep(); });
 }
 
 void MainWindow::showHelp(const QString& page) {
@@ -102,6 +124,13 @@ void MainWindow::addFileActions() {
     actions_->add("exportPlot", menu, tr("Export plot..."), {QKeySequence(Qt::CTRL | Qt::Key_E)}, [this] {
         if (PlotWidget* plot = compare_->currentPlot()) plot->saveDialog();
     });
+    actions_->add(
+        "exportSized", menu, tr("Export plot with a size..."), {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_P)},
+        [this] { exportSized(); }, tr("Width and height in millimetres, resolution in dots per inch"));
+    actions_->add(
+        "exportFrames", menu, tr("Export the stage as frames..."),
+        {QKeySequence(Qt::CTRL | Qt::ALT | Qt::Key_F)}, [this] { exportFrames(); },
+        tr("Pictures from the start to the end, for a film"));
     actions_->add("exportAll", menu, tr("Export everything..."),
                   {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_E)}, [this] { exportDialog(); });
     actions_->add(
@@ -130,6 +159,13 @@ void MainWindow::addEditActions() {
         if (!passport_) passport_ = new PassportWindow(*workspace_, *notices_, this);
         passport_->open();
     });
+    actions_->add(
+        "inspect", menu, tr("Inspect one step"), {QKeySequence(Qt::Key_F6)},
+        [this] {
+            if (!inspector_) inspector_ = new InspectorWindow(*workspace_, *run_, *playback_, theme_, this);
+            inspector_->open();
+        },
+        tr("The step of the selected scheme at the cursor: motion, functions, iteration, equations"));
     actions_->add("rename", menu, tr("Rename scheme"), {QKeySequence(Qt::Key_F2)},
                   [this] { schemes_->renameSelected(); });
     actions_->add("duplicate", menu, tr("Duplicate scheme"), {QKeySequence(Qt::CTRL | Qt::Key_D)},
@@ -333,6 +369,20 @@ void MainWindow::addStudyActions() {
     actions_->add("measureCheapest", menu, tr("Measure the cheapest scheme"),
                   {QKeySequence(Qt::CTRL | Qt::Key_M)}, onPage(&StudyPage::measureCheapest),
                   tr("Runs every scheme that is on at the step that the wanted error needs"));
+    actions_->add(
+        "race", menu, tr("Race"), {QKeySequence(Qt::Key_F9)},
+        [this] {
+            if (!race_) race_ = new RaceWindow(*run_, theme_, this);
+            race_->open();
+        },
+        tr("A stage for each scheme, all with the same processor time; the wanted error is the finish line"));
+    actions_->add(
+        "perturb", menu, tr("Perturb and watch"), {QKeySequence(Qt::Key_F10)},
+        [this] {
+            if (!copies_) copies_ = new CopiesWindow(*workspace_, *playback_, theme_, this);
+            copies_->open();
+        },
+        tr("The motion of the selected scheme and a copy that starts a little apart"));
     actions_->addSeparator(menu);
     actions_->add("useResult", menu, tr("Use the selected result"), {QKeySequence(Qt::CTRL | Qt::Key_U)},
                   onPage(&StudyPage::useSelected));
@@ -355,121 +405,6 @@ void MainWindow::save(bool asksName) {
     const QString path =
         QFileDialog::getSaveFileName(this, tr("Save scene"), workspace_->fileName(), tr("Scenes (*.json)"));
     if (!path.isEmpty()) workspace_->saveAs(path);
-}
-
-void MainWindow::exportDialog() {
-    if (!run_->results()) return;
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Export everything into a folder"));
-    if (!folder.isEmpty()) startExport(folder);
-}
-
-/// Files of the run in another thread, then picture after picture, between which the window answers.
-void MainWindow::startExport(const QString& folder) {
-    const auto parts = partsOfExport();
-    if (!parts) return;
-    notices_->post({Notice::Kind::information, "export", tr("Exporting to %1 ...").arg(folder), {}, {}});
-    auto steps = std::make_shared<std::deque<std::function<QString()>>>();
-    for (auto& step : exportSteps(*parts, folder)) steps->push_back(std::move(step));
-    runInBackground([self = QPointer(this), steps, folder] {
-        const QString problem = steps->front()();
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, steps, folder, problem] {
-                steps->pop_front();
-                if (self) self->continueExport(steps, problem, folder);
-            },
-            Qt::QueuedConnection);
-    });
-}
-
-void MainWindow::continueExport(const std::shared_ptr<std::deque<std::function<QString()>>>& steps,
-                                const QString& problem, const QString& folder) {
-    if (!problem.isEmpty() || steps->empty()) {
-        tellOfExport(problem, folder, folder);
-        return;
-    }
-    QTimer::singleShot(0, this, [this, steps, folder] {
-        const QString next = steps->front()();
-        steps->pop_front();
-        continueExport(steps, next, folder);
-    });
-}
-
-std::optional<ExportParts> MainWindow::partsOfExport() {
-    const auto results = run_->results();
-    if (!results) return {};
-    compare_->complete();
-    ExportParts parts;
-    parts.comparison = results;
-    for (const PlotWidget* plot : compare_->plots()) parts.figures.push_back(plot->figure());
-    if (compare_->hasStage()) parts.stage = compare_->stage()->picture(2);
-    return parts;
-}
-
-bool MainWindow::exportEverything(const QString& folder) {
-    const auto parts = partsOfExport();
-    return parts && tellOfExport(exportFolder(*parts, folder), folder, folder);
-}
-
-/// A banner says where it is, or what went wrong.
-bool MainWindow::tellOfExport(const QString& problem, const QString& file, const QString& folder) {
-    if (!problem.isEmpty()) {
-        notices_->post({Notice::Kind::error,
-                        "export",
-                        tr("The export failed: %1").arg(problem),
-                        tr("choose another folder"),
-                        {}});
-        return false;
-    }
-    notices_->post(
-        {Notice::Kind::information,
-         "export",
-         tr("Exported to %1").arg(file),
-         {},
-         {{tr("Open folder"), [folder] { QDesktopServices::openUrl(QUrl::fromLocalFile(folder)); }}}});
-    return true;
-}
-
-void MainWindow::exportReport() {
-    if (!run_->results()) return;
-    const QString path = QFileDialog::getSaveFileName(
-        this, tr("Save a page for browsers"), QFileInfo(workspace_->fileName()).completeBaseName() + ".html",
-        tr("Pages (*.html)"));
-    if (path.isEmpty()) return;
-    QSaveFile file(path);
-    const ExportParts parts = *partsOfExport();
-    std::vector<QImage> pictures;
-    for (const Figure& figure : parts.figures) pictures.push_back(reportPicture(figure));
-    const QByteArray page = reportPage(parts, pictures).toUtf8();
-    const bool isWritten =
-        file.open(QIODevice::WriteOnly) && file.write(page) == page.size() && file.commit();
-    tellOfExport(isWritten ? QString() : file.errorString(), path, QFileInfo(path).absolutePath());
-}
-
-void MainWindow::copyScene() {
-    if (!workspace_->hasScene()) return;
-    QApplication::clipboard()->setText(QString::fromStdString(writeJson(workspace_->document())));
-    statusBar()->showMessage(tr("The scene is on the clipboard, as text"), 6000);
-}
-
-void MainWindow::pasteScene() {
-    const std::string text = QApplication::clipboard()->text().toStdString();
-    QString problem;
-    try {
-        const Value document = parseJson(text);
-        if (!mayLeaveScene()) return;
-        if (workspace_->adopt(document)) return stack_->setCurrentIndex(1);
-        problem = workspace_->openProblems().empty()
-                      ? QString()
-                      : QString::fromStdString(workspace_->openProblems().front().message);
-    } catch (const InvalidScene& error) {
-        problem = QString::fromStdString(error.problems().front().message);
-    }
-    notices_->post({Notice::Kind::error,
-                    "paste",
-                    tr("The clipboard has no scene: %1").arg(problem),
-                    tr("copy the text of a scene file first"),
-                    {}});
 }
 
 void MainWindow::showPalette() {

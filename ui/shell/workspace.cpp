@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
 #include "engine/scene/own_folder.hpp"
 #include "ui/shell/notices.hpp"
 
@@ -14,6 +15,13 @@ namespace {
 
 bool isAtOrBelow(std::string_view pointer, std::string_view place) {
     return pointer.starts_with(place) && (pointer.size() == place.size() || pointer[place.size()] == '/');
+}
+
+/// The scene with every default filled in, and the steps of the lesson, which a Scene does not hold.
+Value completed(const Scene& scene, const Value& document) {
+    Value value = toValue(scene);
+    if (const Value* steps = document.find("steps")) value.set("steps", *steps);
+    return value;
 }
 
 std::string directoryOf(const QString& path) {
@@ -32,7 +40,7 @@ bool Workspace::accept(const Value& candidate, const std::vector<Edit>& edits) {
         problems_.insert(problems_.end(), read.errors.begin(), read.errors.end());
         return false;
     }
-    Value resolved = toValue(read.scene);
+    Value resolved = completed(read.scene, candidate);
     setDocument(std::move(resolved), std::move(read.scene), std::move(read.warnings));
     return true;
 }
@@ -175,7 +183,7 @@ bool Workspace::open(const QString& name, bool isTrusted) {
     drafts_.clear();
     problems_.clear();
     history_.clear();
-    Value document = toValue(read.scene);
+    Value document = completed(read.scene, parseJson(text));
     saved_ = document;
     setDocument(std::move(document), std::move(read.scene), std::move(read.warnings));
     selectScheme(-1);
@@ -198,7 +206,7 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
     problems_.clear();
     history_.clear();
     saved_ = Value();
-    Value resolved = toValue(read.scene);
+    Value resolved = completed(read.scene, document);
     setDocument(std::move(resolved), std::move(read.scene), std::move(read.warnings));
     selectScheme(-1);
     emit opened();
@@ -211,7 +219,7 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
 bool Workspace::save() { return !path_.isEmpty() && saveAs(path_); }
 
 bool Workspace::saveAs(const QString& path) {
-    const std::string text = writeScene(namedFrom(directoryOf(path), scene_));
+    const std::string text = writeJson(completed(namedFrom(directoryOf(path), scene_), document_));
     QSaveFile file(path);
     const bool isWritten =
         file.open(QIODevice::WriteOnly) &&

@@ -1,0 +1,127 @@
+/// The window's thread turns to its next event soon enough, whatever is done. Measured in processor time of
+/// that thread, which does not depend on what else the machine does.
+#include <QAbstractEventDispatcher>
+#include <QTest>
+#include <QTimer>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "engine/core/thread_clock.hpp"
+#include "tests/tools/test.hpp"
+#include "tests/ui/window.hpp"
+#include "ui/shell/actions.hpp"
+#include "ui/shell/theme_switch.hpp"
+#include "ui/shell/workspace.hpp"
+
+namespace extremal::heartbeat_test {
+namespace {
+
+/// The longest time between two turns of the event loop.
+class Heartbeat : public QObject {
+public:
+    Heartbeat() {
+        const auto* dispatcher = QAbstractEventDispatcher::instance();
+        connect(dispatcher, &QAbstractEventDispatcher::awake, this, &Heartbeat::beat);
+        connect(dispatcher, &QAbstractEventDispatcher::aboutToBlock, this, &Heartbeat::beat);
+    }
+    void beat() {
+        const double now = threadSeconds();
+        longest = std::max(longest, now - last_);
+        last_ = now;
+    }
+    double longest = 0;
+
+private:
+    double last_ = threadSeconds();
+};
+
+}  // namespace
+
+class HeartbeatTest : public QObject {
+    Q_OBJECT
+
+    static constexpr double allowed = 0.05;  // seconds, of the design's rules
+
+    /// What the act takes at most in one turn, until everything shows its outcome.
+    double longestOf(const std::function<void()>& act) {
+        Heartbeat heart;
+        act();
+        heart.beat();
+        if (!QTest::qWaitFor([&] { return waitForResults(*window_); }, 120000) ||
+            !QTest::qWaitFor([&] { return !window_->themeSwitch().isRunning(); }))
+            return 1e9;
+        for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();
+        return heart.longest;
+    }
+    std::unique_ptr<MainWindow> window_;
+
+private slots:
+    void initTestCase() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+        QSKIP("the sanitizers take several times as long");
+#endif
+        loadFonts();
+        applyTheme(*qApp, Theme::light());
+        window_ = std::make_unique<MainWindow>(Theme::light(), false);
+        window_->resize(1600, 1000);
+        window_->show();
+        QVERIFY(window_->open("preset:spring-pendulum"));
+        QVERIFY(waitForResults(*window_));
+    }
+    void cleanupTestCase() { window_.reset(); }
+    void aLongEventIsSeen() {
+        const double longest = longestOf([] {
+            QTimer::singleShot(0, qApp, [] {
+                for (const double start = threadSeconds(); threadSeconds() < start + 1.2 * allowed;) continue;
+            });
+        });
+        QVERIFY(longest > allowed);
+    }
+    void theWindowAnswers_data() {
+        QTest::addColumn<std::function<void(MainWindow&)>>("act");
+        const auto row = [](const char* name, std::function<void(MainWindow&)> act) {
+            QTest::newRow(name) << std::move(act);
+        };
+        const auto press = [](const char* action) {
+            return [action](MainWindow& window) { window.actions().find(action)->trigger(); };
+        };
+        row("scheme off", press("toggle1"));
+        row("scheme on", press("toggle1"));
+        row("parameter", [](MainWindow& w) { w.workspace().edit({{"/model/k", 9000.0}}, "k"); });
+        row("undo", press("undo"));
+        row("selection", [](MainWindow& w) { w.workspace().selectScheme(3); });
+        row("narrower", [](MainWindow& w) { w.resize(1280, 800); });
+        row("wider", [](MainWindow& w) { w.resize(1600, 1000); });
+        row("dark", press("theme"));
+        row("light", press("theme"));
+    }
+    void theWindowAnswers() {
+        QFETCH(const std::function<void(MainWindow&)>, act);
+        const double longest = longestOf([&] { act(*window_); });
+        QVERIFY2(longest < allowed, qPrintable(QString("%1 ms").arg(1e3 * longest)));
+    }
+    void itAnswersDuringLongRuns() {
+        Value::Array schemes;
+        for (int i = 0; i < 8; ++i)
+            schemes.push_back(Value::Object{{"label", std::to_string(i)},
+                                            {"step", 0.01},
+                                            {"baseline", i % 2 ? "rk4" : "stormer-verlet"}});
+        Value scene(Value::Object{{"extremal", 1}});
+        scene.set("model", Value(Value::Object{{"type", "kepler"}}));
+        scene.set("time", Value(Value::Object{{"end", 10000}}));
+        scene.set("schemes", schemes);
+        scene.set("views", Value(Value::Array{"stage", "energy", "error", "phase"}));
+        QVERIFY(window_->workspace().adopt(scene));
+        for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();  // another scene has other forms
+        const double longest = longestOf([this] { window_->runControl().start(); });
+        QVERIFY2(longest < allowed, qPrintable(QString("%1 ms").arg(1e3 * longest)));
+    }
+};
+
+EXTREMAL_TEST(HeartbeatTest)
+
+}  // namespace extremal::heartbeat_test
+
+#include "heartbeat_test.moc"
