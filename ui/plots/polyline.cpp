@@ -321,7 +321,7 @@ double lengthOf(const QPolygonF& line) {
     double length = 0;
     for (qsizetype i = 1; i < line.size(); ++i) {
         const QPointF d = line[i] - line[i - 1];
-        length += std::hypot(d.x(), d.y());
+        length += std::sqrt(QPointF::dotProduct(d, d));  // pixels: nothing overflows
     }
     return length;
 }
@@ -353,17 +353,19 @@ VisibleLine visibleLine(std::span<const double> x, std::span<const double> y, co
 VisibleLine visibleCurve(std::span<const double> x, std::span<const double> y, const PixelMap& map,
                          double density) {
     VisibleLine visible;
-    visible.lines = clippedPieces(x, y, map, 0.5 / density);
-    double length = 0;
-    for (double distance = 0.5 / density;; distance *= 1.5) {
-        qsizetype count = 0;
-        length = 0;
-        for (QPolygonF& piece : visible.lines) {
-            piece = spaced(piece, distance);
-            count += piece.size();
-            length += lengthOf(piece);
-        }
-        if (count <= static_cast<qsizetype>(20000 * density) || distance > 4) break;
+    constexpr double closest = 0.5, farthest = 4, growth = 1.5;  // pixels between points
+    const double most = 20000 * density;
+    double distance = closest / density, length = 0;
+    visible.lines = clippedPieces(x, y, map, distance);
+    qsizetype count = 0;
+    for (const QPolygonF& piece : visible.lines) {
+        count += piece.size();
+        length += lengthOf(piece);
+    }
+    if (static_cast<double>(count) > most) {
+        // About as many points remain as the distance goes into the length.
+        while (length / distance > most && distance <= farthest) distance *= growth;
+        for (QPolygonF& piece : visible.lines) piece = spaced(piece, distance);
     }
     // With so much line in the plot dashes are not seen.
     visible.isDense = length > 0.25 * map.rect.width() * map.rect.height();
