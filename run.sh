@@ -38,7 +38,9 @@ fi
 status=0
 # The pictures of the start page are made while the window is open already; without them it draws its own.
 ninja -C "$root/build" extremal_pictures >/dev/null 2>&1 &
+pictures=$!
 "$program" "$scene" || status=$?
+kill "$pictures" 2>/dev/null || true  # a next start builds in the same folder
 # The program gives 2 for a scene it cannot use, which it has named, and for a display it cannot open.
 if [ "$status" -eq 2 ] && "$program" check "$scene" --quiet >/dev/null 2>&1; then
     say "The display cannot be used: running without the window."
