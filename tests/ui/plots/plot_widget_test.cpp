@@ -64,6 +64,25 @@ private slots:
         QVERIFY(!plot->isUserZoomed() && !chip->isVisible());
         QVERIFY(plot->visibleRange(PlotAxis::x).high >= 1000);
     }
+    /// Results of an earlier scene are pale, so that they are not mistaken for those of this one.
+    void staleCurvesArePale() {
+        const auto plot = shown("energy");
+        const QRgb full =
+            Theme::light().series(handmade::figureOf("energy").series().front().style).color.rgb();
+        const auto count = [&] {
+            canvas(*plot).replot();
+            const QImage image = plot->grab().toImage().convertToFormat(QImage::Format_RGB32);
+            int pixels = 0;
+            for (int y = 0; y < image.height(); ++y)
+                for (int x = 0; x < image.width(); ++x) pixels += image.pixel(x, y) == full;
+            return pixels;
+        };
+        QVERIFY(count() > 50);
+        plot->setStale(true);
+        QCOMPARE(count(), 0);
+        plot->setStale(false);
+        QVERIFY(count() > 50);
+    }
     void wheelOnAnAxisZoomsThatAxisAlone() {
         const auto plot = shown("energy");
         const PlotRange x = plot->visibleRange(PlotAxis::x), y = plot->visibleRange(PlotAxis::y);
