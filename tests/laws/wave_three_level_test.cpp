@@ -106,6 +106,18 @@ private slots:
         QCOMPARE(claim(threeLevels("gauss")), 4);
         QCOMPARE(claim(threeLevels("variational")), 2);
     }
+    /// What the integrator measures is the form with its shift.
+    void theFormIsMeasuredWithItsShift() {
+        const System system = systemA(64);
+        const State start = startA(system);
+        for (const double shift : {0.0, 40.0, -40.0}) {
+            const Run result =
+                run(system, threeLevels("gauss", {"exact", {}, {}}, shift), start, 1.0 / 1024, 100);
+            qInfo("shift %g: %.1e apart, changes by %.1e", shift, result.apart, result.form);
+            QVERIFY(result.apart < 1e-12);
+            QVERIFY(result.form < 1e-11);
+        }
+    }
     void errorsAreThePredictedOnes() {
         const System system = systemA(64);
         const State start = startA(system);
