@@ -126,7 +126,8 @@ private:
             for (const double c : nodes_.place)
                 if (c >= 0 && c <= 1) add(marks, c);
             marks.part = "nodes";
-            figure.subtitle = std::to_string(nodes_.place.size()) + " nodes";
+            figure.subtitle =
+                std::to_string(nodes_.place.size()) + (nodes_.place.size() == 1 ? " node" : " nodes");
             // Each weight above its node.
             const auto [low, high] = std::minmax_element(curve.y.begin(), curve.y.end());
             const double above = *high > *low ? 0.08 * (*high - *low) : 0.08;

@@ -81,8 +81,9 @@ Figure makeBasis(const FigureContext& context) {
     figure.title = "Functions of " + scheme->spec.label;
     const Eigen::VectorXd K = kineticValues(table);
     figure.subtitle = std::to_string(table.space.size) + " functions, " + std::to_string(table.nodes()) +
-                      " nodes · order " + std::to_string(resolved.claims.order) + " · K from " +
-                      shortNumber(K.minCoeff(), 3) + " to " + shortNumber(K.maxCoeff(), 3);
+                      (table.nodes() == 1 ? " node" : " nodes") + " · order " +
+                      std::to_string(resolved.claims.order) + " · K from " + shortNumber(K.minCoeff(), 3) +
+                      " to " + shortNumber(K.maxCoeff(), 3);
     if (d.space.find("functions"))
         figure.subtitle +=
             " · σ " + shortNumber(typedSpace(withStep(d.space, scheme->spec.step.value)).sigma, 2);
