@@ -7,6 +7,9 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/model/elliptic.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::elliptic_test {
@@ -143,6 +146,12 @@ private slots:
     void aCoefficientThatIsNotPositiveIsRefused() {
         const EllipticProblem p{[](double s) { return std::sin(s); }, 0.05, [](double) { return 1.0; }};
         QVERIFY_EXCEPTION_THROWN(EllipticSolution(p, 10), InvalidScene);
+    }
+    /// The whole curve is one linear system.
+    void itIsSolvedOnce() {
+        const Comparison result = run(readScene(findPreset("elliptic")->json).scene);
+        QVERIFY(!result.schemes.empty());
+        for (const auto& scheme : result.schemes) QCOMPARE(scheme->summary.cost.linearSolves, 1);
     }
 };
 

@@ -147,7 +147,7 @@ private slots:
             QVERIFY(read.resolved);
             const double w = estimateFrequency(*read.resolved->system, read.resolved->initial);
             qInfo("%s: %.2e off", lagrangian, w / 100 - 1);
-            QVERIFY(std::abs(w / 100 - 1) < 1e-3);
+            QVERIFY(std::abs(w / 100 - 1) < 1e-9);  // 2.7e-11
         }
     }
 };
