@@ -19,6 +19,7 @@ Space<Quad> quadrupleTwin(const Space<double>& space) {
     twin.hasKinks = space.hasKinks;
     twin.isSymmetric = space.isSymmetric;
     twin.continues = space.continues;
+    twin.equalCells = space.equalCells;
     twin.cells.assign(space.cells.begin(), space.cells.end());
     twin.isAdapted = space.isAdapted;
     twin.evaluate = [evaluate = space.evaluateQuadruple](const Quad& tau, std::span<Quad> value,

@@ -25,8 +25,8 @@ struct Samples {
     }
 };
 
-/// Points denser than the space has functions, with weights: int f ~ sum_i weight_i f(point_i).
-/// Cosine-spaced, or Gauss's in each cell.
+/// Points denser than the space has functions, with weights: int f ~ sum_i weight_i f(point_i). Gauss's in
+/// each of several cells, exact for products of slopes of splines; else cosine-spaced.
 template <class T>
 struct Probe {
     std::vector<T> point;
@@ -35,8 +35,12 @@ struct Probe {
         using std::acos;
         using std::cos;
         using std::sin;
-        if (!space.cells.empty()) {
-            const Rule<T> inner = composite(gauss<T>(space.size + 1), space.cells);
+        const bool areEqual = space.cells.empty();
+        const int cells = areEqual ? space.equalCells : static_cast<int>(space.cells.size()) - 1;
+        if (cells > 1) {
+            const int perCell = std::max(space.degree + 1, (4 * space.size + cells - 1) / cells);
+            const Rule<T> inner =
+                areEqual ? composite(gauss<T>(perCell), cells) : composite(gauss<T>(perCell), space.cells);
             point = inner.c;
             weight = Eigen::Map<const typename Table<T>::Vector>(inner.b.data(), inner.size());
             return;

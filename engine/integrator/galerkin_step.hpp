@@ -16,7 +16,9 @@
 /// The nonlinear system is solved by Newton with the Jacobian factored at the starting guess and kept while
 /// it contracts well, or, for separable Lagrangians, by fixed-point iteration over all nodes together
 /// (node_iteration.hpp). Both go on to round-off, so that symplecticity and momentum maps hold to round-off.
-/// Newton's starting guess: the previous curve continued, and where that fails or is missing a Taylor step.
+/// Newton's starting guess: the previous curve continued, and where that fails or is missing a Taylor step;
+/// where coordinates have spaces of their own, and a Taylor step fails too, the motion itself in small
+/// explicit steps.
 ///
 /// A root that was not near its starting value is accepted only if its curve follows the forces
 /// (force_defect.hpp). If not, Newton's method starts again, from a Taylor step and from the motion itself in

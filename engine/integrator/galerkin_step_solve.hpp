@@ -216,7 +216,11 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const
     /// A root this far from its starting value, against the increments of the step, may be another one than
     /// that of the motion.
     constexpr double far = 0.25;
-    const Attempt result = anyRoot(t, stop);
+    Attempt result = anyRoot(t, stop);
+    // With spaces of their own, some coordinates have many periods in a step, which no parabola follows.
+    const bool hasNoRoot = result != Attempt::solved && result != Attempt::stopped;
+    if (hasNoRoot && defect_ && tables_.size() > 1 && startFromMotion(t))
+        result = iterate(t, StartingValue::fallback, stop);
     if (result != Attempt::solved || !defect_ || !(nearness_ > T(far)) || followsForces(t)) return result;
     return fromElsewhere(t, stop);
 }

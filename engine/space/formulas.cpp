@@ -29,6 +29,19 @@ T numberFrom(const Expression::Node& node) {
     return node.name.empty() ? T(node.number) : T(node.name.c_str());
 }
 
+/// Which names the functions need, directly or through later names: others may name h where no step is known.
+std::vector<bool> usedNames(const Formulas& formulas) {
+    std::vector<bool> isUsed(formulas.names.size(), false);
+    for (std::size_t j = isUsed.size(); j-- > 0;) {
+        const std::string& name = formulas.names[j].first;
+        isUsed[j] = std::any_of(formulas.functions.begin(), formulas.functions.end(),
+                                [&](const Expression& e) { return uses(e, name); });
+        for (std::size_t later = j + 1; later < isUsed.size() && !isUsed[j]; ++later)
+            isUsed[j] = isUsed[later] && uses(formulas.names[later].second, name);
+    }
+    return isUsed;
+}
+
 }  // namespace
 
 bool Formulas::dependOnStep() const {
@@ -45,8 +58,11 @@ bool Formulas::dependOnStep() const {
 template <class T>
 EvaluatedFormulas<T>::EvaluatedFormulas(const Formulas& formulas) {
     std::vector<std::pair<std::string, int>> known;
-    for (const auto& [name, expression] : formulas.names)
-        known.emplace_back(name, append(expression, known, formulas.step));
+    const std::vector<bool> isUsed = usedNames(formulas);
+    for (std::size_t j = 0; j < isUsed.size(); ++j) {
+        const auto& [name, expression] = formulas.names[j];
+        if (isUsed[j]) known.emplace_back(name, append(expression, known, formulas.step));
+    }
     for (const Expression& function : formulas.functions)
         results_.push_back(append(function, known, formulas.step));
 }

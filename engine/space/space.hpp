@@ -23,7 +23,8 @@ struct Space {
     bool hasKinks = false;      ///< the derivative jumps inside [0, 1]: rules keep a node on both sides
     bool isSymmetric = true;    ///< with phi(tau) it has phi(1 - tau)
     bool continues = true;      ///< can be evaluated beyond 1, where it then makes starting values
-    std::vector<T> cells = {};  ///< their ends, 0 to 1, where they are not equal ones
+    int equalCells = 1;         ///< where they are equal ones
+    std::vector<T> cells = {};  ///< their ends, 0 to 1, where they are not
     /// The basis is that of the table already (action/table.hpp): 1, the interior functions, the last.
     bool isAdapted = false;
     /// The same in quadruple precision, or empty: with it the tables of ill-conditioned bases are computed

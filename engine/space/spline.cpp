@@ -60,6 +60,7 @@ Space<T> bSplines(Knots<T> knots) {
     Space<T> space;
     space.size = degree + cells;
     space.degree = degree;
+    space.equalCells = cells;
     space.hasKinks = degree == 1 && cells > 1;
     space.evaluate = [degree, cells, knot = std::move(knots)](const T& tau, std::span<T> value,
                                                               std::span<T> derivative) {

@@ -1,6 +1,9 @@
 #include "engine/family/galerkin/tables.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "engine/core/problem.hpp"
@@ -26,29 +29,113 @@ std::vector<T> panelEnds(const std::vector<double>& cells, int partsOfCell) {
     return ends;
 }
 
+/// What a rule makes of int phi_a' phi_b', and of int (phi_a phi_b)' = phi_a(1) phi_b(1), all a and b.
+struct Products {
+    std::vector<Quad> energy, end;
+
+    Products(const Space<double>& space, const Rule<double>& rule)
+        : energy(static_cast<std::size_t>(space.size * space.size), Quad(0)), end(energy) {
+        const auto n = static_cast<std::size_t>(space.size);
+        std::vector<__float128> value(n), slope(n);
+        for (std::size_t i = 0; i < rule.c.size(); ++i) {
+            space.evaluateQuadruple(rule.c[i], value, slope);
+            for (std::size_t a = 1; a < n; ++a)
+                for (std::size_t b = 1; b <= a; ++b) {
+                    energy[a * n + b] += Quad(rule.b[i]) * Quad(slope[a]) * Quad(slope[b]);
+                    end[a * n + b] +=
+                        Quad(rule.b[i]) * (Quad(slope[a]) * Quad(value[b]) + Quad(value[a]) * Quad(slope[b]));
+                }
+        }
+    }
+};
+
 /// Largest error of a rule for phi_a' phi_b', which are orthonormal but for the last, and for (phi_a phi_b)'.
 double defectOf(const Space<double>& space, const Rule<double>& rule) {
     const auto n = static_cast<std::size_t>(space.size);
-    std::vector<__float128> value(n), slope(n);
-    std::vector<Quad> energy(n * n, Quad(0)), end(n * n, Quad(0));
-    for (std::size_t i = 0; i < rule.c.size(); ++i) {
-        space.evaluateQuadruple(rule.c[i], value, slope);
-        for (std::size_t a = 1; a < n; ++a)
-            for (std::size_t b = 1; b <= a; ++b) {
-                energy[a * n + b] += Quad(rule.b[i]) * Quad(slope[a]) * Quad(slope[b]);
-                end[a * n + b] +=
-                    Quad(rule.b[i]) * (Quad(slope[a]) * Quad(value[b]) + Quad(value[a]) * Quad(slope[b]));
-            }
-    }
+    const Products found(space, rule);
     Quad worst(0);
     for (std::size_t a = 1; a < n; ++a)
         for (std::size_t b = 1; b <= a; ++b) {
             const bool isLast = a + 1 == n && b + 1 == n;
-            if (!isLast) worst = std::max(worst, Quad(abs(energy[a * n + b] - (a == b ? 1 : 0))));
-            worst = std::max(worst, Quad(abs(end[a * n + b] - (isLast ? 1 : 0))));
+            if (!isLast) worst = std::max(worst, Quad(abs(found.energy[a * n + b] - (a == b ? 1 : 0))));
+            worst = std::max(worst, Quad(abs(found.end[a * n + b] - (isLast ? 1 : 0))));
         }
     return static_cast<double>(worst);
 }
+
+/// Panels that become narrower towards the places where the functions are hard to integrate, a power at an
+/// end or a pole beyond it: the panel with the largest error is divided, where that helps most.
+class GradedPanels {
+public:
+    explicit GradedPanels(const Space<double>& space) : space_(space), rule_(gauss<double>(perPanel)) {}
+
+    /// 0, ..., 1, the ends of `cells` among them; empty where they would be too many.
+    std::vector<double> ends(const std::vector<double>& cells) {
+        std::vector<Panel> panels;
+        for (std::size_t j = 1; j < cells.size(); ++j) panels.push_back(panel(cells[j - 1], cells[j]));
+        while (static_cast<int>(panels.size()) <= mostPanels) {
+            double sum = 0;
+            std::size_t worst = 0;
+            for (std::size_t j = 0; j < panels.size(); ++j) {
+                sum += panels[j].error;
+                if (panels[j].error > panels[worst].error) worst = j;
+            }
+            if (sum <= exactTo) {
+                std::vector<double> all{0};
+                for (const Panel& p : panels) all.push_back(p.b);
+                return all;
+            }
+            divide(panels, worst);
+        }
+        return {};
+    }
+
+    static constexpr int perPanel = 12, mostPanels = 16;
+
+private:
+    struct Panel {
+        double a, b, error;
+    };
+
+    std::vector<Quad> integrals(double a, double b) const {
+        Rule<double> on = rule_;
+        for (double& c : on.c) c = a + (b - a) * c;
+        for (double& w : on.b) w *= b - a;
+        Products found(space_, on);
+        found.energy.insert(found.energy.end(), found.end.begin(), found.end.end());
+        return found.energy;
+    }
+
+    /// Its error is measured against that of its halves, off the middle.
+    Panel panel(double a, double b) const {
+        const double middle = a + 0.4871 * (b - a);
+        const std::vector<Quad> whole = integrals(a, b), left = integrals(a, middle),
+                                right = integrals(middle, b);
+        Quad worst(0);
+        for (std::size_t k = 0; k < whole.size(); ++k)
+            worst = std::max(worst, Quad(abs(whole[k] - left[k] - right[k])));
+        return {a, b, static_cast<double>(worst)};
+    }
+
+    void divide(std::vector<Panel>& panels, std::size_t j) const {
+        const Panel whole = panels[j];
+        std::pair<Panel, Panel> best;
+        double least = std::numeric_limits<double>::infinity();
+        for (const double share : {0.5, 0.25, 0.75}) {
+            const double at = whole.a + share * (whole.b - whole.a);
+            const std::pair<Panel, Panel> parts{panel(whole.a, at), panel(at, whole.b)};
+            const double error = parts.first.error + parts.second.error;
+            if (error >= least) continue;
+            least = error;
+            best = parts;
+        }
+        panels[j] = best.second;
+        panels.insert(panels.begin() + static_cast<std::ptrdiff_t>(j), best.first);
+    }
+
+    const Space<double>& space_;
+    Rule<double> rule_;
+};
 
 /// T: that of the result; whether the nodes are enough is decided in double precision.
 template <class T>
@@ -58,10 +145,14 @@ Rule<T> automaticRule(const Space<double>& space) {
     for (int nodes = std::max(1, fewest / 2); nodes <= mostNodes; ++nodes)
         if (defectOf(space, composite(gauss<double>(nodes), panelEnds<double>(cells, 1))) <= exactTo)
             return cells.size() == 2 ? gauss<T>(nodes) : composite(gauss<T>(nodes), panelEnds<T>(cells, 1));
+    if (const std::vector<double> ends = GradedPanels(space).ends(cells); !ends.empty())
+        return composite(gauss<T>(GradedPanels::perPanel), std::vector<T>(ends.begin(), ends.end()));
     throw InvalidScene("/quadrature",
                        "no Gauss rule with at most " + std::to_string(mostNodes) +
-                           " nodes per cell integrates the products of the functions to round-off",
-                       "a smaller step, knots, or a rule of your choice");
+                           " nodes per cell, nor one with " + std::to_string(GradedPanels::perPanel) +
+                           " in each of " + std::to_string(GradedPanels::mostPanels) +
+                           " panels, integrates the products of the functions to round-off",
+                       "a rule of your choice, such as gauss with 12 nodes; or a smaller step, or knots");
 }
 
 }  // namespace
