@@ -11,7 +11,9 @@ std::optional<typed::Formula> formulaOf(const ResolvedScene& scene) {
     if (model.find("lagrangian")) return typed::formulaOf(model);
     if (!entry->lagrangian) return {};
     typed::Formula formula;
-    for (const Coordinate& c : scene.system->coordinates) formula.coordinates.push_back(c.name);
+    // Coordinates that are numbered, "1", "2", .., are q1, q2, ..
+    for (const Coordinate& c : scene.system->coordinates)
+        formula.coordinates.push_back((c.name.front() >= '0' && c.name.front() <= '9' ? "q" : "") + c.name);
     for (const auto& [key, value] : model.keys)
         if (value.isNumber()) formula.parameters.emplace_back(key, value.asNumber());
     formula.text = entry->lagrangian(model);

@@ -108,7 +108,7 @@ class PassportTest : public QObject {
                 QVERIFY2(std::abs(A[i] - B[i]) <= 1e-12 * (1 + std::abs(A[i])), id.c_str());
             ++found;
         }
-        QVERIFY(found >= 6);
+        QVERIFY(found >= 8);
     }
 
     void programsAgreeWithTheRun_data() {
@@ -143,6 +143,12 @@ class PassportTest : public QObject {
             << "duffing"
             << R"~({"scheme": "midpoint", "step": 0.05, "composition": {"type": "suzuki"}})~"
             << "2";
+        QTest::newRow("chain, midpoint") << "fput-chain"
+                                         << R"~({"scheme": "midpoint", "step": 0.01})~"
+                                         << "1";
+        QTest::newRow("charged particle, Gauss 2") << "charged-particle"
+                                                   << R"~({"scheme": "galerkin-gauss-2", "step": 0.05})~"
+                                                   << "2";
         QTest::newRow("oscillator, fitted functions")
             << "harmonic-oscillator"
             << R"~({"space": {"type": "typed", "functions": [1, "tau", "cos(h*tau)", "sin(h*tau)"]}, "step": 0.2})~"

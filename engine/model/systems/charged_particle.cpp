@@ -255,6 +255,7 @@ ModelEntry charged_particle() {
     e.exampleEnd = 20;
     e.exampleStep = 0.1;
     e.make = makeChargedParticle;
+    e.lagrangian = [](const Settings& settings) -> std::string { return formulaOf(settings).text; };
     e.checkInitial = checkPotentials;
     return e;
 }

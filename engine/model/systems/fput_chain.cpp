@@ -116,30 +116,38 @@ void drawFputChain(int d, const double* x, Drawing& drawing) {
     drawing.tracer = place(0);
 }
 
-/// The stiff springs are the fast term.
-std::vector<LagrangianTerm<double>> chainTerms(const FputChain& chain) {
-    const int d = chain.dimension();
-    typed::Formula f{{},
-                     {{"m", chain.m},
-                      {"ks", chain.kSoft},
-                      {"kf", chain.kStiff},
-                      {"alpha", chain.alpha},
-                      {"beta", chain.beta}},
-                     ""};
+/// The terms of L in q1, q2, .. and the keys of the model; the stiff springs are the fast one.
+struct ChainTerms {
+    std::vector<std::string> coordinates;
     std::string kinetic, fast, slow;
+};
+ChainTerms termsOf(int d) {
+    ChainTerms terms;
     for (int i = 1; i <= d; ++i) {
-        f.coordinates.push_back("q" + std::to_string(i));
-        kinetic += (i > 1 ? " + " : "") + ("m/2*q" + std::to_string(i) + "_t^2");
+        terms.coordinates.push_back("q" + std::to_string(i));
+        terms.kinetic += (i > 1 ? " + " : "") + ("m/2*q" + std::to_string(i) + "_t^2");
     }
     for (int i = 0; i <= d; ++i) {
         const std::string r = std::string(i < d ? "(q" + std::to_string(i + 1) : "(0") +
                               (i > 0 ? " - q" + std::to_string(i) : "") + ")";
         if (i % 2 == 1)
-            fast += " - kf/2*" + r + "^2";
+            terms.fast += " - k_stiff/2*" + r + "^2";
         else
-            slow += " - (ks/2*" + r + "^2 + alpha/3*" + r + "^3 + beta/4*" + r + "^4)";
+            terms.slow += " - (k_soft/2*" + r + "^2 + alpha/3*" + r + "^3 + beta/4*" + r + "^4)";
     }
-    f.terms = {{"kinetic", kinetic}, {"fast", fast}, {"slow", slow}};
+    return terms;
+}
+
+std::vector<LagrangianTerm<double>> chainTerms(const FputChain& chain) {
+    ChainTerms terms = termsOf(chain.dimension());
+    typed::Formula f{std::move(terms.coordinates),
+                     {{"m", chain.m},
+                      {"k_soft", chain.kSoft},
+                      {"k_stiff", chain.kStiff},
+                      {"alpha", chain.alpha},
+                      {"beta", chain.beta}},
+                     ""};
+    f.terms = {{"kinetic", terms.kinetic}, {"fast", terms.fast}, {"slow", terms.slow}};
     return typed::makeTerms(f);
 }
 
@@ -188,6 +196,10 @@ ModelEntry fput_chain() {
     e.exampleEnd = 20;
     e.exampleStep = 0.002;
     e.make = makeFputChain;
+    e.lagrangian = [](const Settings& settings) -> std::string {
+        const ChainTerms terms = termsOf(2 * settings.integer("n"));
+        return terms.kinetic + terms.fast + terms.slow;
+    };
     return e;
 }
 
