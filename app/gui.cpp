@@ -37,8 +37,8 @@ bool hasDisplay() {
 }  // namespace
 
 int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions& options) {
-    if (!options.overrides.empty()) {
-        printProblem("arguments", "--set changes the scene of a verb, not of the window",
+    if (!options.overrides.empty() || !options.added.empty()) {
+        printProblem("arguments", "--set and --add change the scene of a verb, not of the window",
                      "extremal run SCENE --set ...");
         return unusable;
     }

@@ -17,6 +17,12 @@ void addCommon(CLI::App& verb, CommonOptions& options) {
         ->type_name("POINTER=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    verb.add_option("--add", options.added,
+                    "a scheme of your own, by its name in your catalogue or a file it was exported to; "
+                    "repeatable, before --set")
+        ->type_name("SCHEME")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     verb.add_flag("--json", options.isJson, "one JSON document on standard output");
     verb.add_flag("--quiet", options.isQuiet, "errors only");
     verb.add_flag("--trust", options.isTrusted, "read files that the scene names outside its own folder");

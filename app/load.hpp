@@ -1,4 +1,4 @@
-/// SCENE and --set of a command line, read and checked.
+/// SCENE, --add and --set of a command line, read and checked.
 #pragma once
 
 #include <string>

@@ -15,6 +15,7 @@ enum ExitCode { done = 0, failed = 1, unusable = 2, unwritable = 3, interrupted 
 
 struct CommonOptions {
     std::vector<std::string> overrides;  ///< --set POINTER=VALUE
+    std::vector<std::string> added;      ///< --add: names of the user's schemes, or files of schemes
     bool isJson = false;
     bool isQuiet = false;
     bool isTrusted = false;  ///< files that the scene names outside its folder are read

@@ -18,6 +18,9 @@ struct ChoiceGrid {
         std::string id;                 ///< unique in the grid: "3.gauss"
         std::string text, superscript;  ///< "G" and "6"; "mid"
         std::string title;  ///< "polynomials of degree 3, Gauss-Legendre": without colour or place
+        /// Its functions or nodes are formulas to begin with: every scheme of this kind of space, degree and
+        /// kind of rule is in this cell.
+        bool isOwn = false;
     };
     std::string subtitle = "space × quadrature";
     std::vector<Heading> rows, columns;  ///< columns may be empty: then without headings

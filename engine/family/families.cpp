@@ -88,22 +88,38 @@ const Family* familyFor(const System& system) {
     return nullptr;
 }
 
-ChoiceGrid choicesFor(const System& system) {
+std::vector<ChoiceGrid> choiceGrids(const System& system) {
     const Family* const main = familyFor(system);
     if (!main) return {};
-    ChoiceGrid grid = main->choices(system);
+    std::vector<ChoiceGrid> grids{main->choices(system)};
     for (const Family& family : families()) {
-        if (!family.choices || !family.isVariant || !family.applies(system)) continue;
-        const ChoiceGrid further = family.choices(system);
-        const bool fit =
-            further.width() == grid.width() &&
-            std::all_of(further.cells.begin(), further.cells.end(),
-                        [&](const ChoiceGrid::Cell& cell) { return isFor(cell.discretization, system); });
+        if (&family == main || !family.choices || !family.applies(system)) continue;
+        ChoiceGrid further = family.choices(system);
+        const bool fit = !further.cells.empty() && std::all_of(further.cells.begin(), further.cells.end(),
+                                                               [&](const ChoiceGrid::Cell& cell) {
+                                                                   return isFor(cell.discretization, system);
+                                                               });
         if (!fit) continue;
-        grid.rows.insert(grid.rows.end(), further.rows.begin(), further.rows.end());
-        grid.cells.insert(grid.cells.end(), further.cells.begin(), further.cells.end());
+        ChoiceGrid& grid = grids.front();
+        if (!family.isVariant || further.width() != grid.width()) {
+            grids.push_back(std::move(further));
+            continue;
+        }
+        // One's own functions stay last.
+        const auto width = static_cast<std::ptrdiff_t>(grid.width());
+        const bool endsInOwn =
+            !grid.cells.empty() && std::all_of(grid.cells.end() - width, grid.cells.end(),
+                                               [](const auto& cell) { return cell.isOwn; });
+        grid.rows.insert(grid.rows.end() - (endsInOwn ? 1 : 0), further.rows.begin(), further.rows.end());
+        grid.cells.insert(grid.cells.end() - (endsInOwn ? width : 0), further.cells.begin(),
+                          further.cells.end());
     }
-    return grid;
+    return grids;
+}
+
+ChoiceGrid choicesFor(const System& system) {
+    const std::vector<ChoiceGrid> grids = choiceGrids(system);
+    return grids.empty() ? ChoiceGrid{} : grids.front();
 }
 
 const Family* findFamily(std::string_view id) {
@@ -201,7 +217,7 @@ std::vector<ReferencePlan> referencePlans(const System& system, const State& sta
             all.push_back(std::move(plan));
     };
     for (const Family& family : families())
-        if (!family.choices) add(family);
+        if (!family.choices || family.isVariant) add(family);
     if (own) add(*own);
     return all;
 }

@@ -92,7 +92,8 @@ struct Family {
     bool hasDenseOutput = true;
     /// Of the schemes of a space. free: the step of a scheme is its first. Null: fixed.
     TimeGrid (*grid)(const Settings& space) = nullptr;
-    /// Its choices are further rows of the grid of another family, from which references come as well.
+    /// Its choices are further rows of the grid of another family, or a grid after it; that one is where the
+    /// window starts from.
     bool isVariant = false;
 
     bool (*applies)(const System&) = nullptr;
@@ -180,7 +181,10 @@ const Family* familyOf(const Settings& space);
 /// The family that the window starts from for a system, and that references come from; null where none
 /// applies.
 const Family* familyFor(const System& system);
-/// What the window offers for a system: the choices of that family, and further rows of its variants.
+/// What the window offers for a system: the choices of that family, with further rows of its variants, and
+/// then the grids of all other families that apply.
+std::vector<ChoiceGrid> choiceGrids(const System& system);
+/// The first of them.
 ChoiceGrid choicesFor(const System& system);
 const Family* findFamily(std::string_view id);
 

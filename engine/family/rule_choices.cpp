@@ -1,5 +1,6 @@
 #include "engine/family/rule_choices.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/family/family.hpp"
@@ -14,6 +15,38 @@ std::string abbreviation(const std::string& knownAs) {
     if (knownAs.find("Verlet") != std::string::npos) return "SV";
     if (knownAs.find("trapez") != std::string::npos) return "trap";
     return {};
+}
+
+bool isTyped(const RuleEntry& rule) {
+    return std::any_of(rule.item.parameters.begin(), rule.item.parameters.end(),
+                       [](const FieldInfo& f) { return f.type == FieldType::formulas && !f.isOptional; });
+}
+
+/// The nodes of Gauss's rule as they are typed, 1 to 3 of them exactly.
+Value::Array gaussNodes(int count) {
+    switch (count) {
+        case 1:
+            return {"1/2"};
+        case 2:
+            return {"(3-sqrt(3))/6", "(3+sqrt(3))/6"};
+        case 3:
+            return {"(5-sqrt(15))/10", "1/2", "(5+sqrt(15))/10"};
+        default: {
+            const Rule<double> rule = gauss<double>(count);
+            return {rule.c.begin(), rule.c.end()};
+        }
+    }
+}
+
+Discretization discretizationOf(const Settings& space, const RuleEntry& rule) {
+    Settings quadrature{rule.item.id, {}, {}};
+    if (isTyped(rule)) {
+        const Value* const functions = space.find("functions");
+        const int size =
+            functions ? static_cast<int>(functions->asArray().size()) - 1 : space.integer("degree");
+        quadrature.keys.emplace_back("nodes", gaussNodes(std::max(1, size)));
+    }
+    return {space, completeQuadrature(space, quadrature), {}};
 }
 
 }  // namespace
@@ -44,21 +77,36 @@ void refuse(const InvalidScene& error, Properties& properties) {
     if (problem.pointer.find('/', 1) != std::string::npos) properties.place = problem.pointer;
 }
 
-ChoiceGrid ruleChoices(const std::vector<SpaceRow>& rows) {
+ChoiceGrid ruleChoices(const std::vector<SpaceRow>& rows, const std::vector<std::string>& further) {
     std::vector<const RuleEntry*> columns;
     for (const RuleEntry* rule : rulesByPlace())
         if (!rule->heading.empty()) columns.push_back(rule);
+    const auto takers = [&](const RuleEntry* column) {
+        return std::count_if(rows.begin(), rows.end(), [&](const SpaceRow& row) {
+            return describe(discretizationOf(row.space, *column)).refusal.empty();
+        });
+    };
+    const auto most = static_cast<std::ptrdiff_t>(rows.size());
+    std::erase_if(columns, [&](const RuleEntry* c) { return isTyped(*c) && 2 * takers(c) <= most; });
+    for (const std::string& id : further)
+        if (const RuleEntry* rule = findRule(id); takers(rule) > 0) {
+            std::erase_if(columns, [&](const RuleEntry* c) { return takers(c) == 0; });  // to make room
+            columns.push_back(rule);
+        }
     ChoiceGrid grid;
-    for (const RuleEntry* column : columns) grid.columns.push_back({column->heading, column->item.title});
+    for (const RuleEntry* column : columns)
+        grid.columns.push_back(
+            {column->heading.empty() ? column->item.id : column->heading, column->item.title});
     for (const SpaceRow& row : rows) {
         std::string description;
         for (const RuleEntry* column : columns) {
             ChoiceGrid::Cell cell;
-            cell.discretization = {row.space, completeQuadrature(row.space, {column->item.id, {}, {}}), {}};
+            cell.discretization = discretizationOf(row.space, *column);
+            cell.isOwn = isTyped(*column) || row.space.find("functions");
             const Properties known = describe(cell.discretization);
             const std::string order = std::to_string(known.claims.order);
             cell.id = row.idPrefix + std::to_string(row.space.integer("degree")) + "." + column->item.id;
-            cell.text = abbreviation(known.knownAs);
+            cell.text = isTyped(*column) ? std::string() : abbreviation(known.knownAs);
             if (cell.text.empty())
                 cell.text = column->letter + order;
             else

@@ -17,7 +17,10 @@ struct SpaceRow {
     Settings space;
 };
 
-ChoiceGrid ruleChoices(const std::vector<SpaceRow>& rows);
+/// `further`: rules without a heading, for the last columns, under their own names, where some space takes
+/// them; columns that none takes make room. A rule that is typed is there where most spaces take it, with
+/// Gauss's nodes to begin with.
+ChoiceGrid ruleChoices(const std::vector<SpaceRow>& rows, const std::vector<std::string>& further = {});
 
 /// The ids of the rules that have nodes of their own, Gauss first.
 std::vector<std::string> plainRules();

@@ -118,7 +118,9 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     QFont small = theme_->caption();
     small.setPixelSize(small.pixelSize() - 3);
     const QFontMetricsF metrics(font), smallMetrics(small);
-    const double orderWidth = order.isEmpty() ? 0 : smallMetrics.horizontalAdvance(order) + 1;
+    double orderWidth = order.isEmpty() ? 0 : smallMetrics.horizontalAdvance(order) + 1;
+    const bool hasRoom = metrics.horizontalAdvance(name) + orderWidth <= width() - 2;
+    if (!hasRoom) orderWidth = 0;
     const double left = (width() - metrics.horizontalAdvance(name) - orderWidth) / 2;
     const double baseline = (height() + metrics.capHeight()) / 2;
     const QColor light("#FFFFFF"), dark("#0B1526");
@@ -126,7 +128,7 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     painter.setFont(font);
     painter.drawText(QPointF(left, baseline), name);
     painter.setFont(small);
-    painter.drawText(QPointF(left + metrics.horizontalAdvance(name) + 1, baseline - 4), order);
+    if (hasRoom) painter.drawText(QPointF(left + metrics.horizontalAdvance(name) + 1, baseline - 4), order);
 }
 
 Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
@@ -151,27 +153,38 @@ void Discretizer::showAbout(const DiscretizerCell* cell) {
                   "comparison."));
 }
 
-void Discretizer::fill(const ChoiceGrid& choices) {
+void Discretizer::fill(const std::vector<ChoiceGrid>& grids) {
     cells_.clear();
     shown_.clear();
     delete grid_;
     grid_ = new QWidget;
-    auto* grid = new QGridLayout(grid_);
-    grid->setContentsMargins(0, 0, 0, 0);
-    grid->setHorizontalSpacing(3);
-    grid->setVerticalSpacing(3);
+    auto* column = new QVBoxLayout(grid_);
+    column->setContentsMargins(0, 0, 0, 0);
+    column->setSpacing(3);
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        if (i > 0) column->addWidget(makeLabel(QString::fromStdString(grids[i].subtitle), "caption"));
+        auto* grid = new QGridLayout;
+        grid->setContentsMargins(0, 0, 0, 0);
+        grid->setHorizontalSpacing(2);
+        grid->setVerticalSpacing(3);
+        column->addLayout(grid);
+        addGrid(grids[i], *grid);
+    }
     body()->insertWidget(body()->count() - 1, grid_);
     showAbout(nullptr);
-    setSubtitle(QString::fromStdString(choices.subtitle));
+    setSubtitle(grids.empty() ? QString() : QString::fromStdString(grids.front().subtitle));
+}
+
+void Discretizer::addGrid(const ChoiceGrid& choices, QGridLayout& grid) {
     const auto addHeading = [&](const ChoiceGrid::Heading& heading, int row, int column) {
         QLabel* label = makeLabel(QString::fromStdString(heading.text), "caption");
         if (!heading.description.empty()) label->setToolTip(QString::fromStdString(heading.description));
         if (row == 0) label->setAlignment(Qt::AlignHCenter);
-        grid->addWidget(label, row, column);
+        grid.addWidget(label, row, column);
     };
     const auto width = static_cast<int>(choices.width());
     for (int column = 0; column < width; ++column) {
-        grid->setColumnStretch(column + 1, 1);
+        grid.setColumnStretch(column + 1, 1);
         if (!choices.columns.empty())
             addHeading(choices.columns[static_cast<std::size_t>(column)], 0, column + 1);
     }
@@ -185,8 +198,8 @@ void Discretizer::fill(const ChoiceGrid& choices) {
             connect(cell, &DiscretizerCell::pointedAt, this,
                     [this, cell](bool isPointedAt) { showAbout(isPointedAt ? cell : nullptr); });
             cells_.push_back(cell);
-            shown_.push_back(choice.id);
-            grid->addWidget(cell, row + 1, column + 1);
+            shown_.push_back(choice.discretization.space.type + " " + choice.id);
+            grid.addWidget(cell, row + 1, column + 1);
         }
     }
 }
@@ -202,18 +215,18 @@ DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
 
 void Discretizer::refresh() {
     if (!workspace_.hasScene()) return;
-    const ChoiceGrid choices = choicesFor(workspace_.scene());
+    const std::vector<ChoiceGrid> grids = choiceGrids(workspace_.scene());
     std::vector<std::string> ids;
-    for (const ChoiceGrid::Cell& cell : choices.cells) ids.push_back(cell.id);
-    const bool isSame = ids == shown_ && !cells_.empty() &&
-                        cells_.front()->space().type == choices.cells.front().discretization.space.type;
-    if (!isSame) fill(choices);
+    for (const ChoiceGrid& choices : grids)
+        for (const ChoiceGrid::Cell& cell : choices.cells)
+            ids.push_back(cell.discretization.space.type + " " + cell.id);
+    if (ids != shown_ || cells_.empty()) fill(grids);
     for (DiscretizerCell* cell : cells_) showUse(*cell);
 }
 
 void Discretizer::showUse(DiscretizerCell& cell) const {
     const Scene& scene = workspace_.scene();
-    const int there = findPair(scene, cell.space(), cell.quadrature());
+    const int there = findChoice(scene, cell.choice());
     if (there < 0) return cell.setUse(DiscretizerCell::Use::none, 0);
     const auto place = static_cast<std::size_t>(there);
     cell.setUse(scene.schemes[place].isEnabled ? DiscretizerCell::Use::on : DiscretizerCell::Use::off,
@@ -222,12 +235,17 @@ void Discretizer::showUse(DiscretizerCell& cell) const {
 
 void Discretizer::choose(const DiscretizerCell& cell) {
     const Scene& scene = workspace_.scene();
-    if (const int there = findPair(scene, cell.space(), cell.quadrature()); there >= 0)
-        return workspace_.selectScheme(there);
+    const bool isOwn = cell.choice().isOwn;
+    if (const int there = findChoice(scene, cell.choice()); there >= 0) {
+        workspace_.selectScheme(there);
+        if (isOwn) emit ownChosen();
+        return;
+    }
     const Value scheme = newPair(scene, cell.space(), cell.quadrature());
     const QString label = QString::fromStdString(scheme.find("label")->asString());
-    if (workspace_.edit(editsForAdding(scene, scheme), tr("Add %1").arg(label)))
-        workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);
+    if (!workspace_.edit(editsForAdding(scene, scheme), tr("Add %1").arg(label))) return;
+    workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);
+    if (isOwn) emit ownChosen();
 }
 
 }  // namespace extremal

@@ -1,7 +1,8 @@
-/// The discretizer: what the family of the model offers side by side (family/choices.hpp), usually function
-/// spaces as rows and quadratures as columns. A cell says which scheme the discretization is and its order; a
-/// click adds it to the comparison. Unsupported combinations are grey. A strip below the cells says what the
-/// one is that is pointed at, or why it is no scheme; cells in use have the colour of their scheme.
+/// The discretizer: what each family of the model offers side by side (family/choices.hpp), usually function
+/// spaces as rows and quadratures as columns, and one's own functions and nodes last. A cell says which
+/// scheme the discretization is and its order; a click adds it to the comparison. Unsupported combinations
+/// are grey. A strip below the cells says what the one is that is pointed at, or why it is no scheme; cells
+/// in use have the colour of their scheme.
 #pragma once
 
 #include <QAbstractButton>
@@ -25,6 +26,7 @@ class DiscretizerCell : public QAbstractButton {
 public:
     explicit DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent = nullptr);
 
+    const ChoiceGrid::Cell& choice() const { return choice_; }
     const Settings& space() const { return choice_.discretization.space; }
     const Settings& quadrature() const { return choice_.discretization.quadrature; }
     void setTheme(const Theme& theme);
@@ -36,7 +38,7 @@ public:
     /// What there is to say of it, as rich text: name, order, properties, or why it is no scheme.
     const QString& about() const { return about_; }
     QSize sizeHint() const override { return {34, 23}; }
-    QSize minimumSizeHint() const override { return {26, 23}; }
+    QSize minimumSizeHint() const override { return {24, 23}; }
 
 signals:
     void pointedAt(bool isPointedAt);  ///< by the mouse, or with the focus of the keyboard
@@ -62,8 +64,13 @@ public:
     void setTheme(const Theme& theme);
     DiscretizerCell* cell(int degree, const QString& rule) const;
 
+signals:
+    /// A cell of one's own functions or nodes was clicked, and its scheme is selected: they are to be typed.
+    void ownChosen();
+
 private:
-    void fill(const ChoiceGrid& grid);
+    void fill(const std::vector<ChoiceGrid>& grids);
+    void addGrid(const ChoiceGrid& choices, QGridLayout& grid);
     void refresh();
     void choose(const DiscretizerCell& cell);
     void showUse(DiscretizerCell& cell) const;

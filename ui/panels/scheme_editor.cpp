@@ -14,7 +14,9 @@
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
+#include "ui/own/own_list.hpp"
 #include "ui/panels/form.hpp"
+#include "ui/panels/term_strip.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
@@ -57,6 +59,14 @@ std::vector<CatalogItem> namedItems(const Scene& scene) {
     return items;
 }
 
+/// Those of the user's catalogue, which become what they stand for.
+constexpr std::string_view ownPrefix = "own: ";
+
+void addOwn(QComboBox& box) {
+    for (const std::string& name : ownSchemes().names())
+        box.addItem(QString::fromStdString(name), QString::fromStdString(std::string(ownPrefix) + name));
+}
+
 std::vector<CatalogItem> baselineItems(const Scene& scene) {
     std::vector<CatalogItem> items;
     for (const BaselineEntry* entry : fittingBaselines(scene)) items.push_back(entry->item);
@@ -90,6 +100,12 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
     first_ = addChoice(tr("choice"), "choice");
     connect(first_, &QComboBox::activated, this, [this] {
         const Scene& scene = workspace_.scene();
+        const std::string id = chosen(*first_);
+        if (id.starts_with(ownPrefix)) {
+            const OwnSchemes kept = ownSchemes();
+            if (const Value* scheme = kept.find(id.substr(ownPrefix.size()))) change(newOwn(scene, *scheme));
+            return;
+        }
         if (spec().kind == SchemeSpec::Kind::discretization) {
             const Settings space = spaceOf(chosen(*first_), std::max(1, spec().space.integer("degree")));
             const bool isOtherFamily = familyOf(space) != familyOf(spec().space);
@@ -108,6 +124,8 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
             if (value.isArray()) tree.set(key, value);
         workspace_.edit({{place() + "/quadrature", tree}}, tr("Change quadrature"));
     });
+    terms_ = new TermStrip(workspace);
+    layout_->addWidget(terms_);
     form_ = new Form(workspace);
     layout_->addWidget(form_);
     auto* close = new QPushButton(tr("Done"));
@@ -155,7 +173,8 @@ void SchemeEditor::setIndex(int index) {
 
 void SchemeEditor::refresh() {
     if (index_ >= static_cast<int>(workspace_.scene().schemes.size())) return;
-    if (signature() != shown_) rebuild();
+    if (signature() != shown_) return rebuild();
+    terms_->setScheme(index_);
 }
 
 void SchemeEditor::rebuild() {
@@ -186,6 +205,7 @@ void SchemeEditor::rebuild() {
             addFields(fields, entry->item.parameters, place() + "/baseline");
     } else {
         fill(*first_, namedItems(workspace_.scene()));
+        addOwn(*first_);
         choose(*first_, s.named);
     }
     if (s.tolerance)
@@ -207,6 +227,7 @@ void SchemeEditor::rebuild() {
              {}});
     addComposition(fields);
     form_->setFields(std::move(fields));
+    terms_->setScheme(index_);
 }
 
 /// Symmetric schemes with fixed steps can be composed.

@@ -15,6 +15,7 @@ class QVBoxLayout;
 namespace extremal {
 
 class Form;
+class TermStrip;
 class Workspace;
 struct FormField;
 struct SchemeSpec;
@@ -45,6 +46,7 @@ private:
     QComboBox *kind_, *first_, *rule_;
     QWidget* ruleRow_ = nullptr;
     Form* form_;
+    TermStrip* terms_;
     QVBoxLayout* layout_;
     std::string shown_;
 };

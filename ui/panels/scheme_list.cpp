@@ -11,6 +11,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/family/scheme.hpp"
+#include "ui/own/own_list.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/scheme_card.hpp"
@@ -92,6 +93,16 @@ void SchemeList::fillAddMenu() {
                            [=, this] { add(newNamed(workspace_.scene(), id)); });
         }
     }
+    QMenu* own = addMenu_->addMenu(tr("Your own"));
+    const OwnSchemes kept = ownSchemes();
+    for (const std::string& name : kept.names())
+        own->addAction(QString::fromStdString(name).replace("&", "&&"), this,
+                       [=, this] { add(newOwn(workspace_.scene(), *kept.find(name))); });
+    if (!own->isEmpty()) own->addSeparator();
+    own->addAction(tr("Your schemes..."), this, &SchemeList::catalogueRequested);
+    own->menuAction()->setVisible(!kept.names().empty() ||
+                                  std::any_of(grid.cells.begin(), grid.cells.end(),
+                                              [](const ChoiceGrid::Cell& cell) { return cell.isOwn; }));
     QMenu* baselines = addMenu_->addMenu(tr("Baseline"));
     for (const BaselineEntry* fitting : fittingBaselines(workspace_.scene())) {
         const BaselineEntry& entry = *fitting;

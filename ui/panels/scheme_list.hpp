@@ -36,6 +36,9 @@ public:
 protected:
     void mousePressEvent(QMouseEvent* event) override;
 
+signals:
+    void catalogueRequested();  ///< the window of the user's own schemes
+
 private:
     void rebuild();
     void showResults();

@@ -33,6 +33,8 @@ std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene) {
     return entries;
 }
 
+std::vector<ChoiceGrid> choiceGrids(const Scene& scene) { return choiceGrids(makeSystem(scene)); }
+
 ChoiceGrid choicesFor(const Scene& scene) { return choicesFor(makeSystem(scene)); }
 
 const ChoiceGrid::Cell* nearestChoice(const ChoiceGrid& grid, const std::string& rule, int degree) {

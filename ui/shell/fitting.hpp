@@ -17,7 +17,10 @@ std::vector<CatalogItem> fittingSpaces(const Scene& scene);
 std::vector<const BaselineEntry*> fittingBaselines(const Scene& scene);
 std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene);
 
-/// What the discretizer offers for the scene's model.
+/// What the discretizer offers for the scene's model: a grid of every family that applies, the usual one
+/// first.
+std::vector<ChoiceGrid> choiceGrids(const Scene& scene);
+/// The first of them.
 ChoiceGrid choicesFor(const Scene& scene);
 /// The choice with this rule and the nearest degree, else the nearest degree with any rule; null where there
 /// is none.

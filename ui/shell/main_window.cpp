@@ -23,6 +23,8 @@
 
 #include "engine/scene/bind.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/own/own_list.hpp"
+#include "ui/own/own_window.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/scene_panel.hpp"
@@ -104,6 +106,7 @@ void MainWindow::makePages() {
     leftColumn->setSpacing(12);
     discretizer_ = new Discretizer(*workspace_);
     discretizer_->setTheme(theme_);
+    connect(discretizer_, &Discretizer::ownChosen, this, &MainWindow::showOwn);
     leftColumn->addWidget(new ScenePanel(*workspace_));
     leftColumn->addWidget(discretizer_);
     leftColumn->addStretch();
@@ -186,6 +189,7 @@ void MainWindow::makePages() {
     });
 
     schemes_ = new SchemeList(*workspace_, *run_, theme_);
+    connect(schemes_, &SchemeList::catalogueRequested, this, [this] { ownList().open(); });
     splitter_ = new QSplitter;
     splitter_->setChildrenCollapsible(false);
     splitter_->setHandleWidth(12);
@@ -298,6 +302,7 @@ void MainWindow::setTheme(const Theme& theme) {
     parts.emplace_back([this] { startPage_->setTheme(theme_); });
     parts.emplace_back([this] {
         if (inspector_) inspector_->setTheme(theme_);
+        if (own_) own_->setTheme(theme_);
         if (race_) race_->setTheme(theme_);
         if (copies_) copies_->setTheme(theme_);
     });
@@ -313,6 +318,21 @@ void MainWindow::setTheme(const Theme& theme) {
         settings.setValue("window/dark", theme_.isDark);
         settings.setValue("window/fontScale", theme_.fontScale);
     }
+}
+
+OwnList& MainWindow::ownList() {
+    if (!ownList_) ownList_ = new OwnList(*workspace_, *notices_, this);
+    return *ownList_;
+}
+
+/// The editor of the selected scheme's space and rule.
+void MainWindow::showOwn() {
+    if (!own_) {
+        own_ = new OwnWindow(*workspace_, *notices_, theme_, this);
+        connect(own_, &OwnWindow::keepRequested, this,
+                [this](const Value& scheme) { ownList().keep(scheme); });
+    }
+    own_->open();
 }
 
 void MainWindow::showScene() {

@@ -31,6 +31,8 @@ class InspectorWindow;
 class LessonBar;
 class LogWindow;
 class Notices;
+class OwnList;
+class OwnWindow;
 class PassportWindow;
 class RaceWindow;
 class Playback;
@@ -113,6 +115,8 @@ private:
     void copyScene();
     void pasteScene();
     void showPalette();
+    void showOwn();
+    OwnList& ownList();
     double rowStep() const;
 
     Theme theme_;
@@ -138,6 +142,8 @@ private:
     InspectorWindow* inspector_ = nullptr;
     RaceWindow* race_ = nullptr;
     CopiesWindow* copies_ = nullptr;
+    OwnWindow* own_ = nullptr;
+    OwnList* ownList_ = nullptr;
     QStackedWidget* stack_;  ///< start page or work page
     QStackedWidget* pages_;  ///< Compare, Notes, Studies
     QTabBar* tabs_;

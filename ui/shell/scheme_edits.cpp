@@ -165,6 +165,13 @@ Value newNamed(const Scene& scene, const std::string& id) {
     return scheme;
 }
 
+Value newOwn(const Scene& scene, const Value& kept) {
+    Value scheme = kept;
+    scheme.set("label", uniqueLabel(scene, kept.find("label")->asString()));
+    if (!scheme.find("step") && !scheme.find("tolerance")) scheme.set("step", sensibleStep(scene, 0, 0));
+    return scheme;
+}
+
 namespace {
 
 /// A scheme as a tree, with its colour and dash.
@@ -352,20 +359,37 @@ std::vector<Edit> editsForCase(const Scene& scene, const View& view, double valu
     return {{grid.pointer, value}, {place(static_cast<int>(found - scene.schemes.begin())) + "/step", step}};
 }
 
-int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
+/// The first scheme that is it, one that is switched on first of all; -1: none.
+template <class IsIt>
+int findScheme(const Scene& scene, const Family* family, const IsIt& isIt) {
     int found = -1;
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         const ResolvedScheme scheme = resolve(scene.schemes[i]);
         const Discretization* const plain = scheme.plain();
-        const Family* const family = scheme.family;
-        if (!plain || family != familyOf(space)) continue;
-        const Discretization wanted{space, quadrature, {}};
-        const bool isSame =
-            family->isSame ? family->isSame(*plain, scheme.spec.step.value, wanted) : areSame(*plain, wanted);
+        if (!plain || scheme.family != family) continue;
+        const bool isSame = isIt(*plain, scheme.spec.step.value);
         if (isSame && scene.schemes[i].isEnabled) return static_cast<int>(i);
         if (isSame && found < 0) found = static_cast<int>(i);
     }
     return found;
+}
+
+int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
+    const Discretization wanted{space, quadrature, {}};
+    const Family* const family = familyOf(space);
+    return findScheme(scene, family, [&](const Discretization& d, double step) {
+        return family->isSame ? family->isSame(d, step, wanted) : areSame(d, wanted);
+    });
+}
+
+int findChoice(const Scene& scene, const ChoiceGrid::Cell& choice) {
+    const auto& [space, quadrature, solver] = choice.discretization;
+    if (!choice.isOwn) return findPair(scene, space, quadrature);
+    return findScheme(scene, familyOf(space), [&](const Discretization& d, double) {
+        return d.space.type == space.type && d.quadrature.type == quadrature.type &&
+               d.space.integer("degree") == space.integer("degree") &&
+               std::max(1, d.space.integer("cells")) == std::max(1, space.integer("cells"));
+    });
 }
 
 std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/family/choices.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/scene.hpp"
 #include "ui/shell/document.hpp"
@@ -22,6 +23,8 @@ std::string uniqueLabel(const Scene& scene, const std::string& wish);
 Value newPair(const Scene& scene, const Settings& space, const Settings& quadrature);
 Value newBaseline(const Scene& scene, const std::string& id);
 Value newNamed(const Scene& scene, const std::string& id);
+/// One of the user's catalogue, with its name as label; its own step, or a sensible one.
+Value newOwn(const Scene& scene, const Value& kept);
 
 /// The other schemes keep their colours and dashes; a new one gets those that no other has.
 std::vector<Edit> editsForAdding(const Scene& scene, const Value& scheme);
@@ -48,6 +51,8 @@ std::vector<Edit> editsForCase(const Scene& scene, const View& view, double valu
 
 /// The scheme that is this discretization (same space and rule), first of all one that is switched on, or -1.
 int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
+/// The scheme that a cell stands for; that of a cell with formulas (isOwn) may have others.
+int findChoice(const Scene& scene, const ChoiceGrid::Cell& choice);
 
 /// Shows a view, with what it observes, or hides it.
 std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown);

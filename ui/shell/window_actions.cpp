@@ -14,6 +14,7 @@
 #include "engine/scene/view_choices.hpp"
 #include "engine/view/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "ui/own/own_list.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
 #include "ui/plots/plot_widget.hpp"
@@ -166,6 +167,10 @@ void MainWindow::addEditActions() {
             inspector_->open();
         },
         tr("The step of the selected scheme at the cursor: motion, functions, iteration, equations"));
+    actions_->add("own", menu, tr("Own space and rule..."), {QKeySequence(Qt::CTRL | Qt::Key_F3)},
+                  [this] { showOwn(); });
+    actions_->add("ownSchemes", menu, tr("Your schemes..."), {QKeySequence(Qt::SHIFT | Qt::Key_F3)},
+                  [this] { ownList().open(); });
     actions_->add("rename", menu, tr("Rename scheme"), {QKeySequence(Qt::Key_F2)},
                   [this] { schemes_->renameSelected(); });
     actions_->add("duplicate", menu, tr("Duplicate scheme"), {QKeySequence(Qt::CTRL | Qt::Key_D)},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
@@ -9,7 +10,9 @@
 #include "engine/family/multiscale/oscillatory.hpp"
 #include "engine/family/multiscale/product.hpp"
 #include "engine/family/multiscale/resonance.hpp"
+#include "engine/family/scheme.hpp"
 #include "engine/integrator/condensed.hpp"
+#include "engine/quadrature/catalog.hpp"
 
 namespace extremal::family {
 namespace {
@@ -132,6 +135,51 @@ WrittenAction written(const Discretization&) {
           "\\qquad p_1 = \\frac{\\partial S}{\\partial q_1}"}}};
 }
 
+/// The spaces that have names, under the rules that an oscillatory space can have.
+ChoiceGrid choices(const System& system) {
+    ChoiceGrid grid;
+    if (!(system.fast.frequency > 0)) return grid;
+    grid.subtitle = "oscillatory space × rule";
+    static constexpr std::pair<const char*, const char*> columns[] = {{"auto", "auto"},
+                                                                      {"F–Lob", "filon-lobatto"},
+                                                                      {"F–G", "filon-gauss"},
+                                                                      {"Gauss", "gauss"},
+                                                                      {"Lob", "lobatto"}};
+    for (const auto& [heading, rule] : columns) grid.columns.push_back({heading, findRule(rule)->item.title});
+    for (const auto& [text, name] : {std::pair{"R1", "multiscale-r1"},
+                                     {"R2", "multiscale-r2"},
+                                     {"R3", "multiscale-r3"},
+                                     {"product", "product-form"}}) {
+        const auto named = namedScheme(name);
+        const auto entry = std::find_if(schemeCatalog().begin(), schemeCatalog().end(),
+                                        [&](const SchemeEntry& e) { return e.item.id == name; });
+        for (const auto& [heading, rule] : columns) {
+            ChoiceGrid::Cell cell;
+            cell.discretization = {named->space, completeQuadrature(named->space, {rule, {}, {}}), {}};
+            const Properties known = describe(cell.discretization);
+            const Settings& q = cell.discretization.quadrature;
+            cell.id = std::string(name) + "." + rule;
+            cell.text = q.type == "auto" ? "auto" : std::to_string(q.integer("nodes"));
+            if (q.find("phases")) cell.text += "×" + std::to_string(q.integer("phases"));
+            cell.title = entry->item.title + " × " + findRule(rule)->item.title;
+            grid.cells.push_back(std::move(cell));
+        }
+        grid.rows.push_back({text, entry->item.description});
+    }
+    return grid;
+}
+
+/// Keys that one of them leaves out do not matter.
+bool areEqual(const Settings& a, const Settings& b) {
+    const auto isIn = [](const Settings& all, const Settings& other) {
+        return std::all_of(all.keys.begin(), all.keys.end(), [&](const auto& key) {
+            const Value* there = other.find(key.first);
+            return key.second.isNull() ? !there || there->isNull() : there && *there == key.second;
+        });
+    };
+    return a.type == b.type && isIn(a, b) && isIn(b, a);
+}
+
 }  // namespace
 
 Family multiscale() {
@@ -153,6 +201,11 @@ Family multiscale() {
     };
     f.check = checkResonance;
     f.reference = overFastMotion;
+    f.isVariant = true;
+    f.choices = choices;
+    f.isSame = [](const Discretization& a, double, const Discretization& b) {
+        return areEqual(a.space, b.space) && areEqual(a.quadrature, b.quadrature);
+    };
     f.rules = [](const Settings&) {
         return std::vector<std::string>{"auto", "filon-lobatto", "filon-gauss", "gauss", "lobatto"};
     };

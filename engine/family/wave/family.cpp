@@ -181,7 +181,14 @@ ChoiceGrid choices(const System& system) {
     std::vector<SpaceRow> rows;
     for (const int degree : {1, 2, 3, 4, 6, 8, 12}) rows.push_back(row(degree, "one-step"));
     if (isPeriodic) rows.push_back(row(1, "three-level"));
-    return ruleChoices(rows);
+    for (const int degree : {16, 32})
+        rows.push_back(
+            {"slab " + std::to_string(degree),
+             "space-time",
+             {"space-time",
+              {{"degree", static_cast<double>(degree)}, {"time_basis", "legendre"}, {"slabs", 1.0}},
+              {}}});
+    return ruleChoices(rows, {"exact"});
 }
 
 WrittenAction written(const Discretization&) {
@@ -226,7 +233,9 @@ Family wave() {
     };
     f.isSame = [](const Discretization& a, double, const Discretization& b) {
         return a.space.type == b.space.type && a.space.integer("degree") == b.space.integer("degree") &&
-               a.space.text("form") == b.space.text("form") && a.quadrature == b.quadrature;
+               a.space.text("form") == b.space.text("form") &&
+               a.space.text("time_basis") == b.space.text("time_basis") &&
+               a.space.integer("slabs") == b.space.integer("slabs") && a.quadrature == b.quadrature;
     };
     f.written = written;
     f.make = makeWaveIntegrator;

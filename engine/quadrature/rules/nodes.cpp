@@ -19,6 +19,8 @@ RuleEntry nodes() {
               {c, b, ruleFields::panels()},
               {},
               ""};
+    e.heading = "own";
+    e.letter = "N";
     e.place = 6;
     setMaker(e, []<class T>(const Settings& q) { return typedRule<T>(q); });
     return e;

@@ -42,7 +42,7 @@ private slots:
         QTRY_VERIFY(window.discretizer().findChild<DiscretizerCell*>()->height() > 0);
         for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
             if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
-        QCOMPARE(window.workspace().scene().schemes.size(), std::size_t(8));  // degrees 2 and 8 were there
+        QCOMPARE(window.workspace().scene().schemes.size(), std::size_t(10));  // degrees 2 and 8 were there
         QVERIFY(!window.workspace().hasDrafts());
         QVERIFY(QTest::qWaitFor(
             [&] {
