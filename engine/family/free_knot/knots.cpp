@@ -260,6 +260,14 @@ KnotProfile findProfile(const StaticProblem& problem, int elements, Knots knots,
         cost = fine.cost;
         outcome = fine.outcome;
         equidistribute(fine.x, densityOf(fine, knots, problem.stiffness > 0), x);
+        // Values that are too large for their densities have no knots.
+        const bool isOrdered =
+            x.front() >= problem.left && x.back() <= problem.right && std::is_sorted(x.begin(), x.end()) &&
+            std::all_of(x.begin(), x.end(), [](double each) { return std::isfinite(each); });
+        if (!isOrdered) {
+            outcome = Outcome::diverged;
+            x = equalKnots(problem, elements);
+        }
         u = valuesOf(fine, x);
     }
     KnotProfile best;
