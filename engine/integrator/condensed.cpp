@@ -120,10 +120,10 @@ SolverPolicy solverPolicy(const Settings& solver, const System& system) {
     if (solver.type == "fixed-point") {
         policy.method = SolverMethod::fixedPoint;
         if (isMechanical(system) && !system.mechanics().isSeparable)
-            throw InvalidScene(
-                "/solver/method",
-                "fixed-point iteration alone is for separable Lagrangians, and that of " + system.id + " is not",
-                "use newton or auto");
+            throw InvalidScene("/solver/method",
+                               "fixed-point iteration alone is for separable Lagrangians, and that of " +
+                                   system.id + " is not",
+                               "use newton or auto");
     }
     policy.tolerance = solver.number("tolerance");
     if (const int n = solver.integer("max_iterations"); n > 0) policy.maxIterations = n;

@@ -141,8 +141,8 @@ public:
         if (isStalled && size < limits_.illConditioned && ++stalls_ >= mostStalls) return Verdict::converged;
         ++sinceJacobian_;
         growing_ = size >= last_ ? growing_ + 1 : 0;
-        const bool isSlow = sinceJacobian_ >= limits_.patience && size > last_ * limits_.slow &&
-                            size > limits_.stagnation;
+        const bool isSlow =
+            sinceJacobian_ >= limits_.patience && size > last_ * limits_.slow && size > limits_.stagnation;
         last_ = size;
         if (growing_ >= limits_.mostGrowing) return Verdict::diverged;
         return isSlow || size > limits_.refreshAbove ? Verdict::slow : Verdict::proceed;

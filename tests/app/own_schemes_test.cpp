@@ -28,26 +28,25 @@ private slots:
         const QByteArray scheme =
             R"~({"label": "fitted", "step": 0.1, "space": {"type": "typed", "functions": ["1", "tau", "cos(tau)", "sin(tau)"]}})~";
         const QByteArray catalogue = R"({"extremal-schemes": 1, "schemes": [)" + scheme + "]}";
-const QString file = write("fitted.json", catalogue), single = write("single.json", scheme);
-qputenv("EXTREMAL_SCHEMES", write("schemes.json", catalogue).toUtf8());
-for (const QString& added : {QString("fitted"), file, single}) {
-    const Answer a = tests::runProgram({"run", "preset:harmonic-oscillator", "--add", added, "--set",
-                                        "/time/end=2", "--json", "--out", folder_.filePath("out")});
-    QVERIFY2(a.code == 0, qPrintable(a.err));
-    QVERIFY(QFile::exists(folder_.filePath("out/fitted.csv")));
-    QVERIFY(QFile::remove(folder_.filePath("out/fitted.csv")));
-}
-const auto problemOf = [](const QString& added) {
-    const Answer a = tests::runProgram({"check", "preset:kepler", "--add", added});
-    return a.code == 2 ? a.err : QString();
+        const QString file = write("fitted.json", catalogue), single = write("single.json", scheme);
+        qputenv("EXTREMAL_SCHEMES", write("schemes.json", catalogue).toUtf8());
+        for (const QString& added : {QString("fitted"), file, single}) {
+            const Answer a = tests::runProgram({"run", "preset:harmonic-oscillator", "--add", added, "--set",
+                                                "/time/end=2", "--json", "--out", folder_.filePath("out")});
+            QVERIFY2(a.code == 0, qPrintable(a.err));
+            QVERIFY(QFile::exists(folder_.filePath("out/fitted.csv")));
+            QVERIFY(QFile::remove(folder_.filePath("out/fitted.csv")));
+        }
+        const auto problemOf = [](const QString& added) {
+            const Answer a = tests::runProgram({"check", "preset:kepler", "--add", added});
+            return a.code == 2 ? a.err : QString();
+        };
+        QVERIFY(problemOf("fited").contains("did you mean \"fitted\""));
+        QVERIFY(problemOf("missing.json").contains("there is no file"));
+        QVERIFY(problemOf(write("bad.json", R"({"extremal-schemes": 1, "schemes": [{"label": "x"}]})"))
+                    .contains("/schemes/0"));
+    }
 };
-QVERIFY(problemOf("fited").contains("did you mean \"fitted\""));
-QVERIFY(problemOf("missing.json").contains("there is no file"));
-QVERIFY(problemOf(write("bad.json", R"({"extremal-schemes": 1, "schemes": [{"label": "x"}]})"))
-            .contains("/schemes/0"));
-}
-}
-;
 
 EXTREMAL_TEST(OwnSchemesTest)
 
