@@ -44,15 +44,17 @@ void sweepLanes(const Sweep<double>& s) {
             }
             const Lanes z =
                 Lanes::load(s.base + k * s.stride + i) + Lanes::load(sum) * Lanes(s.inverseMass[k]);
-            const auto magnitude = [](double v) { return __builtin_fabs(v); };
-            (z - Lanes::load(Z)).map(magnitude).store(moved);
-            z.map(magnitude).store(far);
+            if (s.size) {
+                const auto magnitude = [](double v) { return __builtin_fabs(v); };
+                (z - Lanes::load(Z)).map(magnitude).store(moved);
+                z.map(magnitude).store(far);
+                change = larger(change, largest(moved));
+                scale = larger(scale, largest(far));
+            }
             z.store(Z);
             (Lanes(s.q[k]) + z).store(s.Q + k * s.stride + i);
-            change = larger(change, largest(moved));
-            scale = larger(scale, largest(far));
         }
-        s.size[k] = {change, scale};
+        if (s.size) s.size[k] = {change, scale};
     }
 }
 

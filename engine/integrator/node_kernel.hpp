@@ -28,7 +28,7 @@ struct Sweep {
     const T* q = nullptr;            ///< d
     T* Z = nullptr;
     T* Q = nullptr;
-    SweepSize<T>* size = nullptr;  ///< d
+    SweepSize<T>* size = nullptr;  ///< d, or none
 };
 
 /// For any scalar.
@@ -53,7 +53,7 @@ void sweep(const Sweep<T>& s) {
             Z = z;
             s.Q[k * s.stride + i] = s.q[k] + z;
         }
-        s.size[k] = {change, scale};
+        if (s.size) s.size[k] = {change, scale};
     }
 }
 

@@ -85,7 +85,6 @@ private:
     Array inverse_;                   ///< entry (k, l) of M^-1 at k * d + l, x stride
     Array change_;                    ///< of the velocities of one coordinate
     std::vector<SweepSize<T>> size_;  ///< of that correction and of the velocities, as increments
-    std::vector<SweepSize<T>> unused_;
     void (*sweep_)(const Sweep<T>&) = nullptr;
     bool hasVelocities_ = false;
     T nearness_ = T(1);

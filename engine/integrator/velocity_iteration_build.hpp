@@ -42,7 +42,6 @@ VelocityIteration<T>::VelocityIteration(const Mechanics<T>& mechanics, const Tab
     inverse_.assign(size * d * d, T(0));
     ones_.assign(d, T(1));
     size_.resize(d);
-    unused_.resize(d);
     const Square A = table.value * toY_, onward = detail::extrapolation<T>(table.rule);
     Square mu = A;
     for (int j = 0; j < n_; ++j) mu.col(j) /= table.weight(j);
@@ -133,7 +132,7 @@ void VelocityIteration<T>::kick(const T* p) {
     mechanics_.gradients(mechanics_.model.get(), times_.data(), stride_, Q_.data(), V_.data(),
                          gradient_.data());
     sweep_({d_, n_, stride_, nu_.data(), carryP_.data(), gradient_.data(), weight_.data(), impulse_.data(),
-            ones_.data(), p, kicked_.data(), P_.data(), unused_.data()});
+            ones_.data(), p, kicked_.data(), P_.data()});
     const T* const Lv = gradient_.data() + at(d_, 0);
     for (std::size_t i = 0; i < P_.size(); ++i) P_[i] -= Lv[i];
     for (int k = 0; k < d_; ++k) {
@@ -157,7 +156,7 @@ void VelocityIteration<T>::kick(const T* p) {
 template <class T>
 void VelocityIteration<T>::drift(const T* q) {
     sweep_({d_, n_, stride_, mu_.data(), carryQ_.data(), V_.data(), weight_.data(), drift_.data(),
-            ones_.data(), q, moved_.data(), Q_.data(), unused_.data()});
+            ones_.data(), q, moved_.data(), Q_.data()});
 }
 
 template <class T>

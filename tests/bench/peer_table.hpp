@@ -20,16 +20,21 @@ struct Point {
     double error, time;
 };
 
-/// CPU seconds for an error; NaN if it is not reached.
+/// CPU seconds for an error, the least of those that reach it: finer settings may cost less than coarser
+/// ones, where these iterate longer. NaN if it is not reached.
 inline double costAt(const std::vector<Point>& points, double error) {
+    double least = std::nan("");
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!(points[i].error <= error)) continue;
-        if (i == 0 || !(points[i - 1].error > error) || !(points[i].error > 0)) return points[i].time;
-        const double w =
-            std::log(points[i - 1].error / error) / std::log(points[i - 1].error / points[i].error);
-        return std::exp(std::log(points[i - 1].time) + w * std::log(points[i].time / points[i - 1].time));
+        double time = points[i].time;
+        if (i > 0 && points[i - 1].error > error && points[i].error > 0) {
+            const double w =
+                std::log(points[i - 1].error / error) / std::log(points[i - 1].error / points[i].error);
+            time = std::exp(std::log(points[i - 1].time) + w * std::log(time / points[i - 1].time));
+        }
+        if (!(time >= least)) least = time;
     }
-    return std::nan("");
+    return least;
 }
 
 /// Median CPU seconds of one call; `first` is what a call took.
