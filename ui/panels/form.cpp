@@ -51,7 +51,8 @@ void Form::addRow(FormField field) {
         name = new QLabel(label);
     }
     name->setObjectName("label." + QString::fromStdString(info.key));
-    name->setMinimumWidth(64);
+    name->setMinimumWidth(68);
+    name->setWordWrap(true);  // narrow panels
     name->setBuddy(edit);
     constexpr int roomOfUnit = 72;  // a longer one would leave the field no room
     const QString unitText = QString::fromStdString(info.unit);

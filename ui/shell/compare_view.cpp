@@ -293,7 +293,7 @@ int CompareView::columns() const {
         case PageLayout::threeColumns:
             return 3;
         default:
-            return width() >= wideWidth ? 3 : width() >= 500 ? 2 : 1;
+            return width() >= wideWidth ? 3 : width() >= 470 ? 2 : 1;
     }
 }
 

@@ -442,9 +442,9 @@ void MainWindow::shareWidth() {
     if (splitter_->count() < 3) return;
     const double scale = std::max(1.0, theme_.fontScale);
     const auto scaled = [&](int width) { return static_cast<int>(std::lround(scale * width)); };
-    left_->setMinimumWidth(scaled(264));  // the discretizer's six columns and a scroll bar
+    left_->setMinimumWidth(scaled(280));  // the discretizer's seven columns and a scroll bar
     schemes_->setMinimumWidth(scaled(208));
-    const int side = left_->isHidden() ? 0 : std::clamp(width() * 18 / 100, scaled(264), scaled(300));
+    const int side = left_->isHidden() ? 0 : std::clamp(width() * 18 / 100, scaled(280), scaled(300));
     const int right = schemes_->isHidden() ? 0 : std::clamp(width() * 19 / 100, scaled(208), scaled(310));
     splitter_->setSizes({side, width() - side - right - 48, right});
 }
