@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/line_fit.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/figure/build.hpp"
 #include "engine/run/run.hpp"
+#include "engine/scene/alone.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/view/catalog.hpp"
 
@@ -23,12 +25,8 @@ Value numbers(const std::vector<double>& x, std::size_t from, std::size_t count)
 Scene sceneFrom(const Scene& scene, std::size_t scheme, const std::vector<double>& x) {
     const std::size_t d = x.size() / 2;
     Value document = toValue(scene);
-    Value own = document.find("schemes")->asArray()[scheme];
-    own.set("enabled", true);
-    document.set("schemes", Value::Array{own});
+    keepAlone(document, scheme);
     document.set("initial", Value(Value::Object{{"q", numbers(x, 0, d)}, {"p", numbers(x, d, d)}}));
-    document.set("views", Value::Array{});
-    document.set("observe", Value::Array{});
     document.set("events", Value::Array{});
     document.set("reference", Value("none"));
     ReadScene read = readScene(document);
@@ -38,18 +36,14 @@ Scene sceneFrom(const Scene& scene, std::size_t scheme, const std::vector<double
 
 /// By least squares, of log(distance) while it is below a tenth of the size of the motion.
 double rateOf(const std::vector<double>& t, const std::vector<double>& distance, double size) {
-    double n = 0, st = 0, sy = 0, stt = 0, sty = 0;
+    std::vector<double> times, logs;
     for (std::size_t i = 0; i < t.size() && distance[i] < 0.1 * size; ++i) {
         if (distance[i] <= 0) continue;
-        const double y = std::log(distance[i]);
-        n += 1;
-        st += t[i];
-        sy += y;
-        stt += t[i] * t[i];
-        sty += t[i] * y;
+        times.push_back(t[i]);
+        logs.push_back(std::log(distance[i]));
     }
-    const double spread = n * stt - st * st;
-    return n > 2 && spread > 0 ? (n * sty - st * sy) / spread : 0;
+    const double slope = times.size() > 2 ? lineThrough(times, logs).slope : 0;
+    return std::isfinite(slope) ? slope : 0;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/scene/alone.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/study/convergence.hpp"
 #include "engine/study/sweep.hpp"
@@ -18,11 +19,7 @@ constexpr double mostSteps = 4000;
 /// The scene with this scheme alone, and an end that is soon reached. Throws InvalidScene.
 ResolvedScene aloneWith(const ResolvedScene& scene, std::size_t scheme, double& step) {
     Value document = toValue(scene.scene);
-    Value own = document.find("schemes")->asArray()[scheme];
-    own.set("enabled", true);
-    document.set("schemes", Value::Array{own});
-    document.set("views", Value::Array{});
-    document.set("observe", Value::Array{});
+    keepAlone(document, scheme);
     document.set("events", Value::Array{});
     const double start = scene.scene.start.value, h = scene.schemes[scheme].spec.step.value;
     double length = scene.scene.end.value - start;

@@ -8,6 +8,7 @@
 #include "engine/run/judge.hpp"
 #include "engine/run/march.hpp"
 #include "engine/run/march_grid.hpp"
+#include "engine/scene/alone.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/overrides.hpp"
 #include "engine/scene/two_positions.hpp"
@@ -57,13 +58,9 @@ Value documentOf(const Scene& scene, std::size_t scheme,
     Value document = toValue(scene);
     std::vector<Change> changed;
     for (const auto& [pointer, value] : changes) applyOverride(document, {pointer, value}, changed, errors);
-    Value only = document.find("schemes")->asArray()[scheme];
-    only.set("enabled", true);
+    keepAlone(document, scheme);
     // To see where a scheme fails is what this is for.
-    only.set("allow_unstable", true);
-    document.set("schemes", Value::Array{only});
-    document.set("views", Value::Array{});
-    document.set("observe", Value::Array{});
+    document.find("schemes")->asArray().front().set("allow_unstable", true);
     document.set("reference", "none");
     std::erase_if(document.asObject(), [](const Value::Member& m) { return m.first == "output"; });
     return document;
