@@ -34,7 +34,8 @@ std::optional<DensitySample> sampleDensity(const Mechanics<double>& mechanics, E
 
 std::optional<SolvabilityForecast> forecastSolvability(const Mechanics<double>& mechanics,
                                                        const Table<double>& table, int order,
-                                                       const State& start, double h, double end) {
+                                                       const State& start, double h, double end,
+                                                       FollowUntil until) {
     constexpr double mostSteps = 2000, fewestSteps = 20, work = 4e7;  // unknowns cubed
     constexpr int finer = 2;
     const int degree = table.space.degree + finer, d = mechanics.dimension;
@@ -68,6 +69,7 @@ std::optional<SolvabilityForecast> forecastSolvability(const Mechanics<double>& 
                                                                (before->density - now->density));
             before = now;
         }
+        if (until == FollowUntil::doubt && (insignificant > 0 || !forecast.signChanges.empty())) break;
         StepReport report;
         motion.startAt(at.x.data(), at.x.data() + d);
         if (motion.solve(at.t, h, {}, report) != Outcome::converged) break;

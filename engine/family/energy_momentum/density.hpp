@@ -41,11 +41,18 @@ struct SolvabilityForecast {
     double until = 0;  ///< time up to which the motion was followed
 };
 
+/// How far a motion is followed.
+enum class FollowUntil {
+    end,
+    doubt  ///< the first place where the density changes its sign or is not above round-off
+};
+
 /// Follows the motion from a state until `end`, by at most 2000 steps of a fixed length h of a Galerkin
 /// scheme of higher degree, fewer of large systems: some tens of milliseconds. Empty where a step has no
 /// solution.
 std::optional<SolvabilityForecast> forecastSolvability(const Mechanics<double>& mechanics,
                                                        const Table<double>& table, int order,
-                                                       const State& start, double h, double end);
+                                                       const State& start, double h, double end,
+                                                       FollowUntil until = FollowUntil::end);
 
 }  // namespace extremal

@@ -132,10 +132,10 @@ std::string consequence(std::string_view policy) {
 }
 
 std::optional<SolvabilityForecast> forecast(const SchemeCase& scheme, const Settings& space,
-                                            const Settings& quadrature) {
+                                            const Settings& quadrature, FollowUntil until) {
     const int order = describe(space, quadrature).claims.order;
     return forecastSolvability(scheme.system.mechanics(), tableOfSpace(space, quadrature), order,
-                               scheme.initial, scheme.step, scheme.end);
+                               scheme.initial, scheme.step, scheme.end, until);
 }
 
 /// A degree for which the density keeps its sign, or 0. From degree 3 on that is rare, and hard to tell from
@@ -147,7 +147,8 @@ int solvableDegree(const SchemeCase& scheme) {
         Settings space = scheme.discretization.space;
         for (auto& [key, value] : space.keys)
             if (key == "degree") value = static_cast<double>(degree);
-        const auto found = forecast(scheme, space, completeQuadrature(space, {"gauss", {}, {}}));
+        const auto found =
+            forecast(scheme, space, completeQuadrature(space, {"gauss", {}, {}}), FollowUntil::doubt);
         if (found && found->unresolved == 0 && found->signChanges.empty()) return degree;
     }
     return 0;
@@ -170,7 +171,7 @@ void checkShortest(const SchemeCase& scheme, const SolvabilityForecast& found, F
 
 void checkSolvability(const SchemeCase& scheme, Findings& findings) {
     const auto& [space, quadrature, solver] = scheme.discretization;
-    const auto found = forecast(scheme, space, quadrature);
+    const auto found = forecast(scheme, space, quadrature, FollowUntil::end);
     if (!found) return;
     if (found->vanishes)
         return findings.warning("/space",
