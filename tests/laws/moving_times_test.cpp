@@ -44,6 +44,8 @@ State atPeriapsis(double eccentricity) {
     return {0, 0, {1 - eccentricity, 0, 0, std::sqrt((1 + eccentricity) / (1 - eccentricity))}};
 }
 
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
 double angularMomentum(const State& s) { return s.x[0] * s.x[3] - s.x[1] * s.x[2]; }
 
 /// The largest over the smallest, of numbers that are positive.
@@ -335,6 +337,23 @@ private slots:
             const double limit = degree == 1 ? 1e-11 : 1e-7;  // measured: 1.2e-12 and 4.4e-9
             QVERIFY(off < limit && std::abs(state.t) < limit);
         }
+    }
+    /// What a sum loses to rounding goes into the next one: a time is that of all its steps, to its last bit.
+    void timesLoseNothingToRounding() {
+        const auto integrator = makeIntegrator(kepler(), sem(1), {0, 0.05});
+        State state = keplerStart;
+        integrator->begin(state);
+        long double exact = 0;
+        double plain = 0, off = 0, plainly = 0;
+        for (int k = 0; k < 5000; ++k) {
+            const double step = integrator->advance(state, 1e9).step, unit = epsilon * state.t;
+            exact += step;
+            plain += step;
+            off = std::max(off, std::abs(static_cast<double>(state.t - exact)) / unit);
+            plainly = std::max(plainly, std::abs(static_cast<double>(plain - exact)) / unit);
+        }
+        qInfo("off by at most %.2f units; sums without what is kept by %.2f", off, plainly);
+        QVERIFY(off <= 0.5 && plainly > 2);
     }
     void aStepAllocatesNothing() {
         for (const int degree : {1, 2, 4})

@@ -105,6 +105,27 @@ private slots:
         qInfo("off by %.1e", worst);
         QVERIFY(worst < 1e-7);  // differences: 2e-9
     }
+    /// M of the constraint, which the multipliers keep, is that of the explicit mesh.
+    void monitorsAreThoseOfTheirFormulas() {
+        const double u_xx = -1.7, base = 1 + 1.3 * 1.3 * u_xx * u_xx;
+        const Monitor curvature{Monitor::Kind::curvature, 1.3, 0, 1},
+            actionError{Monitor::Kind::actionError, 1.3, 0, 1};
+        QVERIFY(std::abs(curvature(0.4, u_xx, 0.2, 0) / std::pow(base, curvature.power() / 2) - 1) < 1e-15);
+        QVERIFY(std::abs(curvature(0.4, u_xx, 0.2, 0) / std::sqrt(std::sqrt(base)) - 1) < 1e-15);
+        QVERIFY(std::abs(actionError(0.4, u_xx, 0.2, 0) / std::pow(base, actionError.power() / 2) - 1) <
+                1e-15);
+        QVERIFY(std::abs(actionError(0.4, u_xx, 0.2, 0.6) / std::cbrt(base - 0.36 * (base - 1)) - 1) < 1e-15);
+    }
+    /// A parabola has one curvature, and equal elements have equal shares of it, those at the ends too.
+    void parabolasAreEquidistributedByEqualElements() {
+        for (const Monitor::Kind kind : {Monitor::Kind::curvature, Monitor::Kind::actionError}) {
+            std::vector<double> z;
+            for (int i = 0; i < 9; ++i) z.insert(z.end(), {0.5 * i * i, static_cast<double>(i)});
+            QVERIFY(MeshConstraint({kind, 1.3, 0, 1}, 9).residual(z.data()) < 1e-15);
+            z[9] += 0.1;  // a node that stands elsewhere is seen
+            QVERIFY(MeshConstraint({kind, 1.3, 0, 1}, 9).residual(z.data()) > 0.05);
+        }
+    }
     void freeNodesAreSingularAndEquidistributedOnesAreNot() {
         // 31 nodes on the kink: eigenvalues of the mass in (y, X), and on the tangent space of {g = 0}.
         Run run(kink(31, 2, 0.05));
