@@ -203,6 +203,21 @@ private slots:
         for (const auto& s : run(scene).schemes)
             QVERIFY(std::abs(s->summary.orderMeasured - s->summary.orderClaimed) < 0.15);
     }
+    /// Errors that are no larger than ten times the reference's own say nothing of the scheme.
+    void noOrderIsMeasuredBelowTheReference() {
+        const Scene scene = sceneFrom(
+            kepler, keplerData, "3",
+            R"({"scheme":"galerkin-gauss-2","step":0.02},{"baseline":"stormer-verlet","step":0.1})",
+            R"(,"observe":["error","order"],"reference":{"type":"scheme","scheme":{"scheme":"midpoint","step":0.002}})");
+        const Comparison c = run(scene);
+        const Summary &fine = c.schemes[0]->summary, &coarse = c.schemes[1]->summary;
+        const double own = c.reference.estimatedError;
+        qInfo("the reference is good to %.1e; errors %.1e and %.1e, orders %.2f and %.2f", own, fine.maxError,
+              coarse.maxError, fine.orderMeasured, coarse.orderMeasured);
+        QVERIFY(fine.maxError > 0.1 * own && fine.maxError < 10 * own && coarse.maxError > 100 * own);
+        QVERIFY(std::isnan(fine.orderMeasured));
+        QVERIFY(std::abs(coarse.orderMeasured - 2) < 0.15);
+    }
 };
 
 EXTREMAL_TEST(RunTest)
