@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "engine/integrator/node_iteration.hpp"
+#include "engine/solve/fixed_point_policy.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
@@ -201,8 +202,8 @@ T NodeIteration<T>::largestChange(const T* q) const {
 template <class T>
 FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
                                          int maxIterations, const std::stop_token& stop, StepReport& report) {
-    using Verdict = typename NewtonPolicy<T>::Verdict;
-    NewtonPolicy<T> policy(NewtonLimits<T>::fixedPoint(tolerance_));
+    using Verdict = typename FixedPointPolicy<T>::Verdict;
+    FixedPointPolicy<T> policy(tolerance_);
     place(t, p, carryQ, carryP);
     Sweep<T> s{d_,        n_,        stride_,         start_.data(),       base_.data(),
                F_.data(), nullptr,   impulse_.data(), inverseMass_.data(), q,
@@ -231,7 +232,7 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
         hasForces_ = false;
         const Verdict verdict = policy.judge(size);
         if (verdict == Verdict::notFinite) return FixedPointResult::notFinite;
-        if (verdict == Verdict::slow || verdict == Verdict::diverged) return FixedPointResult::slow;
+        if (verdict == Verdict::slow) return FixedPointResult::slow;
         if (verdict == Verdict::proceed) continue;
         // The forces are taken where the last sweep has put the nodes: left where the nodes were they would
         // have a bias that adds up over millions of steps.

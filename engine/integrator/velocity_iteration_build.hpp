@@ -163,8 +163,8 @@ template <class T>
 FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ,
                                              const T* carryP, int maxIterations, const std::stop_token& stop,
                                              StepReport& report) {
-    using Verdict = typename NewtonPolicy<T>::Verdict;
-    NewtonPolicy<T> policy(NewtonLimits<T>::fixedPoint(tolerance_));
+    using Verdict = typename FixedPointPolicy<T>::Verdict;
+    FixedPointPolicy<T> policy(tolerance_);
     for (int k = 0; k < d_; ++k) {
         std::fill_n(carryQ_.begin() + k * stride_, stride_, carryQ[k]);
         std::fill_n(carryP_.begin() + k * stride_, stride_, carryP[k]);
@@ -190,7 +190,7 @@ FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p,
         report.residual = static_cast<double>(size);
         const Verdict verdict = policy.judge(size);
         if (verdict == Verdict::notFinite) return FixedPointResult::notFinite;
-        if (verdict == Verdict::slow || verdict == Verdict::diverged) return FixedPointResult::slow;
+        if (verdict == Verdict::slow) return FixedPointResult::slow;
         if (verdict == Verdict::proceed) continue;
         // Forces and velocities are taken where the last sweep has put the nodes: left where these were they
         // would have a bias that adds up over millions of steps.

@@ -3,9 +3,9 @@
 ///
 /// An iteration says how large its correction is relative to the unknowns, e_j = |delta_j| / |x|, and is told
 /// what to do. Corrections go on to round-off, so that symplecticity and momentum maps hold to round-off: a
-/// tolerance is for those who want less. Users: the condensed Galerkin step and its fixed point over all
-/// nodes (integrator/), the Lie group step, the product form and the moving times (family/), small dense
-/// systems (solve/newton.hpp).
+/// tolerance is for those who want less. Users: the condensed Galerkin step (integrator/), the Lie group
+/// step, the product form and the moving times (family/), small dense systems (solve/newton.hpp). Fixed-point
+/// iterations have a policy of their own (solve/fixed_point_policy.hpp).
 ///
 /// T: scalar of the step. epsilon: unit of its last place.
 #pragma once
@@ -70,20 +70,6 @@ struct NewtonLimits {
         // Curves with many functions swing far beyond their step: then the next rung of the ladder is better.
         if (!isFallback) l.largestFirst = T(1);
         l.refreshAbove = T(0.1);
-        return l;
-    }
-    /// The fixed point over all nodes. Solved to round-off it ends where one more sweep would change a
-    /// hundredth of the last place: left at round-off itself the forces have a bias that adds up over
-    /// millions of steps. It has no Jacobian to renew: where it is still slow after four sweeps, Newton's
-    /// method is cheaper, whose step costs 20 to 60 sweeps; and a contraction near that of round-off would
-    /// not be told from it.
-    static NewtonLimits fixedPoint(const T& tolerance) {
-        NewtonLimits l;
-        const bool isExact = tolerance <= std::numeric_limits<T>::epsilon();
-        l.tolerance = isExact ? T(0) : tolerance;
-        l.predicted = isExact ? T(0.01) * tolerance : T(0);
-        l.patience = 4;
-        l.slow = T(0.2);
         return l;
     }
     /// Newton's method of the Lie group step, whose evaluations are dear: the last is not made where the next

@@ -67,15 +67,6 @@ private slots:
         QCOMPARE(lastOf(Limits::dense(), {0.1, std::nan("")}), Verdict::notFinite);
         QCOMPARE(lastOf(Limits::dense(), {0.1, std::numeric_limits<double>::infinity()}), Verdict::notFinite);
     }
-    void theFixedPointEndsWhereTheNextSweepWouldChangeNothing() {
-        const Limits limits = Limits::fixedPoint(eps_);
-        QCOMPARE(lastOf(limits, {1e-4, 1e-9}), Verdict::proceed);
-        // 1e-14 after 1e-9: the next would be 1e-19, a thousandth of the last place.
-        QCOMPARE(lastOf(limits, {1e-4, 1e-9, 1e-14}), Verdict::converged);
-        QCOMPARE(lastOf(limits, {1e-8, 1e-10, 1e-12, 1e-14}), Verdict::proceed);
-        QCOMPARE(lastOf(limits, {0.1, 0.05, 0.02}), Verdict::proceed);
-        QCOMPARE(lastOf(limits, {0.1, 0.05, 0.02, 0.01}), Verdict::slow);
-    }
     void lightAxesEndAtTheirFloorWithANewJacobian() {
         Policy policy(Limits::lieStep(eps_));
         QCOMPARE(policy.judge(1e-8), Verdict::proceed);

@@ -1,0 +1,66 @@
+/// When the fixed-point iteration over all nodes of a step (integrator/node_iteration.hpp) is done, and when
+/// it is given up for Newton's method.
+///
+/// It says after each sweep how large its correction was relative to the increments of the step. Corrections
+/// need not shrink alike: the contraction of a stiff step has pairs of complex eigenvalues and is far from
+/// normal, so that they fall fast and slowly by turns. What counts is their mean over three sweeps.
+///
+/// T: scalar of the step. epsilon: unit of its last place.
+#pragma once
+
+#include <limits>
+
+namespace extremal {
+
+template <class T>
+class FixedPointPolicy {
+public:
+    enum class Verdict { converged, proceed, slow, notFinite };
+
+    /// `tolerance`: relative size of the last correction; at most epsilon: solve to round-off.
+    explicit FixedPointPolicy(const T& tolerance) : tolerance_(tolerance) {}
+
+    Verdict judge(const T& size) {
+        if (!(size < std::numeric_limits<T>::infinity())) return Verdict::notFinite;
+        if (isSmall(size) || isRoundOff(size)) return Verdict::converged;
+        const bool isSlow = ++sweeps_ >= patience && isFar(size);
+        for (int i = 2; i > 0; --i) earlier_[i] = earlier_[i - 1];
+        earlier_[0] = size;
+        return isSlow ? Verdict::slow : Verdict::proceed;
+    }
+
+private:
+    static constexpr T epsilon = std::numeric_limits<T>::epsilon();
+    /// Sweeps before a slow contraction counts: the first ones are those of the starting value.
+    static constexpr int patience = 5;
+    /// Corrections at round-off vary by less than a factor of four.
+    static constexpr double stall = 0.25;
+
+    /// The iteration to round-off ends where one more sweep would change a hundredth of the last place, e_j^2
+    /// / e_{j-1} if the contraction stays as it is: left at round-off itself the forces have a bias that adds
+    /// up over millions of steps.
+    bool isSmall(const T& size) const {
+        if (tolerance_ > epsilon) return size <= tolerance_;
+        const T ratio = size / earlier_[0];  // 0 at first
+        return size * (sweeps_ > 0 && ratio < T(1) ? ratio : T(1)) <= epsilon / 100;
+    }
+    /// Corrections that shrank fast and suddenly do not, near round-off; or have not shrunk over three
+    /// sweeps, within four digits of it, as sums of terms that cancel leave no more.
+    bool isRoundOff(const T& size) const {
+        const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[1] * T(stall);
+        return (size < 64 * epsilon && isSudden) ||
+               (size < 10000 * epsilon && size >= earlier_[2] * T(stall));
+    }
+    /// More than 21 sweeps from round-off: Newton's method is cheaper, whose step costs 20 to 60 of them.
+    bool isFar(const T& size) const {
+        const T ratio = size / earlier_[2], square = ratio * ratio;  // of three sweeps
+        return size * square * square * square * ratio > (tolerance_ > epsilon ? tolerance_ : epsilon);
+    }
+
+    T tolerance_;
+    int sweeps_ = 0;
+    T earlier_[3] = {std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
+                     std::numeric_limits<T>::infinity()};
+};
+
+}  // namespace extremal

@@ -1,0 +1,82 @@
+/// The verdicts of the fixed-point policy on sequences of corrections, most of them seen in steps of a stiff
+/// spring.
+#include <QTest>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/solve/fixed_point_policy.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::fixed_point_policy_test {
+namespace {
+
+using Policy = FixedPointPolicy<double>;
+using Verdict = Policy::Verdict;
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// The verdict on the last of the corrections, if all before it go on; else that which does not.
+Verdict lastOf(double tolerance, const std::vector<double>& sizes) {
+    Policy policy(tolerance);
+    Verdict verdict = Verdict::proceed;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        verdict = policy.judge(sizes[i]);
+        if (verdict != Verdict::proceed && i + 1 < sizes.size()) return Verdict::notFinite;
+    }
+    return verdict;
+}
+
+}  // namespace
+
+class FixedPointPolicyTest : public QObject {
+    Q_OBJECT
+
+private slots:
+    void itEndsWhereTheNextSweepWouldChangeNothing() {
+        QCOMPARE(lastOf(eps, {1e-4, 1e-9}), Verdict::proceed);
+        // 1e-14 after 1e-9: the next would be 1e-19, a thousandth of the last place.
+        QCOMPARE(lastOf(eps, {1e-4, 1e-9, 1e-14}), Verdict::converged);
+        QCOMPARE(lastOf(eps, {1e-8, 1e-10, 1e-12, 1e-14}), Verdict::proceed);
+        QCOMPARE(lastOf(eps, {0.0}), Verdict::converged);
+        QCOMPARE(lastOf(eps, {1e-17}), Verdict::proceed);
+    }
+    void aToleranceEndsItEarlier() {
+        QCOMPARE(lastOf(1e-12, {1e-4, 1e-8}), Verdict::proceed);
+        QCOMPARE(lastOf(1e-12, {1e-4, 1e-8, 1e-12}), Verdict::converged);
+        QCOMPARE(lastOf(1e-6, {0.1, 0.05, 0.025, 0.012, 0.006}), Verdict::proceed);
+    }
+    void sweepsThatShrinkByTurnsGoOnToRoundOff() {
+        QCOMPARE(lastOf(eps, {0.12, 1.3e-2, 9.4e-4, 5.2e-5, 2.2e-6, 7.4e-8, 1.9e-9, 1.4e-11, 6.4e-12}),
+                 Verdict::proceed);
+        QCOMPARE(lastOf(eps, {0.35, 4.6e-2, 4.3e-3, 3.0e-4, 1.6e-5, 7.0e-7, 2.3e-8, 4.5e-10, 2.4e-10, 5.4e-11,
+                              8.4e-12}),
+                 Verdict::proceed);
+        QCOMPARE(lastOf(eps, {4.8, 1.9, 0.75, 0.13, 1.5e-2}), Verdict::proceed);
+    }
+    void itIsSlowWhereRoundOffIsMoreThanTwentySweepsAway() {
+        QCOMPARE(lastOf(eps, {0.1, 0.05, 0.02, 0.01}), Verdict::proceed);
+        QCOMPARE(lastOf(eps, {0.1, 0.05, 0.02, 0.01, 0.005}), Verdict::slow);
+        QCOMPARE(lastOf(eps, {0.1, 0.02, 4e-3, 8e-4, 1.6e-4}), Verdict::proceed);
+        QCOMPARE(lastOf(eps, {0.1, 0.03, 9e-3, 3e-3, 9e-4}), Verdict::slow);
+        QCOMPARE(lastOf(eps, {0.1, 0.2, 0.4, 0.8, 1.6}), Verdict::slow);
+    }
+    void roundOffIsASuddenStallOrNoProgressInThreeSweeps() {
+        QCOMPARE(lastOf(eps, {1e-10, 1e-12, 1.3e-14, 0.9e-14}), Verdict::converged);
+        QCOMPARE(lastOf(eps, {1e-8, 4e-13, 2e-13}), Verdict::proceed);  // not so far above it
+        QCOMPARE(lastOf(eps, {1e-8, 4e-13, 3e-13, 2e-13, 1.5e-13}), Verdict::converged);
+        // A contraction of 0.4 goes on.
+        QCOMPARE(lastOf(eps, {1e-12, 4e-13, 1.6e-13, 6.4e-14, 2.6e-14, 1e-14, 4e-15, 1.6e-15}),
+                 Verdict::proceed);
+    }
+    void whatIsNotFiniteIsSaid() {
+        QCOMPARE(lastOf(eps, {0.1, std::nan("")}), Verdict::notFinite);
+        QCOMPARE(lastOf(eps, {0.1, std::numeric_limits<double>::infinity()}), Verdict::notFinite);
+    }
+};
+
+EXTREMAL_TEST(FixedPointPolicyTest)
+}  // namespace extremal::fixed_point_policy_test
+
+#include "fixed_point_policy_test.moc"
