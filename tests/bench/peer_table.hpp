@@ -102,13 +102,15 @@ class PeerTable {
 public:
     static constexpr double targets[] = {1e-3, 1e-6, 1e-9, 1e-12};
 
-    /// One row: a problem, with the index of its error in the curves.
-    void add(const std::string& problem, const std::vector<Curve>& curves, std::size_t error) {
+    /// One row: a problem, with the index of its error in the curves, against the peers whose names begin so.
+    void add(const std::string& problem, const std::vector<Curve>& curves, std::size_t error,
+             const std::string& peers = "") {
         Row row{problem, {}};
         for (const double target : targets) {
             Cell cell;
             for (const Curve& curve : curves) {
                 if (error >= curve.errors.size()) continue;
+                if (curve.isPeer && !curve.name.starts_with(peers)) continue;
                 const double cost = costAt(curve.errors[error], target);
                 Best& best = curve.isPeer ? cell.peer : cell.ours;
                 if (cost < best.seconds) best = {cost, curve.name};

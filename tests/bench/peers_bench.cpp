@@ -2,6 +2,7 @@
 /// seconds that the best variational scheme and the best peer need for errors of 1e-3, 1e-6, 1e-9 and 1e-12.
 ///
 /// P1  spring pendulum, k = 1e4, 1e6, 1e8, 1e12, to t = 10: the angle, the extension over its amplitude, both
+///     (spring_peers.hpp)
 /// P2  free rigid body 1, 2, 3, attitude at t = 100
 /// P3  Kepler, e = 0.6, position after 100 periods
 /// P5  wave function in a cosine well, N = 256 and 512, at t = 1
@@ -15,183 +16,26 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <map>
 #include <numbers>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "engine/baseline/catalog.hpp"
 #include "engine/core/instruction_set.hpp"
-#include "engine/family/multiscale/multiscale.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/study/sweep.hpp"
 #include "tests/bench/peer_table.hpp"
+#include "tests/bench/scheme_makers.hpp"
+#include "tests/bench/spring_peers.hpp"
 #include "tests/bench/wave_costs.hpp"
 #include "tests/laws/bodies.hpp"
 
 namespace extremal::bench {
 namespace {
 
-namespace odeint = boost::numeric::odeint;
 const std::vector<double> failed{HUGE_VAL};
-
-using Make = std::function<std::unique_ptr<Integrator>(const System&, const State&, double setting)>;
-
-/// A scheme, or a baseline by its id; the setting of an adaptive one is its tolerance.
-Make schemeOf(const Discretization& discretization) {
-    return [discretization](const System& s, const State& start, double h) {
-        return makeIntegrator(s, discretization, {start.t, h});
-    };
-}
-Make baselineOf(const std::string& id, Value::Object keys = {}) {
-    const BaselineEntry* entry = findBaseline(id);
-    Settings settings{id, {}, {}};
-    for (const auto& [key, value] : keys) settings.keys.emplace_back(key, value);
-    return [entry, settings](const System& s, const State& start, double setting) {
-        return entry->isAdaptive ? entry->make(s, {0, start, setting, settings})
-                                 : entry->make(s, {setting, start, 0, settings});
-    };
-}
-
-// --- P1 ------------------------------------------------------------------------------------------------
-
-struct Spring {
-    double k;
-    System system;
-    std::vector<std::array<double, 2>> rows;  ///< (a, theta) at 0.1 n
-    double amplitude() const { return 0.05 * std::sqrt(1e4 / k); }
-    State start() const { return {0, 0, {amplitude(), 1, 0, 0}}; }
-
-    /// Largest errors at the rows: angle, extension, both.
-    struct Errors {
-        double theta = 0, a = 0;
-        void see(const Spring& p, double t, double x, double angle) {
-            const double place = 10 * t;
-            if (std::abs(place - std::round(place)) > 1e-6) return;
-            const auto& known = p.rows[static_cast<std::size_t>(std::llround(place))];
-            theta = std::max(theta, std::abs(angle - known[1]));
-            a = std::max(a, std::abs(x - known[0]) / p.amplitude());
-        }
-        std::vector<double> all() const { return {theta, a, std::max(theta, a)}; }
-    };
-};
-const std::vector<double> lostSpring{HUGE_VAL, HUGE_VAL, HUGE_VAL};
-
-Spring springOf(double k) {
-    Settings keys{"spring-pendulum", {{"m", 1.0}, {"g", 9.81}, {"l", 1.0}, {"k", k}}, {}};
-    Spring p{k, findModel("spring-pendulum")->make(keys), {}};
-    if (k < 1e9) {
-        const std::string name = k == 1e4 ? "1e4" : k == 1e6 ? "1e6" : "1e8";
-        std::ifstream in(EXTREMAL_SOURCE_DIR "/tests/laws/data/spring_pendulum_k" + name + ".txt");
-        for (std::string line; std::getline(in, line);) {
-            std::istringstream cells(line);
-            double t = 0, a = 0, theta = 0;
-            if (cells >> t >> a >> theta) p.rows.push_back({a, theta});
-        }
-        return p;
-    }
-    // R3 at a quarter of the largest step that is measured, which agrees with that at half of it to 1e-8.
-    const auto integrator = makeIntegrator(p.system, *namedScheme("multiscale-r3"), {0, 0.05});
-    State state = p.start();
-    p.rows.push_back({state.x[0], state.x[1]});
-    while (state.t < 10 - 0.01 && advance(*integrator, state).outcome == Outcome::converged)
-        if (state.node % 2 == 0) p.rows.push_back({state.x[0], state.x[1]});
-    return p;
-}
-
-/// Of n steps; nodes at the rows, or every m-th row where steps are longer.
-std::vector<double> runSpring(const Spring& p, const Make& make, double n) {
-    const State start = p.start();
-    const auto integrator = make(p.system, start, 10 / n);
-    State state = start;
-    Spring::Errors errors;
-    while (state.t < 10 - 5 / n) {
-        if (advance(*integrator, state).outcome != Outcome::converged) return lostSpring;
-        errors.see(p, state.t, state.x[0], state.x[1]);
-    }
-    return errors.all();
-}
-/// Under error control, from row to row.
-std::vector<double> runSpringTo(const Spring& p, const Make& make, double tolerance) {
-    const State start = p.start();
-    const auto integrator = make(p.system, start, tolerance);
-    State state = start;
-    Spring::Errors errors;
-    for (int row = 1; row <= 100; ++row) {
-        while (state.t < 0.1 * row)
-            if (integrator->advance(state, 0.1 * row).outcome != Outcome::converged) return lostSpring;
-        errors.see(p, 0.1 * row, state.x[0], state.x[1]);
-    }
-    return errors.all();
-}
-template <class Stepper>
-std::vector<double> springByOdeint(const Spring& p, const Stepper& stepper) {
-    using Array = std::array<double, 4>;
-    const double k = p.k, g = 9.81;
-    Array x{p.amplitude(), 1, 0, 0};
-    const auto rhs = [k, g](const Array& y, Array& d, double) {
-        const double r = 1 + y[0], w = y[3] / (r * r), c = std::cos(y[1]), s = std::sin(y[1]);
-        d = {y[2], w, r * w * w + g * c - k * y[0], -g * r * s};
-    };
-    Spring::Errors errors;
-    std::vector<double> times;
-    for (int row = 0; row <= 100; ++row) times.push_back(0.1 * row);
-    odeint::integrate_times(stepper, rhs, x, times.begin(), times.end(), 0.1 / std::sqrt(k),
-                            [&](const Array& y, double t) { errors.see(p, t, y[0], y[1]); });
-    return errors.all();
-}
-
-void springs(PeerTable& table) {
-    for (const double k : {1e4, 1e6, 1e8, 1e12}) {
-        const Spring p = springOf(k);
-        const double longest = k > 1e9 ? 3 : k > 1e7 ? 0.5 : 0.1;
-        std::vector<Curve> curves;
-        const auto steps = [&](const std::string& name, bool isPeer, const Make& make,
-                               const std::vector<double>& settings) {
-            curves.push_back(
-                measure(name, isPeer, settings, longest, [&](double n) { return runSpring(p, make, n); }));
-        };
-        const std::vector<double> few{10, 20, 25, 40, 50, 100, 200, 300, 400, 500};
-        steps("6/4 [3,0]", false, schemeOf(multiscalePair(6, 4, {3, 0})), few);
-        for (const std::string r : {"1", "2", "3"})
-            steps("R" + r, false, schemeOf(*namedScheme("multiscale-r" + r)), few);
-        std::vector<double> many;
-        for (const double n : ratios(100, 2e7, 1.3)) many.push_back(100 * std::ceil(n / 100));
-        if (k < 1e5)
-            for (const int s : {2, 4, 6, 8, 10, 12})
-                steps("Gauss " + std::to_string(2 * s), false,
-                      schemeOf(*namedScheme("galerkin-gauss-" + std::to_string(s))), many);
-        // At k = 1e12 impulse alone comes near.
-        for (const double order : {4.0, 6.0, 8.0})
-            steps("impulse " + std::to_string(static_cast<int>(order)), true,
-                  baselineOf("impulse", {{"order", order}}), many);
-        if (k < 1e9) {
-            steps("Gauss collocation 16", true, baselineOf("gauss-collocation", {{"stages", 8.0}}), many);
-            const std::vector<double> tolerances = ratios(1e-3, 1e-14, 0.3);
-            for (const char* id : {"rk8pd", "stiff"})
-                curves.push_back(measure(id, true, tolerances, longest, [&](double tolerance) {
-                    return runSpringTo(p, baselineOf(id), tolerance);
-                }));
-            using Array = std::array<double, 4>;
-            curves.push_back(measure("odeint rkf78", true, tolerances, longest, [&](double tolerance) {
-                return springByOdeint(p, odeint::make_controlled(tolerance, tolerance,
-                                                                 odeint::runge_kutta_fehlberg78<Array>()));
-            }));
-            curves.push_back(
-                measure("odeint bulirsch-stoer", true, tolerances, longest, [&](double tolerance) {
-                    return springByOdeint(p, odeint::bulirsch_stoer<Array>(tolerance, tolerance));
-                }));
-        }
-        char name[32];
-        std::snprintf(name, sizeof name, "P1 k=%.0e, ", k);
-        const char* const quantities[] = {"theta", "a", "both"};
-        for (std::size_t e = 0; e < 3; ++e) table.add(std::string(name) + quantities[e], curves, e);
-    }
-}
 
 // --- P2 ------------------------------------------------------------------------------------------------
 
