@@ -39,17 +39,24 @@ std::vector<Pair> pairs() {
             {"midpoint x gauss 2", midpoint(), gauss2(), 1, 1, 0}};
 }
 
+/// Random values, at rest.
+State randomState(const System& system) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    State state;
+    const auto n = static_cast<std::size_t>(system.fieldProblem().size());
+    for (std::size_t i = 0; i < n; ++i) state.x.push_back(uniform(random));
+    state.x.resize(2 * n, 0);
+    return state;
+}
+
 /// Growth of random data on a wave equation with 51 cells (so that no mass is singular): max |u| after
 /// `steps` over max |u| at the start, u_t = 0.
 double growth(const Pair& pair, double nu, int steps) {
     const FieldCase c{"none", 0, 1, 51, "periodic", 1, pair.degree};
     const System system = makeField(c);
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> uniform(-1, 1);
-    State state;
+    State state = randomState(system);
     const int n = system.fieldProblem().size();
-    for (int i = 0; i < n; ++i) state.x.push_back(uniform(random));
-    state.x.resize(static_cast<std::size_t>(2 * n), 0);
     const auto integrator =
         makeIntegrator(system, tents(pair.space, pair.time, pair.degree, pair.timeDegree), {0, nu / c.cells});
     double most = 0;
@@ -211,6 +218,22 @@ private slots:
             const std::string limit = known.remark.substr(known.remark.rfind(' ') + 1);
             QVERIFY2(std::abs(std::stod(limit) / low - 1) < 0.02,
                      qPrintable(QString("%1: %2 against %3").arg(p.name).arg(low).arg(limit.c_str())));
+        }
+    }
+    /// The step whose numbers are too large is not taken.
+    void whatGrowsBeyondAllNumbersEndsWithAnOutcome() {
+        for (const Pair& p : pairs()) {
+            if (std::isinf(p.limit)) continue;
+            const System system = makeField({"none", 0, 1, 51, "periodic", 1, p.degree});
+            State state = randomState(system);
+            const auto integrator =
+                makeIntegrator(system, tents(p.space, p.time), {0, (p.limit > 0 ? 2 * p.limit : 1) / 51});
+            Outcome outcome = Outcome::converged;
+            for (int k = 0; k < 2000 && outcome == Outcome::converged; ++k)
+                outcome = advance(*integrator, state).outcome;
+            QVERIFY2(outcome == Outcome::notFinite, p.name);
+            QVERIFY2(std::all_of(state.x.begin(), state.x.end(), [](double x) { return std::isfinite(x); }),
+                     p.name);
         }
     }
     void scenesRefuseStepsBeyondTheLimit() {
