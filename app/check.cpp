@@ -1,3 +1,6 @@
+#include <set>
+#include <string>
+
 #include "app/load.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
@@ -5,6 +8,7 @@
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typeset.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/scene/topics.hpp"
 #include "engine/symmetry/symmetry.hpp"
 
 namespace extremal::app {
@@ -39,12 +43,23 @@ Value symmetriesValue(const ResolvedScene& resolved) {
     return all;
 }
 
+/// The pages that explain what was found, on one line.
+void nameHandbook(const ReadScene& read) {
+    std::set<std::string> places;
+    for (const auto* all : {&read.errors, &read.warnings})
+        for (const Problem& p : *all) places.insert(handbookPlace(p));
+    std::string line;
+    for (const std::string& place : places) line += (line.empty() ? "" : ", ") + place;
+    if (!line.empty()) printProblem("", "explained in the handbook: " + line, "extremal handbook PAGE");
+}
+
 }  // namespace
 
 int checkVerb(const std::string& scene, const CommonOptions& options) {
     const ReadScene read = loadScene(scene, options);
     const bool isValid = reportScene(scene, read, options);
     const int code = isValid ? done : unusable;
+    if (!options.isJson && !options.isQuiet) nameHandbook(read);
     if (options.isJson) {
         Value document{Value::Object{}};
         document.set("valid", isValid);

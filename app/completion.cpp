@@ -10,6 +10,7 @@
 #include "app/report.hpp"
 #include "engine/core/text.hpp"
 #include "engine/study/catalogues.hpp"
+#include "ui/shell/handbook_pages.hpp"
 
 namespace extremal::app {
 namespace {
@@ -36,6 +37,11 @@ std::vector<std::string> wordsOf(const std::string& verb, const std::string& nam
     if (name == "SCENE") return idsIn("presets", "preset:");
     if (name == "SHELL") return {"bash", "zsh", "fish"};
     if (name == "KIND") return verb == "list" ? catalogueNames() : with(idsIn("studies"), "merge");
+    if (name == "PAGE") {
+        std::vector<std::string> pages;
+        for (const QString& page : handbookPages()) pages.push_back(page.toStdString());
+        return pages;
+    }
     if (name == "--view") return with(idsIn("views"), "all");
     if (name == "--format") return {"md", "html", "tex"};
     if (name == "--language") return {"cpp", "python"};

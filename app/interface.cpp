@@ -202,6 +202,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>>& examples() 
           "extremal check preset:kepler --set '/schemes/-={\"scheme\": \"galerkin-gauss-4\", \"step\": "
           "0.2}'"}},
         {"list", {"extremal list schemes", "extremal list models --json"}},
+        {"handbook", {"extremal handbook", "extremal handbook multiscale#resonances"}},
         {"study",
          {"extremal study convergence preset:pendulum --repeat 0 --out orders",
           "extremal study cheapest preset:pendulum --error 1e-4 --repeat 1 --out cheapest",
@@ -249,6 +250,11 @@ std::unique_ptr<CLI::App> makeInterface(Arguments& arguments) {
             "profiles or presets")
         ->type_name("");
     addCommon(list, arguments.common);
+    CLI::App& handbook =
+        addVerb(app, arguments, "handbook", "a page of the handbook, or a section of it", false);
+    handbook.add_option("PAGE", arguments.kind, "its name, or PAGE#HEADING; by default the list of pages")
+        ->type_name("");
+    addCommon(handbook, arguments.common);
     addStudy(app, arguments);
     addAtlas(app, arguments);
     addWisdom(app, arguments);

@@ -40,6 +40,7 @@ int dispatch(int argc, char** argv) {
     if (arguments->verb == "program")
         return programVerb(arguments->scene, arguments->program, arguments->common);
     if (arguments->verb == "check") return checkVerb(arguments->scene, arguments->common);
+    if (arguments->verb == "handbook") return handbookVerb(arguments->kind, arguments->common);
     if (arguments->verb == "list") return listVerb(arguments->kind, arguments->common);
     if (arguments->verb == "snapshot")
         return snapshotVerb(arguments->scene, arguments->snapshot, arguments->common);

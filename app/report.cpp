@@ -8,6 +8,7 @@
 
 #include "app/verbs.hpp"
 #include "engine/core/text.hpp"
+#include "engine/scene/topics.hpp"
 
 namespace extremal::app {
 
@@ -68,6 +69,7 @@ Value problemsValue(const std::vector<Problem>& problems) {
         problem.set("pointer", p.pointer);
         problem.set("message", p.message);
         problem.set("hint", p.hint);
+        problem.set("handbook", handbookPlace(p));
         all.push_back(problem);
     }
     return all;

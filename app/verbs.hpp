@@ -69,6 +69,8 @@ int passportVerb(const std::string& scene, const PassportRequest& request, const
 int programVerb(const std::string& scene, const ProgramRequest& request, const CommonOptions& options);
 int checkVerb(const std::string& scene, const CommonOptions& options);
 int listVerb(const std::string& kind, const CommonOptions& options);
+/// A page of the handbook or a section of it ("scenes#views"); empty: the pages there are.
+int handbookVerb(const std::string& place, const CommonOptions& options);
 int wisdomVerb(const WisdomOptions& wisdom, const CommonOptions& options);
 int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions& options);
 int studyVerb(const std::string& scene, const StudyOptions& study, const CommonOptions& options);

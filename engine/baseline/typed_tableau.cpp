@@ -200,7 +200,7 @@ void warnOfDigits(const Tableau& t, int order, const char* key, Findings& findin
                      "has order " + std::to_string(order) + ", and nearly " + std::to_string(nearly) +
                          ": the condition of the tree " + worst->tree + " holds to " +
                          formatNumber(static_cast<double>(abs(worst->residual)), 2) + " only",
-                     "more digits, or fractions such as \"1/6\"");
+                     "more digits, or fractions such as \"1/6\"", {}, "order-conditions");
 }
 
 MemoCache<Settings, std::shared_ptr<const Tableau>>& tables() {
@@ -252,7 +252,7 @@ void examine(const Settings& settings, bool isSplitting, Findings& findings) {
         if (order < 1)
             findings.error(isSplitting ? "/baseline/kicks" : "/baseline/b",
                            "has order 0: the sum is not 1 to round-off",
-                           "more digits, or fractions such as \"1/6\"");
+                           "more digits, or fractions such as \"1/6\"", "order-conditions");
         warnOfDigits(*t, order, key, findings);
         if (isSplitting || !valueAt(settings, "c")) return;
         const Tableau::Vector sums = t->Ahat.rowwise().sum();
@@ -263,7 +263,7 @@ void examine(const Settings& settings, bool isSplitting, Findings& findings) {
                                      ", and its row sums to " +
                                      formatNumber(static_cast<double>(sums(i)), 10) +
                                      ": where the Lagrangian depends on time the order is 1",
-                                 "leave c out: nodes are the sums of the rows");
+                                 "leave c out: nodes are the sums of the rows", {}, "order-conditions");
     } catch (const InvalidScene& e) {
         findings.errors.insert(findings.errors.end(), e.problems().begin(), e.problems().end());
     }

@@ -28,8 +28,12 @@ void checkReferenceFile(ReadScene& read, const std::string& folder, const std::v
     const bool mayRead = isTrusted || setsReference(overrides);
     try {
         if (const std::string file = fileOutside(read.scene, folder); !mayRead && !file.empty())
-            throw InvalidScene("/reference/path", "lies outside the folder of the scene: " + file,
-                               "put the file beside the scene, or allow it with --trust");
+            throw InvalidScene({Problem{"/reference/path",
+                                        "lies outside the folder of the scene: " + file,
+                                        "put the file beside the scene, or allow it with --trust",
+                                        {},
+                                        {},
+                                        "strangers"}});
         (void)makeReference(*read.resolved, {});
     } catch (const InvalidScene& e) {
         read.errors = e.problems();

@@ -67,7 +67,7 @@ void checkStability(Reader& reader, const SchemeCase& scheme, const Family* fami
                    formatNumber(h) + " is beyond the linear stability limit " + formatNumber(limit, 3) +
                        ": step times frequency may be at most " + formatNumber(stabilityLimit, 3) +
                        ", and the highest frequency at the start is " + formatNumber(frequency, 3),
-                   "a smaller step, or another scheme");
+                   "a smaller step, or another scheme", {}, "stability-limit");
 }
 
 /// A rule with fewer nodes than it would have by itself, which costs the discretization its order.
@@ -76,10 +76,10 @@ void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const Properties& 
     const Settings usual = completeQuadrature(scheme.space, {scheme.quadrature.type, {}, {}});
     if (const Value* nodes = usual.find("nodes"); !nodes || !nodes->isNumber()) {
         reader.warning(pointer + "/quadrature", "falls short: " + properties.shortfall,
-                       "gauss has the order of the space");
+                       "gauss has the order of the space", {}, "few-nodes");
     } else if (scheme.quadrature.integer("nodes") < usual.integer("nodes")) {
         reader.warning(pointer + "/quadrature/nodes", "falls short: " + properties.shortfall,
-                       "usual are " + std::to_string(usual.integer("nodes")));
+                       "usual are " + std::to_string(usual.integer("nodes")), {}, "few-nodes");
     }
 }
 
@@ -87,12 +87,12 @@ void warnOfFewNodes(Reader& reader, const SchemeSpec& scheme, const Properties& 
 bool checkDiscretization(Reader& reader, const SchemeSpec& scheme, const Properties& properties,
                          const std::string& pointer) {
     if (!properties.place.empty()) {
-        reader.error(pointer + properties.place, properties.refusal, properties.hint);
+        reader.error(pointer + properties.place, properties.refusal, properties.hint, "refused");
         return false;
     }
     if (!properties.refusal.empty()) {
         reader.error(pointer, "unsupported combination: " + properties.refusal,
-                     properties.hint.empty() ? "another quadrature, or auto" : properties.hint);
+                     properties.hint.empty() ? "another quadrature, or auto" : properties.hint, "refused");
         return false;
     }
     if (properties.stabilityLimit <= 0 && !scheme.allowsUnstable) {
@@ -101,7 +101,8 @@ bool checkDiscretization(Reader& reader, const SchemeSpec& scheme, const Propert
                      "is unstable for every step" +
                          (reason.empty() ? ", even on the harmonic oscillator" : ": " + reason),
                      (properties.hint.empty() ? "another quadrature" : properties.hint) +
-                         ", or \"allow_unstable\": true");
+                         ", or \"allow_unstable\": true",
+                     "refused");
         return false;
     }
     if (!properties.shortfall.empty() && scheme.kind == SchemeSpec::Kind::discretization)
@@ -133,13 +134,13 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
         reader.warning(pointer,
                        "will take about " + durationText(seconds) + " of computing, to within a factor of " +
                            formatNumber(predictedWithin),
-                       "a larger step, or an earlier end");
+                       "a larger step, or an earlier end", {}, "duration");
 }
 
 void report(Reader& reader, const std::string& pointer, const Findings& findings) {
-    for (const Problem& p : findings.errors) reader.error(pointer + p.pointer, p.message, p.hint);
+    for (const Problem& p : findings.errors) reader.error(pointer + p.pointer, p.message, p.hint, p.topic);
     for (const Problem& p : findings.warnings)
-        reader.warning(pointer + p.pointer, p.message, p.hint, p.remedy);
+        reader.warning(pointer + p.pointer, p.message, p.hint, p.remedy, p.topic);
 }
 
 /// Of its family or its baseline, what stands against its step.
@@ -171,7 +172,7 @@ void checkTangent(Reader& reader, const Scene& scene, const Integrator& integrat
         reader.warning(pointer,
                        "has no tangent map: " + integrator.tangentProblem() +
                            "; these columns stay empty for it: " + joinNames(lacking),
-                       "another scheme, or do not observe them");
+                       "another scheme, or do not observe them", {}, "tangent-map");
 }
 
 /// Local errors, where they are observed and the scheme has none.
@@ -185,7 +186,7 @@ void checkLocalErrors(Reader& reader, const Scene& scene, const ResolvedScheme& 
     if (isWanted && !problem.empty() && integrator.tangentSize() > 0)
         reader.warning(pointer,
                        "has no local errors: it has " + problem + "; their columns stay empty for it",
-                       "another scheme, or do not observe them");
+                       "another scheme, or do not observe them", {}, "local-errors");
 }
 
 /// What is observed on the way back from the end, where the scheme has none.
@@ -197,7 +198,7 @@ void checkWayBack(Reader& reader, const Scene& scene, const ResolvedScheme& sche
             reader.warning(
                 pointer,
                 "chooses its steps, and " + id + " needs the same steps backwards: its column stays empty",
-                "a scheme with a fixed step, or do not observe it");
+                "a scheme with a fixed step, or do not observe it", {}, "way-back");
 }
 
 /// The makers know best what they cannot do.
@@ -214,7 +215,7 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
             checkStep(reader, scene, scheme, pointer);
         });
     } catch (const InvalidScene& e) {
-        for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint);
+        for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint, p.topic);
         return;
     }
     if (reader.errors.empty()) checkCost(reader, scene, scheme, pointer);
@@ -251,7 +252,7 @@ void checkCompanion(Reader& reader, const ResolvedScene& scene, const ResolvedSc
                        "has an error bar that is open from the start: its step is " +
                            formatNumber(turned, 2) +
                            " rad of the fastest motion, which neither it nor its companion needs to follow",
-                       "use \"auto\" as the reference");
+                       "use \"auto\" as the reference", {}, "error-bars");
 }
 
 /// A scheme without a companion has no error bar, which is a warning as long as another has one.
@@ -266,8 +267,9 @@ void checkCompanions(Reader& reader, const ResolvedScene& scene, const std::vect
     }
     const bool isRefused = lacking.size() >= enabled;
     for (const Problem& p : lacking)
-        isRefused ? reader.error(p.pointer, p.message, p.hint)
-                  : reader.warning(p.pointer, p.message + "; there is no error bar for it", p.hint);
+        isRefused ? reader.error(p.pointer, p.message, p.hint, "error-bars")
+                  : reader.warning(p.pointer, p.message + "; there is no error bar for it", p.hint, {},
+                                   "error-bars");
 }
 
 /// The state at the start. False: the system cannot start from the initial data.

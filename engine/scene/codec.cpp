@@ -7,6 +7,7 @@
 #include "engine/scene/lesson_steps.hpp"
 #include "engine/scene/overrides.hpp"
 #include "engine/scene/read_parts.hpp"
+#include "engine/scene/topics.hpp"
 
 namespace extremal {
 namespace {
@@ -63,11 +64,15 @@ ReadScene readParts(const Value& document, const std::string& directory) {
 }
 
 ReadScene readDocument(const Value& document, const std::string& directory) {
+    ReadScene result;
     try {
-        return contained("", [&] { return readParts(document, directory); });
+        result = contained("", [&] { return readParts(document, directory); });
     } catch (const InvalidScene& e) {
-        return {{}, e.problems(), {}};
+        result.errors = e.problems();
     }
+    nameTopics(result.errors, document);
+    nameTopics(result.warnings, document);
+    return result;
 }
 
 }  // namespace

@@ -51,4 +51,19 @@ std::optional<std::size_t> arrayIndex(std::string_view token) {
     return index;
 }
 
+const Value* childOf(const Value& parent, std::string_view token) {
+    if (!parent.isArray()) return parent.find(token);
+    const auto index = arrayIndex(token);
+    return index && *index < parent.asArray().size() ? &parent.asArray()[*index] : nullptr;
+}
+
+const Value* valueAt(const Value& root, std::string_view pointer) {
+    const auto tokens = splitPointer(pointer);
+    if (!tokens) return nullptr;
+    const Value* place = &root;
+    for (const std::string& token : *tokens)
+        if (!(place = childOf(*place, token))) return nullptr;
+    return place;
+}
+
 }  // namespace extremal

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/core/value.hpp"
+
 namespace extremal {
 
 /// Appends "/token", escaped.
@@ -21,5 +23,10 @@ std::optional<std::vector<std::string>> splitPointer(std::string_view pointer);
 
 /// An array index: digits only, no leading zero; empty otherwise.
 std::optional<std::size_t> arrayIndex(std::string_view token);
+
+/// The member or element that a token names, or null.
+const Value* childOf(const Value& parent, std::string_view token);
+/// The value at a place, or null.
+const Value* valueAt(const Value& root, std::string_view pointer);
 
 }  // namespace extremal

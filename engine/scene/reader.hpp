@@ -42,8 +42,10 @@ public:
     Settings model;                ///< as read; no type: it is wrong
     bool hasUnknownModel = false;  ///< no name can be judged
 
-    void error(std::string pointer, std::string message, std::string hint = {});
-    void warning(std::string pointer, std::string message, std::string hint = {}, Value remedy = {});
+    /// `topic`: that of Problem.
+    void error(std::string pointer, std::string message, std::string hint = {}, std::string topic = {});
+    void warning(std::string pointer, std::string message, std::string hint = {}, Value remedy = {},
+                 std::string topic = {});
 
     /// Each returns an empty result after recording an error.
     std::optional<Number> number(const Value& value, const std::string& pointer, const Limits& limits);

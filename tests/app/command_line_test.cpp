@@ -83,6 +83,33 @@ private slots:
         QVERIFY(rows[11].startsWith("1,"));
     }
 
+    void checkNamesThePagesThatExplain() {
+        const QStringList near{"check", "preset:multiscale",     "--set", "/model/k=1e6",
+                               "--set", "/schemes/0/step=0.2008"};
+        const Answer a = extremal(near);
+        QCOMPARE(a.code, 0);
+        QVERIFY2(a.err.contains("explained in the handbook: multiscale#resonances"), qPrintable(a.err));
+        const QJsonArray warnings =
+            QJsonDocument::fromJson(extremal(near + QStringList{"--json"}).out.toUtf8())["warnings"]
+                .toArray();
+        QVERIFY(!warnings.isEmpty());
+        QCOMPARE(warnings[0]["handbook"].toString(), QString("multiscale#resonances"));
+        QVERIFY(!extremal({"check", "preset:kepler"}).err.contains("handbook"));
+    }
+
+    void handbookPrintsPagesAndSections() {
+        const QString pages = extremal({"handbook"}).out;
+        QVERIFY(pages.contains("multiscale") && pages.contains("A five-minute tour"));
+        const Answer section = extremal({"handbook", "multiscale#resonances"});
+        QCOMPARE(section.code, 0);
+        QVERIFY(section.out.startsWith("## Resonances\n") && !section.out.contains("## The same in space"));
+        QVERIFY(extremal({"handbook", "tour"}).out.size() > 1000);
+        const Answer wrong = extremal({"handbook", "multiscale#resonance"});
+        QCOMPARE(wrong.code, 2);
+        QVERIFY2(wrong.err.contains("multiscale#resonances"), qPrintable(wrong.err));
+        QCOMPARE(extremal({"handbook", "turo"}).code, 2);
+    }
+
     void rerunningTheResolvedSceneGivesTheSameBytes() {
         QTemporaryDir dir;
         QCOMPARE(extremal({"run", "preset:spring-pendulum", "--set", "/time/end=1", "--quiet", "--out",

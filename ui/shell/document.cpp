@@ -2,23 +2,15 @@
 
 #include <algorithm>
 
-#include "engine/scene/pointer.hpp"
-
 namespace extremal {
 
 namespace {
-
-const Value* child(const Value& parent, const std::string& token) {
-    if (!parent.isArray()) return parent.find(token);
-    const auto index = arrayIndex(token);
-    return index && *index < parent.asArray().size() ? &parent.asArray()[*index] : nullptr;
-}
 
 /// The child to write into, made where an object lacks it; null where it cannot be.
 Value* childToWrite(Value& parent, const std::string& token) {
     if (parent.isArray()) {
         if (token == "-") return &parent.asArray().emplace_back();
-        return const_cast<Value*>(child(parent, token));
+        return const_cast<Value*>(childOf(parent, token));
     }
     if (!parent.isObject() && !parent.isNull()) return nullptr;
     if (Value* there = parent.find(token)) return there;
@@ -44,23 +36,14 @@ void apply(Value& root, const Edit& edit) {
     }
     Value* place = &root;
     for (std::size_t i = 0; i + 1 < tokens->size() && place; ++i)
-        place =
-            edit.value ? childToWrite(*place, (*tokens)[i]) : const_cast<Value*>(child(*place, (*tokens)[i]));
+        place = edit.value ? childToWrite(*place, (*tokens)[i])
+                           : const_cast<Value*>(childOf(*place, (*tokens)[i]));
     if (!place) return;
     if (!edit.value) return removeChild(*place, tokens->back());
     if (Value* target = childToWrite(*place, tokens->back())) *target = *edit.value;
 }
 
 }  // namespace
-
-const Value* valueAt(const Value& root, std::string_view pointer) {
-    const auto tokens = splitPointer(pointer);
-    if (!tokens) return nullptr;
-    const Value* place = &root;
-    for (const std::string& token : *tokens)
-        if (!(place = child(*place, token))) return nullptr;
-    return place;
-}
 
 Value withEdits(Value root, const std::vector<Edit>& edits) {
     for (const Edit& edit : edits) apply(root, edit);

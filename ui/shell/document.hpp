@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/core/value.hpp"
+#include "engine/scene/pointer.hpp"
 
 namespace extremal {
 
@@ -17,9 +18,6 @@ struct Edit {
     std::string pointer;  ///< "/schemes/-" appends
     std::optional<Value> value;
 };
-
-/// The value at a place, or null.
-const Value* valueAt(const Value& root, std::string_view pointer);
 
 /// The tree with the edits made, from the first to the last. Objects on the way are created; an edit whose
 /// place cannot exist (an index beyond the end, a member of a number) changes nothing.

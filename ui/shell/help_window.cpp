@@ -1,7 +1,6 @@
 #include "ui/shell/help_window.hpp"
 
 #include <QDesktopServices>
-#include <QFile>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -18,28 +17,13 @@
 
 #include "engine/scene/preset.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/shell/handbook_pages.hpp"
 #include "ui/shell/typeset.hpp"
 
 namespace extremal {
 namespace {
 
-QString pageText(const QString& page) {
-    QFile file(QStringLiteral(":/handbook/%1.md").arg(page));
-    return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
-}
-
 bool isPreset(const QString& id) { return findPreset(id.toStdString()) != nullptr; }
-
-/// "A heading, with words" -> "a-heading-with-words".
-QString anchorOf(const QString& heading) {
-    QString anchor;
-    for (const QChar c : heading.toLower())
-        if (c.isLetterOrNumber())
-            anchor += c;
-        else if ((c == ' ' || c == '-') && !anchor.endsWith('-'))
-            anchor += '-';
-    return anchor;
-}
 
 /// Replaces what a pattern finds outside fenced code.
 template <class Change>
@@ -140,14 +124,10 @@ HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
     text_->setSearchPaths({QStringLiteral(":/handbook")});  // of pictures
     row->addWidget(side);
     row->addWidget(text_, 1);
-    const auto add = [this](const QString& page) {
-        const QString title = pageText(page).section('\n', 0, 0).remove('#').trimmed();
+    for (const QString& page : handbookPages()) {
+        const QString title = handbookPage(page).section('\n', 0, 0).remove('#').trimmed();
         if (!title.isEmpty()) (new QListWidgetItem(title, pages_))->setData(Qt::UserRole, page);
-    };
-    add(QStringLiteral("index"));
-    static const QRegularExpression pageLink(QStringLiteral(R"(\]\(([\w-]+)\.md\))"));
-    for (const QRegularExpressionMatch& match : pageLink.globalMatch(pageText(QStringLiteral("index"))))
-        add(match.captured(1));
+    }
     connect(pages_, &QListWidget::itemClicked, this,
             [this](QListWidgetItem* item) { goTo(item->data(Qt::UserRole).toString()); });
     connect(pages_, &QListWidget::itemActivated, this,
@@ -172,7 +152,7 @@ QString HelpWindow::page() const {
 void HelpWindow::showPage(const QString& page) {
     for (int i = 0; i < pages_->count(); ++i)
         if (pages_->item(i)->data(Qt::UserRole).toString() == page) pages_->setCurrentRow(i);
-    showMarkdown(*text_, withPresetLinks(pageText(page)));
+    showMarkdown(*text_, withPresetLinks(handbookPage(page)));
     back_->setEnabled(at_ > 0);
     forward_->setEnabled(at_ + 1 < static_cast<int>(places_.size()));
 }
@@ -183,7 +163,7 @@ void HelpWindow::leave() {
 
 void HelpWindow::goTo(const QString& place) {
     const QString name = place.section('#', 0, 0), heading = place.section('#', 1);
-    if (pageText(name).isEmpty()) return;
+    if (handbookPage(name).isEmpty()) return;
     if (name != page()) {
         leave();
         places_.resize(static_cast<std::size_t>(at_ + 1));
@@ -193,7 +173,7 @@ void HelpWindow::goTo(const QString& place) {
     }
     for (QTextBlock block = text_->document()->begin(); block.isValid() && !heading.isEmpty();
          block = block.next())
-        if (block.blockFormat().headingLevel() > 0 && anchorOf(block.text()) == heading) {
+        if (block.blockFormat().headingLevel() > 0 && handbookAnchor(block.text()) == heading) {
             text_->setTextCursor(QTextCursor(block));
             text_->verticalScrollBar()->setValue(text_->verticalScrollBar()->value() +
                                                  text_->cursorRect().top());
@@ -243,7 +223,8 @@ void HelpWindow::filter() {
     const QStringList words = search_->text().toLower().split(' ', Qt::SkipEmptyParts);
     QStringList found;
     for (int i = 0; i < pages_->count(); ++i) {
-        const QString name = pages_->item(i)->data(Qt::UserRole).toString(), text = pageText(name).toLower();
+        const QString name = pages_->item(i)->data(Qt::UserRole).toString(),
+                      text = handbookPage(name).toLower();
         const bool has =
             std::all_of(words.begin(), words.end(), [&](const QString& word) { return text.contains(word); });
         pages_->item(i)->setHidden(!has);

@@ -166,7 +166,7 @@ void checkShortest(const SchemeCase& scheme, const SolvabilityForecast& found, F
                      "is " + formatNumber(least, 3) + ", and steps will be about " +
                          formatNumber(shortest, 2) + " near t = " + formatNumber(found.timeOfLargest, 3) +
                          ": shorter ones count as without a root",
-                     "the key hmin of the space, " + formatNumber(shortest / 2, 1));
+                     "the key hmin of the space, " + formatNumber(shortest / 2, 1), {}, "solvability");
 }
 
 void checkSolvability(const SchemeCase& scheme, Findings& findings) {
@@ -179,7 +179,7 @@ void checkSolvability(const SchemeCase& scheme, Findings& findings) {
                                 "round-off, from t = " +
                                     formatNumber(scheme.initial.t, 3) + " to " +
                                     formatNumber(found->until, 3) + "; the run will refuse",
-                                "a fixed step: the space polynomial");
+                                "a fixed step: the space polynomial", {}, "step-density");
     constexpr double most = 0.05;
     if (found->unresolved > most)
         findings.warning("/step",
@@ -187,7 +187,7 @@ void checkSolvability(const SchemeCase& scheme, Findings& findings) {
                              " % of the motion up to t = " + formatNumber(found->until, 3) +
                              " the density of the local action error is below the round-off of the discrete "
                              "energy, which then hardly tells how long a step is",
-                         "a longer first step, or a lower degree");
+                         "a longer first step, or a lower degree", {}, "step-density");
     if (found->signChanges.empty() && found->unresolved <= most)
         return checkShortest(scheme, *found, findings);
     if (found->signChanges.empty()) return;
@@ -202,7 +202,8 @@ void checkSolvability(const SchemeCase& scheme, Findings& findings) {
                          policy + ": " + consequence(policy),
                      other > 0 ? "degree " + std::to_string(other) + ", whose density keeps its sign"
                      : policy == "reset" ? "a fixed step"
-                                         : "the policy reset, or a fixed step");
+                                         : "the policy reset, or a fixed step",
+                     {}, "solvability");
 }
 
 std::string adviceFor(Outcome outcome) {

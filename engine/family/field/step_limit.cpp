@@ -16,7 +16,7 @@ void checkFieldStep(const SpatialForm& form, double limit, const SchemeCase& sch
                    formatNumber(scheme.step) + " is beyond the stability limit " + formatNumber(largest, 4) +
                        " of " + name + " on this mesh of " + std::to_string(form.problem().mesh.elements()) +
                        " cells",
-                   "a smaller step, fewer cells, or \"allow_unstable\": true");
+                   "a smaller step, fewer cells, or \"allow_unstable\": true", "field-step");
 }
 
 }  // namespace extremal

@@ -139,7 +139,7 @@ void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
                          "makes the space and the rule unstable at the highest frequency at the start, " +
                              formatNumber(frequency, 3) + ": half the trace of a step is " +
                              formatNumber(trace, 4),
-                         "another step");
+                         "another step", {}, "stability-limit");
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {

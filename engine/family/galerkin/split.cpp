@@ -250,7 +250,8 @@ void warnOfBand(const Split& split, const std::vector<std::vector<Table<double>>
                          "is in a band of instability" + whose + ": with step times frequency " +
                              frequencies + ", half the trace of a step is " + formatNumber(trace, 4) +
                              ", beyond 1",
-                         "another step; degree 1 with the midpoint rule for the fast terms has no bands");
+                         "another step; degree 1 with the midpoint rule for the fast terms has no bands", {},
+                         "rule-per-term");
 }
 
 /// "b" alone changes under the rotation in the plane x-y: symmetries that a part does not have.
@@ -370,7 +371,8 @@ void checkSplit(const SchemeCase& scheme, Findings& findings) {
     const Split split = splitOf(scheme.system, scheme.discretization);
     for (const std::string& reason : lostSymmetries(scheme.discretization, scheme.system))
         findings.warning("/quadrature", "does not keep a momentum of the system: " + reason,
-                         "one rule for terms, and one space for coordinates, that belong together");
+                         "one rule for terms, and one space for coordinates, that belong together", {},
+                         "momentum");
     const Mechanics<double>& mechanics = scheme.system.mechanics();
     const auto d = mechanics.dimension;
     std::vector<double> v(static_cast<std::size_t>(d)), gradient(static_cast<std::size_t>(2 * d));

@@ -85,7 +85,7 @@ void checkRotation(const SchemeCase& scheme, Findings& findings) {
                          " rad per step initially: beyond " + formatNumber(limit, 3) +
                          " rad a scheme of degree " + std::to_string(degree) +
                          " may have a relative error of a thousandth or more",
-                     "a higher degree, or the step " + formatNumber(usual, 2), usual);
+                     "a higher degree, or the step " + formatNumber(usual, 2), usual, "body-step");
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {

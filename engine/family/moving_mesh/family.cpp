@@ -209,7 +209,8 @@ void checkConstraint(const SchemeCase& scheme, Findings& findings) {
                 "constraint. Either less than half of the variation of u is held by the values at the ends, "
                 "so that u may become flat, and a mesh that equidistributes it would have to become uniform "
                 "at once; or no mesh was found that equidistributes it",
-                "\"method\": \"explicit\", or \"fallback\": false for the constraint all the same");
+                "\"method\": \"explicit\", or \"fallback\": false for the constraint all the same", {},
+                "equidistribution");
         return;
     }
     if (monitor.kind == Monitor::Kind::arclength || scheme.allowsUnstable) return;
@@ -220,7 +221,7 @@ void checkConstraint(const SchemeCase& scheme, Findings& findings) {
             "with a mass of " +
                 formatNumber(mass, 2) +
                 " of that of a mean element (arclength: 0.1), and nothing holds it; the limit is 0.0003",
-            "arclength, fewer nodes, the method explicit, or \"allow_unstable\": true");
+            "arclength, fewer nodes, the method explicit, or \"allow_unstable\": true", "equidistribution");
 }
 
 std::string adviceFor(Outcome outcome) {

@@ -106,7 +106,7 @@ void checkResonance(const SchemeCase& scheme, Findings& findings) {
             " half periods of the fast motion, and only a fractional part from 0.1 to 0.5 is safe; "
             "conditioning of the step " +
             formatNumber(found->conditioning, 2) + ", at the next safe one " + formatNumber(found->usual, 2),
-        "the step " + formatNumber(found->near), found->near);
+        "the step " + formatNumber(found->near), found->near, "resonance");
 }
 
 /// Where a run has so many fast periods that to resolve them is dear: steps of many periods, which cost the

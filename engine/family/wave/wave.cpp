@@ -235,10 +235,11 @@ void checkWaveLimit(double limit, double frequency, double h, bool allowsUnstabl
                                 formatNumber(h * frequency, 4) + " per step, the limit is " +
                                 formatNumber(limit, 4);
     if (allowsUnstable)
-        findings.warning("/step", message);
+        findings.warning("/step", message, {}, {}, "three-levels");
     else
         findings.error("/step", message,
-                       "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true");
+                       "a smaller step, fewer modes, the one-step form, or \"allow_unstable\": true",
+                       "three-levels");
 }
 
 }  // namespace extremal
