@@ -27,6 +27,8 @@ public:
     Matrix<T> solve(Given<T> B) const;
     /// Smallest over largest pivot in magnitude: 0 where A is singular; not a number where A is not finite.
     auto pivotRatio() const -> decltype(Eigen::numext::abs(T()));
+    /// The sign of det A, real.
+    bool hasNegativeDeterminant() const requires std::is_floating_point_v<T>;
 
 private:
     Eigen::PartialPivLU<Matrix<T>> lu_;

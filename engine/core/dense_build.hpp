@@ -22,6 +22,12 @@ auto Lu<T>::pivotRatio() const -> decltype(Eigen::numext::abs(T())) {
 }
 
 template <class T>
+bool Lu<T>::hasNegativeDeterminant() const requires std::is_floating_point_v<T> {
+    const auto negative = (lu_.matrixLU().diagonal().array() < 0).count();
+    return (negative % 2 != 0) != (lu_.permutationP().determinant() < 0);
+}
+
+template <class T>
 Matrix<T> solve(Given<T> A, Given<T> B) {
     return Lu<T>(A).solve(B);
 }

@@ -99,14 +99,12 @@ void checkResonance(const SchemeCase& scheme, Findings& findings) {
     const auto found =
         resonanceOf(scheme.system, estimate(scheme.discretization, scheme.system, scheme.initial), h);
     if (!found) return;
-    findings.warning(
-        "/step",
-        formatNumber(h) + " may be near a resonance of the space: it has " +
-            formatNumber(2 * found->periods, 6) +
-            " half periods of the fast motion, and only a fractional part from 0.1 to 0.5 is safe; "
-            "conditioning of the step " +
-            formatNumber(found->conditioning, 2) + ", at the next safe one " + formatNumber(found->usual, 2),
-        "the step " + formatNumber(found->near), found->near, "resonance");
+    findings.warning("/step",
+                     formatNumber(h) + " is near a resonance of the space: at the step " +
+                         formatNumber(found->at, 4) +
+                         " the state at its start does not determine the curve, and errors grow nearby",
+                     found->near > 0 ? "the step " + formatNumber(found->near) : "another step",
+                     found->near > 0 ? Value(found->near) : Value(), "resonance");
 }
 
 /// Where a run has so many fast periods that to resolve them is dear: steps of many periods, which cost the

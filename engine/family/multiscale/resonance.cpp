@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "engine/core/dense.hpp"
 #include "engine/core/text.hpp"
@@ -11,8 +14,9 @@
 namespace extremal {
 namespace {
 
-/// Singular values of the step's system on L = (v^2 - z^2 q^2)/2 with h = 1, rows and columns scaled.
-double conditioningOf(const Table<double>& t, double z) {
+/// The system of a step for its unknowns, given (q_0, p_0), on L = (v^2 - z^2 q^2)/2 with h = 1, rows and
+/// columns scaled.
+Eigen::MatrixXd stepSystem(const Table<double>& t, double z) {
     const Eigen::MatrixXd weighted = t.weight.asDiagonal() * t.testValue;
     Eigen::MatrixXd A = t.testDerivative.transpose() * t.weight.asDiagonal() * t.derivative;
     A -= z * z * weighted.transpose() * t.value;
@@ -22,44 +26,102 @@ double conditioningOf(const Table<double>& t, double z) {
         const Eigen::VectorXd columns = A.colwise().norm().cwiseInverse();
         A = A * columns.asDiagonal();
     }
-    const Eigen::VectorXd s = dense::singularValues(A);
+    return A;
+}
+
+double conditioningOf(const Table<double>& t, double z) {
+    const Eigen::VectorXd s = dense::singularValues(stepSystem(t, z));
     return s(0) / s(s.size() - 1);
 }
 
-/// Distance into the next integer of z/pi, and whether it is safe.
-double fraction(double z) {
-    const double x = std::abs(z) / std::numbers::pi;
-    return x - std::floor(x);
+bool isFast(const System& system, int coordinate) {
+    const auto& fast = system.fast.coordinates;
+    return fast.empty() || std::find(fast.begin(), fast.end(), coordinate) != fast.end();
 }
-bool isSafe(const Phases<double>& z) {
-    return std::all_of(z.begin(), z.end(),
-                       [](double x) { return x == 0 || (fraction(x) >= 0.1 && fraction(x) <= 0.5); });
-}
-Phases<double> scaled(const Phases<double>& z, double factor) { return {z[0] * factor, z[1] * factor}; }
 
-/// The factor of the step next to 1 that makes it safe for all frequencies, in the middle of the safe part
-/// for one.
-double nearestSafe(const Phases<double>& z) {
-    const double faster = std::max(std::abs(z[0]), std::abs(z[1])) / std::numbers::pi;
-    if (z[1] == 0) {
-        const double base = std::floor(faster) + 0.3;
-        double best = base;
-        for (const double other : {base - 1, base + 1})
-            if (other > 0 && std::abs(faster - other) < std::abs(faster - best)) best = other;
-        return best / faster;
+/// Signs of the determinants of a step's systems: of fast coordinates, each as an oscillator, and of the
+/// others, each as a free particle. A singular step lies between two steps of different signs.
+struct Signs {
+    std::vector<bool> fast, others;
+};
+
+/// Signs at the steps h + n * spacing, computed when they are asked for.
+class StepLine {
+public:
+    /// Of half a period of the fastest motion.
+    static constexpr double spacing = 0.05;
+
+    StepLine(const System& system, const Discretization& discretization, double step)
+        : system_(system), discretization_(discretization), step_(step) {
+        const Phases<double> z = oscillatoryPhases(system, discretization.space, step);
+        const double fastest = std::max(std::abs(z[0]), std::abs(z[1])) / std::numbers::pi;
+        unit_ = fastest > 0 ? spacing * step / fastest : 0;
     }
-    for (int n = 1; n < 4000; ++n)
-        for (const double factor : {1 - 0.01 * n / faster, 1 + 0.01 * n / faster})
-            if (factor > 0 && isSafe(scaled(z, factor))) return factor;
-    return 1;
+    double unit() const { return unit_; }
+    double at(int n) const { return step_ + n * unit_; }
+
+    Signs signsOf(double step) const {
+        Signs signs;
+        const Phases<double> z = oscillatoryPhases(system_, discretization_.space, step);
+        const std::vector<Table<double>> tables = oscillatoryTables(system_, discretization_, step);
+        for (std::size_t k = 0; k < tables.size(); ++k) {
+            const auto isNegative = [&](double phase) {
+                return dense::Lu<double>(stepSystem(tables[k], phase)).hasNegativeDeterminant();
+            };
+            if (!isFast(system_, static_cast<int>(k)))
+                signs.others.push_back(isNegative(0));
+            else
+                for (const double phase : z)
+                    if (phase != 0) signs.fast.push_back(isNegative(phase));
+        }
+        return signs;
+    }
+
+    /// The places between which lies a singular step that is too near to the place n, if there is one. Errors
+    /// are ten times the usual ones up to 0.01 of half a period from those of fast coordinates, and up to 0.1
+    /// from those of the others, which are the more severe.
+    /// `margin`: so many places further, for a step that is to be suggested.
+    std::optional<std::pair<int, int>> singularNear(int n, int margin = 0) {
+        const int nearFast = 1 + margin, nearOthers = 2 + margin;
+        for (int i = n - nearOthers; i < n + nearOthers; ++i) {
+            const Signs &a = known(i), &b = known(i + 1);
+            const bool isInner = i >= n - nearFast && i < n + nearFast;
+            if (a.others != b.others || (isInner && a.fast != b.fast)) return std::pair(i, i + 1);
+        }
+        return {};
+    }
+
+private:
+    const Signs& known(int n) {
+        const auto found = known_.find(n);
+        return found != known_.end() ? found->second : known_.emplace(n, signsOf(at(n))).first->second;
+    }
+
+    const System& system_;
+    const Discretization& discretization_;
+    double step_, unit_ = 0;
+    std::map<int, Signs> known_;
+};
+
+/// The singular step between two places, by bisection to some digits.
+double locate(const StepLine& line, std::pair<int, int> places) {
+    double a = line.at(places.first), b = line.at(places.second);
+    const Signs before = line.signsOf(a);
+    for (int i = 0; i < 8; ++i) {
+        const double middle = (a + b) / 2;
+        const Signs signs = line.signsOf(middle);
+        (signs.fast == before.fast && signs.others == before.others ? a : b) = middle;
+    }
+    return (a + b) / 2;
 }
 
-/// The shortest decimal that is still safe.
-double fewDigits(double step, const Phases<double>& frequency) {
-    for (int digits = 2; digits < 17; ++digits)
-        if (const auto rounded = parseNumber(formatNumber(step, digits));
-            rounded && isSafe(scaled(frequency, *rounded)))
-            return *rounded;
+/// The shortest decimal that is still away from singular steps.
+double fewDigits(const System& system, const Discretization& discretization, double step, double tolerance) {
+    for (int digits = 2; digits < 17; ++digits) {
+        const auto rounded = parseNumber(formatNumber(step, digits));
+        if (!rounded || std::abs(*rounded - step) > tolerance) continue;
+        if (!StepLine(system, discretization, *rounded).singularNear(0, 1)) return *rounded;
+    }
     return step;
 }
 
@@ -82,14 +144,18 @@ double stepConditioning(const System& system, const Discretization& discretizati
 
 std::optional<Resonance> resonanceOf(const System& system, const Discretization& discretization,
                                      double step) {
-    if (!isOscillatory(discretization.space)) return {};
-    const Phases<double> z = oscillatoryPhases(system, discretization.space, step);
-    if (isSafe(z)) return {};
+    if (!isOscillatory(discretization.space) || !(step > 0)) return {};
+    StepLine line(system, discretization, step);
+    if (!(line.unit() > 0)) return {};
+    const auto singular = line.singularNear(0);
+    if (!singular) return {};
     Resonance r;
-    r.periods = std::max(std::abs(z[0]), std::abs(z[1])) / (2 * std::numbers::pi);
-    r.near = fewDigits(step * nearestSafe(z), scaled(z, 1 / step));
-    r.conditioning = stepConditioning(system, discretization, step);
-    r.usual = stepConditioning(system, discretization, r.near);
+    r.at = locate(line, *singular);
+    constexpr int farthest = 60;  // three half periods
+    for (int n = 1; n <= farthest && r.near == 0; ++n)
+        for (const int place : {-n, n})
+            if (r.near == 0 && line.at(place - 3) > 0 && !line.singularNear(place, 1))
+                r.near = fewDigits(system, discretization, line.at(place), line.unit());
     return r;
 }
 
