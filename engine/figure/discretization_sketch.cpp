@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/core/text.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
+#include "engine/figure/step_functions.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/space/typed.hpp"
@@ -40,33 +42,19 @@ void fitHeight(Figure& figure, double least = 0) {
 
 /// Curves of the functions or of their slopes, and at the nodes their values.
 void drawFunctions(Figure& figure, const Table<double>& table, bool areSlopes) {
-    const auto n = static_cast<std::size_t>(table.space.size);
-    std::vector<double> value(n), slope(n);
-    const auto m = static_cast<std::size_t>(table.unknowns());
-    std::vector<Series> curves(m), dots(m);
-    for (int i = 0; i <= curvePoints; ++i) {
-        const double tau = static_cast<double>(i) / curvePoints;
-        table.space.evaluate(tau, value, slope);
-        const Eigen::VectorXd phi =
-            table.change.transpose() *
-            Eigen::Map<const Eigen::VectorXd>((areSlopes ? slope : value).data(), table.space.size);
-        for (std::size_t a = 0; a < m; ++a) {
-            curves[a].x.push_back(tau);
-            curves[a].y.push_back(phi(static_cast<Eigen::Index>(a)));
-        }
-    }
     const auto& atNodes = areSlopes ? table.derivative : table.value;
-    for (std::size_t a = 0; a < m; ++a) {
-        const bool isLast = a + 1 == m;
-        curves[a].label = dots[a].label = isLast ? "from 0 to 1" : "inside " + std::to_string(a + 1);
-        curves[a].style = dots[a].style = static_cast<int>(a % 8);
-        dots[a].kind = SeriesKind::marks;
+    std::vector<Series> curves = stepFunctions(table, areSlopes);
+    for (std::size_t a = 0; a < curves.size(); ++a) {
+        Series dots;
+        curves[a].label = dots.label = std::exchange(curves[a].part, {});
+        curves[a].style = dots.style = static_cast<int>(a % 8);
+        dots.kind = SeriesKind::marks;
         for (int i = 0; i < table.nodes(); ++i) {
-            dots[a].x.push_back(table.node(i));
-            dots[a].y.push_back(atNodes(i, static_cast<Eigen::Index>(a)));
+            dots.x.push_back(table.node(i));
+            dots.y.push_back(atNodes(i, static_cast<Eigen::Index>(a)));
         }
         figure.add(std::move(curves[a]));
-        figure.add(std::move(dots[a]));
+        figure.add(std::move(dots));
     }
     fitHeight(figure);
     // Weights stand on the lower edge, the largest as high as a fifth of the figure.
@@ -131,15 +119,11 @@ void tellFacts(DiscretizationSketch& sketch, const ResolvedScheme& scheme, const
     else if (p.stabilityLimit > 0)
         facts.push_back("stable for h ω below " + small(p.stabilityLimit));
     if (table) {
-        const Eigen::VectorXd K = kineticValues(*table);
-        facts.push_back(std::to_string(table->space.size) + " functions, " + std::to_string(table->nodes()) +
-                        (table->nodes() == 1 ? " node" : " nodes"));
-        facts.push_back("K from " + small(K.minCoeff()) + " to " + small(K.maxCoeff()));
+        for (std::string& fact : stepFacts(*table, space)) facts.push_back(std::move(fact));
         std::string defects = "D(k)";
         for (const double d : consistencyDefects(*table, std::min(3, table->space.degree + 1)))
             defects += (defects == "D(k)" ? " " : ", ") + formatNumber(d, 1);
         facts.push_back(defects);
-        if (space.find("functions")) facts.push_back("σ " + small(typedSpace(space).sigma));
     }
     for (const std::string& remark : {p.shortfall, p.caution})
         if (!remark.empty()) sketch.remarks.push_back(remark);

@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QPointer>
 #include <QPushButton>
-#include <QScreen>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
@@ -17,8 +16,12 @@
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/scene/resolve.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/combo_box.hpp"
 #include "ui/panels/formula_edit.hpp"
+#include "ui/panels/problem_text.hpp"
+#include "ui/panels/tool_window.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/notices.hpp"
@@ -86,10 +89,7 @@ const char* const typedRuleKind = "nodes";
 
 OwnWindow::OwnWindow(Workspace& workspace, Notices& notices, const Theme& theme, QWidget* parent)
     : QWidget(parent, Qt::Window), workspace_(workspace), notices_(notices) {
-    setObjectName("ownScheme");
-    setWindowTitle(tr("Your own space and rule"));
-    setProperty("ground", "window");
-    resize(QSize(1080, 700).boundedTo(screen()->availableSize() - QSize(24, 48)));
+    setUpToolWindow(*this, "ownScheme", tr("Your own space and rule"), "own-space", {1080, 700});
     auto* layout = new QHBoxLayout(this);
     makeForm();
     auto* scroll = new QScrollArea;
@@ -125,8 +125,12 @@ void OwnWindow::makeForm() {
     column->setContentsMargins(4, 4, 8, 4);
     whose_ = makeElidedLabel({}, "title");
     column->addWidget(whose_);
+    example_ = makeLabel({}, "caption");
+    example_->setObjectName("ownExample");
+    example_->setWordWrap(true);
+    column->addWidget(example_);
     const auto addChoice = [&](const QString& caption, const char* name) {
-        auto* box = new QComboBox;
+        auto* box = new ComboBox;
         box->setObjectName(name);
         box->setAccessibleName(caption);
         box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -161,7 +165,7 @@ void OwnWindow::makeForm() {
     facts_->setObjectName("ownFacts");
     measured_ = makeLabel({}, "caption");
     measured_->setObjectName("ownMeasured");
-    problem_ = makeLabel({}, "problem");
+    problem_ = makeLinkLabel("problem");
     problem_->setObjectName("ownProblem");
     for (QLabel* label : {facts_, measured_, problem_}) {
         label->setWordWrap(true);
@@ -193,10 +197,15 @@ void OwnWindow::open() {
     index_ =
         std::clamp(workspace_.selectedScheme(), 0, static_cast<int>(workspace_.scene().schemes.size()) - 1);
     original_ = workspace_.document().find("schemes")->asArray()[static_cast<std::size_t>(index_)];
+    const SchemeSpec& spec = workspace_.scene().schemes[static_cast<std::size_t>(index_)];
+    written_ = writtenScheme(spec);
+    // Of a scheme with a name, what it stands for.
+    if (const ResolvedScheme resolved = resolve(spec); resolved.plain() && !original_.find("space")) {
+        const Value pair = newPair(workspace_.scene(), resolved.plain()->space, resolved.plain()->quadrature);
+        for (const char* part : {"space", "quadrature"}) original_.set(part, *pair.find(part));
+    }
     fill();
-    QWidget::show();
-    raise();
-    activateWindow();
+    bringToFront(*this);
     changed();
 }
 
@@ -212,7 +221,9 @@ void OwnWindow::fill() {
     if (space && !isTyped)
         space_->addItem(tr("that of the scheme: %1").arg(textOf(*space->find("type"))), "scheme");
     space_->setCurrentIndex(space_->count() - 1);
-    functions_->setPlainText(isTyped && space ? textOf(space->find("functions")) : "1\ntau\ntau^2\ntau^3");
+    isSpaceWritten_ = (isTyped && space) || written_.hasFunctions;
+    functions_->setPlainText(isTyped && space ? textOf(space->find("functions"))
+                                              : QString::fromStdString(written_.functions));
     names_->setPlainText(isTyped && space ? textOf(space->find("let")) : QString());
     knots_->setPlainText(isTyped && space ? textOf(space->find("knots")) : QString());
     const Value* const type = quadrature ? quadrature->find("type") : nullptr;
@@ -224,8 +235,11 @@ void OwnWindow::fill() {
                        "scheme");
     if (!isOwnRule) rule_->addItem(tr("automatic"), "auto");
     rule_->setCurrentIndex(isOwnRule ? 0 : 1);
-    nodes_->setPlainText(isOwnRule ? textOf(quadrature->find("nodes")) : "(3-sqrt(3))/6\n(3+sqrt(3))/6");
-    weights_->setPlainText(isOwnRule ? textOf(quadrature->find("weights")) : QString());
+    isRuleWritten_ = isOwnRule || written_.hasNodes;
+    nodes_->setPlainText(isOwnRule ? textOf(quadrature->find("nodes"))
+                                   : QString::fromStdString(written_.nodes));
+    weights_->setPlainText(isOwnRule ? textOf(quadrature->find("weights"))
+                                     : QString::fromStdString(written_.weights));
     isFilling_ = false;
 }
 
@@ -267,6 +281,12 @@ void OwnWindow::changed() {
             edit->setVisible(areVisible);
         }
     };
+    const bool isExample = (ownSpace && !isSpaceWritten_) || (ownRule && !isRuleWritten_);
+    example_->setVisible(isExample);
+    example_->setText(ownSpace && !isSpaceWritten_
+                          ? tr("The functions are an example: those of %1 cannot be written as one list.")
+                                .arg(whose_->text())
+                          : tr("The nodes are an example: %1 has no one rule.").arg(whose_->text()));
     setVisible(ofSpace_, ownSpace);
     setVisible(ofRule_, ownRule);
     isCurrent_ = false;
@@ -309,10 +329,8 @@ void OwnWindow::show(DiscretizationSketch sketch, const QString& measured, bool 
     const bool isSound = sketch_.errors.empty();
     QStringList problems;
     for (const Problem& p : sketch_.errors) {
-        QString line = QString::fromStdString(p.pointer).remove(QStringLiteral("/schemes/0")) + ": " +
-                       QString::fromStdString(p.message);
-        if (!p.hint.empty()) line += " (" + QString::fromStdString(p.hint) + ")";
-        problems << line.toHtmlEscaped();
+        problems << problemText(
+            p, QString::fromStdString(p.pointer).remove(QStringLiteral("/schemes/0")) + ": ");
     }
     problem_->setText(problems.join("<br>"));
     problem_->setVisible(!isSound);

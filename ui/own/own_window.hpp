@@ -14,6 +14,7 @@
 
 #include "engine/core/value.hpp"
 #include "engine/figure/discretization_sketch.hpp"
+#include "engine/inspect/written_scheme.hpp"
 
 class QComboBox;
 class QLabel;
@@ -33,7 +34,7 @@ class OwnWindow : public QWidget {
 public:
     OwnWindow(Workspace& workspace, Notices& notices, const Theme& theme, QWidget* parent = nullptr);
     ~OwnWindow() override;
-    /// Shows the selected scheme; of one that is no discretization, functions and nodes to begin with.
+    /// Shows the selected scheme, written down where that can be; else an example, which says so.
     void open();
     void setTheme(const Theme& theme);
     /// What is typed, as a scheme of the scene.
@@ -59,7 +60,7 @@ private:
     Workspace& workspace_;
     Notices& notices_;
     QWidget* form_;
-    QLabel *whose_, *facts_, *measured_, *problem_;
+    QLabel *whose_, *example_, *facts_, *measured_, *problem_;
     QComboBox *space_, *rule_;
     FormulaEdit *functions_, *names_, *knots_, *nodes_, *weights_;
     QPushButton *apply_, *keep_;
@@ -68,10 +69,11 @@ private:
     std::vector<std::pair<QLabel*, FormulaEdit*>> ofSpace_, ofRule_;  ///< fields with their captions
     QTimer delay_;
     Value original_;  ///< the scheme as the scene has it
+    WrittenScheme written_;
     int index_ = -1;
     DiscretizationSketch sketch_;
     std::stop_source stop_{std::nostopstate};
-    bool isCurrent_ = false, isFilling_ = false;
+    bool isCurrent_ = false, isFilling_ = false, isSpaceWritten_ = false, isRuleWritten_ = false;
 };
 
 }  // namespace extremal

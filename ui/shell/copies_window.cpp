@@ -11,6 +11,7 @@
 
 #include "engine/inspect/separation.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/tool_window.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/playback.hpp"
@@ -21,12 +22,7 @@ namespace extremal {
 
 CopiesWindow::CopiesWindow(Workspace& workspace, Playback& playback, const Theme& theme, QWidget* parent)
     : QWidget(parent, Qt::Window), workspace_(workspace), playback_(playback) {
-    setObjectName("copies");
-    setWindowTitle(tr("Perturb and watch"));
-    setProperty("ground", "window");
-    setProperty("help", "observables");
-    setAttribute(Qt::WA_StyledBackground);
-    resize(900, 820);
+    setUpToolWindow(*this, "copies", tr("Perturb and watch"), "structure#regular-or-chaotic", {900, 820});
     auto* column = new QVBoxLayout(this);
     auto* row = new QHBoxLayout;
     title_ = makeElidedLabel({}, "heading", this);
@@ -61,9 +57,7 @@ CopiesWindow::CopiesWindow(Workspace& workspace, Playback& playback, const Theme
 }
 
 void CopiesWindow::open() {
-    QWidget::show();
-    raise();
-    activateWindow();
+    bringToFront(*this);
     compute();
 }
 

@@ -16,6 +16,7 @@
 #include "engine/core/text.hpp"
 #include "engine/inspect/step_inspection.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/tool_window.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/playback.hpp"
@@ -33,11 +34,8 @@ constexpr int plotsInRow = 2, plotHeight = 230, pauseMs = 150;
 InspectorWindow::InspectorWindow(Workspace& workspace, RunControl& run, Playback& playback,
                                  const Theme& theme, QWidget* parent)
     : QWidget(parent, Qt::Window), workspace_(workspace), run_(run), playback_(playback), theme_(theme) {
-    setObjectName("inspector");
-    setProperty("ground", "window");
-    setAttribute(Qt::WA_StyledBackground);
-    setProperty("help", "schemes");
-    resize(1280, 820);
+    setUpToolWindow(*this, "inspector", tr("One step"), "framework#element-by-element-or-node-by-node",
+                    {1280, 820});
     auto* layout = new QVBoxLayout(this);
     title_ = makeLabel({}, "heading", this);
     layout->addWidget(title_);
@@ -74,9 +72,7 @@ InspectorWindow::InspectorWindow(Workspace& workspace, RunControl& run, Playback
 InspectorWindow::~InspectorWindow() { stop_.request_stop(); }
 
 void InspectorWindow::open() {
-    QWidget::show();
-    raise();
-    activateWindow();
+    bringToFront(*this);
     inspect();
 }
 

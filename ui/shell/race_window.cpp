@@ -12,6 +12,7 @@
 #include "ui/panels/card.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/seek_slider.hpp"
+#include "ui/panels/tool_window.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/stage/stage_widget.hpp"
 
@@ -24,12 +25,7 @@ constexpr int tickMs = 33, wholeMs = 10000, fine = 1000;
 
 RaceWindow::RaceWindow(RunControl& run, const Theme& theme, QWidget* parent)
     : QWidget(parent, Qt::Window), run_(run), theme_(theme) {
-    setObjectName("race");
-    setWindowTitle(tr("Race"));
-    setProperty("ground", "window");
-    setProperty("help", "studies");
-    setAttribute(Qt::WA_StyledBackground);
-    resize(1200, 800);
+    setUpToolWindow(*this, "race", tr("Race"), "studies", {1200, 800});
     auto* column = new QVBoxLayout(this);
     auto* row = new QHBoxLayout;
     play_ = new QPushButton(tr("Start"), this);
@@ -67,9 +63,7 @@ void RaceWindow::open() {
     build();
     share_->setValue(0);
     show();
-    QWidget::show();
-    raise();
-    activateWindow();
+    bringToFront(*this);
 }
 
 void RaceWindow::setPlaying(bool plays) {

@@ -14,6 +14,7 @@
 
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/own/own_list.hpp"
@@ -164,6 +165,42 @@ private slots:
         QVERIFY(window.own()->sketch().errors.empty());
         QTest::mouseClick(window.own()->findChild<QPushButton*>("ownApply"), Qt::LeftButton);
         QCOMPARE(window.workspace().scene().schemes[4].space.type, std::string("typed"));
+    }
+
+    /// The editor begins with the selected scheme, and says so where it cannot.
+    void theEditorBeginsWithTheScheme() {
+        Window window("preset:harmonic-oscillator");
+        const auto& schemes = window.workspace().scene().schemes;
+        const auto open = [&](std::size_t i) {
+            window.workspace().selectScheme(static_cast<int>(i));
+            window.actions().find("own")->trigger();
+            QTRY_VERIFY_WITH_TIMEOUT(window.own()->isCurrent(), 20000);
+        };
+        const auto text = [&](const char* field) {
+            return window.own()->findChild<FormulaEdit*>(field)->toPlainText();
+        };
+        std::size_t named = 0;
+        while (named < schemes.size() && schemes[named].kind != SchemeSpec::Kind::named) ++named;
+        QVERIFY(named < schemes.size());
+        const ResolvedScheme resolved = resolve(schemes[named]);
+        const int degree = resolved.plain()->space.integer("degree");
+        open(named);
+        QCOMPARE(window.own()->sketch().order, resolved.claims.order);
+        QVERIFY(window.own()->findChild<QLabel*>("ownExample")->isHidden());
+        QCOMPARE(text("ownFunctionTexts").count('\n'), qsizetype(degree));
+        // The same scheme, as functions and nodes that are typed.
+        for (const char* box : {"ownSpace", "ownRule"}) {
+            auto* choice = window.own()->findChild<QComboBox*>(box);
+            choice->setCurrentIndex(0);
+            emit choice->activated(0);
+        }
+        QTRY_VERIFY_WITH_TIMEOUT(window.own()->isCurrent(), 20000);
+        QVERIFY2(window.own()->sketch().errors.empty(), qPrintable(window.said("ownProblem")));
+        QCOMPARE(window.own()->sketch().order, resolved.claims.order);
+        QVERIFY(window.own()->findChild<QLabel*>("ownExample")->isHidden());
+        open(4);  // a baseline
+        QVERIFY(window.own()->findChild<QLabel*>("ownExample")->isVisible());
+        QVERIFY(window.said("ownExample").contains(QString::fromStdString(schemes[4].label)));
     }
 
     void everyFamilyHasItsGrid_data() {
