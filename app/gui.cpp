@@ -1,3 +1,4 @@
+#include <QCoreApplication>
 #include <QString>
 #include <QtGlobal>
 
@@ -44,6 +45,7 @@ int guiVerb(int argc, char** argv, const std::string& scene, const CommonOptions
     }
     if (!hasDisplay()) return tellMissingDisplay();
     qInstallMessageHandler(tellFatal);
+    QCoreApplication::setApplicationVersion(QString::fromStdString(versionText()));
     return runWindow(argc, argv, scene,
                      [&](const std::vector<Problem>& problems) { printProblems(scene, problems); });
 }

@@ -4,10 +4,12 @@
 #include <QMenu>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QTextLayout>
 #include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <cmath>
 
 #include "ui/shell/theme.hpp"
 
@@ -51,7 +53,62 @@ private:
     QString ownTip_;  ///< the whole text, where it is shortened
 };
 
+/// QLabel breaks no words, and asks for the width of the longest.
+class WrappedLabel : public QLabel {
+public:
+    using QLabel::QLabel;
+    QSize sizeHint() const override {
+        return {static_cast<int>(std::ceil(fontMetrics().horizontalAdvance(text()))) + 1,
+                fontMetrics().height()};
+    }
+    QSize minimumSizeHint() const override {
+        constexpr int leastLetters = 5;
+        return {leastLetters * fontMetrics().averageCharWidth(), fontMetrics().height()};
+    }
+    bool hasHeightForWidth() const override { return true; }
+    int heightForWidth(int width) const override {
+        int height = 0;
+        forEachLine(width,
+                    [&](const QTextLine& line) { height += static_cast<int>(std::ceil(line.height())); });
+        return std::max(height, fontMetrics().height());
+    }
+
+protected:
+    void paintEvent(QPaintEvent*) override {
+        QPainter painter(this);
+        painter.setPen(palette().color(foregroundRole()));
+        double y = std::max(0, (height() - heightForWidth(width())) / 2);
+        forEachLine(width(), [&](const QTextLine& line) {
+            line.draw(&painter, {0, y});
+            y += std::ceil(line.height());
+        });
+    }
+
+private:
+    template <class Act>
+    void forEachLine(int width, const Act& act) const {
+        QTextLayout layout(text(), font());
+        QTextOption option;
+        option.setWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
+        layout.setTextOption(option);
+        layout.beginLayout();
+        for (QTextLine line = layout.createLine(); line.isValid(); line = layout.createLine())
+            line.setLineWidth(std::max(1, width));
+        layout.endLayout();
+        for (int i = 0; i < layout.lineCount(); ++i) act(layout.lineAt(i));
+    }
+};
+
 }  // namespace
+
+QLabel* makeWrappedLabel(const QString& text, const char* role, QWidget* parent) {
+    auto* label = new WrappedLabel(text, parent);
+    label->setProperty("role", role);
+    QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Preferred);
+    policy.setHeightForWidth(true);
+    label->setSizePolicy(policy);
+    return label;
+}
 
 QLabel* makeLabel(const QString& text, const char* role, QWidget* parent) {
     auto* label = new QLabel(text, parent);

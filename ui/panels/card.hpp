@@ -47,4 +47,7 @@ QLabel* makeLabel(const QString& text, const char* role, QWidget* parent = nullp
 /// it is in the tooltip.
 QLabel* makeElidedLabel(const QString& text, const char* role, QWidget* parent = nullptr);
 
+/// A label whose text goes on in further lines: between words, and inside one that is longer than a line.
+QLabel* makeWrappedLabel(const QString& text, const char* role, QWidget* parent = nullptr);
+
 }  // namespace extremal

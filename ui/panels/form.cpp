@@ -3,7 +3,9 @@
 #include <QGridLayout>
 #include <QLabel>
 
+#include "engine/scene/topics.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/problem_text.hpp"
 #include "ui/panels/scrub_label.hpp"
 #include "ui/panels/value_edit.hpp"
 #include "ui/shell/workspace.hpp"
@@ -35,8 +37,10 @@ void Form::addRow(FormField field) {
     QString label = field.label;
     if (label.isEmpty()) {
         label = QString::fromStdString(info.title).toHtmlEscaped();
-        if (!info.symbol.empty() && info.symbol != info.title)
-            label += " " + QString::fromStdString(info.symbol).toHtmlEscaped();
+        const QString symbol = QString::fromStdString(info.symbol);
+        const QString words = QString(symbol).replace('_', ' ');  // a key that stands in for a symbol
+        if (!symbol.isEmpty() && !(' ' + label + ' ').contains(' ' + words + ' '))
+            label += " " + symbol.toHtmlEscaped();
     }
     const int row = 2 * static_cast<int>(rows_.size());
     auto* edit = new ValueEdit(info);
@@ -58,10 +62,9 @@ void Form::addRow(FormField field) {
     const QString unitText = QString::fromStdString(info.unit);
     auto* unit = makeLabel(fontMetrics().elidedText(unitText, Qt::ElideRight, roomOfUnit), "caption");
     unit->setToolTip(unitText);
-    auto* problem = makeLabel({}, "caption");
+    auto* problem = makeLinkLabel("caption");
     problem->setObjectName("problem." + QString::fromStdString(info.key));
     problem->setProperty("problem", true);
-    problem->setWordWrap(true);
     problem->hide();
     grid_->addWidget(name, row, 0);
     grid_->addWidget(edit, row, 1);
@@ -89,11 +92,8 @@ void Form::refresh() {
         const bool isWrong = !problems.empty() && draft;
         row.edit->setInvalid(isWrong);
         row.problem->setVisible(isWrong);
-        if (!isWrong) continue;
-        QString text = QString::fromStdString(problems.front().message);
-        if (!problems.front().hint.empty())
-            text += " (" + QString::fromStdString(problems.front().hint) + ")";
-        row.problem->setText(text);
+        setHelp(*row.edit, isWrong ? handbookPlace(problems.front()) : std::string());
+        if (isWrong) row.problem->setText(problemText(problems.front()));
     }
 }
 

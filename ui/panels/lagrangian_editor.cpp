@@ -10,6 +10,7 @@
 
 #include "engine/core/expression.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/problem_text.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/lagrangian_edits.hpp"
 #include "ui/panels/parameter_table.hpp"
@@ -55,12 +56,9 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
            "have "
            "rules of their own. Handbook: Typing a Lagrangian."));
     column->addWidget(text_);
-    problem_ = makeLabel({}, "caption");
+    problem_ = makeLinkLabel("caption");
     problem_->setObjectName("problem.lagrangian");
     problem_->setProperty("problem", true);
-    problem_->setWordWrap(true);
-    problem_->setTextFormat(Qt::RichText);
-    problem_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     problem_->hide();
     column->addWidget(problem_);
     equations_ = makeLabel({}, "body");
@@ -187,7 +185,7 @@ void LagrangianEditor::showProblem() {
         shown = "<pre style='font-family:\"" + text_->font().family() + "\";font-size:12px;margin:0'>" +
                 QString::fromStdString(lines).toHtmlEscaped() + "</pre>" + shown;
     }
-    problem_->setText(shown);
+    problem_->setText(shown + QStringLiteral(" ") + handbookLink("lagrangian#what-is-refused"));
 }
 
 void LagrangianEditor::changeCoordinates() {

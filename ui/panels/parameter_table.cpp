@@ -12,6 +12,7 @@
 #include "engine/core/expression.hpp"
 #include "engine/core/text.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/problem_text.hpp"
 #include "ui/panels/lagrangian_edits.hpp"
 #include "ui/panels/value_edit.hpp"
 #include "ui/shell/theme.hpp"
@@ -53,10 +54,9 @@ ParameterTable::ParameterTable(Workspace& workspace, QWidget* parent)
     grid_->setHorizontalSpacing(6);
     grid_->setVerticalSpacing(4);
     grid_->setColumnStretch(2, 1);
-    problem_ = makeLabel({}, "caption");
+    problem_ = makeLinkLabel("caption");
     problem_->setObjectName("problem.parameters");
     problem_->setProperty("problem", true);
-    problem_->setWordWrap(true);
     problem_->hide();
     auto* add = new QToolButton;
     add->setObjectName("addParameter");
@@ -190,7 +190,7 @@ void ParameterTable::refresh() {
         const auto problems = workspace_.problemsAt(place);
         row.valueEdit->setInvalid(draft != nullptr);
         if (draft && !problems.empty()) {
-            problem_->setText(QString::fromStdString(row.name + " " + problems.front().message));
+            problem_->setText(problemText(problems.front(), QString::fromStdString(row.name + " ")));
             problem_->show();
         }
         const bool isNumber = written->isNumber();

@@ -13,6 +13,7 @@
 #include "engine/scene/format.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/json.hpp"
+#include "ui/panels/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/lagrangian_editor.hpp"
 #include "ui/panels/symmetry_line.hpp"
@@ -51,6 +52,10 @@ void addFields(const Workspace& workspace, const FieldInfo& info, const std::str
         const bool isKind = key == "name" || key == "packet";
         FieldInfo row = isKind ? textField(key, info.title, nullptr, info.description)
                                : numberField(key, key, "", 0, info.description);
+        if (isKind) {
+            row.title = info.title;
+            row.symbol.clear();
+        }
         std::replace(row.title.begin(), row.title.end(), '_', ' ');
         std::vector<Edit> others;  // of another kind they would be unknown
         for (const Value::Member& other : value->asObject())
@@ -193,7 +198,7 @@ QLabel* sectionLabel(const QString& text) {
 
 ScenePanel::ScenePanel(Workspace& workspace, QWidget* parent)
     : Card(tr("Scene"), parent), workspace_(workspace) {
-    model_ = new QComboBox;
+    model_ = new ComboBox;
     model_->setObjectName("model");
     model_->setAccessibleName(tr("Model"));
     for (const ModelEntry& entry : modelCatalog()) {

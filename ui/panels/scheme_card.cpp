@@ -1,6 +1,7 @@
 #include "ui/panels/scheme_card.hpp"
 
 #include "engine/run/event_files.hpp"
+#include "engine/scene/topics.hpp"
 
 #include <QGridLayout>
 #include <QGuiApplication>
@@ -20,6 +21,7 @@
 #include "ui/panels/explain.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/line_sample.hpp"
+#include "ui/panels/problem_text.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/scrub_label.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -36,16 +38,18 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     layout_->setContentsMargins(11, 8, 11, 9);
     layout_->setSpacing(3);
     makeHeader();
+    second_ = new QHBoxLayout;
+    second_->setSpacing(4);
     parts_ = makeElidedLabel({}, "caption");
-    layout_->addWidget(parts_);
+    second_->addWidget(parts_, 1);
+    layout_->addLayout(second_);
     events_ = makeLabel({}, "caption");
     events_->setObjectName("events");
     events_->setWordWrap(true);
     events_->hide();
     layout_->addWidget(events_);
-    caution_ = makeLabel({}, "caption");
+    caution_ = makeLinkLabel("caption");
     caution_->setObjectName("caution");
-    caution_->setWordWrap(true);
     layout_->addWidget(caution_);
     remedy_ = new QPushButton;
     remedy_->setObjectName("remedy");
@@ -53,9 +57,10 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     layout_->addWidget(remedy_, 0, Qt::AlignLeft);
     makeFigures();
     failure_ = makeLabel({}, "strong");
-    advice_ = makeLabel({}, "caption");
+    failure_->setWordWrap(true);
+    advice_ = makeLinkLabel("caption");
+    advice_->setObjectName("advice");
     for (QLabel* label : {failure_, advice_}) {
-        label->setWordWrap(true);
         label->hide();
         layout_->addWidget(label);
     }
@@ -79,7 +84,7 @@ const SchemeSpec& SchemeCard::spec() const {
 }
 
 void SchemeCard::makeHeader() {
-    auto* row = new QHBoxLayout;
+    auto* row = first_ = new QHBoxLayout;
     row->setSpacing(4);
     line_ = new LineSample;
     line_->setObjectName("toggle");
@@ -90,7 +95,7 @@ void SchemeCard::makeHeader() {
         fillColours(menu);
         menu.exec(line_->mapToGlobal(at));
     });
-    name_ = makeElidedLabel({}, "strong");
+    name_ = makeWrappedLabel({}, "strong");
     nameEdit_ = new QLineEdit;
     nameEdit_->setObjectName("name");
     nameEdit_->setAccessibleName(tr("Name of the scheme"));
@@ -225,13 +230,13 @@ void SchemeCard::showSpec() {
     const QString label = QString::fromStdString(s.label);
     shownLabel_ = s.label;
     setAccessibleName(tr("Scheme %1").arg(label));
-    name_->setToolTip({});
     name_->setText(label);
     name_->setEnabled(s.isEnabled);
     step_->setText(stepText(s));
     step_->setEnabled(s.isEnabled);
     parts_->setToolTip({});
     parts_->setText(s.isEnabled ? schemeText(s) : schemeText(s) + tr(" · off"));
+    placeStep();
     line_->show(*theme_, styleOf(s, static_cast<std::size_t>(index_)), s.isEnabled);
     line_->setToolTip(tr("Switch this scheme on or off (key %1); with Alt: this one alone, or all. A right "
                          "click chooses the "
@@ -258,12 +263,12 @@ const Problem* cautionOf(const std::vector<Problem>& warnings, int index) {
 void SchemeCard::showCaution() {
     const Problem* caution = spec().isEnabled ? cautionOf(workspace_.warnings(), index_) : nullptr;
     caution_->setVisible(caution);
+    setHelp(*this, caution ? handbookPlace(*caution) : std::string());
     remedy_->setVisible(caution && !caution->remedy.isNull());
     if (!caution) return;
-    QString text = QString::fromStdString(caution->message);
-    if (caution->remedy.isNull() && !caution->hint.empty())
-        text += " (" + QString::fromStdString(caution->hint) + ")";
-    caution_->setText(tr("Warning: %1").arg(text));
+    Problem shown = *caution;
+    if (!shown.remedy.isNull()) shown.hint.clear();  // it is on the button
+    caution_->setText(problemText(shown, tr("Warning: ")));
     remedy_->setText(tr("Take %1").arg(QString::fromStdString(caution->hint)));
 }
 
@@ -286,7 +291,10 @@ void SchemeCard::showFailure(const Summary& summary) {
     failure_->setVisible(hasFailed || wasStopped);
     const std::string& words = hasFailed ? summary.advice : summary.caution;
     advice_->setVisible(!words.empty());
-    advice_->setText(QString::fromStdString(words));
+    const std::string place = hasFailed ? handbookPlace(summary.cause) : std::string();
+    advice_->setText(QString::fromStdString(words).toHtmlEscaped() + QStringLiteral(" ") +
+                     handbookLink(place));
+    if (hasFailed) setHelp(*this, place);
     if (wasStopped)
         failure_->setText(std::isfinite(summary.tEnd)
                               ? tr("stopped at t = %1").arg(shortNumber(summary.tEnd, 3))
@@ -426,6 +434,25 @@ bool SchemeCard::eventFilter(QObject* watched, QEvent* event) {
         if (auto* label = qobject_cast<QLabel*>(watched))
             QToolTip::showText(label->mapToGlobal(QPoint(0, label->height())), label->toolTip(), label);
     return QFrame::eventFilter(watched, event);
+}
+
+void SchemeCard::resizeEvent(QResizeEvent* event) {
+    QFrame::resizeEvent(event);
+    placeStep();
+}
+
+/// The step stands beside the name, or below where the name needs the room.
+void SchemeCard::placeStep() {
+    constexpr int lineAndDots = 30 + 22 + 3 * 4;
+    const QMargins m = layout_->contentsMargins();
+    const int room = width() - m.left() - m.right() - lineAndDots - step_->sizeHint().width();
+    const bool isBelow = name_->sizeHint().width() > room;
+    QHBoxLayout* const row = isBelow ? second_ : first_;
+    if (row->indexOf(step_) >= 0) return;
+    for (QWidget* part : {static_cast<QWidget*>(step_), static_cast<QWidget*>(stepEdit_)}) {
+        (isBelow ? first_ : second_)->removeWidget(part);
+        row->insertWidget(isBelow ? row->count() : row->count() - 1, part);  // before the dots
+    }
 }
 
 void SchemeCard::mousePressEvent(QMouseEvent* event) {

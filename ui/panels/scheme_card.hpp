@@ -7,6 +7,7 @@
 
 #include "engine/run/comparison.hpp"
 
+class QHBoxLayout;
 class QLabel;
 class QLineEdit;
 class QProgressBar;
@@ -48,6 +49,7 @@ signals:
     void moveRequested(int index, int by);
 
 protected:
+    void resizeEvent(QResizeEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     bool event(QEvent* event) override;
@@ -59,6 +61,7 @@ private:
         QLabel *caption, *value;
     };
     void makeHeader();
+    void placeStep();
     void makeFigures();
     void makeMenu(QToolButton& dots);
     void fillColours(QMenu& menu);
@@ -76,6 +79,7 @@ private:
     std::string shownLabel_;
     const Theme* theme_;
     QVBoxLayout* layout_;
+    QHBoxLayout *first_, *second_;
     LineSample* line_;
     ScrubLabel* step_;
     QLabel *name_, *parts_, *caution_, *events_, *failure_, *advice_;

@@ -15,6 +15,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 #include "ui/own/own_list.hpp"
+#include "ui/panels/combo_box.hpp"
 #include "ui/panels/form.hpp"
 #include "ui/panels/term_strip.hpp"
 #include "ui/shell/fitting.hpp"
@@ -142,7 +143,7 @@ QComboBox* SchemeEditor::addChoice(const QString& title, const QString& name) {
     line->setContentsMargins(0, 0, 0, 0);
     auto* label = new QLabel(title);
     label->setMinimumWidth(64);
-    auto* box = new QComboBox;
+    auto* box = new ComboBox;
     box->setObjectName(name);
     box->setAccessibleName(title);
     box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

@@ -199,6 +199,11 @@ void SchemeList::renameSelected() {
     if (SchemeCard* there = card(workspace_.selectedScheme())) there->editName();
 }
 
+void SchemeList::editStep(int index) {
+    workspace_.selectScheme(index);
+    if (SchemeCard* there = card(index)) there->editStep();
+}
+
 void SchemeList::duplicateSelected() {
     const int index = workspace_.selectedScheme();
     if (!card(index)) return;

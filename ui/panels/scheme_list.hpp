@@ -27,6 +27,8 @@ public:
     void openAddMenu();
     void editSelected();
     void renameSelected();
+    /// Selects a scheme and opens its step, or its tolerance, for typing.
+    void editStep(int index);
     void duplicateSelected();
     void soloSelected();
     void removeSelected();

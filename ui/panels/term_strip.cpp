@@ -13,6 +13,7 @@
 #include "engine/quadrature/tensor.hpp"
 #include "engine/scene/bind.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/combo_box.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
@@ -94,7 +95,7 @@ void TermStrip::fill(const std::vector<std::string>& terms) {
     for (const std::string& term : terms) {
         const int line = static_cast<int>(rows_.size()) + 1;
         const QString name = QString::fromStdString(term);
-        Row row{term, new QComboBox, new QSpinBox};
+        Row row{term, new ComboBox, new QSpinBox};
         row.rule->setObjectName("term." + name);
         row.rule->setAccessibleName(tr("Rule of %1").arg(name));
         row.rule->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);

@@ -14,6 +14,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/json.hpp"
+#include "ui/panels/combo_box.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/shell/theme.hpp"
 
@@ -35,7 +36,7 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
         input = check_ = new QCheckBox;
         connect(check_, &QCheckBox::toggled, this, [this](bool on) { emit edited(Value(on)); });
     } else if (info.type == FieldType::choice || (info.type == FieldType::integer && !info.choices.empty())) {
-        input = choice_ = new QComboBox;
+        input = choice_ = new ComboBox;
         for (const std::string& choice : info.choices) choice_->addItem(QString::fromStdString(choice));
         choice_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
         choice_->setMinimumContentsLength(6);

@@ -12,14 +12,15 @@ namespace extremal {
 namespace {
 
 constexpr double smaller = 0.78, lowerBy = 0.22;  // of the height of the letters
+constexpr double normWidth = 6;                   // pixels, of the bars of a norm with what is around them
 
 struct Part {
+    enum class Kind { plain, lowered, norm } kind;
     QString text;
-    bool isLowered;
 };
 
 const QRegularExpression& mark() {
-    static const QRegularExpression all(QStringLiteral(R"((?<=[^\W_])_([^\W_]+))"),
+    static const QRegularExpression all(QStringLiteral("(?<=[^\\W_])_([^\\W_]+)|(\u2016)"),
                                         QRegularExpression::UseUnicodePropertiesOption);
     return all;
 }
@@ -29,29 +30,62 @@ std::vector<Part> partsOf(const QString& title) {
     qsizetype from = 0;
     for (auto it = mark().globalMatch(title); it.hasNext();) {
         const QRegularExpressionMatch match = it.next();
-        parts.push_back({title.mid(from, match.capturedStart() - from), false});
-        parts.push_back({match.captured(1), true});
+        parts.push_back({Part::Kind::plain, title.mid(from, match.capturedStart() - from)});
+        parts.push_back(match.captured(1).isEmpty() ? Part{Part::Kind::norm, {}}
+                                                    : Part{Part::Kind::lowered, match.captured(1)});
         from = match.capturedEnd();
     }
-    parts.push_back({title.mid(from), false});
+    parts.push_back({Part::Kind::plain, title.mid(from)});
     return parts;
+}
+
+QFont loweredFont(QFont font) {
+    font.setPixelSize(std::max(6, static_cast<int>(std::lround(smaller * font.pixelSize()))));
+    return font;
+}
+
+double widthOf(const Part& part, const QFont& font) {
+    if (part.kind == Part::Kind::norm) return normWidth;
+    const bool isLowered = part.kind == Part::Kind::lowered;
+    return QFontMetricsF(isLowered ? loweredFont(font) : font).horizontalAdvance(part.text);
 }
 
 }  // namespace
 
-QString plainTitle(const QString& title) { return QString(title).replace(mark(), QStringLiteral("\\1")); }
+QString plainTitle(const QString& title) {
+    QString plain;
+    for (const Part& part : partsOf(title))
+        plain += part.kind == Part::Kind::norm ? QStringLiteral("||") : part.text;
+    return plain;
+}
 
-bool hasLoweredPart(const QString& title) { return mark().match(title).hasMatch(); }
+bool hasOwnParts(const QString& title) { return mark().match(title).hasMatch(); }
+
+void drawTitle(QPainter& painter, const QFont& font, QPointF at, const QString& title) {
+    const QFontMetricsF metrics(font);
+    for (const Part& part : partsOf(title)) {
+        const double width = widthOf(part, font);
+        if (part.kind == Part::Kind::norm) {
+            const QPen pen = painter.pen();
+            painter.setPen(QPen(pen.color(), 1.1));
+            for (const double x : {1.6, 4.2})
+                painter.drawLine(QPointF(at.x() + x, at.y() - metrics.capHeight() - 1.5),
+                                 QPointF(at.x() + x, at.y() + 2));
+            painter.setPen(pen);
+        } else {
+            const bool isLowered = part.kind == Part::Kind::lowered;
+            painter.setFont(isLowered ? loweredFont(font) : font);
+            painter.drawText(at + QPointF(0, isLowered ? lowerBy * metrics.ascent() : 0), part.text);
+        }
+        at.rx() += width;
+    }
+}
 
 void drawAxisTitle(QCPPainter& painter, const QCPAxis& axis, const QString& title) {
     const QFont font = axis.labelFont();
-    QFont low = font;
-    low.setPixelSize(std::max(6, static_cast<int>(std::lround(smaller * font.pixelSize()))));
-    const QFontMetricsF metrics(font), lowMetrics(low);
-    const std::vector<Part> parts = partsOf(title);
+    const QFontMetricsF metrics(font);
     double width = 0;
-    for (const Part& part : parts)
-        width += (part.isLowered ? lowMetrics : metrics).horizontalAdvance(part.text);
+    for (const Part& part : partsOf(title)) width += widthOf(part, font);
 
     // Where the axis puts its label: beyond the ticks and their texts.
     const QFontMetricsF ticks(axis.tickLabelFont());
@@ -69,13 +103,7 @@ void drawAxisTitle(QCPPainter& painter, const QCPAxis& axis, const QString& titl
     } else {
         painter.translate(rect.center().x(), rect.bottom() + away);
     }
-    double x = -width / 2;
-    const double baseline = (metrics.ascent() - metrics.descent()) / 2;
-    for (const Part& part : parts) {
-        painter.setFont(part.isLowered ? low : font);
-        painter.drawText(QPointF(x, baseline + (part.isLowered ? lowerBy * metrics.ascent() : 0)), part.text);
-        x += (part.isLowered ? lowMetrics : metrics).horizontalAdvance(part.text);
-    }
+    drawTitle(painter, font, {-width / 2, (metrics.ascent() - metrics.descent()) / 2}, title);
     painter.restore();
 }
 

@@ -1,17 +1,23 @@
-/// Titles of axes with lowered parts: "p_theta" is p with theta below the line, up to the end of the word.
+/// Titles of axes with lowered parts and norms: "p_theta" is p with theta below the line, up to the end of
+/// the word; the bars of a norm are thin lines, as bold ones run together.
 #pragma once
 
 #include <QString>
 
 class QCPPainter;
 class QCPAxis;
+class QFont;
+class QPainter;
+class QPointF;
 
 namespace extremal {
 
 /// The title without its marks, as wide as it is drawn or wider.
 QString plainTitle(const QString& title);
-/// Whether parts of it are lowered.
-bool hasLoweredPart(const QString& title);
+/// Whether parts of it are lowered, or bars of a norm: then it is drawn by the functions below.
+bool hasOwnParts(const QString& title);
+/// In the painter's colour, from this point of the baseline on.
+void drawTitle(QPainter& painter, const QFont& font, QPointF at, const QString& title);
 /// Draws a title where the axis would draw its label.
 void drawAxisTitle(QCPPainter& painter, const QCPAxis& axis, const QString& title);
 

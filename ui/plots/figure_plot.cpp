@@ -145,8 +145,8 @@ void FigurePlot::prepare(QSize size) {
     const QString title = QString::fromStdString(s.figure.y.title),
                   xTitle = QString::fromStdString(s.figure.x.title);
     x.setLabel(titles.elidedText(plainTitle(xTitle), Qt::ElideRight, size.width() - 16));
-    if (hasLoweredPart(xTitle)) x.setLabelColor(Qt::transparent);  // drawn by its own layer
-    if (hasLoweredPart(title)) y.setLabelColor(Qt::transparent);
+    if (hasOwnParts(xTitle)) x.setLabelColor(Qt::transparent);  // drawn by its own layer
+    if (hasOwnParts(title)) y.setLabelColor(Qt::transparent);
     x.setScaleType(s.figure.x.isLog ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
     y.setScaleType(s.figure.y.isLog ? QCPAxis::stLogarithmic : QCPAxis::stLinear);
 
@@ -159,6 +159,9 @@ void FigurePlot::prepare(QSize size) {
     s.isTitleAbove = titles.horizontalAdvance(title) > size.height() - 10 - below;
     y.setLabel(s.isTitleAbove ? QString() : plainTitle(title));
     margins.setTop(8 + (s.isTitleAbove ? static_cast<int>(std::ceil(titles.height())) : 0));
+    // Without labels of ticks the margin is too narrow for what hangs below the line.
+    if (s.figure.axes != AxisStyle::scales && !xTitle.isEmpty())
+        margins.setBottom(static_cast<int>(std::ceil(titles.height())) + 10);
     s.plot.axisRect()->setMinimumMargins(margins);
     const QRect before = s.plot.viewport();
     s.plot.setViewport(QRect(QPoint(0, 0), size));

@@ -37,8 +37,8 @@ QColor FigurePlot::Shared::mixed(const QColor& c) const {
 }
 
 bool FigurePlot::Shared::hasOwnTitles() const {
-    return hasLoweredPart(QString::fromStdString(figure.x.title)) ||
-           hasLoweredPart(QString::fromStdString(figure.y.title));
+    return hasOwnParts(QString::fromStdString(figure.x.title)) ||
+           hasOwnParts(QString::fromStdString(figure.y.title));
 }
 
 bool FigurePlot::Shared::isFaded(const Series& s) const {
@@ -370,7 +370,7 @@ void MarksLayer::draw(QCPPainter* painter) {
     for (const auto& [axis, title] : {std::pair{shared_.plot.xAxis, &shared_.figure.x.title},
                                       std::pair{shared_.plot.yAxis, &shared_.figure.y.title}})
         if (const QString text = QString::fromStdString(*title);
-            hasLoweredPart(text) && !(axis == shared_.plot.yAxis && shared_.isTitleAbove))
+            hasOwnParts(text) && !(axis == shared_.plot.yAxis && shared_.isTitleAbove))
             drawAxisTitle(*painter, *axis, text);
     drawEvents(*painter, map);
     drawFailures(*painter, map);
@@ -390,9 +390,13 @@ void MarksLayer::drawTitleAbove(QCPPainter& painter, const PixelMap& map) const 
     const QRectF line(4, map.rect.top() - 6 - metrics.height(), map.rect.right() - 4, metrics.height());
     painter.setFont(axis.labelFont());
     painter.setPen(axis.labelColor());
-    painter.drawText(
-        line, Qt::AlignLeft | Qt::AlignVCenter,
-        metrics.elidedText(QString::fromStdString(shared_.figure.y.title), Qt::ElideRight, line.width()));
+    const QString title = QString::fromStdString(shared_.figure.y.title), plain = plainTitle(title);
+    if (hasOwnParts(title) && metrics.horizontalAdvance(plain) <= line.width())
+        drawTitle(painter, axis.labelFont(),
+                  {line.left(), line.center().y() + (metrics.ascent() - metrics.descent()) / 2}, title);
+    else
+        painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter,
+                         metrics.elidedText(plain, Qt::ElideRight, line.width()));
 }
 
 /// The last point of a scheme's curve that is inside the plot.

@@ -46,17 +46,39 @@ QAction* Actions::find(const QString& id) const {
 
 QString Actions::menuOf(const QAction* action) { return action->data().toString(); }
 
+namespace {
+
+/// The text with a letter to press: the first of a word that is free, else any that is.
+QString withMnemonic(const QString& text, QString& taken) {
+    const QString letters = text.toUpper();
+    for (const bool isFirst : {true, false})
+        for (qsizetype i = 0; i < text.size(); ++i) {
+            if (!text[i].isLetterOrNumber() || taken.contains(letters[i])) continue;
+            if (isFirst && i > 0 && !text[i - 1].isSpace()) continue;
+            taken += letters[i];
+            return QString(text).insert(i, '&');
+        }
+    return text;
+}
+
+}  // namespace
+
 void Actions::fill(QMenuBar& bar) const {
+    QString ofBar;
     for (const QString& name : menus_) {
-        QMenu* menu = bar.addMenu(name);
+        QMenu* menu = bar.addMenu(withMnemonic(name, ofBar));
+        QString ofMenu;
         for (const Item& item : items_) {
             if (item.menu != name) continue;
-            if (item.submenu)
+            if (item.submenu) {
+                item.submenu->setTitle(withMnemonic(item.submenu->title(), ofMenu));
                 menu->addMenu(item.submenu);
-            else if (item.action)
+            } else if (item.action) {
+                item.action->setText(withMnemonic(item.action->text(), ofMenu));
                 menu->addAction(item.action);
-            else
+            } else {
                 menu->addSeparator();
+            }
         }
     }
 }

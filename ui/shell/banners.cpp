@@ -6,6 +6,7 @@
 #include <QPushButton>
 
 #include "ui/panels/card.hpp"
+#include "ui/panels/problem_text.hpp"
 #include "ui/shell/notices.hpp"
 
 namespace extremal {
@@ -28,11 +29,11 @@ void Banners::rebuild() {
         banner->setProperty("banner", notice.kind == Notice::Kind::error ? "error" : "warning");
         auto* row = new QHBoxLayout(banner);
         row->setContentsMargins(12, 6, 8, 6);
-        auto* text = makeLabel(
-            notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint, "",
-            banner);
-        text->setWordWrap(true);
-        text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        auto* text = makeLinkLabel("", banner);
+        const QString words =
+            notice.hint.isEmpty() ? notice.text : notice.text + QStringLiteral("  ·  ") + notice.hint;
+        text->setText(words.toHtmlEscaped() + QStringLiteral("  ") + handbookLink(notice.place));
+        setHelp(*banner, notice.place);
         row->addWidget(text, 1);
         const QString key = notice.key;
         for (const Notice::Choice& choice : notice.choices) {

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace extremal {
 namespace {
 
-constexpr int gap = 10, stageHeight = 225, stageHeightAlone = 240, plotHeight = 168;
+constexpr int gap = 10, stageHeight = 225, stageHeightAlone = 240, leastPlot = 168, easyPlot = 206;
 constexpr int leastSquare = 210, largestSquare = 360;
 constexpr int leastJoined = 230;    // the width of a card that joins a full row
 constexpr double stageShare = 1.4;  // of the width, where a plot has 1
@@ -43,7 +44,18 @@ QLayoutItem* CardLayout::takeAt(int index) {
     return item;
 }
 
+void CardLayout::setSight(int height) {
+    if (std::exchange(sight_, height) != height) invalidate();
+}
+
 std::vector<CardLayout::Row> CardLayout::rows(int width) const {
+    std::vector<Row> all = rows(width, leastPlot);
+    int height = -gap;
+    for (const Row& row : all) height += row.height + gap;
+    return sight_ > 0 && height > sight_ ? rows(width, easyPlot) : all;
+}
+
+std::vector<CardLayout::Row> CardLayout::rows(int width, int plotHeight) const {
     std::vector<Row> all;
     const auto most = static_cast<std::size_t>(columns_);
     const int square = std::clamp(static_cast<int>(0.36 * width), leastSquare, largestSquare);

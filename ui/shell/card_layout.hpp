@@ -23,6 +23,8 @@ public:
     void clear();
     void addCard(QWidget* card, CardShape shape);
     void setColumns(int columns);
+    /// The height that can be seen at once: rows that have to scroll anyway are higher.
+    void setSight(int height);
 
     void addItem(QLayoutItem* item) override;
     int count() const override { return static_cast<int>(cards_.size()); }
@@ -47,10 +49,11 @@ private:
         int squares = 0;
     };
     std::vector<Row> rows(int width) const;
+    std::vector<Row> rows(int width, int plotHeight) const;
     std::vector<int> widths(const Row& row, int width, int height) const;
 
     std::vector<Placed> cards_;
-    int columns_ = 2;
+    int columns_ = 2, sight_ = 0;
 };
 
 }  // namespace extremal

@@ -204,6 +204,9 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     auto* plot = new PlotWidget(*theme_);
     card->body()->addWidget(plot, 1);
     Slot& slot = *slots_.emplace_back(new Slot{nextNumber_++, view, card, plot});
+    const Figure coming = figureToCome(view);
+    card->setTitle(QString::fromStdString(coming.title));
+    plot->setFigure(coming);
     QMenu* menu = card->menu();
     menu->addAction(tr("Fit"), plot, &PlotWidget::fit);
     menu->addAction(tr("Previous view"), plot, &PlotWidget::back);
@@ -219,6 +222,7 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     menu->addAction(tr("Save as..."), plot, &PlotWidget::saveDialog);
     group_->add(plot);
     plot->setHighlighted(selectedLabel());
+    connect(plot, &PlotWidget::levelMoved, this, &CompareView::wantedMoved);
     connect(plot, &PlotWidget::cellChosen, this,
             [this, &slot](double value, double step) { loadCase(slot.view, value, step); });
     connectStarting(slot);
@@ -253,7 +257,9 @@ void CompareView::connectStarting(Slot& slot) {
 void CompareView::showStarts() {
     const System* const system = systemOfScene();
     for (const auto& s : slots_) {
-        s->plot->setHandle(system ? startInView(workspace_.scene(), s->view, *system) : std::nullopt);
+        const bool isDrawn = !isEmpty(s->plot->figure());
+        s->plot->setHandle(system && isDrawn ? startInView(workspace_.scene(), s->view, *system)
+                                             : std::nullopt);
         s->plot->setClickable(system && takesStarts(s->view, *system));
     }
 }
@@ -333,6 +339,7 @@ void CompareView::arrange() {
 
 void CompareView::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
+    cardLayout_->setSight(height());
     arrange();
 }
 
@@ -411,6 +418,7 @@ void CompareView::take(FigureSet made) {
         Slot& s = **slot;
         s.shown = made.job.results;
         s.shownView = view;
+        addSweep(view, made.figures[i]);
         s.card->setTitle(QString::fromStdString(made.figures[i].title));
         s.card->setSubtitle(QString::fromStdString(made.figures[i].subtitle));
         s.plot->setFigure(std::move(made.figures[i]));
@@ -424,6 +432,7 @@ void CompareView::take(FigureSet made) {
     if (made.figures.empty()) return;
     arrange();
     showStarts();
+    showWanted();
     QTimer::singleShot(0, this, &CompareView::alignMargins);
     emit figuresChanged();
 }

@@ -21,6 +21,7 @@ class QScrollArea;
 
 namespace extremal {
 
+class BackgroundSweep;
 class Card;
 class Playback;
 class PlotGroup;
@@ -50,6 +51,10 @@ public:
     void fitAll();
     /// Brings the card of a view into sight and marks it; that of no view ("") marks none.
     void pointAt(const QString& view);
+    /// Where "speed against accuracy" has its lines from.
+    void setSweep(const BackgroundSweep& sweep);
+    /// The wanted error, a line in that plot which can be dragged.
+    void setWanted(double error);
     /// The plot that was last clicked, else the first one; null if there is none.
     PlotWidget* currentPlot() const;
     StageWidget* stage() const { return stage_; }
@@ -74,6 +79,7 @@ signals:
     void caseLoaded(const QString& text);      ///< of a map, into the scene
     void startRefused(const QString& reason);  ///< no motion starts at a place that was chosen
     void figuresChanged();
+    void wantedMoved(double error);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -101,7 +107,9 @@ private:
     QString selectedLabel() const;     ///< empty: no scheme is selected
     void connectDrawing();             ///< of initial profiles, on the stage
     void connectStarting(Slot& slot);  ///< of motions, in its plot
-    void showStarts();                 ///< the handles of the scene's start
+    void showWanted();
+    void addSweep(const View& view, Figure& figure) const;
+    void showStarts();  ///< the handles of the scene's start
     /// The system of the scene; null until there are results with its model.
     const System* systemOfScene() const;
 
@@ -126,6 +134,8 @@ private:
     bool hasStage_ = true;  ///< the model of the results has something to draw there
     bool isJobRunning_ = false;
     long long figuresMade_ = 0;
+    const BackgroundSweep* sweep_ = nullptr;
+    double wanted_ = 0;  ///< 0: none
 };
 
 }  // namespace extremal

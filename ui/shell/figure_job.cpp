@@ -1,6 +1,9 @@
 #include "ui/shell/figure_job.hpp"
 
+#include <QCoreApplication>
+
 #include "engine/scene/bind.hpp"
+#include "engine/view/catalog.hpp"
 
 namespace extremal {
 
@@ -13,6 +16,14 @@ FigureSet makeFigures(const FigureJob& job) {
         made.figures.push_back(makeFigure(results, view, system.get()));
     if (job.makesStage) made.player.emplace(job.results, *system);
     return made;
+}
+
+Figure figureToCome(const View& view) {
+    Figure figure;  // of no view yet: what is asked of the plot waits for the real one
+    if (const ViewEntry* entry = findView(view.id)) figure.title = entry->item.title;
+    figure.axes = AxisStyle::none;
+    figure.message = QCoreApplication::translate("extremal", "Computing ...").toStdString();
+    return figure;
 }
 
 bool isSameData(const Comparison& a, const Comparison& b) {

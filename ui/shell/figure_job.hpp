@@ -25,6 +25,9 @@ struct FigureSet {
 
 FigureSet makeFigures(const FigureJob& job);
 
+/// What stands in the place of a figure before there is one: its title, and that it is computed.
+Figure figureToCome(const View& view);
+
 /// Whether two comparisons give the same figures.
 bool isSameData(const Comparison& a, const Comparison& b);
 

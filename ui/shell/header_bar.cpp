@@ -11,6 +11,7 @@
 #include "ui/panels/seek_slider.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
+#include "ui/study/background_sweep.hpp"
 
 namespace extremal {
 namespace {
@@ -24,14 +25,14 @@ QPushButton* button(const QString& text, const QString& tip, QWidget* parent) {
 
 }  // namespace
 
-HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
-    : QWidget(parent), workspace_(workspace), run_(run) {
+HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSweep& sweep, QWidget* parent)
+    : QWidget(parent), workspace_(workspace), run_(run), sweep_(sweep) {
     setProperty("ground", "panel");
     setAttribute(Qt::WA_StyledBackground);
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(18, 9, 14, 9);
     row->setSpacing(8);
-    title_ = makeLabel({}, "heading", this);
+    title_ = makeElidedLabel({}, "heading", this);
     file_ = makeLabel({}, "caption", this);
     row->addWidget(title_);
     row->addSpacing(6);
@@ -46,10 +47,15 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     wanted_->setAccessibleName(tr("Wanted error"));
     wanted_->setToolTip(
         tr("The largest acceptable error: shows the cheapest scheme measured so far that reaches it"));
+    use_ = button(tr("Use it"), tr("Gives the scheme this step"), this);
+    use_->setObjectName("useChoice");
+    use_->hide();
+    connect(use_, &QPushButton::clicked, this, &HeaderBar::useChoice);
     choice_ = makeElidedLabel({}, "strong", this);
     row->addWidget(wantedLabel);
     row->addWidget(wanted_, 1);
     row->addWidget(choice_, 3);
+    row->addWidget(use_);
     row->addSpacing(8);
     runButton_ = button(tr("Run"), tr("Compute everything again (R)"), this);
     runButton_->setProperty("kind", "primary");
@@ -68,7 +74,11 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
     connect(step, &QPushButton::clicked, this, &HeaderBar::stepRequested);
     connect(save, &QPushButton::clicked, this, &HeaderBar::exportRequested);
     connect(palette, &QPushButton::clicked, this, &HeaderBar::paletteRequested);
-    connect(wanted_, &QSlider::valueChanged, this, &HeaderBar::showChoice);
+    connect(wanted_, &QSlider::valueChanged, this, [this] {
+        showChoice();
+        emit wantedChanged(wantedError());
+    });
+    connect(&sweep_, &BackgroundSweep::changed, this, &HeaderBar::showChoice);
     connect(&workspace_, &Workspace::sceneChanged, this, &HeaderBar::showScene);
     connect(&workspace_, &Workspace::fileChanged, this, &HeaderBar::showScene);
     connect(&run_, &RunControl::stateChanged, this, &HeaderBar::showState);
@@ -80,7 +90,8 @@ HeaderBar::HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent)
 
 void HeaderBar::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
-    constexpr int narrow = 940;  // below, what menus and the title of the window have as well gives way
+    // Below, what menus and the title of the window have as well gives way; 940 pixels of usual letters.
+    const int narrow = 134 * fontMetrics().averageCharWidth();
     file_->setVisible(width() >= narrow);
     for (QPushButton* button : secondary_) button->setVisible(width() >= narrow);
 }
@@ -98,29 +109,71 @@ void HeaderBar::showState() {
     runButton_->setEnabled(workspace_.hasScene());
 }
 
+double HeaderBar::wantedError() const { return std::pow(10.0, wanted_->value()); }
+
+void HeaderBar::setWantedError(double error) {
+    if (error > 0) wanted_->setValue(static_cast<int>(std::lround(std::log10(error))));
+}
+
 void HeaderBar::showChoice() {
-    const double wanted = std::pow(10.0, wanted_->value());
-    const QString start = QStringLiteral("1e%1").arg(wanted_->value());
-    const auto results = run_.results();
-    const SchemeResult *cheapest = nullptr, *nearest = nullptr;
-    if (results)
+    struct Candidate {
+        SchemeSpec spec;
+        double seconds = 0, error = 0;
+        bool isOfScene = true;
+    };
+    std::vector<Candidate> all;
+    if (const auto results = run_.results()) {
         for (const auto& s : results->schemes) {
             const Summary& m = s->summary;
-            if (m.status != RunStatus::done || !std::isfinite(m.maxError)) continue;
-            if (m.maxError <= wanted && (!cheapest || m.cpuSeconds < cheapest->summary.cpuSeconds))
-                cheapest = s.get();
-            if (!nearest || m.maxError < nearest->summary.maxError) nearest = s.get();
+            if (m.status == RunStatus::done && std::isfinite(m.maxError))
+                all.push_back({s->spec, m.cpuSeconds, m.maxError});
         }
-    QString text = start;
+        for (const SweptScheme& swept : sweep_.known())
+            for (const SweptPoint& p : swept.points) {
+                Candidate other{swept.spec, p.seconds, p.error, false};
+                (other.spec.tolerance ? *other.spec.tolerance : other.spec.step.value) = p.step;
+                other.spec.step.expression.clear();
+                all.push_back(std::move(other));
+            }
+    }
+    const double wanted = wantedError();
+    const Candidate *cheapest = nullptr, *nearest = nullptr;
+    for (const Candidate& c : all) {
+        // What the scene has is proposed where another step would not save a tenth.
+        const double price = c.isOfScene ? 0.9 : 1;
+        if (c.error <= wanted &&
+            (!cheapest || price * c.seconds < (cheapest->isOfScene ? 0.9 : 1) * cheapest->seconds))
+            cheapest = &c;
+        if (!nearest || c.error < nearest->error) nearest = &c;
+    }
+    QString text = QStringLiteral("1e%1").arg(wanted_->value());
     if (cheapest)
         text += QStringLiteral("  →  %1, %2, %3")
-                    .arg(QString::fromStdString(cheapest->summary.label), stepText(cheapest->spec),
-                         shortTime(cheapest->summary.cpuSeconds));
+                    .arg(QString::fromStdString(cheapest->spec.label), stepText(cheapest->spec),
+                         shortTime(cheapest->seconds));
     else if (nearest)
-        text +=
-            tr("  →  no scheme; the closest is %1 with %2")
-                .arg(QString::fromStdString(nearest->summary.label), shortNumber(nearest->summary.maxError));
+        text += tr("  →  no scheme; the closest is %1 with %2")
+                    .arg(QString::fromStdString(nearest->spec.label), shortNumber(nearest->error));
+    else if (run_.results() && run_.results()->isFinished)
+        text += tr("  →  no errors are known here");
     choice_->setText(text);
+    const bool isOther = cheapest && !cheapest->isOfScene;
+    chosen_ = isOther ? cheapest->spec.label : std::string();
+    if (isOther)
+        chosenStep_ = cheapest->spec.tolerance ? *cheapest->spec.tolerance : cheapest->spec.step.value;
+    use_->setVisible(isOther);
+}
+
+void HeaderBar::useChoice() {
+    const auto& schemes = workspace_.scene().schemes;
+    for (std::size_t i = 0; i < schemes.size(); ++i) {
+        if (schemes[i].label != chosen_) continue;
+        const std::string key = schemes[i].tolerance ? "/tolerance" : "/step";
+        workspace_.edit({{"/schemes/" + std::to_string(i) + key, chosenStep_}},
+                        tr("Use the step for the wanted error"));
+        workspace_.selectScheme(static_cast<int>(i));
+        return;
+    }
 }
 
 }  // namespace extremal

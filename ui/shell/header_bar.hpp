@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+#include <string>
 #include <vector>
 
 class QLabel;
@@ -11,6 +12,7 @@ class QSlider;
 
 namespace extremal {
 
+class BackgroundSweep;
 class Playback;
 class RunControl;
 class Workspace;
@@ -18,7 +20,10 @@ class Workspace;
 class HeaderBar : public QWidget {
     Q_OBJECT
 public:
-    HeaderBar(Workspace& workspace, RunControl& run, QWidget* parent = nullptr);
+    HeaderBar(Workspace& workspace, RunControl& run, const BackgroundSweep& sweep, QWidget* parent = nullptr);
+    double wantedError() const;
+    /// To a power of ten.
+    void setWantedError(double error);
 
 signals:
     void runRequested();
@@ -26,6 +31,7 @@ signals:
     void stepRequested();
     void exportRequested();
     void paletteRequested();
+    void wantedChanged(double error);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -34,13 +40,17 @@ private:
     void showScene();
     void showState();
     void showChoice();
+    void useChoice();
 
     Workspace& workspace_;
     RunControl& run_;
+    const BackgroundSweep& sweep_;
     QLabel *title_, *file_, *choice_;
     std::vector<QPushButton*> secondary_;  ///< which a narrow window does without
     QSlider* wanted_;
-    QPushButton* runButton_;
+    QPushButton *runButton_, *use_;
+    std::string chosen_;     ///< label of the scheme that is proposed with another step; empty: none is
+    double chosenStep_ = 0;  ///< or tolerance
 };
 
 }  // namespace extremal

@@ -7,6 +7,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QMimeData>
+#include <QPlainTextEdit>
 #include <QScrollArea>
 #include <QSettings>
 #include <QSplitter>
@@ -51,6 +52,7 @@
 #include "ui/shell/timeline.hpp"
 #include "ui/shell/typeset.hpp"
 #include "ui/shell/workspace.hpp"
+#include "ui/study/background_sweep.hpp"
 #include "ui/study/study_page.hpp"
 
 namespace extremal {
@@ -87,7 +89,8 @@ void MainWindow::makePages() {
     auto* column = new QVBoxLayout(whole);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
-    auto* header = new HeaderBar(*workspace_, *run_);
+    auto* sweep = new BackgroundSweep(*run_, this);
+    auto* header = new HeaderBar(*workspace_, *run_, *sweep);
     connect(header, &HeaderBar::runRequested, run_, &RunControl::start);
     connect(header, &HeaderBar::stopRequested, run_, &RunControl::stop);
     connect(header, &HeaderBar::stepRequested, this, [this] { playback_->stepBy(1, rowStep()); });
@@ -128,6 +131,10 @@ void MainWindow::makePages() {
     centreColumn->addWidget(lesson_);
     pages_ = new QStackedWidget;
     compare_ = new CompareView(*workspace_, *run_, *playback_, theme_);
+    compare_->setSweep(*sweep);
+    compare_->setWanted(header->wantedError());
+    connect(header, &HeaderBar::wantedChanged, compare_, &CompareView::setWanted);
+    connect(compare_, &CompareView::wantedMoved, header, &HeaderBar::setWantedError);
     notes_ = new QTextBrowser;
     notes_->setOpenExternalLinks(true);
     notes_->setAccessibleName(tr("Notes"));
@@ -272,6 +279,10 @@ void MainWindow::newFromLagrangian() {
     if (!mayLeaveScene()) return;
     workspace_->adopt(newLagrangianScene());
     stack_->setCurrentIndex(1);
+    if (auto* const formula = left_->findChild<QPlainTextEdit*>(QStringLiteral("field.lagrangian"))) {
+        formula->setFocus();
+        formula->selectAll();
+    }
 }
 
 /// Files that were opened or saved, the latest first; of the last session as well.
@@ -350,7 +361,12 @@ void MainWindow::showScene() {
     if (!scene.lesson.empty()) notes += "*" + QString::fromStdString(scene.lesson) + "*\n\n";
     notes += QString::fromStdString(scene.notes);
     if (!scene.source.empty()) notes += tr("\n\nSource: %1").arg(QString::fromStdString(scene.source));
-    showMarkdown(*notes_, withFormulas(notes));
+    // Typesetting takes a while: in a turn of its own, and only for other notes.
+    if (notes_->property("source").toString() == notes) return;
+    notes_->setProperty("source", notes);
+    QTimer::singleShot(0, notes_, [this, notes] {
+        if (notes_->property("source").toString() == notes) showMarkdown(*notes_, withFormulas(notes));
+    });
 }
 
 void MainWindow::showStatus() {
@@ -442,11 +458,20 @@ void MainWindow::shareWidth() {
     if (splitter_->count() < 3) return;
     const double scale = std::max(1.0, theme_.fontScale);
     const auto scaled = [&](int width) { return static_cast<int>(std::lround(scale * width)); };
-    left_->setMinimumWidth(scaled(280));  // the discretizer's seven columns and a scroll bar
+    // The discretizer's seven columns and a scroll bar; with large letters in a small window, what is left of
+    // its width, and a scroll bar below.
+    constexpr int frame = 48, leastPanel = 150;
+    const int wanted = scaled(280),
+              left =
+                  std::clamp(width() - scaled(208) - splitter_->widget(1)->minimumSizeHint().width() - frame,
+                             leastPanel, wanted);
+    left_->setHorizontalScrollBarPolicy(left < wanted ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
+    left_->setMinimumWidth(left);
     schemes_->setMinimumWidth(scaled(208));
-    const int side = left_->isHidden() ? 0 : std::clamp(width() * 18 / 100, scaled(280), scaled(300));
+    const int side =
+        left_->isHidden() ? 0 : std::clamp(width() * 18 / 100, left, std::max(left, scaled(300)));
     const int right = schemes_->isHidden() ? 0 : std::clamp(width() * 19 / 100, scaled(208), scaled(310));
-    splitter_->setSizes({side, width() - side - right - 48, right});
+    splitter_->setSizes({side, width() - side - right - frame, right});
 }
 
 }  // namespace extremal

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <QMainWindow>
+#include <QUrl>
 
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "ui/shell/theme.hpp"
 
@@ -16,6 +18,7 @@ class QSplitter;
 class QMenu;
 class QStackedWidget;
 class QTabBar;
+class QScrollArea;
 class QTextBrowser;
 
 namespace extremal {
@@ -34,6 +37,7 @@ class Notices;
 class OwnList;
 class OwnWindow;
 class PassportWindow;
+struct PaletteEntry;
 class RaceWindow;
 class Playback;
 class RunControl;
@@ -69,6 +73,10 @@ public:
     Notices& notices() { return *notices_; }
     StudyPage& studies() { return *studies_; }
     ThemeSwitch& themeSwitch() { return *themeSwitch_; }
+
+public slots:
+    /// "handbook:multiscale#resonances", of links in messages.
+    void openHandbook(const QUrl& url);
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -115,6 +123,7 @@ private:
     void copyScene();
     void pasteScene();
     void showPalette();
+    std::vector<PaletteEntry> paletteEntries();
     void showOwn();
     OwnList& ownList();
     double rowStep() const;
@@ -148,7 +157,7 @@ private:
     QStackedWidget* pages_;  ///< Compare, Notes, Studies
     QTabBar* tabs_;
     QSplitter* splitter_;
-    QWidget* left_;  ///< the panel of the scene
+    QScrollArea* left_;  ///< the panel of the scene
     QTextBrowser* notes_;
     QLabel* status_;
 };

@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QString>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace extremal {
@@ -19,6 +20,7 @@ struct Notice {
     QString text;  ///< what happened
     QString hint;  ///< what to try; may be empty
     std::vector<Choice> choices;
+    std::string place = {};  ///< of the handbook, which explains it; may be empty
 };
 
 class Notices : public QObject {

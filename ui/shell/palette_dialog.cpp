@@ -6,10 +6,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-#include <vector>
-
-#include "engine/scene/preset.hpp"
-#include "ui/shell/actions.hpp"
+#include <utility>
 
 namespace extremal {
 namespace {
@@ -32,13 +29,14 @@ int score(const QString& text, const QString& pattern) {
 
 }  // namespace
 
-PaletteDialog::PaletteDialog(const Actions& actions, QWidget* parent) : QDialog(parent), actions_(actions) {
+PaletteDialog::PaletteDialog(std::vector<PaletteEntry> entries, QWidget* parent)
+    : QDialog(parent), entries_(std::move(entries)) {
     setWindowTitle(tr("Find an action"));
     resize(520, 380);
     auto* layout = new QVBoxLayout(this);
     input_ = new QLineEdit(this);
-    input_->setPlaceholderText(tr("Find an action or a preset"));
-    input_->setAccessibleName(tr("Find an action or a preset"));
+    input_->setPlaceholderText(tr("Find an action, a preset, a parameter, a scheme or a plot"));
+    input_->setAccessibleName(input_->placeholderText());
     list_ = new QListWidget(this);
     list_->setAccessibleName(tr("Found"));
     layout->addWidget(input_);
@@ -53,32 +51,21 @@ PaletteDialog::PaletteDialog(const Actions& actions, QWidget* parent) : QDialog(
 
 void PaletteDialog::filter(const QString& text) {
     list_->clear();
-    struct Found {
-        int points;
-        QString text;
-        QVariant data;
-        bool isEnabled;
-    };
-    std::vector<Found> found;
-    const auto& all = actions_.all();
-    for (int i = 0; i < all.size(); ++i) {
-        const QString name = QString(all[i]->text()).remove('&');
-        const QString keys = all[i]->shortcut().toString(QKeySequence::NativeText);
-        if (const int points = score(name, text); points >= 0)
-            found.push_back({points, keys.isEmpty() ? name : name + QStringLiteral("    ") + keys, i,
-                             all[i]->isEnabled()});
-    }
-    for (const Preset& p : presets()) {
-        const QString name = QString::fromUtf8(p.id.data(), static_cast<qsizetype>(p.id.size()));
-        if (const int points = score(name, text); points >= 0)
-            found.push_back({points, tr("Open preset: %1").arg(name), name, true});
-    }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Found& a, const Found& b) { return a.points > b.points; });
-    for (const Found& f : found) {
-        auto* item = new QListWidgetItem(f.text, list_);
-        item->setData(Qt::UserRole, f.data);
-        if (!f.isEnabled) item->setFlags(item->flags() & ~Qt::ItemIsEnabled);
+    std::vector<std::pair<int, int>> found;  // points, and which
+    for (std::size_t i = 0; i < entries_.size(); ++i)
+        if (const int points = score(entries_[i].text, text); points >= 0)
+            found.emplace_back(points, static_cast<int>(i));
+    // Of two that match alike, the one with the fewer letters that were not asked for.
+    const auto lengthOf = [&](int i) { return entries_[static_cast<std::size_t>(i)].text.size(); };
+    std::stable_sort(found.begin(), found.end(), [&](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : lengthOf(a.second) < lengthOf(b.second);
+    });
+    for (const auto& [points, i] : found) {
+        const PaletteEntry& entry = entries_[static_cast<std::size_t>(i)];
+        auto* item = new QListWidgetItem(
+            entry.note.isEmpty() ? entry.text : entry.text + QStringLiteral("    ") + entry.note, list_);
+        item->setData(Qt::UserRole, i);
+        if (!entry.isEnabled) item->setFlags(item->flags() & ~Qt::ItemIsEnabled);
     }
     if (found.empty()) {
         auto* item = new QListWidgetItem(tr("No matching action"), list_);
@@ -90,13 +77,10 @@ void PaletteDialog::filter(const QString& text) {
 
 void PaletteDialog::choose() {
     const QListWidgetItem* item = list_->currentItem();
-    if (!item) return;
-    const QVariant chosen = item->data(Qt::UserRole);
+    if (!item || !item->data(Qt::UserRole).isValid()) return;
+    const std::function<void()> act = entries_[item->data(Qt::UserRole).toUInt()].act;
     accept();
-    if (chosen.typeId() == QMetaType::Int)
-        actions_.all()[chosen.toInt()]->trigger();
-    else
-        emit presetChosen(chosen.toString());
+    act();
 }
 
 bool PaletteDialog::eventFilter(QObject* watched, QEvent* event) {

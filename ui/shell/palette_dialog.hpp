@@ -1,22 +1,28 @@
-/// The command palette: type a few letters, find an action or a preset, Return does it.
+/// The command palette: type a few letters, find what to do, Return does it.
 #pragma once
 
 #include <QDialog>
+
+#include <functional>
+#include <vector>
 
 class QLineEdit;
 class QListWidget;
 
 namespace extremal {
 
-class Actions;
+/// Something that can be done.
+struct PaletteEntry {
+    QString text;  ///< what is searched: "Change stiffness k"
+    QString note;  ///< beside it: the key
+    bool isEnabled = true;
+    std::function<void()> act;
+};
 
 class PaletteDialog : public QDialog {
     Q_OBJECT
 public:
-    PaletteDialog(const Actions& actions, QWidget* parent);
-
-signals:
-    void presetChosen(const QString& name);
+    PaletteDialog(std::vector<PaletteEntry> entries, QWidget* parent);
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
@@ -25,7 +31,7 @@ private:
     void filter(const QString& text);
     void choose();
 
-    const Actions& actions_;
+    std::vector<PaletteEntry> entries_;
     QLineEdit* input_;
     QListWidget* list_;
 };

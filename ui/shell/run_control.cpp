@@ -7,6 +7,7 @@
 #include "engine/run/reuse.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
+#include "engine/scene/topics.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -280,7 +281,8 @@ void RunControl::compute(bool usesKnown) {
                        QString::fromStdString(first.pointer.empty() ? first.message
                                                                     : first.pointer + ": " + first.message),
                        QString::fromStdString(first.hint),
-                       {}});
+                       {},
+                       handbookPlace(first)});
         setState(State::idle);
         return;
     }
@@ -315,7 +317,8 @@ void RunControl::poll() {
                            tr("There is no reference, so errors are unknown: %1")
                                .arg(QString::fromStdString(p.message)),
                            QString::fromStdString(p.hint),
-                           {}});
+                           {},
+                           handbookPlace(p)});
     }
     if (next->isFinished) store_.keep(*next);
     const bool isDone = takeNames(*next);

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "ui/panels/card.hpp"
+#include "ui/panels/combo_box.hpp"
 #include "ui/panels/seek_slider.hpp"
 #include "ui/shell/playback.hpp"
 
@@ -28,8 +29,9 @@ Timeline::Timeline(Playback& playback, QWidget* parent) : QWidget(parent), playb
     slider_ = new SeekSlider(Qt::Horizontal, this);
     slider_->setRange(0, resolution);
     slider_->setAccessibleName(tr("Time"));
-    label_ = makeLabel({}, "caption", this);
-    speed_ = new QComboBox(this);
+    label_ = makeElidedLabel({}, "caption", this);
+    slider_->setMinimumWidth(48);  // the label gives way first
+    speed_ = new ComboBox(this);
     speed_->setAccessibleName(tr("Speed"));
     for (const double s : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) speed_->addItem(QStringLiteral("%1×").arg(s), s);
     speed_->setCurrentIndex(3);

@@ -1,6 +1,7 @@
 /// Everything the main window can do, each with its key.
 #include <QActionGroup>
 #include <QApplication>
+#include <QDesktopServices>
 #include <QFileDialog>
 #include <QMenu>
 #include <QMessageBox>
@@ -18,6 +19,7 @@
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
 #include "ui/plots/plot_widget.hpp"
+#include "ui/shell/about.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/compare_view.hpp"
 #include "ui/shell/copies_window.hpp"
@@ -27,7 +29,6 @@
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/passport_window.hpp"
-#include "ui/shell/palette_dialog.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/race_window.hpp"
@@ -65,12 +66,9 @@ void MainWindow::makeActions() {
                   [this] { showHelp(QStringLiteral("keys")); });
     actions_->add("log", tr("Help"), tr("Log"), {QKeySequence(Qt::CTRL | Qt::Key_L)}, [this] { showLog(); });
     actions_->add("about", tr("Help"), tr("About Extremal"), {QKeySequence(Qt::CTRL | Qt::Key_F1)}, [this] {
-        QMessageBox::about(
-            this, tr("About Extremal"),
-            tr("<b>Extremal</b><br>Generalized Galerkin variational integrators: pick a function space and a "
-               "quadrature rule; the stationarity of the discrete action is the integrator.<br><br>"
-               "GPL-3.0-or-later. With Qt, QCustomPlot, Eigen and Boost."));
+        QMessageBox::about(this, tr("About Extremal"), aboutText(compare_->stage()->drawingBackend()));
     });
+    QDesktopServices::setUrlHandler(QStringLiteral("handbook"), this, "openHandbook");
 }
 
 void MainWindow::startLesson() {
@@ -97,6 +95,10 @@ void MainWindow::addLessonActions() {
                   [this] { lesson_->back(); });
     actions_->add("lessonDo", menu, tr("Do the step of the lesson"), {QKeySequence(Qt::ALT | Qt::Key_Return)},
                   [this] { lesson_->doStep(); });
+}
+
+void MainWindow::openHandbook(const QUrl& url) {
+    showHelp(url.hasFragment() ? url.path() + '#' + url.fragment() : url.path());
 }
 
 void MainWindow::showHelp(const QString& page) {
@@ -410,14 +412,6 @@ void MainWindow::save(bool asksName) {
     const QString path =
         QFileDialog::getSaveFileName(this, tr("Save scene"), workspace_->fileName(), tr("Scenes (*.json)"));
     if (!path.isEmpty()) workspace_->saveAs(path);
-}
-
-void MainWindow::showPalette() {
-    auto* dialog = new PaletteDialog(*actions_, this);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    connect(dialog, &PaletteDialog::presetChosen, this,
-            [this](const QString& name) { open("preset:" + name); });
-    dialog->open();
 }
 
 }  // namespace extremal

@@ -7,6 +7,7 @@
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/own_folder.hpp"
+#include "engine/scene/topics.hpp"
 #include "ui/shell/notices.hpp"
 
 namespace extremal {
@@ -150,7 +151,8 @@ void Workspace::report(const QString& name, const std::vector<Problem>& problems
         choices.push_back({tr("Show the log"), [this] { emit notices_.logRequested(); }});
     }
     notices_.post({Notice::Kind::error, "open", tr("%1 cannot be used: %2").arg(name, lines.join("; ")),
-                   hints.join("; "), std::move(choices)});
+                   hints.join("; "), std::move(choices),
+                   problems.empty() ? std::string() : handbookPlace(problems.front())});
 }
 
 bool Workspace::open(const QString& name, bool isTrusted) {
@@ -174,7 +176,8 @@ bool Workspace::open(const QString& name, bool isTrusted) {
                        tr("%1 wants to read a file outside its folder: %2")
                            .arg(QFileInfo(name).fileName(), QString::fromStdString(file)),
                        tr("read it only if you trust who made the scene"),
-                       {{tr("Read it"), [this, name] { emit agreedToRead(name); }}}});
+                       {{tr("Read it"), [this, name] { emit agreedToRead(name); }}},
+                       "security"});
         return false;
     }
     notices_.dismiss("open");

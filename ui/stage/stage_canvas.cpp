@@ -90,18 +90,19 @@ private:
     CanvasSource source_;
 };
 
-bool probe() {
+/// The renderer of a graphics card; empty: there is none.
+QString probe() {
     const QString platform = QGuiApplication::platformName();
-    if (platform == QLatin1String("offscreen") || platform == QLatin1String("minimal")) return false;
+    if (platform == QLatin1String("offscreen") || platform == QLatin1String("minimal")) return {};
     const QByteArray wanted = qgetenv("EXTREMAL_STAGE");
-    if (wanted == "picture") return false;
+    if (wanted == "picture") return {};
     QOpenGLContext context;
     context.setFormat(wantedFormat());
-    if (!context.create()) return false;
+    if (!context.create()) return {};
     QOffscreenSurface surface;
     surface.setFormat(context.format());
     surface.create();
-    if (!context.makeCurrent(&surface)) return false;
+    if (!context.makeCurrent(&surface)) return {};
     const auto version = context.format().version();
     const auto* name = reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER));
     const QString renderer = QString::fromLatin1(name ? name : "");
@@ -109,15 +110,18 @@ bool probe() {
     const bool isSoftware = renderer.contains(QLatin1String("llvmpipe")) ||
                             renderer.contains(QLatin1String("softpipe")) ||
                             renderer.contains(QLatin1String("swrast"), Qt::CaseInsensitive);
-    return version >= std::make_pair(3, 3) && (!isSoftware || wanted == "opengl");
+    const bool isUsed = version >= std::make_pair(3, 3) && (!isSoftware || wanted == "opengl");
+    return isUsed ? renderer : QString();
 }
 
 }  // namespace
 
-bool hasGraphicsCard() {
-    static const bool isThere = probe();
-    return isThere;
+QString graphicsCard() {
+    static const QString name = probe();
+    return name;
 }
+
+bool hasGraphicsCard() { return !graphicsCard().isEmpty(); }
 
 QWidget* makeCanvas(QWidget* parent, CanvasSource source, bool usesGraphicsCard) {
     QWidget* canvas = nullptr;

@@ -26,6 +26,8 @@ struct CanvasSource {
 /// insist: EXTREMAL_STAGE=opengl takes software OpenGL as well, EXTREMAL_STAGE=picture takes none (for faulty
 /// drivers). Asked once; GUI thread.
 bool hasGraphicsCard();
+/// Its name; empty: there is none.
+QString graphicsCard();
 
 /// A child widget of `parent` that paints from `source`, without words: grabbing an OpenGL widget loses what
 /// a QPainter adds to it. Call update() on it for a new frame.

@@ -16,6 +16,7 @@
 #include "ui/stage/stage_overlay.hpp"
 #include "ui/stage/stage_picture.hpp"
 #include "ui/stage/stage_player.hpp"
+#include "ui/stage/surface.hpp"
 
 namespace extremal {
 namespace {
@@ -198,6 +199,18 @@ void StageWidget::fit() { impl_->choose(std::nullopt); }
 void StageWidget::zoom(double factor) { impl_->zoomAt(factor, QRectF(rect()).center()); }
 bool StageWidget::isFitted() const { return !impl_->chosen; }
 bool StageWidget::usesGraphicsCard() const { return impl_->usesGraphicsCard; }
+
+QString StageWidget::drawingBackend() const {
+    if (impl_->usesGraphicsCard) return graphicsCard();
+    const auto describe = [] {
+        try {
+            return QString::fromStdString(describeSurface(*makeHeadlessSurface()));
+        } catch (const std::exception& e) {
+            return QString::fromUtf8(e.what());
+        }
+    };
+    return std::async(std::launch::async, describe).get();  // a thread has one current context
+}
 
 QImage StageWidget::picture(double pixelRatio) {
     const auto draw = [&] {

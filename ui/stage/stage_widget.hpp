@@ -44,6 +44,8 @@ public:
     void zoom(double factor);  ///< about the middle
     bool isFitted() const;     ///< false once the user has zoomed or panned
     bool usesGraphicsCard() const;
+    /// What draws it: the graphics card or software, as OpenGL names itself, or what is missing.
+    QString drawingBackend() const;
     void setDrawing(bool isOn);
     bool isDrawing() const;
     /// A line above the picture, in the model's coordinates: what is being drawn. Empty: none.

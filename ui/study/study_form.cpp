@@ -11,17 +11,18 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/study/catalog.hpp"
+#include "ui/panels/combo_box.hpp"
 #include "ui/study/varied_number_edit.hpp"
 
 namespace extremal {
 
 StudyForm::StudyForm(QWidget* parent) : Card(tr("Study"), parent) {
-    kind_ = new QComboBox;
+    kind_ = new ComboBox;
     kind_->setAccessibleName(tr("Study"));
     for (const StudyEntry& entry : studyEntries())
         kind_->addItem(QString::fromStdString(entry.item.title), QString::fromStdString(entry.item.id));
     metricLabel_ = makeLabel(tr("metric"), "caption");
-    metric_ = new QComboBox;
+    metric_ = new ComboBox;
     metric_->setAccessibleName(tr("Metric"));
     metric_->setToolTip(tr("What is measured of each run: the largest size of this observable"));
     isAtEnd_ = new QCheckBox(tr("at the end alone"));

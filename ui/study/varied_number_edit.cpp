@@ -13,6 +13,7 @@
 #include "engine/scene/codec.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/combo_box.hpp"
 
 namespace extremal {
 namespace {
@@ -57,7 +58,7 @@ VariedNumberEdit::VariedNumberEdit(const QString& axis, QGridLayout& grid, int r
         edit->setMaximumWidth(90);
         return edit;
     };
-    number_ = new QComboBox;
+    number_ = new ComboBox;
     number_->setEditable(true);
     number_->setInsertPolicy(QComboBox::NoInsert);
     number_->setMinimumContentsLength(7);

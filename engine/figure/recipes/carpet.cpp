@@ -101,7 +101,7 @@ HeatMap heatOf(const System& system, const SchemeResult& scheme, double start, d
 
 /// The paths of the nodes, of many every m-th.
 Guide pathsOf(const FieldSampling& field, const std::vector<Frame>& frames) {
-    constexpr std::size_t mostPaths = 80;
+    constexpr std::size_t mostPaths = 24;
     const std::size_t n = field.x.size(), stride = (n + mostPaths - 1) / mostPaths;
     Guide guide;
     guide.isStrong = true;

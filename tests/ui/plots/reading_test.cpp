@@ -2,6 +2,7 @@
 /// in front of faded ones, dots that do not run together, and all values at the pointer.
 #include <qcustomplot.h>
 
+#include <QPainter>
 #include <QTest>
 
 #include <cmath>
@@ -115,9 +116,9 @@ private slots:
         QVERIFY(pixelsOf(image.copy(0, 0, 300, top - 2), Theme::light().text) > 40);
     }
     void lowerPartsOfTitlesAreLowered() {
-        QVERIFY(hasLoweredPart("p_a  [kg m/s]"));
+        QVERIFY(hasOwnParts("p_a  [kg m/s]"));
         QCOMPARE(plainTitle("p_θ  [kg m²/s]"), QString("pθ  [kg m²/s]"));
-        QVERIFY(!hasLoweredPart("|H - H(0)|  [J]") && !hasLoweredPart("_x"));
+        QVERIFY(!hasOwnParts("|H - H(0)|  [J]") && !hasOwnParts("_x"));
         Figure figure = handmade::figureOf("phase");
         figure.y.title = "p_x";
         PlotWidget plot(Theme::light());
@@ -126,6 +127,22 @@ private slots:
         const int left = plot.findChild<QCustomPlot*>()->axisRect()->rect().left();
         const QImage strip = with.copy(0, 0, left - 30, with.height());
         QVERIFY(pixelsOf(strip, Theme::light().text) > 5);
+    }
+    /// The bars of a norm are two lines with the ground between them.
+    void barsOfANormDoNotRunTogether() {
+        QCOMPARE(plainTitle(QString::fromUtf8("‖q − q ref‖")), QString::fromUtf8("||q − q ref||"));
+        QVERIFY(hasOwnParts(QString::fromUtf8("‖ψ‖")));
+        QImage image(40, 24, QImage::Format_RGB32);
+        image.fill(Qt::white);
+        QPainter painter(&image);
+        painter.setPen(Qt::black);
+        QFont font(Theme::light().strong());
+        drawTitle(painter, font, {4, 17}, QString::fromUtf8("‖"));
+        painter.end();
+        int changes = 0;
+        for (int x = 1; x < image.width(); ++x)
+            changes += (qGray(image.pixel(x, 14)) < 200) != (qGray(image.pixel(x - 1, 14)) < 200);
+        QCOMPARE(changes, 4);
     }
     void theOthersFadeBesideAHighlightedScheme() {
         const Theme theme = Theme::light();

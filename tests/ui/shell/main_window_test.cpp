@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QLineEdit>
 #include <QMenu>
+#include <QMenuBar>
 #include <QPushButton>
 #include <QSet>
 #include <QSignalSpy>
@@ -17,21 +18,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/libraries.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/scene/json.hpp"
 #include "tests/tools/test.hpp"
 #include "tests/ui/window.hpp"
+#include "ui/panels/card.hpp"
 #include "ui/panels/discretizer.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/value_edit.hpp"
 #include "ui/plots/plot_widget.hpp"
+#include "ui/shell/about.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/compare_view.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/workspace.hpp"
+#include "ui/stage/stage_widget.hpp"
 
 namespace extremal::main_window_test {
 
@@ -89,9 +94,7 @@ private slots:
         QVERIFY(button && button->isVisible());
         QCOMPARE(step(), 0.2008);  // offered, not taken
         QTest::mouseClick(button, Qt::LeftButton);
-        const double halfPeriods = step() * 1000 / M_PI;
         QVERIFY(step() != 0.2008 && std::abs(step() / 0.2008 - 1) < 0.02);
-        QVERIFY(halfPeriods - std::floor(halfPeriods) >= 0.1 && halfPeriods - std::floor(halfPeriods) <= 0.5);
         QTRY_VERIFY(!window.findChild<QPushButton*>("remedy")->isVisible());
         window.actions().find("undo")->trigger();
         QCOMPARE(step(), 0.2008);
@@ -160,7 +163,7 @@ private slots:
         };
         const auto entry = [&](const QString& title) -> QAction* {
             for (QMenu* menu : window.findChildren<QMenu*>()) {
-                if (menu->title() != QStringLiteral("Plots")) continue;
+                if (menu->title().remove('&') != QStringLiteral("Plots")) continue;
                 emit menu->aboutToShow();
                 for (QAction* action : menu->actions())
                     if (action->text() == title) return action;
@@ -229,7 +232,7 @@ private slots:
         const auto isOffered = [&](const char* preset) {
             window.open(preset);
             for (QMenu* menu : window.findChildren<QMenu*>()) {
-                if (menu->title() != QStringLiteral("Plots")) continue;
+                if (menu->title().remove('&') != QStringLiteral("Plots")) continue;
                 emit menu->aboutToShow();
                 for (const QAction* action : menu->actions())
                     if (action->text() == QStringLiteral("Parameter map")) return true;
@@ -309,6 +312,48 @@ private slots:
         window.runControl().start();
         QTRY_VERIFY(window.runControl().isRunning() && window.runControl().fraction() > 0);
         window.close();
+    }
+    /// Before there are results a card says what will be in it.
+    void cardsHaveTitlesBeforeTheirFigures() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        QVERIFY(window.open("preset:kepler"));
+        QVERIFY(!window.runControl().results());
+        for (const PlotWidget* plot : window.compareView().plots()) {
+            QVERIFY(!plot->figure().title.empty() && !plot->figure().message.empty());
+            QVERIFY(plot->figure().axes == AxisStyle::none);
+            const auto* card = qobject_cast<const Card*>(plot->parentWidget());
+            QVERIFY(card && card->accessibleName() == QString::fromStdString(plot->figure().title));
+        }
+        QVERIFY(waitForResults(window));
+        for (const PlotWidget* plot : window.compareView().plots()) QVERIFY(plot->figure().message.empty());
+    }
+    void menusHaveLettersToPress() {
+        MainWindow window(Theme::light(), false);
+        QSet<QChar> ofBar;
+        for (const QAction* menu : window.menuBar()->actions()) {
+            const qsizetype at = menu->text().indexOf('&');
+            QVERIFY2(at >= 0 && !ofBar.contains(menu->text()[at + 1].toUpper()), qPrintable(menu->text()));
+            ofBar.insert(menu->text()[at + 1].toUpper());
+            QSet<QChar> ofMenu;
+            for (const QAction* action : menu->menu()->actions()) {
+                const qsizetype mark = action->text().indexOf('&');
+                if (mark < 0) continue;  // more actions than letters
+                const QChar letter = action->text()[mark + 1].toUpper();
+                QVERIFY2(!ofMenu.contains(letter), qPrintable(action->text()));
+                ofMenu.insert(letter);
+            }
+            QVERIFY(ofMenu.size() >= std::min<qsizetype>(12, menu->menu()->actions().size() - 4));
+        }
+        QVERIFY(ofBar.contains('F') && ofBar.contains('H'));
+    }
+    void aboutNamesVersionsAndWhatDraws() {
+        MainWindow window(Theme::light(), false);
+        const QString backend = window.compareView().stage()->drawingBackend(), text = aboutText(backend);
+        QVERIFY(!backend.isEmpty() && text.contains(backend.toHtmlEscaped()));
+        for (const auto& [library, version] : libraries())
+            QVERIFY2(text.contains(QString::fromStdString(library)), library.c_str());
+        QVERIFY(text.contains(qVersion()));
     }
     void everyActionHasItsOwnKey() {
         MainWindow window(Theme::light(), false);

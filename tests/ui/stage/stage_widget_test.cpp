@@ -22,6 +22,13 @@ class StageWidgetTest : public QObject {
     }
 
 private slots:
+    /// With ratios that are no whole numbers as well.
+    void thePictureCoversItsPlace() {
+        StageWidget stage;
+        stage.resize(101, 61);
+        QCOMPARE(stage.picture(1.25).size(), QSize(127, 77));  // 126.25 x 76.25
+        QCOMPARE(stage.picture(2).size(), QSize(202, 122));
+    }
     void worksOnAPlatformWithoutOpenGl() {
         StageWidget stage;
         stage.resize(400, 300);
