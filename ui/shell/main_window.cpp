@@ -461,10 +461,8 @@ void MainWindow::shareWidth() {
     // The discretizer's seven columns and a scroll bar; with large letters in a small window, what is left of
     // its width, and a scroll bar below.
     constexpr int frame = 48, leastPanel = 150;
-    const int wanted = scaled(280),
-              left =
-                  std::clamp(width() - scaled(208) - splitter_->widget(1)->minimumSizeHint().width() - frame,
-                             leastPanel, wanted);
+    const int wanted = scaled(280), centre = scaled(264),
+              left = std::clamp(width() - scaled(208) - centre - frame, leastPanel, wanted);
     left_->setHorizontalScrollBarPolicy(left < wanted ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
     left_->setMinimumWidth(left);
     schemes_->setMinimumWidth(scaled(208));

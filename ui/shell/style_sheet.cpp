@@ -28,6 +28,7 @@ QToolTip { background: @panel; color: @text; border: 1px solid @line; padding: 4
 
 constexpr const char* buttons = R"(
 QPushButton { background: @panel; color: @text; border: 1px solid @line; border-radius: 6px; padding: 5px 12px; }
+QAbstractScrollArea::corner { background: transparent; border: none; }
 QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QPushButton:hover { background: @field; }
 QPushButton:pressed { background: @selection; }
