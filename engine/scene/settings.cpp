@@ -177,7 +177,10 @@ bool readFields(Reader& reader, const Value& object, const std::string& pointer,
     for (const FieldInfo& field : fields) known.push_back(field.key);
     reader.checkKeys(object, pointer, known);
     for (const FieldInfo& field : fields) {
-        if (const Value* value = object.find(field.key)) {
+        const Value* const value = object.find(field.key);
+        // Of values that are free, null is one that is left out: so it is written.
+        const bool isLeftOut = !value || (field.type == FieldType::json && value->isNull());
+        if (!isLeftOut) {
             isComplete =
                 readField(reader, object, *value, childPointer(pointer, field.key), field, settings) &&
                 isComplete;

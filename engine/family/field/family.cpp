@@ -40,7 +40,7 @@ SpaceEntry tent() {
         jsonField("degree", "degree", "r, s", Value(1.0),
                   "Degree of the polynomials on a cell: one number, or {\"space\": r, \"time\": "
                   "s}; r up to 3, s up to 4.");
-    FieldInfo cells = integerField("cells", "N", 2, 4e6, nullptr,
+    FieldInfo cells = integerField("cells", "N", 2, 1e6, nullptr,
                                    "Number of elements in space; default: that of the model.");
     cells.isOptional = true;
     FieldInfo parts =

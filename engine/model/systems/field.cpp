@@ -33,7 +33,7 @@ std::vector<FieldInfo> fieldParameters() {
         choiceField("boundary", "boundary", {"periodic", "dirichlet", "neumann"},
                     "What holds at the ends: periodic, dirichlet: the values stay as they are at the "
                     "start, neumann: nothing acts on them."),
-        integerField("cells", "N", 2, 4e6, 200, "Number of elements of schemes that do not say theirs.")};
+        integerField("cells", "N", 2, 1e6, 200, "Number of elements of schemes that do not say theirs.")};
 }
 
 /// a(x/epsilon); empty: 1. Throws where it is not positive.
