@@ -30,6 +30,16 @@ System makeStaticProfile(const Settings& settings) {
     if (!(problem.right > problem.left))
         throw InvalidScene("/domain", "must be two ascending places, got " + formatNumber(problem.left) +
                                           " and " + formatNumber(problem.right));
+    // Thousands of elements, and panels in each, have places of their own, and finite sums.
+    constexpr double longest = 1e100, shortest = 1e-100, relative = 1e-9;
+    const double length = problem.length(), size = std::max(std::abs(problem.left), std::abs(problem.right));
+    if (!(length <= longest && length >= shortest && length >= relative * size))
+        throw InvalidScene("/domain",
+                           "must have a length from " + formatNumber(shortest) + " to " +
+                               formatNumber(longest) + ", and at least " + formatNumber(relative) +
+                               " of the size of its ends, got " + formatNumber(problem.left) + " to " +
+                               formatNumber(problem.right),
+                           "another unit of length");
     problem.stiffness = settings.number("stiffness");
     const Value::Array ends = settings.find("ends")->asArray();
     problem.uLeft = ends[0].asNumber();
