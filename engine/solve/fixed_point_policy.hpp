@@ -8,6 +8,7 @@
 /// T: scalar of the step. epsilon: unit of its last place.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 namespace extremal {
@@ -36,19 +37,21 @@ private:
     /// Corrections at round-off vary by less than a factor of four.
     static constexpr double stall = 0.25;
 
-    /// The iteration to round-off ends where one more sweep would change a hundredth of the last place, e_j^2
-    /// / e_{j-1} if the contraction stays as it is: left at round-off itself the forces have a bias that adds
-    /// up over millions of steps.
+    /// The iteration to round-off ends where one more sweep would change a hundredth of the last place, at
+    /// the slower contraction of the last two: left at round-off itself the forces have a bias that adds up
+    /// over millions of steps.
     bool isSmall(const T& size) const {
         if (tolerance_ > epsilon) return size <= tolerance_;
-        const T ratio = size / earlier_[0];  // 0 at first
-        return size * (sweeps_ > 0 && ratio < T(1) ? ratio : T(1)) <= epsilon / 100;
+        T ratio(1);
+        if (sweeps_ > 0)
+            ratio = std::min(ratio, std::max(T(size / earlier_[0]), T(earlier_[0] / earlier_[1])));
+        return size * ratio <= epsilon / 100;
     }
-    /// Corrections that shrank fast and suddenly do not, near round-off; or have not shrunk over three
-    /// sweeps, within four digits of it, as sums of terms that cancel leave no more.
+    /// Corrections that shrank fast, over two sweeps, and suddenly do not, near round-off; or have not shrunk
+    /// over three sweeps, within four digits of it, as sums of terms that cancel leave no more.
     bool isRoundOff(const T& size) const {
-        const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[1] * T(stall);
-        return (size < 64 * epsilon && isSudden) ||
+        const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[2] * T(stall * stall);
+        return (size < 8 * epsilon && isSudden) ||
                (size < 10000 * epsilon && size >= earlier_[2] * T(stall));
     }
     /// More than 21 sweeps from round-off: Newton's method is cheaper, whose step costs 20 to 60 of them.

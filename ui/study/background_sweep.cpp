@@ -82,6 +82,7 @@ BackgroundSweep::BackgroundSweep(RunControl& run, QObject* parent) : QObject(par
         if (!run_.isRunning()) return;
         pause_.stop();
         stop_.request_stop();
+        isRunning_ = false;
     });
 }
 
@@ -154,9 +155,9 @@ void BackgroundSweep::start() {
             QMetaObject::invokeMethod(
                 qApp,
                 [self, swept, problem, stop] {
-                    if (!self) return;
+                    if (!self || stop.stop_requested()) return;
                     self->isRunning_ = false;
-                    if (!stop.stop_requested()) self->keep(problem, std::move(*swept));
+                    self->keep(problem, std::move(*swept));
                 },
                 Qt::QueuedConnection);
         });

@@ -39,6 +39,8 @@ private slots:
         // 1e-14 after 1e-9: the next would be 1e-19, a thousandth of the last place.
         QCOMPARE(lastOf(eps, {1e-4, 1e-9, 1e-14}), Verdict::converged);
         QCOMPARE(lastOf(eps, {1e-8, 1e-10, 1e-12, 1e-14}), Verdict::proceed);
+        // One sweep that contracts far better than the one before promises nothing of the next.
+        QCOMPARE(lastOf(eps, {1e-4, 1e-10, 5e-11, 1e-15}), Verdict::proceed);
         QCOMPARE(lastOf(eps, {0.0}), Verdict::converged);
         QCOMPARE(lastOf(eps, {1e-17}), Verdict::proceed);
     }
@@ -63,8 +65,9 @@ private slots:
         QCOMPARE(lastOf(eps, {0.1, 0.2, 0.4, 0.8, 1.6}), Verdict::slow);
     }
     void roundOffIsASuddenStallOrNoProgressInThreeSweeps() {
-        QCOMPARE(lastOf(eps, {1e-10, 1e-12, 1.3e-14, 0.9e-14}), Verdict::converged);
-        QCOMPARE(lastOf(eps, {1e-8, 4e-13, 2e-13}), Verdict::proceed);  // not so far above it
+        QCOMPARE(lastOf(eps, {1e-11, 1e-13, 1.7e-15, 1.2e-15}), Verdict::converged);
+        QCOMPARE(lastOf(eps, {1e-8, 4e-13, 2e-13}), Verdict::proceed);          // not so far above it
+        QCOMPARE(lastOf(eps, {6e-15, 4e-15, 9e-16, 6e-16}), Verdict::proceed);  // nor where it was slow
         QCOMPARE(lastOf(eps, {1e-8, 4e-13, 3e-13, 2e-13, 1.5e-13}), Verdict::converged);
         // A contraction of 0.4 goes on.
         QCOMPARE(lastOf(eps, {1e-12, 4e-13, 1.6e-13, 6.4e-14, 2.6e-14, 1e-14, 4e-15, 1.6e-15}),
