@@ -171,24 +171,31 @@ Figure workPrecisionFigure(const Sweep& sweep) {
         if (Area noise = noiseOf(sweep, scheme); noise.x.size() > 2) figure.add(std::move(noise));
         figure.add(std::move(s));
     }
-    const std::vector<SweepRow>& rows = sweep.rows();
-    const std::vector<bool> isOnFront = paretoFront(rows);
-    std::vector<std::pair<double, double>> front;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        if (isOnFront[i] && rows[i].result.error > 0)
-            front.emplace_back(rows[i].result.cpuSeconds, rows[i].result.error);
-    std::sort(front.begin(), front.end());
-    Guide guide;
-    guide.isBroad = true;
-    for (const auto& [x, y] : front) {
-        guide.x.push_back(x);
-        guide.y.push_back(y);
-    }
-    if (guide.x.size() > 1) figure.add(std::move(guide));
+    std::vector<std::pair<double, double>> points;
+    for (const SweepRow& row : sweep.rows())
+        if (row.result.isDone()) points.emplace_back(row.result.cpuSeconds, row.result.error);
+    addFront(figure, std::move(points));
     figure.subtitle = "lower left is better; on the broad line is what is worth its cost";
     finish(figure, "Errors against CPU time");
     addOrderTriangles(figure);
     return figure;
+}
+
+void addFront(Figure& figure, std::vector<std::pair<double, double>> points) {
+    std::erase_if(figure.layers, [](const Layer& layer) {
+        const Guide* const guide = std::get_if<Guide>(&layer);
+        return guide && guide->isBroad;
+    });
+    std::erase_if(points, [](const auto& point) {
+        return !std::isfinite(point.first) || !std::isfinite(point.second) || !(point.second > 0);
+    });
+    Guide guide;
+    guide.isBroad = true;
+    for (const auto& [seconds, error] : paretoFront(std::move(points))) {
+        guide.x.push_back(seconds);
+        guide.y.push_back(error);
+    }
+    if (guide.x.size() > 1) figure.add(std::move(guide));
 }
 
 Figure studyFigure(std::string_view study, const Sweep& sweep) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/figure/figure.hpp"
@@ -21,6 +22,10 @@ Figure convergenceFigure(const Sweep& sweep);
 /// Errors against the CPU time, with the spread of repeated runs as a band about each curve, the Pareto front
 /// behind them, and slopes of orders 2, 4, 6 and 8 in the lower left corner.
 Figure workPrecisionFigure(const Sweep& sweep);
+
+/// The broad line through those of the points (CPU seconds, error) that are worth their cost, in place of the
+/// one that the figure has.
+void addFront(Figure& figure, std::vector<std::pair<double, double>> points);
 
 /// The figure of a study by its id: errors against costs unless it has one of its own.
 Figure studyFigure(std::string_view study, const Sweep& sweep);

@@ -26,4 +26,15 @@ std::vector<bool> paretoFront(const std::vector<SweepRow>& rows) {
     return front;
 }
 
+std::vector<std::pair<double, double>> paretoFront(std::vector<std::pair<double, double>> points) {
+    std::sort(points.begin(), points.end());
+    double best = std::numeric_limits<double>::infinity();
+    std::erase_if(points, [&](const auto& point) {
+        if (!(point.second < best)) return true;
+        best = point.second;
+        return false;
+    });
+    return points;
+}
+
 }  // namespace extremal

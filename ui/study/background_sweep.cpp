@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "engine/core/problem.hpp"
+#include "engine/figure/study_figure.hpp"
 #include "engine/scene/resolve.hpp"
 #include "engine/study/sweep.hpp"
 #include "ui/shell/background.hpp"
@@ -105,7 +106,9 @@ void BackgroundSweep::addLines(Figure& figure) const {
         return series && series->part == otherSteps;
     });
     std::vector<double> seconds, errors;
-    for (const SweptScheme& swept : known()) {
+    std::vector<std::pair<double, double>> points;
+    const std::vector<SweptScheme> all = known();
+    for (const SweptScheme& swept : all) {
         if (swept.points.size() < 2) continue;
         Series line;
         line.label = swept.spec.label;
@@ -115,6 +118,7 @@ void BackgroundSweep::addLines(Figure& figure) const {
         for (const SweptPoint& p : swept.points) {
             line.x.push_back(p.seconds);
             line.y.push_back(p.error);
+            points.emplace_back(p.seconds, p.error);
         }
         seconds.insert(seconds.end(), line.x.begin(), line.x.end());
         errors.insert(errors.end(), line.y.begin(), line.y.end());
@@ -122,6 +126,11 @@ void BackgroundSweep::addLines(Figure& figure) const {
     }
     widen(figure.x, seconds);
     widen(figure.y, errors);
+    if (!all.empty())
+        for (const auto& scheme : run_.results()->schemes)
+            if (scheme->summary.status == RunStatus::done)
+                points.emplace_back(scheme->summary.cpuSeconds, scheme->summary.maxError);
+    addFront(figure, std::move(points));
 }
 
 void BackgroundSweep::start() {

@@ -36,7 +36,8 @@ public:
     ~BackgroundSweep() override;
     /// Of the schemes of the present results, as they are there; empty until it is known.
     std::vector<SweptScheme> known() const;
-    /// Adds their lines to the figure of the view `work-precision`, in place of those it has.
+    /// Adds their lines to the figure of the view `work-precision`, in place of those it has, and the Pareto
+    /// front of all points.
     void addLines(Figure& figure) const;
     bool isRunning() const { return isRunning_; }
 

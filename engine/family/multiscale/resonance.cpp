@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/core/dense.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/multiscale/oscillatory.hpp"
 
@@ -142,9 +143,10 @@ double stepConditioning(const System& system, const Discretization& discretizati
     return worst;
 }
 
-std::optional<Resonance> resonanceOf(const System& system, const Discretization& discretization,
-                                     double step) {
-    if (!isOscillatory(discretization.space) || !(step > 0)) return {};
+namespace {
+
+std::optional<Resonance> foundResonance(const System& system, const Discretization& discretization,
+                                        double step) {
     StepLine line(system, discretization, step);
     if (!(line.unit() > 0)) return {};
     const auto singular = line.singularNear(0);
@@ -157,6 +159,29 @@ std::optional<Resonance> resonanceOf(const System& system, const Discretization&
             if (r.near == 0 && line.at(place - 3) > 0 && !line.singularNear(place, 1))
                 r.near = fewDigits(system, discretization, line.at(place), line.unit());
     return r;
+}
+
+/// All that the tables of steps near this one depend on.
+struct ResonanceKey {
+    std::vector<OscillatoryBasis> bases;
+    std::vector<int> fast;
+    Settings quadrature;
+    Phases<double> z;
+    double step;
+    bool operator==(const ResonanceKey&) const = default;
+};
+
+}  // namespace
+
+std::optional<Resonance> resonanceOf(const System& system, const Discretization& discretization,
+                                     double step) {
+    if (!isOscillatory(discretization.space) || !(step > 0)) return {};
+    // A dozen tables or more, and a scene is checked after every edit.
+    static MemoCache<ResonanceKey, std::optional<Resonance>> known(64);
+    const ResonanceKey key{oscillatoryBases(discretization.space, system), system.fast.coordinates,
+                           discretization.quadrature, oscillatoryPhases(system, discretization.space, step),
+                           step};
+    return known.get(key, [&] { return foundResonance(system, discretization, step); });
 }
 
 }  // namespace extremal

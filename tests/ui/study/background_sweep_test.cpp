@@ -52,8 +52,20 @@ private slots:
             QVERIFY(swept.points.front().error > swept.points.back().error);
             QVERIFY(swept.points.front().step > 3 * swept.points.back().step);
         }
-        // The axes show all of them.
         const Figure& figure = window.costs().figure();
+        // The front falls from the cheapest point to the most accurate one, and nothing is below it.
+        const Guide* front = nullptr;
+        for (const Guide& guide : figure.all<Guide>())
+            if (guide.isBroad) front = &guide;
+        QVERIFY(front && front->x.size() >= 2);
+        for (std::size_t i = 1; i < front->x.size(); ++i)
+            QVERIFY(front->x[i] > front->x[i - 1] && front->y[i] < front->y[i - 1]);
+        for (const Series& s : figure.series())
+            for (std::size_t i = 0; i < s.x.size(); ++i) {
+                const bool isCheaper = s.x[i] < front->x.front(), isBetter = s.y[i] < front->y.back();
+                QVERIFY2(!isCheaper && !isBetter, s.label.c_str());
+            }
+        // The axes show all of them.
         for (const Series& s : figure.series())
             for (std::size_t i = 0; i < s.x.size(); ++i)
                 QVERIFY(s.y[i] >= figure.y.range->first && s.y[i] <= figure.y.range->second &&
