@@ -9,6 +9,7 @@
 
 #include "engine/action/combined_table.hpp"
 #include "engine/core/dense.hpp"
+#include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/frequency.hpp"
@@ -95,16 +96,36 @@ std::string velocityRemedy(const Settings& space) {
                       : "a rule with more nodes";
 }
 
+/// All that the table of a part in one space depends on.
+struct PartKey {
+    Settings space;
+    Settings panels;  ///< the space whose cells the panels of the rule are made for
+    Settings rule;
+    bool operator==(const PartKey&) const = default;
+};
+
+/// The table of a part in one space, remembered: describing a scheme, checking it and making its step want
+/// the same one, and it is computed in quadruple precision.
+Table<double> partTable(const Space<double>& space, const Rule<double>& rule, const PartKey& key) {
+    static MemoCache<PartKey, Table<double>> known(64);
+    return known.get(key, [&] { return makePartTable(space, rule); });
+}
+
 /// Table (r, k) of part r in the space of coordinate k; refused where velocities are under a poor rule.
 std::vector<std::vector<Table<double>>> partTables(const Split& split, double step) {
+    std::vector<Settings> settings;
     std::vector<Space<double>> spaces;
-    for (const Settings& space : split.spaces) spaces.push_back(makeSpace(withStep(space, step)));
+    for (const Settings& space : split.spaces) {
+        settings.push_back(withStep(space, step));
+        spaces.push_back(makeSpace(settings.back()));
+    }
     std::vector<std::vector<Table<double>>> all;
     for (std::size_t r = 0; r < split.parts.size(); ++r) {
-        const Rule<double> rule = ruleOn<double>(spaces[finest(split, r)], split.rules[r]);
+        const std::size_t panels = finest(split, r);
+        const Rule<double> rule = ruleOn<double>(spaces[panels], split.rules[r]);
         all.emplace_back();
         for (std::size_t k = 0; k < spaces.size(); ++k) {
-            Table<double> table = makePartTable(spaces[k], rule);
+            Table<double> table = partTable(spaces[k], rule, {settings[k], settings[panels], split.rules[r]});
             table.dependsOnStep = dependsOnStep(split.spaces[k]);
             const bool moves = spaces.size() == 1 ? std::any_of(split.moves[r].begin(), split.moves[r].end(),
                                                                 [](bool m) { return m; })

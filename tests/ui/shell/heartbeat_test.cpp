@@ -119,8 +119,8 @@ private slots:
     }
     void itAnswersWhileAPresetOpens_data() {
         QTest::addColumn<QString>("preset");
-        for (const char* preset : {"kepler", "spring-pendulum", "heavy-top", "kepler-sem", "coherent-state",
-                                   "sine-gordon-kink", "space-time-mesh"})
+        for (const char* preset : {"kepler", "spring-pendulum", "multirate", "heavy-top", "kepler-sem",
+                                   "coherent-state", "sine-gordon-kink", "space-time-mesh"})
             QTest::newRow(preset) << QString("preset:") + preset;
     }
     void itAnswersWhileAPresetOpens() {
