@@ -51,8 +51,7 @@ private:
     /// over three sweeps, within four digits of it, as sums of terms that cancel leave no more.
     bool isRoundOff(const T& size) const {
         const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[2] * T(stall * stall);
-        return (size < 8 * epsilon && isSudden) ||
-               (size < 10000 * epsilon && size >= earlier_[2] * T(stall));
+        return (size < 8 * epsilon && isSudden) || (size < 10000 * epsilon && size >= earlier_[2] * T(stall));
     }
     /// More than 21 sweeps from round-off: Newton's method is cheaper, whose step costs 20 to 60 of them.
     bool isFar(const T& size) const {
