@@ -362,10 +362,10 @@ void MainWindow::showScene() {
     notes += QString::fromStdString(scene.notes);
     if (!scene.source.empty()) notes += tr("\n\nSource: %1").arg(QString::fromStdString(scene.source));
     // Typesetting takes a while: in a turn of its own, and only for other notes.
-    if (notes_->property("source").toString() == notes) return;
-    notes_->setProperty("source", notes);
+    if (shownNotes_ == notes) return;
+    shownNotes_ = notes;
     QTimer::singleShot(0, notes_, [this, notes] {
-        if (notes_->property("source").toString() == notes) showMarkdown(*notes_, withFormulas(notes));
+        if (shownNotes_ == notes) showMarkdown(*notes_, withFormulas(notes));
     });
 }
 

@@ -159,6 +159,7 @@ private:
     QSplitter* splitter_;
     QScrollArea* left_;  ///< the panel of the scene
     QTextBrowser* notes_;
+    QString shownNotes_;  ///< their source
     QLabel* status_;
 };
 

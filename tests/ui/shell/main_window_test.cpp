@@ -14,6 +14,7 @@
 #include <QFileInfo>
 #include <QProcess>
 #include <QTest>
+#include <QTextBrowser>
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,22 @@ private slots:
     void initTestCase() {
         loadFonts();
         applyTheme(*qApp, Theme::light());
+    }
+    void theNotesOfTheSceneAreShown() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        QVERIFY(window.open("preset:kepler"));
+        QTextBrowser* notes = nullptr;
+        for (auto* browser : window.findChildren<QTextBrowser*>())
+            if (browser->accessibleName() == "Notes") notes = browser;
+        QVERIFY(notes);
+        const auto isShown = [&] {
+            const QString lesson = QString::fromStdString(window.workspace().scene().lesson);
+            return !lesson.isEmpty() && notes->toPlainText().simplified().contains(lesson.simplified());
+        };
+        QTRY_VERIFY(isShown());
+        QVERIFY(window.open("preset:pendulum"));
+        QTRY_VERIFY(isShown());
     }
     void aPresetOpensAndRunsByItself() {
         MainWindow window(Theme::light(), false);
