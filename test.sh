@@ -24,12 +24,12 @@ strict() {
 
 sanitize() {
     local sanitizers=$1 folder="build-${1//,/-}" lists="$root/tests/sanitizers"
-    configure "$folder" -DEXTREMAL_SANITIZE="$sanitizers" -DEXTREMAL_UNITY=ON -DEXTREMAL_BENCH=OFF
-    ninja -C "$root/$folder" >&2
     export ASAN_OPTIONS="detect_stack_use_after_return=1:strict_string_checks=1"
     export LSAN_OPTIONS="suppressions=$lists/leaks.txt:print_suppressions=0"
     export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
     export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$lists/races.txt"
+    configure "$folder" -DEXTREMAL_SANITIZE="$sanitizers" -DEXTREMAL_UNITY=ON -DEXTREMAL_BENCH=OFF
+    ninja -C "$root/$folder" >&2
     ctest --test-dir "$root/$folder" --parallel 2 --output-on-failure --timeout 3000 "${@:2}"
 }
 
