@@ -186,14 +186,12 @@ void addFront(Figure& figure, std::vector<std::pair<double, double>> points) {
         const Guide* const guide = std::get_if<Guide>(&layer);
         return guide && guide->isBroad;
     });
-    std::erase_if(points, [](const auto& point) {
-        return !std::isfinite(point.first) || !std::isfinite(point.second) || !(point.second > 0);
-    });
+    std::erase_if(points, [](const auto& point) { return point.second == 0; });  // the axis is logarithmic
     Guide guide;
     guide.isBroad = true;
-    for (const auto& [seconds, error] : paretoFront(std::move(points))) {
-        guide.x.push_back(seconds);
-        guide.y.push_back(error);
+    for (const std::size_t i : paretoFront(points)) {
+        guide.x.push_back(points[i].first);
+        guide.y.push_back(points[i].second);
     }
     if (guide.x.size() > 1) figure.add(std::move(guide));
 }

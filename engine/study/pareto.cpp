@@ -6,35 +6,29 @@
 
 namespace extremal {
 
-std::vector<bool> paretoFront(const std::vector<SweepRow>& rows) {
-    std::vector<std::size_t> known;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        if (rows[i].result.isDone() && std::isfinite(rows[i].result.error) &&
-            std::isfinite(rows[i].result.cpuSeconds))
-            known.push_back(i);
-    std::sort(known.begin(), known.end(), [&](std::size_t a, std::size_t b) {
-        const PointResult &x = rows[a].result, &y = rows[b].result;
-        return x.cpuSeconds != y.cpuSeconds ? x.cpuSeconds < y.cpuSeconds : x.error < y.error;
-    });
-    std::vector<bool> front(rows.size(), false);
+std::vector<std::size_t> paretoFront(const std::vector<std::pair<double, double>>& points) {
+    std::vector<std::size_t> front;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (std::isfinite(points[i].first) && std::isfinite(points[i].second)) front.push_back(i);
+    std::sort(front.begin(), front.end(),
+              [&](std::size_t a, std::size_t b) { return points[a] < points[b]; });
     double best = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : known)
-        if (rows[i].result.error < best) {
-            front[i] = true;
-            best = rows[i].result.error;
-        }
+    std::erase_if(front, [&](std::size_t i) {
+        if (!(points[i].second < best)) return true;
+        best = points[i].second;
+        return false;
+    });
     return front;
 }
 
-std::vector<std::pair<double, double>> paretoFront(std::vector<std::pair<double, double>> points) {
-    std::sort(points.begin(), points.end());
-    double best = std::numeric_limits<double>::infinity();
-    std::erase_if(points, [&](const auto& point) {
-        if (!(point.second < best)) return true;
-        best = point.second;
-        return false;
-    });
-    return points;
+std::vector<bool> paretoFront(const std::vector<SweepRow>& rows) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    std::vector<std::pair<double, double>> points;
+    for (const SweepRow& row : rows)
+        points.emplace_back(row.result.isDone() ? row.result.cpuSeconds : unknown, row.result.error);
+    std::vector<bool> isInFront(rows.size(), false);
+    for (const std::size_t i : paretoFront(points)) isInFront[i] = true;
+    return isInFront;
 }
 
 }  // namespace extremal

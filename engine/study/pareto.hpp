@@ -2,6 +2,7 @@
 /// same for less.
 #pragma once
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace extremal {
 
+/// Which of points (CPU seconds, error) are worth their cost, from the cheapest to the most accurate; none
+/// with a number that is not finite.
+std::vector<std::size_t> paretoFront(const std::vector<std::pair<double, double>>& points);
+
 /// One flag per row; false where error or time is not known.
 std::vector<bool> paretoFront(const std::vector<SweepRow>& rows);
-
-/// Those of points (CPU seconds, error) that are worth their cost, from the cheapest to the most accurate.
-std::vector<std::pair<double, double>> paretoFront(std::vector<std::pair<double, double>> points);
 
 }  // namespace extremal
