@@ -1,5 +1,5 @@
-/// What stands against a scheme before it runs: errors refuse it, warnings do not. Pointers are relative to
-/// the scheme ("/step", "/space/omega").
+/// What stands against a scene, or a scheme before it runs: errors refuse it, warnings do not. Pointers of
+/// what families and baselines find are relative to the scheme ("/step", "/space/omega").
 #pragma once
 
 #include <string>
@@ -25,6 +25,12 @@ struct Findings {
                             {},
                             std::move(remedy),
                             std::move(topic)});
+    }
+    /// What was found in a part of what this is about, which is at the pointer.
+    void add(const std::string& pointer, const Findings& part) {
+        for (const Problem& p : part.errors) error(pointer + p.pointer, p.message, p.hint, p.topic);
+        for (const Problem& p : part.warnings)
+            warning(pointer + p.pointer, p.message, p.hint, p.remedy, p.topic);
     }
 };
 

@@ -137,12 +137,6 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
                        "a larger step, or an earlier end", {}, "duration");
 }
 
-void report(Reader& reader, const std::string& pointer, const Findings& findings) {
-    for (const Problem& p : findings.errors) reader.error(pointer + p.pointer, p.message, p.hint, p.topic);
-    for (const Problem& p : findings.warnings)
-        reader.warning(pointer + p.pointer, p.message, p.hint, p.remedy, p.topic);
-}
-
 /// Of its family or its baseline, what stands against its step.
 void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
@@ -157,7 +151,7 @@ void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
         checkStability(reader, at, scheme.family, scheme.stabilityLimit(), pointer);
     if (!scheme.properties.caution.empty()) findings.warning("", scheme.properties.caution);
     if (scheme.family && scheme.family->check) scheme.family->check(at, findings);
-    report(reader, pointer, findings);
+    reader.add(pointer, findings);
 }
 
 /// What is observed of tangent maps, where the scheme has none.
@@ -215,8 +209,7 @@ void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
             checkStep(reader, scene, scheme, pointer);
         });
     } catch (const InvalidScene& e) {
-        for (const Problem& p : e.problems()) reader.error(pointer + p.pointer, p.message, p.hint, p.topic);
-        return;
+        return reader.add(pointer, {e.problems(), {}});
     }
     if (reader.errors.empty()) checkCost(reader, scene, scheme, pointer);
 }

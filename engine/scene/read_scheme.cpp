@@ -150,9 +150,7 @@ void examineBaseline(Reader& reader, const std::string& pointer, const Settings&
     if (!entry || !entry->examine) return;
     Findings findings;
     entry->examine(settings, findings);
-    for (const Problem& p : findings.errors) reader.error(pointer + p.pointer, p.message, p.hint, p.topic);
-    for (const Problem& p : findings.warnings)
-        reader.warning(pointer + p.pointer, p.message, p.hint, p.remedy, p.topic);
+    reader.add(pointer, findings);
 }
 
 /// Exactly one of space, baseline and scheme says what the scheme is.

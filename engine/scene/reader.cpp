@@ -33,16 +33,6 @@ std::string Limits::describe() const {
     return article + number;
 }
 
-void Reader::error(std::string pointer, std::string message, std::string hint, std::string topic) {
-    errors.push_back({std::move(pointer), std::move(message), std::move(hint), {}, {}, std::move(topic)});
-}
-
-void Reader::warning(std::string pointer, std::string message, std::string hint, Value remedy,
-                     std::string topic) {
-    warnings.push_back(
-        {std::move(pointer), std::move(message), std::move(hint), {}, std::move(remedy), std::move(topic)});
-}
-
 namespace {
 
 /// The value of a text where its variables (if it has any) are 1; a mistake in it is recorded.

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "engine/core/catalog.hpp"
-#include "engine/core/problem.hpp"
-#include "engine/core/settings.hpp"
 #include "engine/core/expression.hpp"
+#include "engine/core/settings.hpp"
+#include "engine/family/findings.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace extremal {
@@ -32,20 +32,13 @@ struct Limits {
     std::string describe() const;  ///< "a positive finite number", "an integer from 1 to 24"
 };
 
-class Reader {
+class Reader : public Findings {
 public:
-    std::vector<Problem> errors, warnings;
-
     /// Parameters of the model that expressions may use. A parameter whose own value is wrong, and already
     /// reported, is there without a value: what depends on it is not reported again.
     std::map<std::string, std::optional<double>, std::less<>> parameters;
     Settings model;                ///< as read; no type: it is wrong
     bool hasUnknownModel = false;  ///< no name can be judged
-
-    /// `topic`: that of Problem.
-    void error(std::string pointer, std::string message, std::string hint = {}, std::string topic = {});
-    void warning(std::string pointer, std::string message, std::string hint = {}, Value remedy = {},
-                 std::string topic = {});
 
     /// Each returns an empty result after recording an error.
     std::optional<Number> number(const Value& value, const std::string& pointer, const Limits& limits);
