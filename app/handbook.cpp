@@ -17,10 +17,6 @@ std::vector<std::string> placesOf(const QString& page) {
     return all;
 }
 
-std::string titleOf(const QString& page) {
-    return handbookPage(page).section('\n', 0, 0).remove('#').trimmed().toStdString();
-}
-
 }  // namespace
 
 int handbookVerb(const std::string& place, const CommonOptions& options) {
@@ -28,8 +24,9 @@ int handbookVerb(const std::string& place, const CommonOptions& options) {
         Table table;
         Value::Array all;
         for (const QString& page : handbookPages()) {
-            table.rows.push_back({page.toStdString(), titleOf(page)});
-            all.push_back(Value::Object{{"page", page.toStdString()}, {"title", titleOf(page)}});
+            const std::string name = page.toStdString(), title = handbookTitle(page).toStdString();
+            table.rows.push_back({name, title});
+            all.push_back(Value::Object{{"page", name}, {"title", title}});
         }
         return print(options.isJson ? writeJson(all) : table.text(), done);
     }

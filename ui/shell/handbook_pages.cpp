@@ -23,6 +23,10 @@ QString handbookPage(const QString& page) {
     return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
 }
 
+QString handbookTitle(const QString& page) {
+    return handbookPage(page).section('\n', 0, 0).remove('#').trimmed();
+}
+
 QStringList handbookPages() {
     QStringList pages{QStringLiteral("index")};
     static const QRegularExpression link(QStringLiteral(R"(\]\(([\w-]+)\.md\))"));

@@ -12,6 +12,9 @@ QStringList handbookPages();
 /// The Markdown of a page; empty: there is none of that name.
 QString handbookPage(const QString& page);
 
+/// The first line of a page, without the marks of Markdown; empty: there is none of that name.
+QString handbookTitle(const QString& page);
+
 /// "A heading, with words" -> "a-heading-with-words".
 QString handbookAnchor(const QString& heading);
 

@@ -125,7 +125,7 @@ HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
     row->addWidget(side);
     row->addWidget(text_, 1);
     for (const QString& page : handbookPages()) {
-        const QString title = handbookPage(page).section('\n', 0, 0).remove('#').trimmed();
+        const QString title = handbookTitle(page);
         if (!title.isEmpty()) (new QListWidgetItem(title, pages_))->setData(Qt::UserRole, page);
     }
     connect(pages_, &QListWidget::itemClicked, this,
