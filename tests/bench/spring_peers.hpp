@@ -55,10 +55,11 @@ struct CartesianRates {
 
 /// The pendulum in one kind of coordinates.
 struct SpringForm {
-    double k;
     bool isCartesian;
     System system;
     State start;
+
+    std::string suffix() const { return isCartesian ? " (x, y)" : ""; }
 
     /// (a, theta) of a state.
     template <class X>
@@ -75,12 +76,11 @@ struct Spring {
 
     SpringForm polar() const {
         Settings keys{"spring-pendulum", {{"m", 1.0}, {"g", springGravity}, {"l", 1.0}, {"k", k}}, {}};
-        return {k, false, findModel("spring-pendulum")->make(keys), {0, 0, {amplitude(), 1, 0, 0}}};
+        return {false, findModel("spring-pendulum")->make(keys), {0, 0, {amplitude(), 1, 0, 0}}};
     }
     SpringForm cartesian() const {
         const double r = 1 + amplitude();
-        return {k,
-                true,
+        return {true,
                 laws::typedSystem({"x", "y"}, {{"g", springGravity}, {"k", k}},
                                   "(x_t^2 + y_t^2)/2 - g*y - k/2*(sqrt(x^2 + y^2) - 1)^2"),
                 {0, 0, {r * std::sin(1.0), -r * std::cos(1.0), 0, 0}}};
@@ -192,9 +192,9 @@ std::vector<double> springByGsl(const Spring& p, const SpringForm& form, double 
 /// The libraries on a right-hand side by hand.
 template <class Rates>
 void addLibraries(std::vector<Curve>& curves, const Spring& p, const SpringForm& form, const Rates& rates,
-                  const std::vector<double>& tolerances, double longest, const std::string& suffix) {
+                  const std::vector<double>& tolerances, double longest) {
     const auto add = [&](const std::string& name, auto&& run) {
-        curves.push_back(measure(name + suffix, true, tolerances, longest, run));
+        curves.push_back(measure(name + form.suffix(), true, tolerances, longest, run));
     };
     add("odeint rkf78", [&](double tolerance) {
         return springByOdeint(
@@ -218,7 +218,7 @@ inline void springs(PeerTable& table) {
         std::vector<Curve> curves;
         const auto steps = [&](const std::string& name, bool isPeer, const SpringForm& form, const Make& make,
                                const std::vector<double>& settings) {
-            curves.push_back(measure(name + (form.isCartesian ? " (x, y)" : ""), isPeer, settings, longest,
+            curves.push_back(measure(name + form.suffix(), isPeer, settings, longest,
                                      [&](double n) { return runSpring(p, form, make, n); }));
         };
         const std::vector<double> few{10, 20, 25, 40, 50, 100, 200, 300, 400, 500};
@@ -241,7 +241,7 @@ inline void springs(PeerTable& table) {
                 curves.push_back(measure(id, true, tolerances, longest, [&](double tolerance) {
                     return runSpringTo(p, polar, baselineOf(id), tolerance);
                 }));
-            addLibraries(curves, p, polar, PolarRates{k}, tolerances, longest, "");
+            addLibraries(curves, p, polar, PolarRates{k}, tolerances, longest);
             // Resolved methods are cheaper in coordinates in which the Lagrangian is separable.
             if (k < 1e5) {
                 const SpringForm cartesian = p.cartesian();
@@ -257,7 +257,7 @@ inline void springs(PeerTable& table) {
                     steps(id, true, cartesian, baselineOf(id), many);
                 steps("Gauss collocation 16", true, cartesian,
                       baselineOf("gauss-collocation", {{"stages", 8.0}}), many);
-                addLibraries(curves, p, cartesian, CartesianRates{k}, tolerances, longest, " (x, y)");
+                addLibraries(curves, p, cartesian, CartesianRates{k}, tolerances, longest);
             }
         }
         char name[32];

@@ -137,13 +137,11 @@ void HeaderBar::showChoice() {
             }
     }
     const double wanted = wantedError();
+    // What the scene has is proposed where another step would not save a tenth.
+    const auto price = [](const Candidate& c) { return (c.isOfScene ? 0.9 : 1) * c.seconds; };
     const Candidate *cheapest = nullptr, *nearest = nullptr;
     for (const Candidate& c : all) {
-        // What the scene has is proposed where another step would not save a tenth.
-        const double price = c.isOfScene ? 0.9 : 1;
-        if (c.error <= wanted &&
-            (!cheapest || price * c.seconds < (cheapest->isOfScene ? 0.9 : 1) * cheapest->seconds))
-            cheapest = &c;
+        if (c.error <= wanted && (!cheapest || price(c) < price(*cheapest))) cheapest = &c;
         if (!nearest || c.error < nearest->error) nearest = &c;
     }
     QString text = QStringLiteral("1e%1").arg(wanted_->value());

@@ -1,5 +1,6 @@
 /// What the palette offers: every action, preset and parameter, the schemes, the cells of the discretizer,
 /// and the plots.
+#include <QLabel>
 #include <QLineEdit>
 #include <QScrollArea>
 #include <QTabBar>
@@ -16,8 +17,6 @@
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/palette_dialog.hpp"
 #include "ui/shell/workspace.hpp"
-
-#include <QLabel>
 
 namespace extremal {
 namespace {

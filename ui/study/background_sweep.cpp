@@ -83,7 +83,6 @@ BackgroundSweep::BackgroundSweep(RunControl& run, QObject* parent) : QObject(par
         if (!run_.isRunning()) return;
         pause_.stop();
         stop_.request_stop();
-        isRunning_ = false;
     });
 }
 
@@ -151,7 +150,6 @@ void BackgroundSweep::start() {
     if (wanted.empty()) return;
     stop_.request_stop();
     stop_ = std::stop_source();
-    isRunning_ = true;
     runInBackground(
         [self = QPointer(this), scene = results->scene, problem, wanted, stop = stop_.get_token()] {
             auto swept = std::make_shared<std::vector<SweptScheme>>();
@@ -164,9 +162,7 @@ void BackgroundSweep::start() {
             QMetaObject::invokeMethod(
                 qApp,
                 [self, swept, problem, stop] {
-                    if (!self || stop.stop_requested()) return;
-                    self->isRunning_ = false;
-                    self->keep(problem, std::move(*swept));
+                    if (self && !stop.stop_requested()) self->keep(problem, std::move(*swept));
                 },
                 Qt::QueuedConnection);
         });

@@ -39,7 +39,6 @@ public:
     /// Adds their lines to the figure of the view `work-precision`, in place of those it has, and the Pareto
     /// front of all points.
     void addLines(Figure& figure) const;
-    bool isRunning() const { return isRunning_; }
 
 signals:
     void changed();
@@ -53,7 +52,6 @@ private:
     Scene problem_;  ///< what was swept, without its schemes and views
     std::vector<SweptScheme> swept_;
     std::stop_source stop_{std::nostopstate};
-    bool isRunning_ = false;
 };
 
 }  // namespace extremal

@@ -126,25 +126,6 @@ double fewDigits(const System& system, const Discretization& discretization, dou
     return step;
 }
 
-}  // namespace
-
-double stepConditioning(const System& system, const Discretization& discretization, double step) {
-    if (!isOscillatory(discretization.space)) return 0;
-    // Coordinates that follow the fast ones are no oscillators; where none is known to be fast, all may be.
-    const std::vector<Table<double>> tables = oscillatoryTables(system, discretization, step);
-    double worst = 0;
-    for (const double z : oscillatoryPhases(system, discretization.space, step)) {
-        if (z == 0) continue;
-        for (const int k : system.fast.coordinates)
-            worst = std::max(worst, conditioningOf(tables[static_cast<std::size_t>(k)], z));
-        if (system.fast.coordinates.empty())
-            for (const Table<double>& t : tables) worst = std::max(worst, conditioningOf(t, z));
-    }
-    return worst;
-}
-
-namespace {
-
 std::optional<Resonance> foundResonance(const System& system, const Discretization& discretization,
                                         double step) {
     StepLine line(system, discretization, step);
@@ -172,6 +153,21 @@ struct ResonanceKey {
 };
 
 }  // namespace
+
+double stepConditioning(const System& system, const Discretization& discretization, double step) {
+    if (!isOscillatory(discretization.space)) return 0;
+    // Coordinates that follow the fast ones are no oscillators; where none is known to be fast, all may be.
+    const std::vector<Table<double>> tables = oscillatoryTables(system, discretization, step);
+    double worst = 0;
+    for (const double z : oscillatoryPhases(system, discretization.space, step)) {
+        if (z == 0) continue;
+        for (const int k : system.fast.coordinates)
+            worst = std::max(worst, conditioningOf(tables[static_cast<std::size_t>(k)], z));
+        if (system.fast.coordinates.empty())
+            for (const Table<double>& t : tables) worst = std::max(worst, conditioningOf(t, z));
+    }
+    return worst;
+}
 
 std::optional<Resonance> resonanceOf(const System& system, const Discretization& discretization,
                                      double step) {
