@@ -105,6 +105,7 @@ OwnWindow::OwnWindow(Workspace& workspace, Notices& notices, const Theme& theme,
     const QString titles[] = {tr("Functions"), tr("Slopes"), tr("Amplification"), tr("KKT matrix")};
     for (int i = 0; i < 4; ++i) {
         plots_[i] = new PlotWidget(theme);
+        plots_[i]->setAccessibleName(titles[i]);  // until it has a figure
         plots_[i]->setObjectName(names[i]);
         cards_[i] = new Card(titles[i]);
         cards_[i]->body()->addWidget(plots_[i], 1);

@@ -53,7 +53,8 @@ PlotWidget::~PlotWidget() {
 }
 
 void PlotWidget::setFigure(Figure figure) {
-    setAccessibleName(QString::fromStdString(figure.title));
+    if (const std::string& name = figure.title.empty() ? figure.message : figure.title; !name.empty())
+        setAccessibleName(QString::fromStdString(name));
     setAccessibleDescription(QString::fromStdString(figure.summary));
     impl_->content->setFigure(std::move(figure));
     if (impl_->awaited) setTimeRange(std::exchange(impl_->awaited, std::nullopt));

@@ -120,6 +120,7 @@ HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
     side->setFixedWidth(210);
     left->setContentsMargins(0, 0, 0, 0);
     text_ = new QTextBrowser(this);
+    text_->setAccessibleName(tr("Page"));
     text_->setOpenLinks(false);
     text_->setSearchPaths({QStringLiteral(":/handbook")});  // of pictures
     row->addWidget(side);
