@@ -106,7 +106,54 @@ void checkSum(const std::vector<Quad>& b, const char* key, double known) {
                        "look for a missing or misprinted coefficient");
 }
 
-Tableau readRungeKutta(const Settings& settings) {
+/// Spectral radius of the step on q' = z p, p' = -z q.
+double growth(const Tableau& t, double z) {
+    const Eigen::Index n = t.velocities(), m = t.forces();
+    using Matrix = Eigen::MatrixXd;
+    // P = p_0 - z Ahat Q, Q = q_0 + z A P, with V = z P and F = -z Q.
+    Matrix system = Matrix::Identity(n + m, n + m), right = Matrix::Zero(n + m, 2);
+    system.topRightCorner(n, m) = z * t.Ahat.cast<double>();
+    system.bottomLeftCorner(m, n) = -z * t.A.cast<double>();
+    right.col(1).head(n).setOnes();
+    right.col(0).tail(m).setOnes();
+    const Matrix stages = dense::solve<double>(system, right);
+    Eigen::Matrix2d M = Eigen::Matrix2d::Identity();
+    M.row(0) += z * t.b.cast<double>().transpose() * stages.topRows(n);
+    M.row(1) -= z * t.bHat.cast<double>().transpose() * stages.bottomRows(m);
+    const double half = M.trace() / 2, determinant = M.determinant(), root = half * half - determinant;
+    return root > 0 ? std::abs(half) + std::sqrt(root) : std::sqrt(std::max(0.0, determinant));
+}
+
+int mostOrderOf(TreeKind kind) { return kind == TreeKind::all ? 6 : 8; }
+TreeKind countedTrees(const Tableau& t) {
+    return t.scope == TableauScope::separable ? TreeKind::quadraticKinetic : treesFor(t);
+}
+
+TypedTableau examined(Tableau table) {
+    TypedTableau made;
+    made.tableau = std::make_shared<const Tableau>(std::move(table));
+    const Tableau& t = *made.tableau;
+    const TreeKind kind = countedTrees(t);
+    const int most = mostOrderOf(kind);
+    made.conditions = orderConditions(t, kind, most);
+    Claims& claims = made.claims;
+    claims.order = orderOf(made.conditions, t.known);
+    if (claims.order == most && kind == TreeKind::plain) {
+        const SimplifyingAssumptions k = simplifyingAssumptions(t);
+        claims.order = std::max(most, std::min({k.B, k.C + k.D + 1, 2 * k.C + 2}));
+    }
+    const double enough = 1e3 * t.known;
+    claims.isSymmetric = symmetryDefect(t) <= enough;
+    claims.isSymplectic = symplecticityDefect(t) <= enough;
+    if (claims.isSymplectic) claims.conserves = {"momentum"};
+    if (claims.isSymplectic && t.isPlain()) claims.conserves.push_back("quadratic invariants");
+    constexpr double noGrowth = 1e-12;
+    made.stabilityLimit =
+        firstInstability([&](double z) { return growth(t, z) <= 1 + noGrowth ? 0.0 : 2.0; });
+    return made;
+}
+
+TypedTableau readRungeKutta(const Settings& settings) {
     Reader reader;
     const std::vector<Quad> b = reader.numbers(settings, "b");
     const Tableau::Matrix A = reader.square(settings, "a", b.size());
@@ -133,10 +180,10 @@ Tableau readRungeKutta(const Settings& settings) {
     t.known = reader.known;
     checkSum(b, "b", t.known);
     checkSum(bHat, "b_hat", t.known);
-    return t;
+    return examined(std::move(t));
 }
 
-TypedSplitting readSplitting(const Settings& settings) {
+TypedTableau readSplitting(const Settings& settings) {
     Reader reader;
     const std::vector<Quad> kicks = reader.numbers(settings, "kicks"),
                             drifts = reader.numbers(settings, "drifts");
@@ -149,52 +196,33 @@ TypedSplitting readSplitting(const Settings& settings) {
     checkSum(kicks, "kicks", reader.known);
     checkSum(drifts, "drifts", reader.known);
     const bool isKickFirst = m != n ? m > n : settings.text("first") == "kick";
-    TypedSplitting made;
+    Splitting splitting;
     std::vector<TableauFlow> flows;
     for (std::size_t i = 0; i < m + n; ++i) {
         const bool isKick = (i % 2 == 0) == isKickFirst;
         const Quad& fraction = (isKick ? kicks : drifts)[i / 2];
         flows.push_back({isKick, fraction});
-        made.splitting.stages.push_back({isKick, static_cast<double>(fraction)});
+        splitting.stages.push_back({isKick, static_cast<double>(fraction)});
     }
     Tableau t = splittingTableau(flows);
     t.known = reader.known;
-    const int general = orderOf(orderConditions(t, TreeKind::separable, 8), t.known);
-    made.splitting.order = orderOf(orderConditions(t, TreeKind::quadraticKinetic, 8), t.known);
-    made.splitting.isNystrom = made.splitting.order > general;
-    made.tableau = std::make_shared<const Tableau>(std::move(t));
+    TypedTableau made = examined(std::move(t));
+    splitting.order = made.claims.order;
+    splitting.isNystrom =
+        splitting.order > orderOf(orderConditions(*made.tableau, TreeKind::separable, 8), reader.known);
+    made.splitting = std::move(splitting);
     return made;
 }
 
-/// Spectral radius of the step on q' = z p, p' = -z q.
-double growth(const Tableau& t, double z) {
-    const Eigen::Index n = t.velocities(), m = t.forces();
-    using Matrix = Eigen::MatrixXd;
-    // P = p_0 - z Ahat Q, Q = q_0 + z A P, with V = z P and F = -z Q.
-    Matrix system = Matrix::Identity(n + m, n + m), right = Matrix::Zero(n + m, 2);
-    system.topRightCorner(n, m) = z * t.Ahat.cast<double>();
-    system.bottomLeftCorner(m, n) = -z * t.A.cast<double>();
-    right.col(1).head(n).setOnes();
-    right.col(0).tail(m).setOnes();
-    const Matrix stages = dense::solve<double>(system, right);
-    Eigen::Matrix2d M = Eigen::Matrix2d::Identity();
-    M.row(0) += z * t.b.cast<double>().transpose() * stages.topRows(n);
-    M.row(1) -= z * t.bHat.cast<double>().transpose() * stages.bottomRows(m);
-    const double half = M.trace() / 2, determinant = M.determinant(), root = half * half - determinant;
-    return root > 0 ? std::abs(half) + std::sqrt(root) : std::sqrt(std::max(0.0, determinant));
-}
-
 /// Conditions of the next order that almost hold.
-void warnOfDigits(const Tableau& t, int order, const char* key, Findings& findings) {
-    const TreeKind kind = t.scope == TableauScope::separable ? TreeKind::quadraticKinetic : treesFor(t);
-    const int most = kind == TreeKind::all ? 6 : 8;
-    const auto conditions = orderConditions(t, kind, most);
-    int nearly = most;
-    for (const OrderCondition& c : conditions)
+void warnOfDigits(const TypedTableau& typed, const char* key, Findings& findings) {
+    const int order = typed.claims.order;
+    int nearly = mostOrderOf(countedTrees(*typed.tableau));
+    for (const OrderCondition& c : typed.conditions)
         if (abs(c.residual) > meant) nearly = std::min(nearly, c.order - 1);
     if (nearly <= order) return;
     const OrderCondition* worst = nullptr;
-    for (const OrderCondition& c : conditions)
+    for (const OrderCondition& c : typed.conditions)
         if (c.order <= nearly && (!worst || abs(c.residual) > abs(worst->residual))) worst = &c;
     findings.warning(std::string("/baseline/") + key,
                      "has order " + std::to_string(order) + ", and nearly " + std::to_string(nearly) +
@@ -203,63 +231,38 @@ void warnOfDigits(const Tableau& t, int order, const char* key, Findings& findin
                      "more digits, or fractions such as \"1/6\"", {}, "order-conditions");
 }
 
-MemoCache<Settings, std::shared_ptr<const Tableau>>& tables() {
-    static MemoCache<Settings, std::shared_ptr<const Tableau>> known(64);
-    return known;
-}
-MemoCache<Settings, TypedSplitting>& splittings() {
-    static MemoCache<Settings, TypedSplitting> known(64);
-    return known;
-}
+using Remembered = MemoCache<Settings, std::shared_ptr<const TypedTableau>>;
+constexpr std::size_t mostRemembered = 64;
 
 }  // namespace
 
-std::shared_ptr<const Tableau> typedRungeKutta(const Settings& settings) {
-    return tables().get(settings, [&] { return std::make_shared<const Tableau>(readRungeKutta(settings)); });
+std::shared_ptr<const TypedTableau> typedRungeKutta(const Settings& settings) {
+    static Remembered known(mostRemembered);
+    return known.get(settings,
+                     [&] { return std::make_shared<const TypedTableau>(readRungeKutta(settings)); });
 }
 
-TypedSplitting typedSplitting(const Settings& settings) {
-    return splittings().get(settings, [&] { return readSplitting(settings); });
-}
-
-Claims claimsOf(const Tableau& t) {
-    const TreeKind kind = t.scope == TableauScope::separable ? TreeKind::quadraticKinetic : treesFor(t);
-    const int most = kind == TreeKind::all ? 6 : 8;
-    Claims claims;
-    claims.order = orderOf(orderConditions(t, kind, most), t.known);
-    if (claims.order == most && kind == TreeKind::plain) {
-        const SimplifyingAssumptions k = simplifyingAssumptions(t);
-        claims.order = std::max(most, std::min({k.B, k.C + k.D + 1, 2 * k.C + 2}));
-    }
-    const double enough = 1e3 * t.known;
-    claims.isSymmetric = symmetryDefect(t) <= enough;
-    claims.isSymplectic = symplecticityDefect(t) <= enough;
-    if (claims.isSymplectic) claims.conserves = {"momentum"};
-    if (claims.isSymplectic && t.isPlain()) claims.conserves.push_back("quadratic invariants");
-    return claims;
-}
-
-double stabilityLimitOf(const Tableau& t) {
-    constexpr double noGrowth = 1e-12;
-    return firstInstability([&](double z) { return growth(t, z) <= 1 + noGrowth ? 0.0 : 2.0; });
+std::shared_ptr<const TypedTableau> typedSplitting(const Settings& settings) {
+    static Remembered known(mostRemembered);
+    return known.get(settings, [&] { return std::make_shared<const TypedTableau>(readSplitting(settings)); });
 }
 
 void examine(const Settings& settings, bool isSplitting, Findings& findings) {
     try {
-        const auto t = isSplitting ? typedSplitting(settings).tableau : typedRungeKutta(settings);
-        const int order = claimsOf(*t).order;
+        const auto typed = isSplitting ? typedSplitting(settings) : typedRungeKutta(settings);
+        const Tableau& t = *typed->tableau;
         const char* const key = isSplitting ? "kicks" : "a";
-        if (order < 1)
+        if (typed->claims.order < 1)
             findings.error(isSplitting ? "/baseline/kicks" : "/baseline/b",
                            "has order 0: the sum is not 1 to round-off",
                            "more digits, or fractions such as \"1/6\"", "order-conditions");
-        warnOfDigits(*t, order, key, findings);
+        warnOfDigits(*typed, key, findings);
         if (isSplitting || !valueAt(settings, "c")) return;
-        const Tableau::Vector sums = t->Ahat.rowwise().sum();
+        const Tableau::Vector sums = t.Ahat.rowwise().sum();
         for (Eigen::Index i = 0; i < sums.size(); ++i)
-            if (abs(sums(i) - t->c(i)) > 1e3 * t->known)
+            if (abs(sums(i) - t.c(i)) > 1e3 * t.known)
                 findings.warning("/baseline/c/" + std::to_string(i),
-                                 "is " + formatNumber(static_cast<double>(t->c(i)), 10) +
+                                 "is " + formatNumber(static_cast<double>(t.c(i)), 10) +
                                      ", and its row sums to " +
                                      formatNumber(static_cast<double>(sums(i)), 10) +
                                      ": where the Lagrangian depends on time the order is 1",

@@ -36,14 +36,12 @@ BaselineEntry runge_kutta() {
          optional(table("b_hat", "weights of p", "The weights of p; by default b."))},
         Claims{},
         ""};
-    e.claims = [](const Settings& settings) { return claimsOf(*typedRungeKutta(settings)); };
-    e.stabilityLimitOf = [](const Settings& settings) {
-        return stabilityLimitOf(*typedRungeKutta(settings));
-    };
-    e.tableau = typedRungeKutta;
+    e.claims = [](const Settings& settings) { return typedRungeKutta(settings)->claims; };
+    e.stabilityLimitOf = [](const Settings& settings) { return typedRungeKutta(settings)->stabilityLimit; };
+    e.tableau = [](const Settings& settings) { return typedRungeKutta(settings)->tableau; };
     e.examine = [](const Settings& settings, Findings& findings) { examine(settings, false, findings); };
     e.make = [](const System& system, const BaselineOptions& options) {
-        return makeTableMethod(system.mechanics(), options.step, *typedRungeKutta(options.settings));
+        return makeTableMethod(system.mechanics(), options.step, *typedRungeKutta(options.settings)->tableau);
     };
     return e;
 }

@@ -30,17 +30,16 @@ BaselineEntry splitting() {
               ""};
     e.applies = [](const System& system) { return isMechanical(system) || isWave(system); };
     e.claims = [](const Settings& settings) {
-        Claims claims = claimsOf(*typedSplitting(settings).tableau);
+        Claims claims = typedSplitting(settings)->claims;
         claims.conserves.emplace_back("norm");
         return claims;
     };
-    e.stabilityLimitOf = [](const Settings& settings) {
-        return stabilityLimitOf(*typedSplitting(settings).tableau);
-    };
-    e.tableau = [](const Settings& settings) { return typedSplitting(settings).tableau; };
+    e.stabilityLimitOf = [](const Settings& settings) { return typedSplitting(settings)->stabilityLimit; };
+    e.tableau = [](const Settings& settings) { return typedSplitting(settings)->tableau; };
     e.examine = [](const Settings& settings, Findings& findings) { examine(settings, true, findings); };
     e.make = [](const System& system, const BaselineOptions& options) {
-        const Splitting made = typedSplitting(options.settings).splitting;
+        const auto typed = typedSplitting(options.settings);
+        const Splitting& made = typed->splitting;
         if (isWave(system)) return makeWaveSplitting(system, options.step, made);
         const bool isSeparable = system.mechanics().isSeparable;
         if (!isSeparable && (made.isNystrom || !made.stages.front().isKick || made.stages.size() % 2 == 0))
