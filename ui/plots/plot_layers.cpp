@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "engine/figure/build.hpp"
 #include "engine/figure/sample.hpp"
 #include "ui/plots/axis_title.hpp"
 #include "ui/plots/dense_curve.hpp"
+#include "ui/plots/dot_stamp.hpp"
 #include "ui/plots/map_layer.hpp"
 #include "engine/figure/phase_colour.hpp"
 #include "ui/plots/pill.hpp"
@@ -56,10 +58,8 @@ MarksLayer::MarksLayer(const FigurePlot::Shared& shared)
 
 namespace {
 
-/// The radius of the dots of clouds: smaller where all dots that are in sight, side by side, would cover more
-/// than a part of the plot.
-double cloudRadius(const Figure& figure, const PixelMap& map) {
-    constexpr double largest = 1.7, smallest = 0.5, covered = 0.25;
+/// Of clouds, in sight.
+std::size_t dotsIn(const Figure& figure, const PixelMap& map) {
     std::size_t dots = 0;
     for (const Series& s : figure.series()) {
         if (!hasMarks(s.kind) || hasLine(s.kind)) continue;
@@ -67,6 +67,13 @@ double cloudRadius(const Figure& figure, const PixelMap& map) {
         for (std::size_t i = 0; i < s.x.size(); i += stride)
             if (map.rect.contains(map(s.x[i], s.y[i]))) dots += stride;
     }
+    return dots;
+}
+
+/// The radius of the dots of clouds: smaller where all of them, side by side, would cover more than a part of
+/// the plot.
+double dotRadius(std::size_t dots, const PixelMap& map) {
+    constexpr double largest = 1.7, smallest = 0.5, covered = 0.25;
     const double room = covered * map.rect.width() * map.rect.height();
     return std::clamp(std::sqrt(room / (std::numbers::pi * std::max<double>(1, static_cast<double>(dots)))),
                       smallest, largest);
@@ -140,6 +147,7 @@ void CurvesLayer::draw(QCPPainter* painter) {
     drawFloor(*painter, map);
     drawGuides(*painter, map);
     drawAreas(*painter, map);
+    dots_ = dotsIn(shared_.figure, map);
     const Series* highlighted = nullptr;
     for (const Series& s : shared_.figure.series()) {
         if (!shared_.isShown(s)) continue;
@@ -339,14 +347,27 @@ void CurvesLayer::drawMarks(QCPPainter& painter, const PixelMap& map, const Seri
     const bool isCloud = (series.shade || series.x.size() > few) && !hasLine(series.kind);
     const bool isHighlighted = QString::fromStdString(series.label) == shared_.highlighted;
     double radius = isHighlighted ? 6 : 4.5;
-    if (isCloud) radius = cloudRadius(shared_.figure, map) + (isHighlighted ? 0.4 : 0);
+    if (isCloud) radius = dotRadius(dots_, map) + (isHighlighted ? 0.4 : 0);
     painter.setPen(isCloud ? QPen(Qt::NoPen) : QPen(shared_.theme.panel, 1.2));
     painter.setBrush(color);
+    constexpr std::size_t many = 5000;  // below, ellipses take no time and are at their places exactly
+    std::optional<DotStamp> stamp;
+    const QTransform transform = painter.transform();  // QCPPainter moves what is antialiased by half a pixel
+    if (isCloud && dots_ > many && !painter.modes().testFlag(QCPPainter::pmVectorized) &&
+        transform.type() <= QTransform::TxTranslate) {
+        stamp.emplace(color, radius, painter.device()->devicePixelRatioF());
+        painter.setTransform({});
+    }
+    const QRectF seen = map.rect.adjusted(-6, -6, 6, 6);
     for (std::size_t i = 0; i < series.x.size(); ++i) {
         const QPointF p = map(series.x[i], series.y[i]);
-        const bool isKnown = std::isfinite(p.x()) && std::isfinite(p.y());
-        if (isKnown && map.rect.adjusted(-6, -6, 6, 6).contains(p)) painter.drawEllipse(p, radius, radius);
+        if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !seen.contains(p)) continue;
+        if (stamp)
+            stamp->draw(painter, transform.map(p));
+        else
+            painter.drawEllipse(p, radius, radius);
     }
+    painter.setTransform(transform);
     painter.setBrush(Qt::NoBrush);
 }
 

@@ -53,6 +53,7 @@ private:
     void drawCells(QCPPainter& painter, const PixelMap& map, const Series& series) const;
     void drawMarks(QCPPainter& painter, const PixelMap& map, const Series& series, const QColor& color) const;
     const FigurePlot::Shared& shared_;
+    std::size_t dots_ = 0;  ///< of clouds, in sight
 };
 
 class MarksLayer : public QCPLayerable {
