@@ -13,6 +13,7 @@
 #include "ui/panels/format.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/scheme_finder.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -143,7 +144,11 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     body()->addWidget(about_);
     showAbout(nullptr);
     refresh();
-    connect(&workspace_, &Workspace::sceneChanged, this, &Discretizer::refresh);
+    // In a turn of its own: looking for what every cell stands for takes as long as reading the scene.
+    later_.setSingleShot(true);
+    later_.setInterval(0);
+    connect(&workspace_, &Workspace::sceneChanged, &later_, qOverload<>(&QTimer::start));
+    connect(&later_, &QTimer::timeout, this, &Discretizer::refresh);
 }
 
 void Discretizer::showAbout(const DiscretizerCell* cell) {
@@ -221,22 +226,24 @@ void Discretizer::refresh() {
         for (const ChoiceGrid::Cell& cell : choices.cells)
             ids.push_back(cell.discretization.space.type + " " + cell.id);
     if (ids != shown_ || cells_.empty()) fill(grids);
-    for (DiscretizerCell* cell : cells_) showUse(*cell);
-}
-
-void Discretizer::showUse(DiscretizerCell& cell) const {
-    const Scene& scene = workspace_.scene();
-    const int there = findChoice(scene, cell.choice());
-    if (there < 0) return cell.setUse(DiscretizerCell::Use::none, 0);
-    const auto place = static_cast<std::size_t>(there);
-    cell.setUse(scene.schemes[place].isEnabled ? DiscretizerCell::Use::on : DiscretizerCell::Use::off,
-                styleOf(scene.schemes[place], place));
+    const std::vector<SchemeSpec>& schemes = workspace_.scene().schemes;
+    const SchemeFinder finder(workspace_.scene());
+    for (DiscretizerCell* cell : cells_) {
+        const int there = finder.find(cell->choice());
+        if (there < 0) {
+            cell->setUse(DiscretizerCell::Use::none, 0);
+            continue;
+        }
+        const auto place = static_cast<std::size_t>(there);
+        cell->setUse(schemes[place].isEnabled ? DiscretizerCell::Use::on : DiscretizerCell::Use::off,
+                     styleOf(schemes[place], place));
+    }
 }
 
 void Discretizer::choose(const DiscretizerCell& cell) {
     const Scene& scene = workspace_.scene();
     const bool isOwn = cell.choice().isOwn;
-    if (const int there = findChoice(scene, cell.choice()); there >= 0) {
+    if (const int there = SchemeFinder(scene).find(cell.choice()); there >= 0) {
         workspace_.selectScheme(there);
         if (isOwn) emit ownChosen();
         return;

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <QAbstractButton>
+#include <QTimer>
+
 #include <string>
 #include <vector>
 
@@ -73,12 +75,12 @@ private:
     void addGrid(const ChoiceGrid& choices, QGridLayout& grid);
     void refresh();
     void choose(const DiscretizerCell& cell);
-    void showUse(DiscretizerCell& cell) const;
     void showAbout(const DiscretizerCell* cell);
 
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;
     std::vector<std::string> shown_;  ///< ids of the cells
+    QTimer later_;
     QWidget* grid_ = nullptr;
     QLabel* about_;  ///< of the cell that is pointed at
     const Theme* theme_ = nullptr;

@@ -67,21 +67,6 @@ bool hasImpliedStep(const Settings& space) {
 
 std::string place(int index) { return "/schemes/" + std::to_string(index); }
 
-/// The same space and rule, with all keys that both have; the basis of a space does not matter to its scheme.
-bool areSame(const Discretization& a, const Discretization& b) {
-    const auto same = [](const Settings& one, const Settings& other) {
-        return one.type == other.type && std::all_of(one.keys.begin(), one.keys.end(), [&](const auto& key) {
-                   const Value* there = other.find(key.first);
-                   if (!there || there->isNull() || key.second.isNull() || key.first == "basis") return true;
-                   const bool areNumbers = there->isNumber() && key.second.isNumber();
-                   return areNumbers
-                              ? std::max(1.0, there->asNumber()) == std::max(1.0, key.second.asNumber())
-                              : *there == key.second;
-               });
-    };
-    return same(a.space, b.space) && same(a.quadrature, b.quadrature);
-}
-
 }  // namespace
 
 double sensibleStep(const Scene& scene, int order, double stabilityLimit) {
@@ -357,39 +342,6 @@ std::vector<Edit> editsForCase(const Scene& scene, const View& view, double valu
                                     [&](const SchemeSpec& s) { return s.label == view.scheme; });
     if (grid.pointer.empty() || found == scene.schemes.end()) return {};
     return {{grid.pointer, value}, {place(static_cast<int>(found - scene.schemes.begin())) + "/step", step}};
-}
-
-/// The first scheme that is it, one that is switched on first of all; -1: none.
-template <class IsIt>
-int findScheme(const Scene& scene, const Family* family, const IsIt& isIt) {
-    int found = -1;
-    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
-        const ResolvedScheme scheme = resolve(scene.schemes[i]);
-        const Discretization* const plain = scheme.plain();
-        if (!plain || scheme.family != family) continue;
-        const bool isSame = isIt(*plain, scheme.spec.step.value);
-        if (isSame && scene.schemes[i].isEnabled) return static_cast<int>(i);
-        if (isSame && found < 0) found = static_cast<int>(i);
-    }
-    return found;
-}
-
-int findPair(const Scene& scene, const Settings& space, const Settings& quadrature) {
-    const Discretization wanted{space, quadrature, {}};
-    const Family* const family = familyOf(space);
-    return findScheme(scene, family, [&](const Discretization& d, double step) {
-        return family->isSame ? family->isSame(d, step, wanted) : areSame(d, wanted);
-    });
-}
-
-int findChoice(const Scene& scene, const ChoiceGrid::Cell& choice) {
-    const auto& [space, quadrature, solver] = choice.discretization;
-    if (!choice.isOwn) return findPair(scene, space, quadrature);
-    return findScheme(scene, familyOf(space), [&](const Discretization& d, double) {
-        return d.space.type == space.type && d.quadrature.type == quadrature.type &&
-               d.space.integer("degree") == space.integer("degree") &&
-               std::max(1, d.space.integer("cells")) == std::max(1, space.integer("cells"));
-    });
 }
 
 std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown) {

@@ -49,11 +49,6 @@ std::vector<Edit> editsForModel(const Scene& scene, const ModelEntry& entry);
 /// A case of a view "parameter-map" of one scheme: the parameter, and the step of this scheme.
 std::vector<Edit> editsForCase(const Scene& scene, const View& view, double value, double step);
 
-/// The scheme that is this discretization (same space and rule), first of all one that is switched on, or -1.
-int findPair(const Scene& scene, const Settings& space, const Settings& quadrature);
-/// The scheme that a cell stands for; that of a cell with formulas (isOwn) may have others.
-int findChoice(const Scene& scene, const ChoiceGrid::Cell& choice);
-
 /// Shows a view, with what it observes, or hides it.
 std::vector<Edit> editsForView(const Scene& scene, const std::string& id, bool isShown);
 

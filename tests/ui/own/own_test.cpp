@@ -26,7 +26,7 @@
 #include "ui/panels/term_strip.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/notices.hpp"
-#include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/scheme_finder.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal::own_test {
@@ -219,17 +219,18 @@ private slots:
         DiscretizerCell* const there = window.cell(cell);
         QVERIFY(there);
         QVERIFY2(there->isEnabled(), qPrintable(there->about()));
-        const bool isUsed = findChoice(window.workspace().scene(), there->choice()) >= 0;
+        const bool isUsed = SchemeFinder(window.workspace().scene()).find(there->choice()) >= 0;
         QCOMPARE(there->use() != DiscretizerCell::Use::none, isUsed);
         if (isUsed) return;
         there->click();
-        QVERIFY2(findChoice(window.workspace().scene(), there->choice()) >= 0,
+        QCoreApplication::processEvents();  // the marks follow in the next turn
+        QVERIFY2(SchemeFinder(window.workspace().scene()).find(there->choice()) >= 0,
                  qPrintable(QString::fromStdString(writeCompactJson(window.workspace().document()))));
         // Nothing else is marked by it.
         int marked = 0;
         for (const DiscretizerCell* each : window.findChildren<DiscretizerCell*>())
             marked += each->use() != DiscretizerCell::Use::none &&
-                      findChoice(window.workspace().scene(), each->choice()) ==
+                      SchemeFinder(window.workspace().scene()).find(each->choice()) ==
                           static_cast<int>(window.workspace().scene().schemes.size()) - 1;
         QCOMPARE(marked, 1);
     }

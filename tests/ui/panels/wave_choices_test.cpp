@@ -38,8 +38,9 @@ private slots:
                  (QStringList{"chebyshev-propagation", "crank-nicolson"}));
         for (const SchemeEntry* e : fittingSchemes(window.workspace().scene()))
             QVERIFY(e->make(e->minDegree).space.text("form") != "three-level");
-        // The layout of new cells waits for the event loop.
-        QTRY_VERIFY(window.discretizer().findChild<DiscretizerCell*>()->height() > 0);
+        // New cells and their layout wait for the event loop.
+        QTRY_VERIFY(!window.discretizer().findChildren<DiscretizerCell*>().isEmpty() &&
+                    window.discretizer().findChild<DiscretizerCell*>()->height() > 0);
         for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
             if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
         QCOMPARE(window.workspace().scene().schemes.size(), std::size_t(10));  // degrees 2 and 8 were there
@@ -87,6 +88,7 @@ private slots:
         QVERIFY(offered.contains("leapfrog") && offered.contains("crank-nicolson"));
         for (const QString& id : missing) QVERIFY2(!offered.contains(id), qPrintable(id));
         QCOMPARE(offered.contains("strang"), missing.isEmpty());
+        QCoreApplication::processEvents();  // the cells follow in the next turn
         for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
             if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
         QVERIFY(!window.workspace().hasDrafts());
@@ -103,7 +105,10 @@ private slots:
         MainWindow window(Theme::light(), false);
         window.show();
         window.open("preset:box-revival");
-        const auto cells = [&] { return window.discretizer().findChildren<DiscretizerCell*>().size(); };
+        const auto cells = [&] {
+            QCoreApplication::processEvents();
+            return window.discretizer().findChildren<DiscretizerCell*>().size();
+        };
         const auto between = cells();
         QVERIFY(window.workspace().edit({{"/model/boundary", "periodic"}}, "boundary"));
         QVERIFY(cells() > between);

@@ -268,6 +268,7 @@ private slots:
         Window window;  // Gauss and Lobatto of degree 2 are in the scene
         using Use = DiscretizerCell::Use;
         const auto use = [&](int degree, const char* rule) {
+            QCoreApplication::processEvents();  // the marks follow in the next turn
             return window.discretizer().cell(degree, rule)->use();
         };
         QCOMPARE(use(2, "gauss"), Use::on);

@@ -60,7 +60,7 @@ private slots:
     void everyControlHasAName_data() {
         QTest::addColumn<QString>("preset");
         for (const char* preset : {"pendulum", "kepler-sem", "coherent-state", "bar-notch", "satellite",
-                                   "elliptic", "double-slit", "spring-pendulum-cartesian", "henon-heiles"})
+                                   "elliptic", "schrodinger-seed", "spring-pendulum-cartesian", "henon-heiles"})
             QTest::newRow(preset) << preset;
     }
     void everyControlHasAName() {
