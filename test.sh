@@ -30,7 +30,7 @@ sanitize() {
     export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$lists/races.txt"
     configure "$folder" -DEXTREMAL_SANITIZE="$sanitizers" -DEXTREMAL_UNITY=ON -DEXTREMAL_BENCH=OFF
     ninja -C "$root/$folder" >&2
-    ctest --test-dir "$root/$folder" --parallel 2 --output-on-failure --timeout 3000 "${@:2}"
+    ctest --test-dir "$root/$folder" --parallel 2 --output-on-failure "${@:2}"
 }
 
 install_packages

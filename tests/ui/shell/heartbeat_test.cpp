@@ -120,7 +120,8 @@ private slots:
     void itAnswersWhileAPresetOpens_data() {
         QTest::addColumn<QString>("preset");
         for (const char* preset : {"kepler", "spring-pendulum", "multirate", "heavy-top", "kepler-sem",
-                                   "coherent-state", "sine-gordon-kink", "space-time-mesh"})
+                                   "coherent-state", "sine-gordon-kink", "space-time-mesh",
+                                   "kepler-sem-unsolvable", "own-tables", "section-of-starts"})
             QTest::newRow(preset) << QString("preset:") + preset;
     }
     void itAnswersWhileAPresetOpens() {
