@@ -59,8 +59,9 @@ private slots:
     void initTestCase() { loadFonts(); }
     void everyControlHasAName_data() {
         QTest::addColumn<QString>("preset");
-        for (const char* preset : {"pendulum", "kepler-sem", "coherent-state", "bar-notch", "satellite",
-                                   "elliptic", "schrodinger-seed", "spring-pendulum-cartesian", "henon-heiles"})
+        for (const char* preset :
+             {"pendulum", "kepler-sem", "coherent-state", "bar-notch", "satellite", "elliptic",
+              "schrodinger-seed", "spring-pendulum-cartesian", "henon-heiles"})
             QTest::newRow(preset) << preset;
     }
     void everyControlHasAName() {
