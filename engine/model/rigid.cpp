@@ -47,9 +47,9 @@ std::vector<Quantity> columnsOf(const BodyMechanics<double>& body) {
 ErrorMeasure errorOf(const BodyMechanics<double>& body) {
     ErrorMeasure m;
     m.isOfPhase = true;
-    m.columns = {{"error", "", "∠(R, R ref)", "rad"}, {"error.p", "", "|Π - Π ref|", "kg m²/s"}};
+    m.columns = {{"error", "", "∠(R, R_ref)", "rad"}, {"error.p", "", "|Π - Π_ref|", "kg m²/s"}};
     const bool movesInSpace = body.dimension == 6;
-    if (movesInSpace) m.columns.push_back({"error.position", "", "|x - x ref|", "m"});
+    if (movesInSpace) m.columns.push_back({"error.position", "", "|x - x_ref|", "m"});
     m.evaluate = [movesInSpace](const double* x, const double* reference, double* values) {
         const Quaternion d = so3::product(so3::conjugate(attitude(reference)), attitude(x));
         values[0] = 2 * std::atan2(std::hypot(d(1), d(2), d(3)), std::abs(d(0)));

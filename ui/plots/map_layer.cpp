@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/figure/build.hpp"
+#include "ui/plots/axis_title.hpp"
 #include "ui/plots/tickers.hpp"
 #include "ui/plots/value_colour.hpp"
 
@@ -56,6 +57,18 @@ std::vector<int> decadesOf(const HeatMap& heat, double height, double each) {
 std::array<QString, 3> ticksOf(const ColourScale& scale) {
     const auto text = [](double value) { return QString::fromStdString(shortNumber(value)); };
     return {text(scale.low), text((scale.low + scale.high) / 2), text(scale.high)};
+}
+
+/// From below to above, with its middle here.
+void drawScaleTitle(QPainter& painter, const Theme& theme, QPointF middle, const QString& title) {
+    const QFont font = scaleFont(theme);
+    const QFontMetricsF metrics(font);
+    painter.save();
+    painter.setPen(theme.text);
+    painter.translate(middle);
+    painter.rotate(-90);
+    drawTitle(painter, font, {-metrics.horizontalAdvance(plainTitle(title)) / 2, -metrics.descent()}, title);
+    painter.restore();
 }
 
 }  // namespace
@@ -143,13 +156,9 @@ void drawMapScale(QCPPainter& painter, const PixelMap& map, const FigurePlot::Sh
         widest = std::max(widest, metrics.horizontalAdvance(text));
     }
     const QString title = QString::fromStdString(heat.scale);
-    if (metrics.horizontalAdvance(title) > height) return;  // the subtitle says it as well
-    painter.save();
-    painter.setPen(theme.text);
-    painter.translate(left + barWidth + tickLength + 6 + widest + line, top + height / 2);
-    painter.rotate(-90);
-    painter.drawText(QPointF(-metrics.horizontalAdvance(title) / 2, -metrics.descent()), title);
-    painter.restore();
+    if (metrics.horizontalAdvance(plainTitle(title)) > height) return;  // the subtitle says it as well
+    drawScaleTitle(painter, theme, {left + barWidth + tickLength + 6 + widest + line, top + height / 2},
+                   title);
 }
 
 void drawColourScale(QCPPainter& painter, const PixelMap& map, const Theme& theme, const ColourScale& scale) {
@@ -174,12 +183,8 @@ void drawColourScale(QCPPainter& painter, const PixelMap& map, const Theme& them
         widest = std::max(widest, metrics.horizontalAdvance(ticks[k]));
     }
     const QString title = QString::fromStdString(scale.title);
-    painter.save();
-    painter.setPen(theme.text);
-    painter.translate(left + barWidth + tickLength + 6 + widest + metrics.height(), top + height / 2);
-    painter.rotate(-90);
-    painter.drawText(QPointF(-metrics.horizontalAdvance(title) / 2, -metrics.descent()), title);
-    painter.restore();
+    drawScaleTitle(painter, theme,
+                   {left + barWidth + tickLength + 6 + widest + metrics.height(), top + height / 2}, title);
 }
 
 }  // namespace extremal

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QIcon>
 #include <QPixmap>
+#include <QScreen>
 #include <QSettings>
 #include <QTimer>
 
@@ -71,6 +72,8 @@ int runWindow(int& argc, char** argv, const std::string& scene,
     const Theme theme = rememberedTheme();
     applyTheme(application, theme);
     MainWindow window(theme);
+    constexpr QSize frame(16, 48);  // what window managers put around it
+    window.resize(window.size().boundedTo(window.screen()->availableSize() - frame));
     if (!scene.empty() && !window.open(QString::fromStdString(scene)) && tell)
         tell(window.workspace().openProblems());
     window.show();

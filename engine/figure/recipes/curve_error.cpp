@@ -19,7 +19,7 @@ Figure makeCurveError(const FigureContext& context) {
     Figure figure = startFigure(context, "Error between nodes");
     const ColumnInfo error = columnInfo(context, "error");
     figure.x = timeAxis(context);
-    figure.y = logAxis(axisTitle(error.symbol == "error" ? "‖q − q ref‖" : error.symbol, error.unit));
+    figure.y = logAxis(axisTitle(error.symbol == "error" ? "‖q − q_ref‖" : error.symbol, error.unit));
     std::string text;
     for (const auto& scheme : context.comparison.schemes) {
         const DenseOutput* dense = scheme->products.find<DenseOutput>();

@@ -12,7 +12,7 @@ std::string symbolOf(const FigureContext& context) {
     if (context.system && context.system->error.evaluate) return context.system->error.columns.front().symbol;
     const bool isSingle = context.system && context.system->dimension() == 1;
     const std::string q = isSingle ? context.system->coordinates.front().symbol : "q";
-    return isSingle ? "|" + q + " − " + q + " ref|" : "‖q − q ref‖";
+    return isSingle ? "|" + q + " − " + q + "_ref|" : "‖q − q_ref‖";
 }
 
 std::string referenceText(const ReferenceInfo& reference) {

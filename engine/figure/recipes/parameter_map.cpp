@@ -58,7 +58,8 @@ HeatMap heatOfMap(const ParameterMap& map, std::pair<double, double> decades, st
 
 /// "|H - H(0)|"; a norm is its own size.
 std::string sizeText(const std::string& symbol) {
-    return symbol.starts_with('|') ? symbol : "|" + symbol + "|";
+    const bool isSize = symbol.starts_with('|') || symbol.starts_with("‖");
+    return isSize ? symbol : "|" + symbol + "|";
 }
 
 /// Where the scene itself stands.
@@ -110,7 +111,9 @@ Figure makeParameterMap(const FigureContext& context) {
                                        [](const MapCell& c) { return c.end == MapCell::End::waiting; });
     const auto all = static_cast<std::ptrdiff_t>(shown->cells.size());
     const std::string unit = context.system->timeUnit.empty() ? "" : " " + context.system->timeUnit;
-    figure.subtitle = scale.substr(0, scale.find("  [")) + " to " + context.system->independent + " = " +
+    std::string measured = scale.substr(0, scale.find("  ["));
+    if (const auto at = measured.find("_ref"); at != std::string::npos) measured[at] = ' ';  // plain text
+    figure.subtitle = measured + " to " + context.system->independent + " = " +
                       shortNumber(scene.start.value + grid.duration, 4) + unit;
     if (known + waiting < all)
         figure.subtitle +=

@@ -180,7 +180,7 @@ std::vector<Quantity> translationColumns() {
             {"translation_momentum_error", "", "change of -∫u_t u_x", ""}};
 }
 
-std::vector<Quantity> fieldErrorColumns() { return {{"error", "", "‖u - u ref‖", ""}}; }
+std::vector<Quantity> fieldErrorColumns() { return {{"error", "", "‖u - u_ref‖", ""}}; }
 
 std::vector<double> errorWeights(const FieldProblem& problem) {
     const std::vector<double>& x = problem.nodes.x;

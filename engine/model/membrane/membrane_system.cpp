@@ -145,7 +145,7 @@ System makeMembraneSystem(SharedMembrane problem, double amplitude) {
     s.kind = Membrane{problem};
     const auto n = problem->mesh.nodes.size();
     s.energy = [problem, n](double, const double* x) { return problem->energy(x, x + n); };
-    s.error.columns = {{"error", "", "‖u - u ref‖", ""}};
+    s.error.columns = {{"error", "", "‖u - u_ref‖", ""}};
     s.error.evaluate = [problem](const double* x, const double* reference, double* values) {
         double sum = 0;
         for (std::size_t a = 0; a < problem->mass.size(); ++a)

@@ -20,7 +20,7 @@ using Shared = std::shared_ptr<const Hamiltonian>;
 
 ErrorMeasure errorOf(int n) {
     ErrorMeasure m;
-    m.columns = {{"error", "", "‖ψ - ψ ref‖", ""}};
+    m.columns = {{"error", "", "‖ψ - ψ_ref‖", ""}};
     m.isOfPhase = true;
     m.evaluate = [n](const double* x, const double* reference, double* values) {
         double sum = 0;

@@ -23,7 +23,7 @@ ObservableEntry error() {
         o.extreme = 0;
         const bool isUsual = !context.system.error.evaluate;
         if (measure.ofFunction && context.reference.atPlaces()) {
-            o.rowColumns = {{"error.function", "‖u_h - u ref‖", "", {}, {}}};
+            o.rowColumns = {{"error.function", "‖u_h - u_ref‖", "", {}, {}}};
             o.evaluateRow = [ofFunction = measure.ofFunction, reference = context.reference](
                                 double t, const double* x, double* values) {
                 values[0] = ofFunction(t, x, reference);

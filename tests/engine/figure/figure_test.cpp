@@ -33,7 +33,7 @@ private slots:
             return f.x.title + " | " + f.y.title;
         };
         QCOMPARE(titles("energy", pendulum), "t  [s] | |H − H(0)|  [J]");
-        QCOMPARE(titles("error", pendulum), "t  [s] | |θ − θ ref|  [rad]");
+        QCOMPARE(titles("error", pendulum), "t  [s] | |θ − θ_ref|  [rad]");
         QCOMPARE(titles("momentum", kepler), "t  [s] | |L − L(0)|");
         QCOMPARE(titles("trajectory", pendulum), "t  [s] | θ  [rad]");
         QCOMPARE(titles("trajectory", kepler), "x | y");
