@@ -11,6 +11,7 @@
 
 #include "engine/family/scheme.hpp"
 #include "ui/panels/format.hpp"
+#include "ui/panels/sideways_area.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/scheme_finder.hpp"
@@ -134,6 +135,8 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
 
 Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     : Card(tr("Discretizer"), parent), workspace_(workspace) {
+    room_ = new SidewaysArea;
+    body()->addWidget(room_);
     about_ = makeLabel({}, "caption");
     about_->setObjectName("aboutCell");
     about_->setWordWrap(true);
@@ -163,6 +166,7 @@ void Discretizer::fill(const std::vector<ChoiceGrid>& grids) {
     shown_.clear();
     delete grid_;
     grid_ = new QWidget;
+    grid_->setProperty("ground", "panel");
     auto* column = new QVBoxLayout(grid_);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(3);
@@ -175,7 +179,7 @@ void Discretizer::fill(const std::vector<ChoiceGrid>& grids) {
         column->addLayout(grid);
         addGrid(grids[i], *grid);
     }
-    body()->insertWidget(body()->count() - 1, grid_);
+    room_->setWidget(grid_);
     showAbout(nullptr);
     setSubtitle(grids.empty() ? QString() : QString::fromStdString(grids.front().subtitle));
 }

@@ -20,6 +20,7 @@ class QLabel;
 namespace extremal {
 
 struct Theme;
+class SidewaysArea;
 class Workspace;
 
 /// One cell: a discretization.
@@ -81,6 +82,7 @@ private:
     std::vector<DiscretizerCell*> cells_;
     std::vector<std::string> shown_;  ///< ids of the cells
     QTimer later_;
+    SidewaysArea* room_;  ///< with large letters the columns need more than a narrow panel has
     QWidget* grid_ = nullptr;
     QLabel* about_;  ///< of the cell that is pointed at
     const Theme* theme_ = nullptr;

@@ -55,8 +55,7 @@ void Form::addRow(FormField field) {
         name = new QLabel(label);
     }
     name->setObjectName("label." + QString::fromStdString(info.key));
-    name->setMinimumWidth(68);
-    name->setWordWrap(true);  // narrow panels
+    name->setWordWrap(true);  // narrow panels; then as wide as its longest word
     name->setBuddy(edit);
     constexpr int roomOfUnit = 72;  // a longer one would leave the field no room
     const QString unitText = QString::fromStdString(info.unit);
@@ -66,6 +65,7 @@ void Form::addRow(FormField field) {
     problem->setObjectName("problem." + QString::fromStdString(info.key));
     problem->setProperty("problem", true);
     problem->hide();
+    grid_->setColumnMinimumWidth(0, 68);
     grid_->addWidget(name, row, 0);
     grid_->addWidget(edit, row, 1);
     grid_->addWidget(unit, row, 2);

@@ -459,9 +459,9 @@ void MainWindow::shareWidth() {
     const double scale = std::max(1.0, theme_.fontScale);
     const auto scaled = [&](int width) { return static_cast<int>(std::lround(scale * width)); };
     // The discretizer's seven columns and a scroll bar; with large letters in a small window, what is left of
-    // its width, and a scroll bar below.
-    constexpr int frame = 48, leastPanel = 150;
-    const int wanted = scaled(280), centre = scaled(264),
+    // their width, of which plots then take less.
+    constexpr int frame = 46, leastPanel = 150;
+    const int wanted = scaled(280), centre = std::max(264, scaled(209)),
               left = std::clamp(width() - scaled(208) - centre - frame, leastPanel, wanted);
     left_->setHorizontalScrollBarPolicy(left < wanted ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
     left_->setMinimumWidth(left);

@@ -1,0 +1,38 @@
+#include "ui/panels/sideways_area.hpp"
+
+#include <QEvent>
+#include <QScrollBar>
+
+namespace extremal {
+
+SidewaysArea::SidewaysArea(QWidget* parent) : QScrollArea(parent) {
+    setWidgetResizable(true);
+    setFrameShape(QFrame::NoFrame);
+    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Fixed);
+    setFocusPolicy(Qt::NoFocus);
+}
+
+int SidewaysArea::contentHeight() const {
+    if (!widget()) return 0;
+    const bool isCut = widget()->minimumSizeHint().width() > width();
+    return widget()->sizeHint().height() + (isCut ? horizontalScrollBar()->sizeHint().height() : 0);
+}
+
+QSize SidewaysArea::sizeHint() const {
+    return {widget() ? widget()->sizeHint().width() : 0, contentHeight()};
+}
+
+QSize SidewaysArea::minimumSizeHint() const { return {0, contentHeight()}; }
+
+bool SidewaysArea::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == widget() && event->type() == QEvent::LayoutRequest) updateGeometry();
+    return QScrollArea::eventFilter(watched, event);
+}
+
+void SidewaysArea::resizeEvent(QResizeEvent* event) {
+    QScrollArea::resizeEvent(event);
+    if (event->size().width() != event->oldSize().width()) updateGeometry();
+}
+
+}  // namespace extremal

@@ -1,0 +1,22 @@
+/// Shows its content at full height and scrolls it sideways where it is too wide.
+#pragma once
+
+#include <QScrollArea>
+
+namespace extremal {
+
+class SidewaysArea : public QScrollArea {
+public:
+    explicit SidewaysArea(QWidget* parent = nullptr);
+    QSize sizeHint() const override;
+    QSize minimumSizeHint() const override;
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    int contentHeight() const;
+};
+
+}  // namespace extremal
