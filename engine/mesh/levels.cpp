@@ -14,8 +14,9 @@ Levels levelsFor(std::span<const double> steps, bool isBalanced, ForEachNeighbou
     levels.smallest = *std::min_element(steps.begin(), steps.end());
     for (const double step : steps) {
         // Elements of equal size are of one level in spite of round-off.
-        const double ratio = step / levels.smallest * (1 + 1e-9);
-        levels.level.push_back(std::min(mostLevels, static_cast<int>(std::floor(std::log2(ratio)))));
+        const double level = std::floor(std::log2(step / levels.smallest * (1 + 1e-9)));
+        // Not a number where no step is possible, which is refused elsewhere.
+        levels.level.push_back(level > 0 ? static_cast<int>(std::min<double>(mostLevels, level)) : 0);
     }
     const int N = static_cast<int>(steps.size());
     for (bool hasChanged = isBalanced; hasChanged;) {

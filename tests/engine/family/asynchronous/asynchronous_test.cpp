@@ -73,6 +73,15 @@ constexpr const char* wave = "0.005*sin(pi*X)";
 class AsynchronousTest : public QObject {
     Q_OBJECT
 private slots:
+    /// Steps of 0, and of numbers that are none: the levels stay within their bounds.
+    void levelsOfImpossibleSteps() {
+        const Mesh mesh = uniformMesh(0, 1, 4, Boundary::periodic);
+        for (const double courant : {0.0, HUGE_VAL, double(NAN)}) {
+            const Levels levels = dyadicLevels(mesh, courant, 1, false);
+            QCOMPARE(levels.level, std::vector<int>(4, 0));
+            QCOMPARE(levels.highest, 0);
+        }
+    }
     void dyadicLevelsKeepEnergyOverTenMillionUpdates_data() {
         QTest::addColumn<QString>("material");
         for (const char* material : {"linear", "fput", "neo-hookean"})
