@@ -410,7 +410,7 @@ void MarksLayer::drawTitleAbove(QCPPainter& painter, const PixelMap& map) const 
     const QFontMetricsF metrics(axis.labelFont());
     const QRectF line(4, map.rect.top() - 6 - metrics.height(), map.rect.right() - 4, metrics.height());
     painter.setFont(axis.labelFont());
-    painter.setPen(axis.labelColor());
+    painter.setPen(shared_.theme.text);
     const QString title = QString::fromStdString(shared_.figure.y.title), plain = plainTitle(title);
     if (hasOwnParts(title) && metrics.horizontalAdvance(plain) <= line.width())
         drawTitle(painter, axis.labelFont(),

@@ -99,16 +99,22 @@ private slots:
         for (double size = 1e-3; size < 1e4; size *= 1.37)
             QVERIFY(labelsOn(*linearTicker(8), {0.1, 0.1 + size}) <= 9);
     }
+    void aTitleThatDoesNotFitBesideTheAxisStandsAboveIt_data() {
+        QTest::addColumn<QString>("title");
+        QTest::newRow("words") << "a title of many words, with a unit  [kg m/s]";
+        QTest::newRow("lowered part") << "a title of many words for x_ref  [kg m/s]";
+    }
     void aTitleThatDoesNotFitBesideTheAxisStandsAboveIt() {
+        QFETCH(QString, title);
         Figure figure = handmade::figureOf("energy");
-        figure.y.title = "a title of many words, with a unit  [kg m/s]";
+        figure.y.title = title.toStdString();
         PlotWidget low(Theme::light()), high(Theme::light());
         low.setFigure(figure);
         high.setFigure(figure);
         (void)picture(low, {360, 150});
         (void)picture(high, {600, 500});
         QVERIFY(low.findChild<QCustomPlot*>()->yAxis->label().isEmpty());
-        QCOMPARE(high.findChild<QCustomPlot*>()->yAxis->label(), QString::fromStdString(figure.y.title));
+        QCOMPARE(high.findChild<QCustomPlot*>()->yAxis->label(), plainTitle(title));
         // The letters are there: in the strip above the plot.
         const QImage image = picture(low, {360, 150});
         const int top = low.findChild<QCustomPlot*>()->axisRect()->rect().top();
