@@ -99,7 +99,7 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     const QRectF box = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
     const bool isOn = use_ == Use::on;
     const QColor own = theme_->series(style_).color;
-    QColor ground = isOn ? own : theme_->field;
+    QColor ground = isOn ? theme_->ground(own) : theme_->field;
     if (!isEnabled()) ground = Qt::transparent;
     if (isEnabled() && underMouse() && !isOn) ground = theme_->selection;
     painter.setPen(hasFocus()         ? QPen(theme_->accent, 1.5)
@@ -125,8 +125,7 @@ void DiscretizerCell::paintEvent(QPaintEvent*) {
     if (!hasRoom) orderWidth = 0;
     const double left = (width() - metrics.horizontalAdvance(name) - orderWidth) / 2;
     const double baseline = (height() + metrics.capHeight()) / 2;
-    const QColor light("#FFFFFF"), dark("#0B1526");
-    painter.setPen(!isOn ? theme_->text : contrast(own, light) >= contrast(own, dark) ? light : dark);
+    painter.setPen(isOn ? theme_->onAccent : theme_->text);
     painter.setFont(font);
     painter.drawText(QPointF(left, baseline), name);
     painter.setFont(small);

@@ -70,6 +70,11 @@ QColor Theme::pale(const QColor& color, int percent) const {
             mix(color.blue(), panel.blue())};
 }
 
+QColor Theme::ground(QColor color) const {
+    while (contrast(color, onAccent) < 4.5) color = isDark ? color.lighter(103) : color.darker(103);
+    return color;
+}
+
 SeriesStyle Theme::series(int style) const {
     static const std::array<QList<qreal>, 8> dashes = {{
         {},                      // solid
@@ -141,7 +146,7 @@ QString loadFonts() {
     static const QString family = [] {
         initResources();
         QString name;
-        for (const char* file : {"Regular", "Medium", "SemiBold"}) {
+        for (const char* file : {"Regular", "Medium", "SemiBold", "Bold"}) {
             const int id =
                 QFontDatabase::addApplicationFont(QStringLiteral(":/fonts/Inter-%1.otf").arg(file));
             const QStringList families = QFontDatabase::applicationFontFamilies(id);

@@ -59,6 +59,10 @@ struct Theme {
     /// Between a colour and the ground of plots: so many percent of the colour.
     QColor pale(const QColor& color, int percent) const;
 
+    /// The colour of a scheme as a ground for text in onAccent: as much darker (in the dark theme lighter) as
+    /// a contrast of 4.5 : 1 asks for.
+    QColor ground(QColor color) const;
+
     QFont body() const;     ///< 12 px
     QFont strong() const;   ///< 12 px semi-bold: values, axis titles
     QFont caption() const;  ///< 11 px: muted notes, tick labels

@@ -31,6 +31,12 @@ private slots:
         QVERIFY(contrast(t.good, t.panel) >= 4.5);
         for (const QColor& series : t.seriesColors)
             QVERIFY2(contrast(series, t.panel) >= 3, qPrintable(series.name()));
+        for (const QColor& series : t.seriesColors) {
+            const QColor ground = t.ground(series);
+            QVERIFY2(contrast(t.onAccent, ground) >= 4.5, qPrintable(series.name()));
+            QVERIFY2(contrast(series, ground) < 1.6,
+                     qPrintable(series.name()));  // 1.49 at most: still its colour
+        }
     }
     void contrastHasTheKnownExtremes() {
         QCOMPARE(contrast(Qt::black, Qt::white), 21.0);
@@ -47,12 +53,19 @@ private slots:
         }
         QCOMPARE(seen.size(), std::size_t{16});
     }
-    void bundledFontHasThreeWeights() {
+    void bundledFontHasFourWeights() {
         const Theme t = Theme::light();
         QCOMPARE(QFontInfo(t.body()).family(), QStringLiteral("Inter"));
         QVERIFY(QFontInfo(t.strong()).weight() >= QFont::DemiBold);
-        QVERIFY(QFontMetricsF(t.strong()).horizontalAdvance("energy") >
-                QFontMetricsF(t.body()).horizontalAdvance("energy"));
+        // Each weight is drawn as designed; one that was missing would be the next lighter one, smeared.
+        QFont font = t.body();
+        double narrower = 0;
+        for (const auto weight : {QFont::Normal, QFont::Medium, QFont::DemiBold, QFont::Bold}) {
+            font.setWeight(weight);
+            const double width = QFontMetricsF(font).horizontalAdvance("energy");
+            QVERIFY2(width > narrower, qPrintable(QString::number(weight)));
+            narrower = width;
+        }
     }
     void styleSheetIsCompleteAndAccepted() {
         for (Theme t : {Theme::light(), Theme::dark()}) {
