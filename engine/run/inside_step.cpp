@@ -13,11 +13,13 @@ namespace {
 
 constexpr std::size_t mostPoints = 20000;
 
-/// Points inside a step: enough for a smooth curve where steps are few, none where they are many.
+constexpr long long fewSteps = 500, mostSteps = 4000;
+
+/// Points inside a step: enough for a smooth curve, none where steps are too many.
 int pointsPerStep(bool isUnplanned, long long steps) {
-    constexpr long long fewSteps = 500, points = 2000;
+    constexpr long long points = 2000;
     if (isUnplanned) return 8;
-    return steps > fewSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
+    return steps > mostSteps ? 0 : static_cast<int>(std::clamp(points / std::max(1LL, steps), 4LL, 40LL));
 }
 
 constexpr double pointsPerPeriod = 16;
@@ -43,6 +45,7 @@ InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const ProductPl
     : result_(result), error_(std::move(error)), steps_(steps) {
     if (plan.has(Product::denseOutput) || plan.has(Product::denseError))
         points_ = pointsPerStep(isUnplanned, steps);
+    isSelective_ = !isUnplanned && steps > fewSteps && !error_.evaluate;
     const std::vector<Column> columns = leadingColumns(system);
     width_ = columns.size() - 1;
     for (const View& view : scene.views) {
@@ -68,13 +71,32 @@ InsideStep::InsideStep(SchemeResult& result, const Scene& scene, const ProductPl
 
 void InsideStep::start(const State& state) {
     at_ = state;
-    if (points_ > 0) keep(state, {});
+    if (points_ == 0) return;
+    keep(state, {});
+    if (!isSelective_) return;
+    low_.assign(state.x.begin(), state.x.begin() + static_cast<std::ptrdiff_t>(width_));
+    high_ = low_;
+}
+
+/// Whether some entry of the state leaves the chord of the step, in its middle, by a share of the range that
+/// this entry has had.
+bool InsideStep::isCurved(const Integrator& integrator, const State& before, const State& after) {
+    constexpr double share = 0.01;
+    integrator.denseOutput(0.5, at_.x);
+    bool isCurved = false;
+    for (std::size_t c = 0; c < width_; ++c) {
+        low_[c] = std::min({low_[c], at_.x[c], after.x[c]});
+        high_[c] = std::max({high_[c], at_.x[c], after.x[c]});
+        const double deviation = std::abs(at_.x[c] - (before.x[c] + after.x[c]) / 2);
+        isCurved = isCurved || deviation > share * (high_[c] - low_[c]);
+    }
+    return isCurved;
 }
 
 /// More points where the curve oscillates, and in steps that belong to a part that is shown.
-int InsideStep::pointsIn(double start, double end, double periods) const {
+int InsideStep::pointsIn(double start, double end, double periods, double least) const {
     const double first = std::min(start, end), last = std::max(start, end);
-    double most = points_;
+    double most = least;
     if (const double all = pointsPerPeriod * periods; all * static_cast<double>(steps_) <= mostPoints)
         most = std::max(most, all);
     for (const auto& [low, high] : parts_)
@@ -88,7 +110,8 @@ void InsideStep::look(const Integrator& integrator, const State& before, const S
     if (!sections_.empty()) cross(integrator, before, after);
     if (points_ == 0) return;
     const double periods = integrator.periodsPerStep();
-    const int points = pointsIn(before.t, after.t, periods);
+    const double least = isSelective_ && !isCurved(integrator, before, after) ? 1 : points_;
+    const int points = pointsIn(before.t, after.t, periods, least);
     // Equal distances would turn an oscillation that they do not resolve into a slower one: unequal ones fill
     // its band.
     const bool isUneven = points < pointsPerPeriod * periods;

@@ -1,6 +1,7 @@
 /// The products made inside the steps of a run, on the dense output of its scheme: points for plots, their
 /// distance from the reference, and the events of sections. Where a view shows a part of the time axis its
-/// steps have more points.
+/// steps have more points. In runs of more than 500 steps only those steps have points inside in which the
+/// motion is curved; runs of more than 4000 steps have none.
 ///
 /// A section is the set of states where one column passes zero upwards (run/crossing.hpp).
 #pragma once
@@ -22,9 +23,8 @@ void appendState(Trajectory& trajectory, double t, const std::vector<double>& x,
 
 class InsideStep {
 public:
-    /// Writes the products of the plan into `result`. `steps`: planned, or `isUnplanned`; dense output is
-    /// kept for few.
-    /// `error`: may be empty.
+    /// Writes the products of the plan into `result`. `steps`: planned, or `isUnplanned`. `error`: may be
+    /// empty; with it every step has points inside.
     InsideStep(SchemeResult& result, const Scene& scene, const ProductPlan& plan, const System& system,
                bool isUnplanned, long long steps, Observer error);
 
@@ -32,10 +32,11 @@ public:
     void start(const State& state);
     void look(const Integrator& integrator, const State& before, const State& after,
               const StepReport& report);
-    void checkpoint(Archive& archive) { archive(points_, at_.x); }
+    void checkpoint(Archive& archive) { archive(points_, at_.x, low_, high_); }
 
 private:
-    int pointsIn(double start, double end, double periods) const;
+    bool isCurved(const Integrator& integrator, const State& before, const State& after);
+    int pointsIn(double start, double end, double periods, double least) const;
     void keep(const State& at, const StepReport& report);
     void cross(const Integrator& integrator, const State& before, const State& after);
 
@@ -46,6 +47,8 @@ private:
     Observer error_;
     long long steps_;  ///< planned
     int points_ = 0;
+    bool isSelective_ = false;                      ///< points inside curved steps alone
+    std::vector<double> low_, high_;                ///< of each entry of the state so far
     std::vector<std::pair<double, double>> parts_;  ///< of the time axis that views show
     std::size_t width_ = 0;
     std::vector<Section> sections_;

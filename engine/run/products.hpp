@@ -24,8 +24,8 @@ namespace extremal {
 
 struct ResolvedScene;
 
-/// t and the state of a run of few steps, several times in each step; with Product::denseError the column
-/// "error" as well.
+/// t and the state of a run of up to some thousand steps, several times in each step or in each curved one;
+/// with Product::denseError the column "error" as well.
 struct DenseOutput {
     Trajectory points;
     void checkpoint(Archive& archive) { archive(points); }

@@ -37,7 +37,7 @@ Figure makeCurveError(const FigureContext& context) {
     if (!text.empty()) figure.subtitle = "largest on the curve (at nodes): " + text;
     const bool isKnown = context.comparison.reference.type != "none";
     if (figure.series().empty() && context.comparison.isFinished)
-        figure.message = isKnown ? "Curves are kept in runs of up to 500 steps"
+        figure.message = isKnown ? "Curves are kept in runs of up to 4000 steps"
                                  : "Without a reference there is no error to show";
     finishFigure(figure, context,
                  "Distance of the curves from the reference against time, " + figure.subtitle);

@@ -9,6 +9,7 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::curve_test {
@@ -85,6 +86,31 @@ private slots:
         QVERIFY(narrow.first < 2000);
         const auto all = rowsIn(R"({"view":"trajectory","y":"q.a","range":{"x":[0,2]}})").first;
         QVERIFY(all >= 20 * 50 + 1 && all <= 20 * 51 + 1);
+    }
+    void manyStepsHavePointsInsideWhereTheMotionIsCurved() {
+        const auto curveOf = [](int steps, double step) {
+            Scene scene = readScene(findPreset("harmonic-oscillator")->json).scene;
+            scene.schemes.resize(1);
+            scene.schemes[0].step = {step, {}};
+            scene.end = {steps * step, {}};
+            scene.reference.kind = ReferenceSpec::Kind::none;
+            scene.observe = {"energy"};
+            scene.views = {{"phase", "", ""}};
+            const Comparison c = run(scene);
+            const DenseOutput* dense = c.schemes.at(0)->products.find<DenseOutput>();
+            return dense ? dense->points : Trajectory{};
+        };
+        // Six steps per period, whose chords would be a hexagon; sixty, whose chords are a circle.
+        const Trajectory coarse = curveOf(1000, 1);
+        QCOMPARE(coarse.rows(), std::size_t(4 * 1000 + 1));
+        const auto q = coarse["q.x"], p = coarse["p.x"];
+        double longest = 0;
+        for (std::size_t i = 1; i < q.size(); ++i)
+            longest = std::max(longest, std::hypot(q[i] - q[i - 1], p[i] - p[i - 1]));
+        QVERIFY2(longest < 0.3, qPrintable(QString::number(longest)));  // .250 on the circle; 1 along chords
+        const std::size_t fine = curveOf(1000, 0.1).rows();
+        QVERIFY2(fine >= 1001 && fine < 1100, qPrintable(QString::number(fine)));  // the range grows at first
+        QCOMPARE(curveOf(4001, 1).rows(), std::size_t(0));
     }
     void oscillationsInsideAStepAreResolvedOrFillTheirBand() {
         const auto curveOf = [](const char* k, const char* step) {
@@ -204,7 +230,7 @@ private slots:
         QCOMPARE(readScene(std::string_view(writeScene(scene))).scene.views, scene.views);
     }
     void longRunsKeepTheirRowsAlone() {
-        const Comparison c = run(kepler("midpoint", 0.01, 6));
+        const Comparison c = run(kepler("midpoint", 0.001, 6));
         QVERIFY(!c.schemes[0]->products.find<DenseOutput>());
     }
     void nodesOfTheCurveAreThoseOfTheRun() {
