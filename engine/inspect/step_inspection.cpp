@@ -8,6 +8,8 @@
 #include "engine/core/text.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/figure/build.hpp"
+#include "engine/model/typed/symbolic.hpp"
+#include "engine/model/typed/typeset.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/scene_formula.hpp"
 #include "engine/passport/scheme_tableau.hpp"
@@ -25,6 +27,18 @@ namespace {
 struct Nodes {
     std::vector<double> place, weight;
 };
+
+/// L and the Euler-Lagrange equations as they are written; as it was typed where they would fill pages.
+std::vector<WrittenFormula> equationsOf(const typed::Formula& formula) {
+    constexpr std::size_t longest = 1000;
+    const auto symbolic = typed::differentiate(formula);
+    const auto plain = typed::TextForm::plain;
+    std::string text = typed::typeset(symbolic->graph, symbolic->value, formula, plain);
+    if (text.size() > longest) text = formula.text;
+    std::vector<WrittenFormula> lines{{"L = " + text, {}}};
+    for (const std::string& line : typed::equationLines(formula, plain)) lines.push_back({line, {}});
+    return lines;
+}
 
 class Inspection {
 public:
@@ -234,7 +248,7 @@ private:
         addNodes(page);
         if (const auto formula = isMechanical(*system_) ? formulaOf(scene_) : std::nullopt) {
             page.blocks.emplace_back(Document::Heading{"The Lagrangian of this scene"});
-            page.blocks.emplace_back(Document::Formulas{{{"L = " + formula->text, "L = " + formula->text}}});
+            page.blocks.emplace_back(Document::Formulas{equationsOf(*formula)});
         }
         // The passport's sections of formulas: those of the scheme, in this order.
         const Document passport = passportOf(scene_, place_, {.isMeasured = false});

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
 #include <string_view>
 
 #include "engine/core/markup.hpp"
+#include "engine/passport/formula_parts.hpp"
 
 namespace extremal {
 namespace {
@@ -107,32 +107,30 @@ std::string lettersInLatex(std::string_view text) {
     return withoutUnknown(replaced(text, special));
 }
 
-/// The length of an index or exponent that begins there: one or two letters or digits, or few of them in
-/// brackets.
-std::size_t scriptLength(std::string_view text) {
-    constexpr std::size_t most = 6;
-    if (text.starts_with('(')) {
-        const std::size_t end = text.find(')');
-        return end <= most ? end + 1 : 0;
-    }
-    const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
-    const auto end = std::find_if_not(text.begin(), text.end(), isWord);
-    return end - text.begin() <= 2 ? static_cast<std::size_t>(end - text.begin()) : 0;
-}
-
 /// "a_t^2" is set as in formulas.
 std::string inLatex(std::string_view text) {
+    static constexpr Replacement minus[] = {{"−", "-"}};
     std::string out;
-    std::size_t from = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const std::size_t length = text[i] == '_' || text[i] == '^' ? scriptLength(text.substr(i + 1)) : 0;
-        if (length == 0) continue;
-        out += lettersInLatex(text.substr(from, i - from));
-        out += std::string("$") + text[i] + "{" + std::string(text.substr(i + 1, length)) + "}$";
-        i += length;
-        from = i + 1;
+    for (const FormulaPart& part : formulaParts(text, false)) {
+        if (part.script == Script::none)
+            out += lettersInLatex(part.text);
+        else
+            out += (part.script == Script::lowered ? "$_{" : "$^{") + replaced(part.text, minus) + "}$";
     }
-    return out + lettersInLatex(text.substr(from));
+    return out;
+}
+
+/// Indices and exponents lowered and raised; in formulas variables are italic.
+std::string inHtml(std::string_view text, bool isFormula = false) {
+    std::string out;
+    for (const FormulaPart& part : formulaParts(text, isFormula)) {
+        std::string set = markupText(part.text);
+        if (part.isVariable) set = "<i>" + set + "</i>";
+        if (part.script == Script::lowered) set = "<sub>" + set + "</sub>";
+        if (part.script == Script::raised) set = "<sup>" + set + "</sup>";
+        out += set;
+    }
+    return out;
 }
 
 bool isEmpty(const std::vector<std::string>& cells) {
@@ -193,24 +191,19 @@ public:
                markupText(title) + "</h1>\n";
     }
     static std::string end() { return "</main>\n</body>\n</html>\n"; }
-    std::string operator()(const Document::Heading& h) const {
-        return "<h2>" + markupText(h.text) + "</h2>\n";
-    }
-    std::string operator()(const Document::Paragraph& p) const {
-        return "<p>" + markupText(p.text) + "</p>\n";
-    }
+    std::string operator()(const Document::Heading& h) const { return "<h2>" + inHtml(h.text) + "</h2>\n"; }
+    std::string operator()(const Document::Paragraph& p) const { return "<p>" + inHtml(p.text) + "</p>\n"; }
     std::string operator()(const Document::Formulas& f) const {
         std::string text;
         for (const WrittenFormula& line : f.lines)
-            text += "<p class=\"formula\">" + markupText(line.plain) + "</p>\n";
+            text += "<p class=\"formula\">" + inHtml(line.plain, true) + "</p>\n";
         return text;
     }
     std::string operator()(const Document::Table& t) const {
         std::string text = "<div class=\"wide\"><table>\n";
         const auto row = [&](const std::vector<std::string>& cells, const std::string& tag) {
             text += "<tr>";
-            for (const std::string& cell : cells)
-                text += "<" + tag + ">" + markupText(cell) + "</" + tag + ">";
+            for (const std::string& cell : cells) text += "<" + tag + ">" + inHtml(cell) + "</" + tag + ">";
             text += "</tr>\n";
         };
         if (!isEmpty(t.columns)) row(t.columns, "th");

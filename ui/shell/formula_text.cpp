@@ -6,6 +6,8 @@
 #include <QTextDocument>
 #include <QVector>
 
+#include "engine/passport/formula_parts.hpp"
+
 namespace extremal {
 namespace {
 
@@ -162,6 +164,45 @@ void formatFormulas(QTextDocument& document) {
             cursor.setPosition(block.position() + begin);
             cursor.setPosition(block.position() + at, QTextCursor::KeepAnchor);
             cursor.mergeCharFormat(format);
+        }
+    }
+}
+
+void formatPage(QTextDocument& document) {
+    for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
+        const QTextBlockFormat shape = block.blockFormat();
+        if (shape.hasProperty(QTextFormat::BlockCodeFence)) continue;  // a listing
+        const bool isFormula = shape.hasProperty(QTextFormat::BlockCodeLanguage);
+        const QString text = block.text();
+        const std::vector<FormulaPart> parts = formulaParts(text.toStdString(), isFormula);
+        if (isFormula) {
+            QTextCursor all(block);
+            all.movePosition(QTextCursor::EndOfBlock, QTextCursor::KeepAnchor);
+            QTextCharFormat body;
+            body.setFont(document.defaultFont());
+            all.setCharFormat(body);
+        }
+        // From the end, so that the places before stay what they are.
+        int end = static_cast<int>(text.size());
+        for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+            const QString set = QString::fromStdString(part->text);
+            const bool isPlain = part->script == Script::none;
+            // Its marks, "_{}", are characters of one byte.
+            const int marks = static_cast<int>(part->length - part->text.size());
+            const int begin = end - static_cast<int>(set.size()) - marks;
+            if (!isPlain || part->isVariable) {
+                QTextCursor cursor(block);
+                cursor.setPosition(block.position() + begin);
+                cursor.setPosition(block.position() + end, QTextCursor::KeepAnchor);
+                QTextCharFormat format = cursor.charFormat();
+                if (part->isVariable) format.setFontItalic(true);
+                if (!isPlain)
+                    format.setVerticalAlignment(part->script == Script::lowered
+                                                    ? QTextCharFormat::AlignSubScript
+                                                    : QTextCharFormat::AlignSuperScript);
+                cursor.insertText(set, format);
+            }
+            end = begin;
         }
     }
 }

@@ -17,4 +17,8 @@ namespace extremal {
 QString withFormulas(const QString& text);
 void formatFormulas(QTextDocument& document);
 
+/// Pages of the engine (engine/passport/document.hpp): indices and exponents in plain text are lowered and
+/// raised, and lines set off as code are formulas, in the font of the text. Listings stay as they are.
+void formatPage(QTextDocument& document);
+
 }  // namespace extremal

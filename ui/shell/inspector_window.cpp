@@ -159,7 +159,7 @@ void InspectorWindow::show(const StepInspection& step) {
         plots_[i]->setFigure(step.figures[i]);
     }
     const int place = text_->verticalScrollBar()->value();
-    showMarkdown(*text_, QString::fromStdString(written(step.page, PageFormat::markdown)));
+    showPage(*text_, step.page);
     text_->verticalScrollBar()->setValue(place);
     emit shown();
 }

@@ -84,9 +84,7 @@ void PassportWindow::show(const Document& page, bool isComplete) {
     isComplete_ = isComplete;
     setWindowTitle(tr("Passport: %1").arg(QString::fromStdString(page.title)));
     const int place = text_->verticalScrollBar()->value();
-    QString text = QString::fromStdString(written(page, PageFormat::markdown));
-    if (!isComplete) text += tr("\n*Orders and costs are being measured ...*\n");
-    showMarkdown(*text_, text);
+    showPage(*text_, page, isComplete ? QString() : tr("\n*Orders and costs are being measured ...*\n"));
     text_->verticalScrollBar()->setValue(place);
 }
 

@@ -7,6 +7,7 @@
 #include <QTextDocument>
 #include <QTextTable>
 
+#include "engine/passport/document.hpp"
 #include "ui/shell/formula_text.hpp"
 
 namespace extremal {
@@ -34,6 +35,7 @@ QTextBlockFormat formatOf(const QTextBlock& block) {
     } else if (QTextCursor(block).currentTable()) {
         format.setBottomMargin(0);
         format.setAlignment(Qt::AlignLeft);
+        format.setNonBreakableLines(!block.text().contains(' '));  // a number is not cut at its point
     }
     return format;
 }
@@ -67,9 +69,7 @@ void typesetTable(QTextTable& table, const QPalette& palette) {
         }
 }
 
-}  // namespace
-
-void showMarkdown(QTextBrowser& browser, const QString& markdown) {
+void show(QTextBrowser& browser, const QString& markdown, void (*typeset)(QTextDocument&)) {
     // Separate from the browser, which would lay out the text again after every change; without a history of
     // them.
     auto* page = new QTextDocument(&browser);
@@ -78,7 +78,7 @@ void showMarkdown(QTextBrowser& browser, const QString& markdown) {
     document.setDefaultFont(browser.font());
     document.setMarkdown(markdown);
     document.setDocumentMargin(18);
-    formatFormulas(document);
+    typeset(document);
     const QPalette palette = browser.palette();
     for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
         QTextCursor(block).setBlockFormat(formatOf(block));
@@ -88,6 +88,14 @@ void showMarkdown(QTextBrowser& browser, const QString& markdown) {
     browser.setDocument(page);
     delete last;  // where the browser has not
     browser.verticalScrollBar()->setValue(0);
+}
+
+}  // namespace
+
+void showMarkdown(QTextBrowser& browser, const QString& markdown) { show(browser, markdown, formatFormulas); }
+
+void showPage(QTextBrowser& browser, const Document& page, const QString& ending) {
+    show(browser, QString::fromStdString(written(page, PageFormat::markdown)) + ending, formatPage);
 }
 
 }  // namespace extremal

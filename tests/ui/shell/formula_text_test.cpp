@@ -4,6 +4,7 @@
 #include <QTextBrowser>
 #include <QTextDocument>
 
+#include "engine/passport/document.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
@@ -55,6 +56,30 @@ private slots:
         QTextDocument document;
         QCOMPARE(shown("5 $ and 6 $ more", document), QString("5 $ and 6 $ more"));
         QCOMPARE(shown("one $ alone", document), QString("one $ alone"));
+    }
+    void pagesOfTheEngineAreTypeset() {
+        const Document page{
+            "Page",
+            {Document::Paragraph{"The unknowns Y_1, …, Y_{m−1} and φ_a."},
+             Document::Formulas{{{"Q_i = q_0 + Σ_a φ_a(c_i) Y_a", ""}}},
+             Document::Table{{"column", "x_t^2"}, {{"a", "b_i"}}}, Document::Listing{{"A[1,1] = x_0"}}}};
+        QTextBrowser browser;
+        showPage(browser, page);
+        const QString text = browser.toPlainText();
+        for (const char* part :
+             {"The unknowns Y1, …, Ym−1 and φa.", "Qi = q0 + Σa φa(ci) Ya", "xt2", "bi", "A[1,1] = x_0"})
+            QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
+        int lowered = 0, raised = 0, italic = 0;
+        for (const Piece& piece : piecesOf(*browser.document())) {
+            const auto place = piece.format.verticalAlignment();
+            lowered += place == QTextCharFormat::AlignSubScript;
+            raised += place == QTextCharFormat::AlignSuperScript;
+            italic += piece.format.fontItalic();
+            if (piece.text.contains("Q")) QVERIFY(!piece.format.fontFixedPitch());
+        }
+        QCOMPARE(lowered, 11);
+        QCOMPARE(raised, 1);
+        QVERIFY2(italic >= 6, qPrintable(QString::number(italic)));
     }
     void notesOfAllPresetsHaveNoRawTeX() {
         for (const Preset& preset : presets()) {
