@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <memory>
 #include <stop_token>
 #include <vector>
 
@@ -27,7 +28,7 @@ public:
     Gmres(std::size_t n, int restart)
         : n_(n),
           restart_(restart),
-          basis_(n * static_cast<std::size_t>(restart + 1)),
+          basis_(std::make_unique_for_overwrite<double[]>(2 * n * static_cast<std::size_t>(restart + 1))),
           residual_(n),
           image_(n) {
         const auto m = static_cast<std::size_t>(restart);
@@ -37,6 +38,10 @@ public:
         g_.resize(m + 1);
         y_.resize(m);
     }
+
+    /// A copy has memory of its own, which holds nothing between two solutions.
+    Gmres(const Gmres& other) : Gmres(other.n_, other.restart_) {}
+    Gmres& operator=(const Gmres&) = delete;
 
     template <class Apply>
     Outcome solve(Apply&& apply, const Complex* v, Complex* u, double tolerance, int maxIterations,
@@ -74,7 +79,9 @@ private:
         return h_[static_cast<std::size_t>(column) * static_cast<std::size_t>(restart_ + 1) +
                   static_cast<std::size_t>(row)];
     }
-    Complex* q(int k) { return basis_.data() + static_cast<std::size_t>(k) * n_; }
+    Complex* q(int k) {
+        return reinterpret_cast<Complex*>(basis_.get()) + static_cast<std::size_t>(k) * n_;
+    }
 
     /// Up to `steps` directions from residual_; adds the correction to u. g_[k] of the result k is the
     /// residual left.
@@ -145,7 +152,8 @@ private:
     const ComplexVectors& vectors_ = ComplexVectors::ofThisMachine();
     std::size_t n_;
     int restart_;
-    std::vector<Complex> basis_, residual_, image_, h_, sine_, g_, y_;
+    std::unique_ptr<double[]> basis_;  ///< as it comes: what no step reaches is never touched
+    std::vector<Complex> residual_, image_, h_, sine_, g_, y_;
     std::vector<double> cosine_;
 };
 

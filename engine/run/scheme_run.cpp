@@ -69,17 +69,22 @@ void SchemeRun::publish(const SchemeResult& result) {
 
 void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
     if (isKnown_) return;
+    const auto endAtStart = [&](RunStatus status, Outcome cause, double failedAt, const std::string& advice) {
+        SchemeResult result = *latest();
+        result.summary.status = status;
+        result.summary.cause = cause;
+        result.summary.failedAt = failedAt;
+        result.summary.tEnd = initialOf(resolved_, scheme_).t;
+        result.summary.advice = advice;
+        publish(result);
+    };
+    // Setting up may take longer than a stop should.
+    if (stop.stop_requested()) return endAtStart(RunStatus::partial, Outcome::stopped, Summary::unknown, {});
     try {
         contained("", [&] { compute(ofScene, exact, stop); });
     } catch (const InvalidScene& e) {
-        const double start = initialOf(resolved_, scheme_).t;
-        SchemeResult failed = *latest();
-        failed.summary.status = RunStatus::failed;
-        failed.summary.cause = Outcome::refused;
-        failed.summary.failedAt = start;
-        failed.summary.tEnd = start;
-        failed.summary.advice = e.problems().front().message;
-        publish(failed);
+        endAtStart(RunStatus::failed, Outcome::refused, initialOf(resolved_, scheme_).t,
+                   e.problems().front().message);
     }
 }
 
