@@ -103,7 +103,7 @@ private slots:
         add("wave", "schrodinger-seed", {"/time/end=4"});
         add("field", "klein-gordon", {"/time/end=60"});
         add("moving mesh", "kink-moving-mesh");
-        add("asynchronous", "bar-notch");
+        add("asynchronous", "bar-notch", {"/time/end=3"});
         add("elliptic", "elliptic");
         add("free knots", "free-knots");
         add("baselines", "kepler", {"/time/end=1000"});
