@@ -79,9 +79,7 @@ private:
         return h_[static_cast<std::size_t>(column) * static_cast<std::size_t>(restart_ + 1) +
                   static_cast<std::size_t>(row)];
     }
-    Complex* q(int k) {
-        return reinterpret_cast<Complex*>(basis_.get()) + static_cast<std::size_t>(k) * n_;
-    }
+    Complex* q(int k) { return reinterpret_cast<Complex*>(basis_.get()) + static_cast<std::size_t>(k) * n_; }
 
     /// Up to `steps` directions from residual_; adds the correction to u. g_[k] of the result k is the
     /// residual left.

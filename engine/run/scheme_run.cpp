@@ -12,6 +12,7 @@
 #include "engine/observe/catalog.hpp"
 #include "engine/run/equations.hpp"
 #include "engine/run/error_floor.hpp"
+#include "engine/run/inside_step.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/run/recording.hpp"
 #include "engine/run/reuse.hpp"
@@ -70,12 +71,16 @@ void SchemeRun::publish(const SchemeResult& result) {
 void SchemeRun::run(const Reference& ofScene, ExactActions* exact, const std::stop_token& stop) {
     if (isKnown_) return;
     const auto endAtStart = [&](RunStatus status, Outcome cause, double failedAt, const std::string& advice) {
+        const State start = initialOf(resolved_, scheme_);
         SchemeResult result = *latest();
         result.summary.status = status;
         result.summary.cause = cause;
         result.summary.failedAt = failedAt;
-        result.summary.tEnd = initialOf(resolved_, scheme_).t;
+        result.summary.tEnd = start.t;
         result.summary.advice = advice;
+        result.trajectory.columns = leadingColumns(*systemOf(resolved_, scheme_));
+        result.trajectory.nodes = {0};
+        appendState(result.trajectory, start.t, start.x, result.trajectory.columns.size() - 1);
         publish(result);
     };
     // Setting up may take longer than a stop should.

@@ -10,6 +10,14 @@
 #include "ui/shell/notices.hpp"
 
 namespace extremal {
+namespace {
+
+/// In the style sheet.
+const char* nameOf(Notice::Kind kind) {
+    return kind == Notice::Kind::error ? "error" : kind == Notice::Kind::warning ? "warning" : "information";
+}
+
+}  // namespace
 
 Banners::Banners(Notices& notices, QWidget* parent)
     : QWidget(parent), notices_(notices), layout_(new QVBoxLayout(this)) {
@@ -26,7 +34,7 @@ void Banners::rebuild() {
     }
     for (const Notice& notice : notices_.all()) {
         auto* banner = new QFrame(this);
-        banner->setProperty("banner", notice.kind == Notice::Kind::error ? "error" : "warning");
+        banner->setProperty("banner", nameOf(notice.kind));
         auto* row = new QHBoxLayout(banner);
         row->setContentsMargins(12, 6, 8, 6);
         auto* text = makeLinkLabel("", banner);

@@ -20,6 +20,7 @@ QLabel[role="caption"] { font-size: @11px; color: @muted; }
 QLabel[problem="true"] { color: @error; }
 QFrame[card="true"] { background: @panel; border: 1px solid @cardLine; border-radius: 8px; }
 QFrame[card="true"][selected="true"] { border: 2px solid @accent; }
+QFrame[banner="information"] { background: @panel; border: 1px solid @accent; border-radius: 8px; }
 QFrame[banner="warning"] { background: @warningGround; border: 1px solid @warningLine; border-radius: 8px; }
 QFrame[banner="error"] { background: @errorGround; border: 1px solid @errorLine; border-radius: 8px; }
 QFrame[banner="error"] QLabel[role="strong"] { color: @error; }

@@ -6,10 +6,12 @@
 /// grounds they are used on, all series colours 3 : 1.
 ///
 /// The style sheet uses these dynamic properties; nothing else needs a separate style:
-///     QFrame   card = true               panel ground, hairline, rounded corners;  selected = true: accent
-///     line QFrame   banner = "warning"|"error" QLabel   role = "heading" | "title" | "strong" | "caption"
-///     (no role: body text) QPushButton kind = "primary" | "flat" | "chip"                  (no kind:
-///     outlined) QWidget  ground = "window" | "panel"                            plain grounds
+/// - QFrame card = true: panel ground, hairline, rounded corners; selected = true: accent line
+/// - QFrame banner = "information", "warning" or "error"
+/// - QLabel role = "heading", "title", "strong" or "caption"; none: body text
+/// - QPushButton kind = "primary", "flat" or "chip"; none: outlined
+/// - QWidget ground = "window" or "panel": plain grounds
+///
 /// After changing a property of a visible widget call repolish(widget).
 #pragma once
 

@@ -157,6 +157,22 @@ private slots:
             QVERIFY(s->summary.tEnd > 0 && s->summary.tEnd < 9e6);
         }
     }
+    /// Setting up a scheme takes long for wave functions of the plane: it is not done for nothing.
+    void aSchemeThatHasNotBegunIsStoppedAtItsStart() {
+        const Scene scene = sceneFrom(kepler, keplerData, "5", R"({"scheme":"midpoint","step":0.1})",
+                                      R"(,"observe":["energy"])");
+        const ResolvedScene resolved = resolve(scene);
+        const ProductPlan plan;
+        SchemeRun task(resolved, 0, plan);
+        std::stop_source stop;
+        stop.request_stop();
+        task.run({}, nullptr, stop.get_token());
+        const auto result = task.latest();
+        QVERIFY(result->summary.status == RunStatus::partial && result->summary.cause == Outcome::stopped);
+        QCOMPARE(result->summary.cost.evaluations, 0LL);
+        QVERIFY2(csvText(result->trajectory) == "t,q.x,q.y,p.x,p.y\n0,0.4,0,0,2\n",
+                 csvText(result->trajectory).c_str());
+    }
     void troubleIsAnOutcomeAndOthersGoOn() {
         const Scene origin = sceneFrom(kepler, R"({"q":[0,0],"p":[0,1]})", "1",
                                        R"({"scheme":"midpoint","step":0.1},{"baseline":"rk4","step":0.1},
