@@ -85,9 +85,10 @@ QString withPresetLinks(const QString& markdown) {
     return lines.join('\n');
 }
 
-QString helpPageOf(const QWidget* widget) {
-    for (; widget; widget = widget->parentWidget())
-        if (const QVariant page = widget->property("help"); page.isValid()) return page.toString();
+QString helpPageOf(const QWidget* widget, const QWidget* otherwise) {
+    for (const QWidget* inner : {widget, otherwise})
+        for (; inner; inner = inner->parentWidget())
+            if (const QVariant page = inner->property("help"); page.isValid()) return page.toString();
     return QStringLiteral("index");
 }
 

@@ -56,7 +56,8 @@ private:
 /// A page with links to the presets that it names: preset:NAME in code, and names after "preset".
 QString withPresetLinks(const QString& markdown);
 
-/// The page for a widget: the property "help" of it, or of the nearest one around it; else the index.
-QString helpPageOf(const QWidget* widget);
+/// The page for a widget: the property "help" of it, or of the nearest one around it; else that of the other
+/// widget, or the index.
+QString helpPageOf(const QWidget* widget, const QWidget* otherwise = nullptr);
 
 }  // namespace extremal

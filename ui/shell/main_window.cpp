@@ -232,6 +232,7 @@ void MainWindow::makePages() {
                                        {discretizer_, "spaces"},
                                        {compare_, "observables"},
                                        {studies_, "studies"},
+                                       {notes_, "scenes"},
                                        {schemes_, "schemes"},
                                        {startPage_, "tour"}})
         widget->setProperty("help", page);  // of F1

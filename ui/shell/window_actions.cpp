@@ -54,7 +54,11 @@ void MainWindow::makeActions() {
     addStudyActions();
     addLessonActions();
     actions_->add("help", tr("Help"), tr("Handbook, for what has the focus"), {QKeySequence(Qt::Key_F1)},
-                  [this] { showHelp(helpPageOf(QApplication::focusWidget())); });
+                  [this] {
+                      const QWidget* shown = stack_->currentWidget();
+                      if (shown != startPage_) shown = pages_->currentWidget();
+                      showHelp(helpPageOf(QApplication::focusWidget(), shown));
+                  });
     actions_->add("searchHelp", tr("Help"), tr("Search the handbook..."),
                   {QKeySequence(Qt::CTRL | Qt::Key_F)}, [this] {
                       showHelp(QStringLiteral("index"));

@@ -3,6 +3,7 @@
 #include <QFile>
 #include <QListWidget>
 #include <QRegularExpression>
+#include <QTabBar>
 #include <QTest>
 #include <QTextBrowser>
 
@@ -145,6 +146,17 @@ private slots:
         QCOMPARE(helpPageOf(window.findChild<QWidget*>("add")), QString("schemes"));
         QCOMPARE(helpPageOf(window.compareView().currentPlot()), QString("observables"));
         QCOMPARE(helpPageOf(nullptr), QString("index"));
+        // Where what has the focus has no page of its own, that of what is shown.
+        auto* tabs = window.findChild<QTabBar*>();
+        QCOMPARE(helpPageOf(tabs), QString("index"));
+        for (const auto& [tab, page] : {std::pair{2, "studies"}, {1, "scenes"}, {0, "observables"}}) {
+            tabs->setCurrentIndex(tab);
+            if (QWidget* focus = QApplication::focusWidget()) focus->clearFocus();
+            window.actions().find("help")->trigger();
+            auto* help = window.findChild<HelpWindow*>();
+            QVERIFY(help);
+            QCOMPARE(help->page(), QString(page));
+        }
     }
     /// Every preset that shows something of the paper is on its map, and what the map names exists.
     void theMapOfThePaperIsComplete() {
