@@ -196,26 +196,33 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
     }
     if (unknown.empty() || stop.stop_requested()) return;
 
-    const ReadScene read = readScene(document);
-    const ObservableEntry* observable = read.resolved ? observableOf(*read.resolved, grid.column) : nullptr;
-    if (!observable) {
+    const auto refuse = [&, c = column](const std::vector<Problem>& problems) {
         for (const std::size_t s : unknown) publish(s, Cells(rows, MapCell{MapCell::End::refused}));
         const std::lock_guard lock(mutex_);
-        for (std::size_t s = 0; s < schemes && !read.errors.empty(); ++s)
-            maps_[first + s].problems[column] =
-                read.errors.front().pointer + " " + read.errors.front().message;
-        return;
-    }
-    const MapColumn computed(*read.resolved, grid, *observable, stop);
-    for (const std::size_t s : unknown) {
-        Cells cells(rows);
-        for (std::size_t r = 0; r < rows && !stop.stop_requested(); ++r)
-            cells[r] = computed.cell(read.resolved->schemes[s], r);
-        const bool isWhole = std::none_of(cells.begin(), cells.end(),
-                                          [](const MapCell& c) { return c.end == MapCell::End::waiting; });
-        if (isWhole && scene_.reference.kind != ReferenceSpec::Kind::file)
-            mapMemory().keep(keyOf(document, grid, s), cells);
-        publish(s, cells);
+        for (std::size_t s = 0; s < schemes && !problems.empty(); ++s)
+            maps_[first + s].problems[c] = problems.front().pointer + " " + problems.front().message;
+    };
+    const ReadScene read = readScene(document);
+    if (!read.resolved) return refuse(read.errors);
+    try {
+        contained("", [&] {
+            const ObservableEntry* observable = observableOf(*read.resolved, grid.column);
+            if (!observable) return refuse({});
+            const MapColumn computed(*read.resolved, grid, *observable, stop);
+            for (const std::size_t s : unknown) {
+                Cells cells(rows);
+                for (std::size_t r = 0; r < rows && !stop.stop_requested(); ++r)
+                    cells[r] = computed.cell(read.resolved->schemes[s], r);
+                const bool isWhole = std::none_of(cells.begin(), cells.end(), [](const MapCell& c) {
+                    return c.end == MapCell::End::waiting;
+                });
+                if (isWhole && scene_.reference.kind != ReferenceSpec::Kind::file)
+                    mapMemory().keep(keyOf(document, grid, s), cells);
+                publish(s, cells);
+            }
+        });
+    } catch (const InvalidScene& e) {
+        refuse(e.problems());
     }
 }
 

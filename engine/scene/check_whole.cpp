@@ -123,8 +123,9 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
                const std::string& pointer) {
     constexpr double longest = 60;
     const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
-    const double slowestStep =
-        family && family->slowestStep ? family->slowestStep(*systemOf(scene, scheme)) : 5e-3;
+    const double slowestStep = family && family->slowestStep
+                                   ? family->slowestStep(*systemOf(scene, scheme), scheme.discretization)
+                                   : 5e-3;
     const double duration = timeSpan(scene.scene).length();
     const SchemeSpec& spec = scheme.spec;
     if (!spec.isEnabled || (!scheme.isAdaptive() && duration / spec.step.value * slowestStep < longest))

@@ -70,7 +70,20 @@ void normalise(Symmetry& s) {
     changeAll(s, [&](double x) { return x / leading; });
 }
 
-/// The largest violation over fresh states; infinity where there are none.
+/// Whether it moves anything, by numbers: with parameters near the largest numbers entries vanish or
+/// overflow.
+bool movesSomething(const Symmetry& s) {
+    bool isFinite = true, isAny = s.movesTime();
+    for (const auto* values : {&s.A, &s.b, &s.c})
+        for (const double x : *values) {
+            isFinite = isFinite && std::isfinite(x);
+            isAny = isAny || x != 0;
+        }
+    for (const GaugeTerm& term : s.F) isFinite = isFinite && std::isfinite(term.coefficient);
+    return isFinite && isAny && std::isfinite(s.tau0) && std::isfinite(s.tau1);
+}
+
+/// The largest violation over fresh states; infinity where there are none, or where it is no number.
 double worstViolation(const Mechanical& mechanics, const Symmetry& s) {
     constexpr int states = 40;
     StateSampler sampler(mechanics, 2718);
@@ -78,7 +91,9 @@ double worstViolation(const Mechanical& mechanics, const Symmetry& s) {
     double worst = 0;
     for (int i = 0; i < states; ++i) {
         if (!sampler.next(state)) return std::numeric_limits<double>::infinity();
-        worst = std::max(worst, s.violation(mechanics, state.t, state.q.data(), state.v.data()));
+        const double violation = s.violation(mechanics, state.t, state.q.data(), state.v.data());
+        if (std::isnan(violation)) return std::numeric_limits<double>::infinity();
+        worst = std::max(worst, violation);
     }
     return worst;
 }
@@ -143,6 +158,7 @@ std::vector<Symmetry> search(const System& system) {
     std::vector<Symmetry> found;
     for (Symmetry& s : isSmall ? symmetriesOnSamples(system, StateSampler(mechanics)) : candidates(system)) {
         normalise(s);
+        if (!movesSomething(s)) continue;
         Symmetry rounded = s;
         changeAll(rounded, snapped);
         const double limit = s.isExact() ? exact : almost;

@@ -105,7 +105,20 @@ double stiffening(const FieldProblem& problem, const double* u) {
     return std::sqrt(most);
 }
 
+/// Steps of the smallest element in one step of the scheme, which is one row, and is computed as a whole.
+void checkUpdates(const SchemeCase& scheme, Findings& findings) {
+    constexpr double most = 1 << 22;
+    const Levels levels = levelsOf(scheme.system, scheme.discretization.space);
+    const double updates = std::abs(scheme.step) / levels.smallest;
+    if (isSynchronous(scheme.discretization.space) || updates <= most) return;
+    findings.error("/space",
+                   "one step of all elements takes " + formatNumber(updates, 2) +
+                       " steps of the smallest element, " + formatNumber(most, 2) + " at most",
+                   "elements of more equal sizes (a smaller ratio), or a shorter step");
+}
+
 void checkAsynchronous(const SchemeCase& scheme, Findings& findings) {
+    checkUpdates(scheme, findings);
     if (isMembrane(scheme.system)) return;  // none becomes stiffer than at rest
     const double courant = scheme.discretization.space.number("courant"),
                  most = stiffening(*barOf(scheme.system), scheme.initial.x.data());
@@ -214,6 +227,14 @@ Family asynchronous() {
     f.source = "Leok 2004, sec. 2.1";
     f.spaces = {asynchronousSpace()};
     f.hasDenseOutput = false;
+    f.slowestStep = [](const System& system, const Discretization& d) {
+        constexpr double perUpdate = 1e-7;
+        const Levels levels = levelsOf(system, d.space);
+        double updates = 0;
+        for (std::size_t e = 0; e < levels.level.size(); ++e)
+            updates += levels.largest() / levels.step(static_cast<int>(e));
+        return std::max(5e-3, perUpdate * updates);
+    };
     f.applies = [](const System& system) {
         return isMembrane(system) || (isField(system) && system.fieldProblem().isBody);
     };

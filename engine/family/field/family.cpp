@@ -454,7 +454,7 @@ Family field() {
     f.describe = describeTent;
     f.check = checkTent;
     f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };  // checkTent knows
-    f.slowestStep = [](const System& system) {
+    f.slowestStep = [](const System& system, const Discretization&) {
         return 5e-3 * std::max(1.0, system.fieldProblem().size() / 2000.0);
     };
     f.choices = choices;

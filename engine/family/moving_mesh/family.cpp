@@ -336,7 +336,7 @@ Family moving_mesh() {
     f.advice = adviceFor;
     f.choices = choicesOf;
     f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
-    f.slowestStep = [](const System& system) {
+    f.slowestStep = [](const System& system, const Discretization&) {
         return 5e-3 * std::max(1.0, system.fieldProblem().size() / 500.0);
     };
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };

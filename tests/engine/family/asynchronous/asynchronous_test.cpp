@@ -9,6 +9,8 @@
 #include "engine/mesh/levels.hpp"
 #include "engine/model/field/problem.hpp"
 #include "engine/model/system.hpp"
+#include "engine/scene/codec.hpp"
+#include "engine/scene/preset.hpp"
 #include "tests/tools/tangent.hpp"
 #include "tests/tools/test.hpp"
 
@@ -81,6 +83,26 @@ private slots:
             QCOMPARE(levels.level, std::vector<int>(4, 0));
             QCOMPARE(levels.highest, 0);
         }
+    }
+    /// A step of all elements is computed as a whole: one that would take too long is refused, and a long run
+    /// of long ones is announced.
+    void elementsThatAreTooUnequalAreRefused() {
+        const auto checked = [](double ratio) {
+            return readScene(findPreset("bar-resonance")->json, {{"/model/ratio", ratio}});
+        };
+        const auto has = [](const std::vector<Problem>& problems, const char* pointer, const char* text) {
+            return std::any_of(problems.begin(), problems.end(), [&](const Problem& p) {
+                return p.pointer == pointer && p.message.find(text) != std::string::npos;
+            });
+        };
+        const ReadScene slow = checked(4e6), refused = checked(9007199254740992.0);
+        QVERIFY(slow.errors.empty());
+        for (const char* scheme : {"/schemes/0", "/schemes/1"}) {
+            QVERIFY(has(slow.warnings, scheme, "will take about"));
+            QVERIFY(has(refused.errors, (std::string(scheme) + "/space").c_str(),
+                        "steps of the smallest element"));
+        }
+        QVERIFY(!has(checked(50).warnings, "/schemes/0", "will take about"));
     }
     void dyadicLevelsKeepEnergyOverTenMillionUpdates_data() {
         QTest::addColumn<QString>("material");
