@@ -11,17 +11,19 @@
 namespace extremal {
 namespace {
 
-constexpr double smaller = 0.78, lowerBy = 0.22;  // of the height of the letters
-constexpr double normWidth = 6;                   // pixels, of the bars of a norm with what is around them
+constexpr double smaller = 0.78, lowerBy = 0.22, higherBy = 0.4;  // of the height of the letters
+constexpr double normWidth = 6;  // pixels, of the bars of a norm with what is around them
 
 struct Part {
-    enum class Kind { plain, lowered, norm } kind;
+    enum class Kind { plain, lowered, raised, norm } kind;
     QString text;
 };
 
 const QRegularExpression& mark() {
-    static const QRegularExpression all(QStringLiteral("(?<=[^\\W_])_([^\\W_]+)|(\u2016)"),
-                                        QRegularExpression::UseUnicodePropertiesOption);
+    // An index of letters and digits, a norm, and an exponent in brackets, which may hold brackets.
+    static const QRegularExpression all(
+        QStringLiteral("(?<=[^\\W_])_([^\\W_]+)|(\u2016)|\\^\\(((?:[^()]|\\([^()]*\\))+)\\)"),
+        QRegularExpression::UseUnicodePropertiesOption);
     return all;
 }
 
@@ -31,23 +33,24 @@ std::vector<Part> partsOf(const QString& title) {
     for (auto it = mark().globalMatch(title); it.hasNext();) {
         const QRegularExpressionMatch match = it.next();
         parts.push_back({Part::Kind::plain, title.mid(from, match.capturedStart() - from)});
-        parts.push_back(match.captured(1).isEmpty() ? Part{Part::Kind::norm, {}}
-                                                    : Part{Part::Kind::lowered, match.captured(1)});
+        parts.push_back(match.hasCaptured(1)   ? Part{Part::Kind::lowered, match.captured(1)}
+                        : match.hasCaptured(3) ? Part{Part::Kind::raised, match.captured(3)}
+                                               : Part{Part::Kind::norm, {}});
         from = match.capturedEnd();
     }
     parts.push_back({Part::Kind::plain, title.mid(from)});
     return parts;
 }
 
-QFont loweredFont(QFont font) {
+QFont smallerFont(QFont font) {
     font.setPixelSize(std::max(6, static_cast<int>(std::lround(smaller * font.pixelSize()))));
     return font;
 }
 
 double widthOf(const Part& part, const QFont& font) {
     if (part.kind == Part::Kind::norm) return normWidth;
-    const bool isLowered = part.kind == Part::Kind::lowered;
-    return QFontMetricsF(isLowered ? loweredFont(font) : font).horizontalAdvance(part.text);
+    return QFontMetricsF(part.kind == Part::Kind::plain ? font : smallerFont(font))
+        .horizontalAdvance(part.text);
 }
 
 }  // namespace
@@ -73,9 +76,11 @@ void drawTitle(QPainter& painter, const QFont& font, QPointF at, const QString& 
                                  QPointF(at.x() + x, at.y() + 2));
             painter.setPen(pen);
         } else {
-            const bool isLowered = part.kind == Part::Kind::lowered;
-            painter.setFont(isLowered ? loweredFont(font) : font);
-            painter.drawText(at + QPointF(0, isLowered ? lowerBy * metrics.ascent() : 0), part.text);
+            const double down = part.kind == Part::Kind::lowered  ? lowerBy
+                                : part.kind == Part::Kind::raised ? -higherBy
+                                                                  : 0;
+            painter.setFont(part.kind == Part::Kind::plain ? font : smallerFont(font));
+            painter.drawText(at + QPointF(0, down * metrics.ascent()), part.text);
         }
         at.rx() += width;
     }

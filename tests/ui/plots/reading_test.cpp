@@ -125,6 +125,8 @@ private slots:
         QVERIFY(hasOwnParts("p_a  [kg m/s]"));
         QCOMPARE(plainTitle("p_θ  [kg m²/s]"), QString("pθ  [kg m²/s]"));
         QVERIFY(!hasOwnParts("|H - H(0)|  [J]") && !hasOwnParts("_x"));
+        QVERIFY(hasOwnParts("h |l|^(1/(r+1))") && !hasOwnParts("x^2"));
+        QCOMPARE(plainTitle("h |l|^(1/(r+1)) s"), QString("h |l|1/(r+1) s"));
         Figure figure = handmade::figureOf("phase");
         figure.y.title = "p_x";
         PlotWidget plot(Theme::light());
