@@ -69,6 +69,7 @@ struct Recording {
     SchemeResult result;
     State initialNode, state;
     bool isLastNodeRow = false;
+    bool isCutShort = false;     ///< stopped between the rows of a step
     long long nextMultiple = 1;  ///< of output.every, for dense rows
     std::vector<double> values, kept;
     DelayedRows delayed;
@@ -225,6 +226,10 @@ struct Recording {
             if (ahead * (t - after) > 1e-12 * ahead * step ||
                 ahead * (t - scene.end.value) > 1e-9 * ahead * every)
                 break;
+            if (stop.stop_requested()) {  // one step may have millions of rows
+                isCutShort = true;
+                return;
+            }
             at.node = stretch.state.node;
             at.x = stretch.state.x;
             double done = static_cast<double>(stretch.state.node);
@@ -410,6 +415,7 @@ struct Recording {
             report = march(*integrator, state, grid, sinks, stop, &judge, known ? &report : nullptr);
             if (file) keep(report, true);
         }
+        if (isCutShort) report.outcome = Outcome::stopped;
         MarchGrid taken = grid;
         if (stopped) {
             taken.steps = std::min(grid.steps, state.node);

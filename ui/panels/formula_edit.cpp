@@ -1,5 +1,6 @@
 #include "ui/panels/formula_edit.hpp"
 
+#include <QEvent>
 #include <QFontDatabase>
 #include <QTextBlock>
 #include <QTextLayout>
@@ -10,9 +11,9 @@
 namespace extremal {
 
 FormulaEdit::FormulaEdit(QWidget* parent) : QPlainTextEdit(parent) {
-    QFont mono = QFontDatabase::systemFont(QFontDatabase::FixedFont);
-    mono.setPixelSize(12);
+    const QFont mono = QFontDatabase::systemFont(QFontDatabase::FixedFont);
     setFont(mono);
+    setProperty("role", "formula");  // of which the style sheet knows the size
     setTabChangesFocus(true);
     setWordWrapMode(QTextOption::WrapAtWordBoundaryOrAnywhere);
     setVerticalScrollBarPolicy(Qt::ScrollBarAsNeeded);
@@ -23,6 +24,11 @@ FormulaEdit::FormulaEdit(QWidget* parent) : QPlainTextEdit(parent) {
 void FormulaEdit::resizeEvent(QResizeEvent* event) {
     QPlainTextEdit::resizeEvent(event);
     fit();
+}
+
+void FormulaEdit::changeEvent(QEvent* event) {
+    QPlainTextEdit::changeEvent(event);
+    if (event->type() == QEvent::FontChange) fit();
 }
 
 void FormulaEdit::fit() {

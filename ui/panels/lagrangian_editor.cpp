@@ -182,7 +182,8 @@ void LagrangianEditor::showProblem() {
         const int columns = std::max(16, problem_->width() / metrics.horizontalAdvance('x'));
         const auto lines =
             caretLines(text, std::min(*place_, text.size()), static_cast<std::size_t>(columns / 2 - 4), "");
-        shown = "<pre style='font-family:\"" + text_->font().family() + "\";font-size:12px;margin:0'>" +
+        shown = "<pre style='font-family:\"" + text_->font().family() +
+                "\";font-size:" + QString::number(QFontInfo(text_->font()).pixelSize()) + "px;margin:0'>" +
                 QString::fromStdString(lines).toHtmlEscaped() + "</pre>" + shown;
     }
     problem_->setText(shown + QStringLiteral(" ") + handbookLink("lagrangian#what-is-refused"));

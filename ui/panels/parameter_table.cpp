@@ -97,8 +97,8 @@ void ParameterTable::addRow(const std::string& name) {
     row.nameEdit->setObjectName("name." + title);
     row.nameEdit->setAccessibleName(tr("Name of %1").arg(title));
     row.nameEdit->setToolTip(tr("A new name also replaces the old one in the formula and in all numbers."));
-    row.nameEdit->setFixedWidth(62);
-    row.valueEdit->setFixedWidth(72);
+    row.nameEdit->setProperty("room", "name");
+    row.valueEdit->setProperty("room", "value");
     row.slider->setObjectName("slider." + title);
     row.slider->setAccessibleName(tr("Slider of %1").arg(title));
     row.slider->setRange(0, sliderSteps);
@@ -107,7 +107,7 @@ void ParameterTable::addRow(const std::string& name) {
     row.remove->setObjectName("remove." + title);
     row.remove->setText("×");
     row.remove->setAccessibleName(tr("Remove %1").arg(title));
-    row.remove->setFixedWidth(22);
+    row.remove->setProperty("room", "mark");
     const int line = static_cast<int>(rows_.size());
     grid_->addWidget(row.nameEdit, line, 0);
     grid_->addWidget(row.valueEdit, line, 1);

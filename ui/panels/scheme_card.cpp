@@ -118,7 +118,7 @@ void SchemeCard::makeHeader() {
     stepEdit_->setObjectName("step");
     stepEdit_->setAccessibleName(tr("Step"));
     stepEdit_->setAlignment(Qt::AlignRight);
-    stepEdit_->setFixedWidth(86);
+    stepEdit_->setProperty("room", "step");
     stepEdit_->hide();
     connect(stepEdit_, &QLineEdit::editingFinished, this, &SchemeCard::finishStep);
     auto* dots = new QToolButton;

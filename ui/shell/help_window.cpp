@@ -118,7 +118,7 @@ HelpWindow::HelpWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
     left->addWidget(pages_, 1);
     auto* side = new QWidget(this);
     side->setLayout(left);
-    side->setFixedWidth(210);
+    side->setProperty("room", "side");
     left->setContentsMargins(0, 0, 0, 0);
     text_ = new QTextBrowser(this);
     text_->setAccessibleName(tr("Page"));

@@ -85,6 +85,13 @@ QSpinBox::down-arrow, QDoubleSpinBox::down-arrow {
 QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; color: @text; border: 1px solid @cardLine; border-radius: 6px;
     selection-background-color: @accent; selection-color: @onAccent; }
 QPlainTextEdit:focus, QTextEdit:focus { border-color: @accent; }
+QPlainTextEdit[role="formula"] { font-size: @12px; }
+QLineEdit[room="name"] { min-width: @46px; max-width: @46px; }
+QWidget[room="value"] { min-width: @84px; max-width: @84px; }
+QLineEdit[room="step"] { min-width: @68px; max-width: @68px; }
+QPushButton[room="play"] { min-width: @34px; max-width: @34px; }
+QToolButton[room="mark"] { min-width: @18px; max-width: @18px; padding: 0; }
+QWidget[room="side"] { min-width: @210px; max-width: @210px; }
 QPlainTextEdit[invalid="true"] { border-color: @error; background: @errorGround; }
 QSlider::groove:horizontal { height: 4px; border-radius: 2px; background: @line; }
 QSlider::sub-page:horizontal { height: 4px; border-radius: 2px; background: @accent; }

@@ -11,6 +11,7 @@
 /// - QLabel role = "heading", "title", "strong" or "caption"; none: body text
 /// - QPushButton kind = "primary", "flat" or "chip"; none: outlined
 /// - QWidget ground = "window" or "panel": plain grounds
+/// - room = "name", "value", "step", "play", "mark" or "side": widths that grow with the letters
 ///
 /// After changing a property of a visible widget call repolish(widget).
 #pragma once

@@ -25,7 +25,7 @@ Timeline::Timeline(Playback& playback, QWidget* parent) : QWidget(parent), playb
     play_ = new QPushButton(tr("Play"), this);
     play_->setProperty("kind", "flat");
     play_->setToolTip(tr("Play or pause (Space)"));
-    play_->setFixedWidth(58);
+    play_->setProperty("room", "play");
     slider_ = new SeekSlider(Qt::Horizontal, this);
     slider_->setRange(0, resolution);
     slider_->setAccessibleName(tr("Time"));

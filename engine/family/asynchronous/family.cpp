@@ -105,15 +105,22 @@ double stiffening(const FieldProblem& problem, const double* u) {
     return std::sqrt(most);
 }
 
-/// Steps of the smallest element in one step of the scheme, which is one row, and is computed as a whole.
+/// How often elements are updated in one step of this length.
+double updatesIn(const Levels& levels, double step) {
+    double updates = 0;
+    for (std::size_t e = 0; e < levels.level.size(); ++e)
+        updates += std::abs(step) / levels.step(static_cast<int>(e));
+    return updates;
+}
+
+/// A step of the scheme is one row, and is computed as a whole.
 void checkUpdates(const SchemeCase& scheme, Findings& findings) {
-    constexpr double most = 1 << 22;
-    const Levels levels = levelsOf(scheme.system, scheme.discretization.space);
-    const double updates = std::abs(scheme.step) / levels.smallest;
-    if (isSynchronous(scheme.discretization.space) || updates <= most) return;
+    constexpr double most = 1e7;
+    const double updates = updatesIn(levelsOf(scheme.system, scheme.discretization.space), scheme.step);
+    if (updates <= most) return;
     findings.error("/space",
-                   "one step of all elements takes " + formatNumber(updates, 2) +
-                       " steps of the smallest element, " + formatNumber(most, 2) + " at most",
+                   "one step of all elements takes " + formatNumber(updates, 2) + " updates of elements, " +
+                       formatNumber(most, 2) + " at most",
                    "elements of more equal sizes (a smaller ratio), or a shorter step");
 }
 
@@ -230,10 +237,7 @@ Family asynchronous() {
     f.slowestStep = [](const System& system, const Discretization& d) {
         constexpr double perUpdate = 1e-7;
         const Levels levels = levelsOf(system, d.space);
-        double updates = 0;
-        for (std::size_t e = 0; e < levels.level.size(); ++e)
-            updates += levels.largest() / levels.step(static_cast<int>(e));
-        return std::max(5e-3, perUpdate * updates);
+        return std::max(5e-3, perUpdate * updatesIn(levels, levels.largest()));
     };
     f.applies = [](const System& system) {
         return isMembrane(system) || (isField(system) && system.fieldProblem().isBody);

@@ -157,6 +157,18 @@ private slots:
             QVERIFY(s->summary.tEnd > 0 && s->summary.tEnd < 9e6);
         }
     }
+    /// Ten million rows inside one step: without a look at the stop between them all would be there.
+    void aRunStopsBetweenTheRowsOfAStep() {
+        Run r(sceneFrom(kepler, keplerData, "1", R"({"scheme":"midpoint","step":1})",
+                        R"(,"observe":["energy"],"output":{"every":1e-7,"dense":true})"));
+        r.start();
+        (void)r.waitFor(std::chrono::milliseconds(20));
+        r.stop();
+        r.wait();
+        const auto result = r.latest().schemes.at(0);
+        QVERIFY(result->summary.status == RunStatus::partial && result->summary.cause == Outcome::stopped);
+        QVERIFY(result->trajectory.rows() < 5'000'000);
+    }
     /// Setting up a scheme takes long for wave functions of the plane: it is not done for nothing.
     void aSchemeThatHasNotBegunIsStoppedAtItsStart() {
         const Scene scene = sceneFrom(kepler, keplerData, "5", R"({"scheme":"midpoint","step":0.1})",

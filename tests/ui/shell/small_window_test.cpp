@@ -2,6 +2,7 @@
 #include <QAbstractButton>
 #include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSplitter>
@@ -60,6 +61,11 @@ QStringList cutIn(QWidget& window) {
             QFontMetricsF(button->font()).horizontalAdvance(QString(button->text()).remove('&')) >
                 button->width())
             cut << button->text();
+    // Fields of names, whose width is fixed, hold them.
+    for (const QLineEdit* edit : window.findChildren<QLineEdit*>())
+        if (edit->isVisible() && edit->property("room") == "name" &&
+            QFontMetricsF(edit->font()).horizontalAdvance(edit->text()) > edit->contentsRect().width())
+            cut << edit->text();
     for (const QComboBox* box : window.findChildren<QComboBox*>())
         if (box->isVisible() && !dynamic_cast<const ComboBox*>(box)) cut << box->currentText();
     return cut;
@@ -78,7 +84,7 @@ private slots:
         QTest::addColumn<QSize>("size");
         QTest::addColumn<double>("scale");
         for (const char* preset : {"spring-pendulum", "kepler-sem", "coherent-state", "bar-notch",
-                                   "satellite", "elliptic", "double-slit"})
+                                   "satellite", "elliptic", "double-slit", "forced-pendulum"})
             for (const auto& [size, scale] : {std::pair{QSize(800, 600), 1.0},
                                               {QSize(1024, 700), 1.0},
                                               {QSize(1024, 700), 1.6},
