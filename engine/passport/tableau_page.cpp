@@ -249,7 +249,7 @@ void addStructure(const Tableau& t, Document& page) {
                                   : "symplectic: bhat_i A_ij + b_j Ahat_ji − bhat_i b_j = 0",
                           small(symplectic), verdict(symplectic)});
     table.rows.push_back(
-        {"symmetric: a_ij + a_(s+1−i)(s+1−j) − b_j = 0", small(symmetric), verdict(symmetric)});
+        {"symmetric: a_ij + a_{s+1−i, s+1−j} − b_j = 0", small(symmetric), verdict(symmetric)});
     page.blocks.emplace_back(std::move(table));
     if (t.velocities() != t.forces()) return;
     const SimplifyingAssumptions k = simplifyingAssumptions(t);

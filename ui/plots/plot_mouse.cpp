@@ -16,8 +16,14 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
         if (s.isTime() && view.isUserChosen(PlotAxis::x)) emit timeRangeChanged(view.range(PlotAxis::x));
         s.replot();
     };
+    const auto leaveCell = [&] {
+        if (!s.content->cursors().hoverCell) return;
+        s.content->cursors().hoverCell.reset();
+        emit cellLeft();
+    };
     const auto clearHover = [&] {
         if (s.table) s.table->hide();
+        leaveCell();
         if (s.content->cursors().hoverTime) emit hoverMoved(std::nullopt);
         if (s.content->cursors().hoverText.isEmpty()) return;
         s.content->cursors().hoverText.clear();
@@ -88,10 +94,11 @@ bool PlotWidget::eventFilter(QObject* watched, QEvent* event) {
                     c.hoverPoint = at;
                     c.hoverCell = s.rectOf(*cell);
                     s.replotCursor();
+                    emit cellHovered(cell->x, cell->y);
                     return true;
                 }
                 const auto hit = s.content->hit(at, hoverReach);
-                c.hoverCell.reset();
+                leaveCell();
                 if (s.isTime() && map.rect.contains(at) && !figure().series().empty()) {
                     showValues(at, hit ? figure().series()[hit->series].label : std::string());
                     return true;

@@ -69,8 +69,10 @@ signals:
     void cursorMoved(double t);
     void hoverMoved(std::optional<double> t);  ///< over a time axis; none: it has left
     void pointClicked(int style);
-    void cellChosen(double x, double y);  ///< of a map with a scale: what the cell stands for
-    void rowChosen(std::size_t row);      ///< of a study: what the point stands for
+    void cellChosen(double x, double y);   ///< of a map with a scale: what the cell stands for
+    void cellHovered(double x, double y);  ///< of the same
+    void cellLeft();
+    void rowChosen(std::size_t row);  ///< of a study: what the point stands for
     void levelMoved(double y);
     void placeClicked(double x, double y);
     void handleMoved(double x, double y);

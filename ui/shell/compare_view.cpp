@@ -10,7 +10,6 @@
 #include <map>
 
 #include "engine/figure/figure.hpp"
-#include "engine/core/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/view/axes.hpp"
@@ -18,6 +17,7 @@
 #include "ui/plots/plot_group.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/background.hpp"
+#include "ui/shell/case_preview.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/run_control.hpp"
@@ -69,6 +69,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     stageCard_->menu()->addAction(tr("Fit"), stage_, &StageWidget::fit);
     makeMaximizable(*stageCard_);
     connectDrawing();
+    connectPreview();
 
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         arranged_.clear();
@@ -86,7 +87,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
         for (const auto& s : slots_) s->plot->setStale(run_.isStale());
     });
     connect(&playback_, &Playback::timeChanged, this, [this](double t) {
-        stage_->setTime(t);
+        if (!preview_->isShown()) stage_->setTime(t);
         group_->setCursor(t);
     });
     connect(group_, &PlotGroup::cursorMoved, &playback_, &Playback::setTime);
@@ -223,8 +224,7 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     group_->add(plot);
     plot->setHighlighted(selectedLabel());
     connect(plot, &PlotWidget::levelMoved, this, &CompareView::wantedMoved);
-    connect(plot, &PlotWidget::cellChosen, this,
-            [this, &slot](double value, double step) { loadCase(slot.view, value, step); });
+    connectCases(slot);
     connectStarting(slot);
     return slot;
 }
@@ -371,7 +371,7 @@ FigureJob CompareView::missing() const {
     for (const auto& s : slots_)
         if (!s->shown || !(s->shownView == s->view) || !isSameData(*s->shown, *job.results))
             job.views.emplace_back(s->number, s->view);
-    job.makesStage = !staged_ || !isSameData(*staged_, *job.results);
+    job.makesStage = !preview_->isShown() && (!staged_ || !isSameData(*staged_, *job.results));
     return job;
 }
 
@@ -424,7 +424,7 @@ void CompareView::take(FigureSet made) {
         s.plot->setFigure(std::move(made.figures[i]));
         ++figuresMade_;
     }
-    if (made.player) {
+    if (made.player && !preview_->isShown()) {
         staged_ = made.job.results;
         stage_->setPlayer(std::move(*made.player));
         stage_->setTime(playback_.time());
@@ -435,21 +435,6 @@ void CompareView::take(FigureSet made) {
     showWanted();
     QTimer::singleShot(0, this, &CompareView::alignMargins);
     emit figuresChanged();
-}
-
-void CompareView::loadCase(const View& view, double value, double step) {
-    const std::vector<Edit> edits = editsForCase(workspace_.scene(), view, value, step);
-    const QString text =
-        tr("%1 = %2 and the step %3 of %4")
-            .arg(QString::fromStdString(view.keys.text("parameter")),
-                 QString::fromStdString(formatNumber(value)), QString::fromStdString(formatNumber(step)),
-                 QString::fromStdString(view.scheme));
-    if (edits.empty() || !workspace_.edit(edits, tr("Load a case of a map"))) return;
-    const auto& schemes = workspace_.scene().schemes;
-    const auto own = std::find_if(schemes.begin(), schemes.end(),
-                                  [&](const SchemeSpec& s) { return s.label == view.scheme; });
-    workspace_.selectScheme(static_cast<int>(own - schemes.begin()));
-    emit caseLoaded(text);
 }
 
 /// Plots below each other share their left edge: the widest margin of those that begin at the same place.

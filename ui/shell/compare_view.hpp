@@ -23,6 +23,7 @@ namespace extremal {
 
 class BackgroundSweep;
 class Card;
+class CasePreview;
 class Playback;
 class PlotGroup;
 class PlotWidget;
@@ -106,6 +107,8 @@ private:
     void loadCase(const View& view, double value, double step);
     QString selectedLabel() const;     ///< empty: no scheme is selected
     void connectDrawing();             ///< of initial profiles, on the stage
+    void connectPreview();             ///< of cases of maps, on the stage
+    void connectCases(Slot& slot);     ///< of its map
     void connectStarting(Slot& slot);  ///< of motions, in its plot
     void showWanted();
     void addSweep(const View& view, Figure& figure) const;
@@ -127,6 +130,7 @@ private:
     QAction* draw_ = nullptr;
     std::optional<ProfileDrawing> drawing_;  ///< of the stroke that is being made
     StageWidget* stage_;
+    CasePreview* preview_;                      ///< of a case of a map, on the stage
     std::shared_ptr<const Comparison> staged_;  ///< what the stage shows
     std::vector<std::unique_ptr<Slot>> slots_;
     std::shared_ptr<const System> system_;  ///< of the results

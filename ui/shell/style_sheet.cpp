@@ -87,7 +87,7 @@ QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; color: @text; bord
 QPlainTextEdit:focus, QTextEdit:focus { border-color: @accent; }
 QPlainTextEdit[role="formula"] { font-size: @12px; }
 QLineEdit[room="name"] { min-width: @46px; max-width: @46px; }
-QWidget[room="value"] { min-width: @84px; max-width: @84px; }
+QWidget[room="value"] { min-width: @56px; max-width: @84px; }
 QLineEdit[room="step"] { min-width: @68px; max-width: @68px; }
 QPushButton[room="play"] { min-width: @34px; max-width: @34px; }
 QToolButton[room="mark"] { min-width: @18px; max-width: @18px; padding: 0; }

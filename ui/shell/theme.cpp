@@ -71,7 +71,9 @@ QColor Theme::pale(const QColor& color, int percent) const {
 }
 
 QColor Theme::ground(QColor color) const {
-    while (contrast(color, onAccent) < 4.5) color = isDark ? color.lighter(103) : color.darker(103);
+    constexpr int most = 100;  // black does not become lighter
+    for (int i = 0; i < most && contrast(color, onAccent) < 4.5; ++i)
+        color = isDark ? color.lighter(103) : color.darker(103);
     return color;
 }
 

@@ -30,6 +30,7 @@
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/value_edit.hpp"
 #include "ui/plots/plot_widget.hpp"
+#include "ui/shell/case_preview.hpp"
 #include "ui/shell/about.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/compare_view.hpp"
@@ -198,6 +199,39 @@ private slots:
         entry("KKT matrix")->trigger();
         QVERIFY(waitForResults(window));
         QCOMPARE(shown("sparsity"), 0);
+    }
+    void aCaseUnderThePointerPlaysOnTheStage() {
+        MainWindow window(Theme::light(), false);
+        window.resize(1600, 1000);
+        window.show();
+        window.open("preset:stability-limit");
+        QVERIFY(waitForResults(window));
+        const std::string view =
+            R"([{"view":"parameter-map","parameter":"k","from":1,"to":1e4,"steps":[0.01,1],"cells":[5,5],"duration":4}])";
+        QVERIFY(window.workspace().edit({{"/views", parseJson(view)}}, "a map"));
+        QVERIFY(waitForResults(window));
+        const auto& plots = window.compareView().plots();
+        const auto found = std::find_if(plots.begin(), plots.end(), [](const PlotWidget* p) {
+            return p->figure().view == "parameter-map";
+        });
+        QVERIFY(found != plots.end());
+        auto& canvas = *(*found)->findChild<QCustomPlot*>();
+        canvas.replot();
+        const QRect rect = canvas.axisRect()->rect();
+        const QPoint at(rect.left() + rect.width() * 3 / 10, rect.bottom() - rect.height() * 3 / 10);
+        const Scene before = window.workspace().scene();
+        const auto* preview = window.findChild<CasePreview*>();
+        StageWidget* stage = window.compareView().stage();
+        const double time = stage->time();
+        QTest::mouseMove(&canvas, at);
+        QTRY_VERIFY_WITH_TIMEOUT(preview->isShown(), 20000);
+        QVERIFY(stage->time() <= 4.0);  // the runs of the map end there, that of the scene at 100
+        QCOMPARE(window.workspace().scene(), before);
+        QTest::mouseMove(&canvas, at + QPoint(rect.width() / 5, 0));  // the next cell: another case
+        QTRY_VERIFY(preview->isShown());
+        QTest::mouseMove(&canvas, {2, 2});
+        QVERIFY(!preview->isShown());
+        QTRY_VERIFY_WITH_TIMEOUT(window.compareView().isCurrent() && stage->time() == time, 20000);
     }
     void aClickOnAMapLoadsItsCase() {
         MainWindow window(Theme::light(), false);
