@@ -105,6 +105,8 @@ double stiffening(const FieldProblem& problem, const double* u) {
     return std::sqrt(most);
 }
 
+constexpr double mostUpdates = 1e7;  ///< of elements, in one step of the scheme
+
 /// How often elements are updated in one step of this length.
 double updatesIn(const Levels& levels, double step) {
     double updates = 0;
@@ -115,12 +117,11 @@ double updatesIn(const Levels& levels, double step) {
 
 /// A step of the scheme is one row, and is computed as a whole.
 void checkUpdates(const SchemeCase& scheme, Findings& findings) {
-    constexpr double most = 1e7;
     const double updates = updatesIn(levelsOf(scheme.system, scheme.discretization.space), scheme.step);
-    if (updates <= most) return;
+    if (updates <= mostUpdates) return;
     findings.error("/space",
                    "one step of all elements takes " + formatNumber(updates, 2) + " updates of elements, " +
-                       formatNumber(most, 2) + " at most",
+                       formatNumber(mostUpdates, 2) + " at most",
                    "elements of more equal sizes (a smaller ratio), or a shorter step");
 }
 
@@ -236,6 +237,7 @@ Family asynchronous() {
     f.hasDenseOutput = false;
     f.slowestStep = [](const System& system, const Discretization& d) {
         constexpr double perUpdate = 1e-7;
+        if (isReal(d.space)) return perUpdate * mostUpdates;  // its steps are of any length
         const Levels levels = levelsOf(system, d.space);
         return std::max(5e-3, perUpdate * updatesIn(levels, levels.largest()));
     };

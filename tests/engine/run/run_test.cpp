@@ -159,7 +159,8 @@ private slots:
     }
     /// Ten million rows inside one step: without a look at the stop between them all would be there.
     void aRunStopsBetweenTheRowsOfAStep() {
-        Run r(sceneFrom(kepler, keplerData, "1", R"({"scheme":"midpoint","step":1})",
+        Run r(sceneFrom(R"({"type":"harmonic-oscillator"})", R"({"q":[1],"p":[0]})", "1",
+                        R"({"scheme":"midpoint","step":1})",
                         R"(,"observe":["energy"],"output":{"every":1e-7,"dense":true})"));
         r.start();
         (void)r.waitFor(std::chrono::milliseconds(20));

@@ -88,7 +88,8 @@ private slots:
     /// of long ones is announced.
     void elementsThatAreTooUnequalAreRefused() {
         const auto checked = [](double ratio) {
-            return readScene(findPreset("bar-resonance")->json, {{"/model/ratio", ratio}});
+            return readScene(findPreset("bar-resonance")->json,
+                             {{"/model/ratio", ratio}, {"/time/end", 500}});
         };
         const auto has = [](const std::vector<Problem>& problems, const char* pointer, const char* text) {
             return std::any_of(problems.begin(), problems.end(), [&](const Problem& p) {
@@ -97,10 +98,9 @@ private slots:
         };
         const ReadScene slow = checked(1e6), refused = checked(9007199254740992.0);
         QVERIFY(slow.errors.empty());
-        for (const char* scheme : {"/schemes/0", "/schemes/1"}) {
-            QVERIFY(has(slow.warnings, scheme, "will take about"));
+        QVERIFY(has(slow.warnings, "/schemes/0", "will take about"));
+        for (const char* scheme : {"/schemes/0", "/schemes/1"})
             QVERIFY(has(refused.errors, (std::string(scheme) + "/space").c_str(), "updates of elements"));
-        }
         QVERIFY(!has(checked(50).warnings, "/schemes/0", "will take about"));
     }
     void dyadicLevelsKeepEnergyOverTenMillionUpdates_data() {
