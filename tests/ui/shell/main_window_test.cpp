@@ -42,6 +42,24 @@
 
 namespace extremal::main_window_test {
 
+namespace {
+
+/// The map of steps and stiffness of the first scheme of a scene whose runs end at 4; null: it did not come.
+PlotWidget* mapOf(MainWindow& window) {
+    window.resize(1600, 1000);
+    window.show();
+    const std::string view =
+        R"([{"view":"parameter-map","parameter":"k","from":1,"to":1e4,"steps":[0.01,1],"cells":[5,5],"duration":4}])";
+    if (!window.open("preset:stability-limit") || !waitForResults(window) ||
+        !window.workspace().edit({{"/views", parseJson(view)}}, "a map") || !waitForResults(window))
+        return nullptr;
+    for (PlotWidget* plot : window.compareView().plots())
+        if (plot->figure().view == "parameter-map") return plot;
+    return nullptr;
+}
+
+}  // namespace
+
 class MainWindowTest : public QObject {
     Q_OBJECT
 
@@ -202,20 +220,9 @@ private slots:
     }
     void aCaseUnderThePointerPlaysOnTheStage() {
         MainWindow window(Theme::light(), false);
-        window.resize(1600, 1000);
-        window.show();
-        window.open("preset:stability-limit");
-        QVERIFY(waitForResults(window));
-        const std::string view =
-            R"([{"view":"parameter-map","parameter":"k","from":1,"to":1e4,"steps":[0.01,1],"cells":[5,5],"duration":4}])";
-        QVERIFY(window.workspace().edit({{"/views", parseJson(view)}}, "a map"));
-        QVERIFY(waitForResults(window));
-        const auto& plots = window.compareView().plots();
-        const auto found = std::find_if(plots.begin(), plots.end(), [](const PlotWidget* p) {
-            return p->figure().view == "parameter-map";
-        });
-        QVERIFY(found != plots.end());
-        auto& canvas = *(*found)->findChild<QCustomPlot*>();
+        PlotWidget* const map = mapOf(window);
+        QVERIFY(map);
+        auto& canvas = *map->findChild<QCustomPlot*>();
         canvas.replot();
         const QRect rect = canvas.axisRect()->rect();
         const QPoint at(rect.left() + rect.width() * 3 / 10, rect.bottom() - rect.height() * 3 / 10);
@@ -235,20 +242,9 @@ private slots:
     }
     void aClickOnAMapLoadsItsCase() {
         MainWindow window(Theme::light(), false);
-        window.resize(1600, 1000);
-        window.show();
-        window.open("preset:stability-limit");
-        QVERIFY(waitForResults(window));
-        const std::string view =
-            R"([{"view":"parameter-map","parameter":"k","from":1,"to":1e4,"steps":[0.01,1],"cells":[5,5],"duration":4}])";
-        QVERIFY(window.workspace().edit({{"/views", parseJson(view)}}, "a map"));
-        QVERIFY(waitForResults(window));
-        const auto& plots = window.compareView().plots();
-        const auto found = std::find_if(plots.begin(), plots.end(), [](const PlotWidget* p) {
-            return p->figure().view == "parameter-map";
-        });
-        QVERIFY(found != plots.end());
-        PlotWidget& plot = **found;
+        PlotWidget* const map = mapOf(window);
+        QVERIFY(map);
+        PlotWidget& plot = *map;
         QCOMPARE(plot.figure().heat()->faults.size(), std::size_t(25));
         auto& canvas = *plot.findChild<QCustomPlot*>();
         canvas.replot();
@@ -266,8 +262,8 @@ private slots:
         const auto& notices = window.notices().all();
         QVERIFY(std::any_of(notices.begin(), notices.end(), [](const Notice& n) { return n.key == "case"; }));
         QVERIFY(waitForResults(window));
-        QCOMPARE((*found)->figure().series()[0].x.front(), 10.0);  // the dot moves along
-        window.actions().find("undo")->trigger();                  // one edit
+        QCOMPARE(map->figure().series()[0].x.front(), 10.0);  // the dot moves along
+        window.actions().find("undo")->trigger();             // one edit
         QVERIFY(window.workspace().scene() == before);
         QVERIFY(waitForResults(window));
         // The same with the pointer over the cell and Return.
