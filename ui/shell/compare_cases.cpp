@@ -21,6 +21,8 @@ void CompareView::connectPreview() {
         startJob();
     });
     connect(&workspace_, &Workspace::opened, preview_, &CasePreview::hide);
+    // A map that an edit takes away does not say that the pointer has left it.
+    connect(&workspace_, &Workspace::sceneChanged, preview_, &CasePreview::hide);
 }
 
 void CompareView::connectCases(Slot& slot) {
