@@ -305,12 +305,9 @@ void OwnWindow::compute() {
     runInBackground([self = QPointer(this), document, stop = stop_.get_token()] {
         const auto post = [&](DiscretizationSketch sketch, const QString& measured, bool isComplete) {
             auto shared = std::make_shared<DiscretizationSketch>(std::move(sketch));
-            QMetaObject::invokeMethod(
-                qApp,
-                [self, shared, measured, isComplete, stop] {
-                    if (self && !stop.stop_requested()) self->show(*shared, measured, isComplete);
-                },
-                Qt::QueuedConnection);
+            sendToWindow([self, shared, measured, isComplete, stop] {
+                if (self && !stop.stop_requested()) self->show(*shared, measured, isComplete);
+            });
         };
         const ReadScene read = readScene(document);
         const DiscretizationSketch sketch = sketchOf(read);

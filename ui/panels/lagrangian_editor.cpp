@@ -130,12 +130,9 @@ void LagrangianEditor::check() {
                      stop = stop_.get_token()] {
         const typed::Examination found = typed::examine(formula, stop);
         if (!found.isComplete) return;
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, text, found] {
-                if (self) self->take(text, found);
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, text, found] {
+            if (self) self->take(text, found);
+        });
     });
 }
 

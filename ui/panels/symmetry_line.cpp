@@ -53,12 +53,9 @@ void SymmetryLine::search() {
     if (!workspace_.hasScene() || workspace_.scene().model == shown_) return;
     runInBackground([self = QPointer(this), model = workspace_.scene().model] {
         const QString text = QString::fromStdString(textFor(model));
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, model, text] {
-                if (self) self->take(model, text);
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, model, text] {
+            if (self) self->take(model, text);
+        });
     });
 }
 

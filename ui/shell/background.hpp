@@ -12,4 +12,8 @@ namespace extremal {
 /// for them when it ends. From the window's thread.
 void runInBackground(std::function<void()> work);
 
+/// What such work has found: runs on the window's thread, after what was sent before. From the threads above,
+/// with a QPointer to the receiver, which may be gone by then.
+void sendToWindow(std::function<void()> message);
+
 }  // namespace extremal

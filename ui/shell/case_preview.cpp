@@ -104,12 +104,9 @@ void CasePreview::compute() {
             return;  // what cannot be run is said where the case is loaded
         }
         if (!made) return;
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, made, stop] {
-                if (self && !stop.stop_requested()) self->play(std::move(*made));
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, made, stop] {
+            if (self && !stop.stop_requested()) self->play(std::move(*made));
+        });
     });
 }
 

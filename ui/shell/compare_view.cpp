@@ -389,15 +389,12 @@ void CompareView::startJob() {
     isJobRunning_ = true;
     runInBackground([self = QPointer(this), job = std::move(job)] {
         auto made = std::make_shared<FigureSet>(makeFigures(job));
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, made] {
-                if (!self) return;
-                self->isJobRunning_ = false;
-                self->take(std::move(*made));
-                self->startJob();
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, made] {
+            if (!self) return;
+            self->isJobRunning_ = false;
+            self->take(std::move(*made));
+            self->startJob();
+        });
     });
 }
 

@@ -79,17 +79,14 @@ void CopiesWindow::compute() {
         } catch (const std::exception& e) {
             problem = QString::fromUtf8(e.what());
         }
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, separation, problem, number] {
-                if (!self || self->asked_ != number) return;
-                self->isWaiting_ = false;
-                if (problem.isEmpty()) return self->show(*separation);
-                self->title_->setText(problem);
-                self->stage_->setComparison({});
-                self->plot_->setFigure({});
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, separation, problem, number] {
+            if (!self || self->asked_ != number) return;
+            self->isWaiting_ = false;
+            if (problem.isEmpty()) return self->show(*separation);
+            self->title_->setText(problem);
+            self->stage_->setComparison({});
+            self->plot_->setFigure({});
+        });
     });
 }
 

@@ -110,17 +110,14 @@ void InspectorWindow::inspect() {
         } catch (const std::exception& e) {
             problem = QString::fromUtf8(e.what());
         }
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, step, problem, stop] {
-                if (!self || stop.stop_requested()) return;
-                self->isWaiting_ = false;
-                if (problem.isEmpty())
-                    self->show(*step);
-                else
-                    self->say(problem);
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, step, problem, stop] {
+            if (!self || stop.stop_requested()) return;
+            self->isWaiting_ = false;
+            if (problem.isEmpty())
+                self->show(*step);
+            else
+                self->say(problem);
+        });
     });
 }
 

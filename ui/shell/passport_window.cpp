@@ -70,12 +70,9 @@ void PassportWindow::open() {
     activateWindow();
     runInBackground([self = QPointer(this), scene = scene_, scheme = scheme_, stop = stop_.get_token()] {
         const auto page = std::make_shared<const Document>(passportOf(*scene, scheme, {}, stop));
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, page, stop] {
-                if (self && !stop.stop_requested()) self->show(*page, true);
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, page, stop] {
+            if (self && !stop.stop_requested()) self->show(*page, true);
+        });
     });
 }
 

@@ -268,17 +268,14 @@ void StartPage::loadPictures() {
             for (qsizetype i = 0; i < presets.size(); ++i) {
                 QImage image(presetPictureFile(folder, presets[i], isDark));
                 image.setDevicePixelRatio(cardPictureRatio);
-                QMetaObject::invokeMethod(
-                    qApp,
-                    [self, i, image, isDark] {
-                        if (!self || self->theme_->isDark != isDark) return;
-                        if (static_cast<std::size_t>(i) >= self->entries_.size()) return;  // hidden meanwhile
-                        Entry& entry = *self->entries_[static_cast<std::size_t>(i)];
-                        if (!image.isNull()) return entry.card->setPicture(image);
-                        self->waiting_.push_back(&entry);
-                        self->timer_->start();
-                    },
-                    Qt::QueuedConnection);
+                sendToWindow([self, i, image, isDark] {
+                    if (!self || self->theme_->isDark != isDark) return;
+                    if (static_cast<std::size_t>(i) >= self->entries_.size()) return;  // hidden meanwhile
+                    Entry& entry = *self->entries_[static_cast<std::size_t>(i)];
+                    if (!image.isNull()) return entry.card->setPicture(image);
+                    self->waiting_.push_back(&entry);
+                    self->timer_->start();
+                });
             }
         });
     timer_->start();
@@ -297,15 +294,12 @@ void StartPage::work() {
         runInBackground([self = QPointer(this), id = entry.preset] {
             const Preset* preset = findPreset(id.toStdString());
             auto read = std::make_shared<ReadScene>(readScene(preset->json));
-            QMetaObject::invokeMethod(
-                qApp,
-                [self, read, id] {
-                    if (!self) return;
-                    self->isReading_ = false;
-                    for (const auto& e : self->entries_)
-                        if (e->preset == id) e->scene = sceneOfPicture(std::move(read->scene));
-                },
-                Qt::QueuedConnection);
+            sendToWindow([self, read, id] {
+                if (!self) return;
+                self->isReading_ = false;
+                for (const auto& e : self->entries_)
+                    if (e->preset == id) e->scene = sceneOfPicture(std::move(read->scene));
+            });
         });
         return;
     }

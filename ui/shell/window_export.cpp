@@ -43,13 +43,10 @@ void MainWindow::startExport(const QString& folder) {
     for (auto& step : exportSteps(*parts, folder)) steps->push_back(std::move(step));
     runInBackground([self = QPointer(this), steps, folder] {
         const QString problem = steps->front()();
-        QMetaObject::invokeMethod(
-            qApp,
-            [self, steps, folder, problem] {
-                steps->pop_front();
-                if (self) self->continueExport(steps, problem, folder);
-            },
-            Qt::QueuedConnection);
+        sendToWindow([self, steps, folder, problem] {
+            steps->pop_front();
+            if (self) self->continueExport(steps, problem, folder);
+        });
     });
 }
 
@@ -114,12 +111,9 @@ void MainWindow::exportReport() {
             const QByteArray page = reportPage(*parts).toUtf8();
             const bool isWritten =
                 file.open(QIODevice::WriteOnly) && file.write(page) == page.size() && file.commit();
-            QMetaObject::invokeMethod(
-                qApp,
-                [self, path, problem = isWritten ? QString() : file.errorString()] {
-                    if (self) self->tellOfExport(problem, path, QFileInfo(path).absolutePath());
-                },
-                Qt::QueuedConnection);
+            sendToWindow([self, path, problem = isWritten ? QString() : file.errorString()] {
+                if (self) self->tellOfExport(problem, path, QFileInfo(path).absolutePath());
+            });
         });
 }
 

@@ -159,12 +159,9 @@ void BackgroundSweep::start() {
                     if (!stop.stop_requested()) swept->push_back(sweepOf(resolved, spec, stop));
             } catch (const InvalidScene&) {  // the run itself has said why
             }
-            QMetaObject::invokeMethod(
-                qApp,
-                [self, swept, problem, stop] {
-                    if (self && !stop.stop_requested()) self->keep(problem, std::move(*swept));
-                },
-                Qt::QueuedConnection);
+            sendToWindow([self, swept, problem, stop] {
+                if (self && !stop.stop_requested()) self->keep(problem, std::move(*swept));
+            });
         });
 }
 
