@@ -72,6 +72,11 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
     row->addWidget(input);
 }
 
+/// The base class takes the focus from the text field, which then says that its text is finished.
+ValueEdit::~ValueEdit() {
+    if (text_) text_->disconnect(this);
+}
+
 void ValueEdit::makeText() {
     text_ = new QLineEdit;
     if (info_.type == FieldType::number) text_->setAlignment(Qt::AlignRight);

@@ -17,6 +17,7 @@ class ValueEdit : public QWidget {
     Q_OBJECT
 public:
     explicit ValueEdit(const FieldInfo& info, QWidget* parent = nullptr);
+    ~ValueEdit() override;
 
     /// Shows a value; does not disturb what is being typed.
     void show(const Value& value);
