@@ -44,6 +44,7 @@ PlotWidget::PlotWidget(const Theme& theme, QWidget* parent) : QWidget(parent), i
     connect(impl_->chip, &QPushButton::clicked, this, &PlotWidget::fit);
     impl_->table = new HoverTable(this);
     setFocusPolicy(Qt::ClickFocus);
+    setAccessibleName(tr("Plot"));  // until it has a figure
     impl_->plot->installEventFilter(this);
 }
 

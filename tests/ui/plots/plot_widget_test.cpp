@@ -45,6 +45,7 @@ std::unique_ptr<PlotWidget> shown(const char* view) {
 class PlotWidgetTest : public QObject {
     Q_OBJECT
 private slots:
+    void hasANameBeforeItHasAFigure() { QVERIFY(!PlotWidget(Theme::light()).accessibleName().isEmpty()); }
     void zoomSticksWhenNewDataArrive() {
         const auto plot = shown("energy");
         QVERIFY(!plot->isUserZoomed());
