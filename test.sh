@@ -28,6 +28,7 @@ sanitize() {
     export LSAN_OPTIONS="suppressions=$lists/leaks.txt:print_suppressions=0"
     export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
     export TSAN_OPTIONS="halt_on_error=1:second_deadlock_stack=1:suppressions=$lists/races.txt"
+    export QTEST_FUNCTION_TIMEOUT=3000000  # milliseconds
     configure "$folder" -DEXTREMAL_SANITIZE="$sanitizers" -DEXTREMAL_UNITY=ON -DEXTREMAL_BENCH=OFF
     ninja -C "$root/$folder" >&2
     ctest --test-dir "$root/$folder" --parallel 2 --output-on-failure "${@:2}"

@@ -16,7 +16,7 @@ inline bool waitForResults(MainWindow& window) {
             return window.runControl().state() == RunControl::State::finished &&
                    !window.runControl().isStale() && window.compareView().isCurrent();
         },
-        20000);
+        120000);
 }
 
 }  // namespace extremal

@@ -42,6 +42,7 @@
 #include <QStackedWidget>
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 namespace extremal {
@@ -367,7 +368,7 @@ void MainWindow::addStudyActions() {
         return [this, act] {
             if (!workspace_->hasScene()) return;
             tabs_->setCurrentIndex(2);
-            (studies_->*act)();
+            std::invoke(act, studies_);
         };
     };
     actions_->add("runStudy", menu, tr("Run the study"), {QKeySequence(Qt::CTRL | Qt::Key_R)},

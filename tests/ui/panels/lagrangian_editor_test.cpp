@@ -29,7 +29,8 @@ class LagrangianEditorTest : public QObject {
             open(scene);
             // Its formula has been differentiated, or it has none.
             QVERIFY(QTest::qWaitFor(
-                [&] { return !formula()->isVisible() || !part<QLabel>("equations")->text().isEmpty(); }));
+                [&] { return !formula()->isVisible() || !part<QLabel>("equations")->text().isEmpty(); },
+                60000));
         }
         template <class T>
         T* part(const QString& name) {
