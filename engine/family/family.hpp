@@ -133,7 +133,7 @@ struct Family {
     /// the system (highestFrequency).
     double (*frequency)(const Discretization&, const System&, const State&) = nullptr;
     /// Seconds that no step exceeds, for whether a trial of its cost is worth its time. Null: 5 ms.
-    double (*slowestStep)(const System&, const Discretization&) = nullptr;
+    double (*slowestStep)(const SchemeCase&) = nullptr;
     /// What to try after a failure; empty: the usual. Null: the usual.
     std::string (*advice)(Outcome) = nullptr;
     /// Null where the family provides no reference; of families that are not the system's own (familyFor),

@@ -198,8 +198,9 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
 
     const auto refuse = [&, c = column](const std::vector<Problem>& problems) {
         for (const std::size_t s : unknown) publish(s, Cells(rows, MapCell{MapCell::End::refused}));
+        if (problems.empty()) return;
         const std::lock_guard lock(mutex_);
-        for (std::size_t s = 0; s < schemes && !problems.empty(); ++s)
+        for (const std::size_t s : unknown)
             maps_[first + s].problems[c] = problems.front().pointer + " " + problems.front().message;
     };
     const ReadScene read = readScene(document);
@@ -209,7 +210,8 @@ void MapRun::run(std::size_t task, const std::stop_token& stop) {
             const ObservableEntry* observable = observableOf(*read.resolved, grid.column);
             if (!observable) return refuse({});
             const MapColumn computed(*read.resolved, grid, *observable, stop);
-            for (const std::size_t s : unknown) {
+            for (; !unknown.empty(); unknown.erase(unknown.begin())) {  // what is left, `refuse` refuses
+                const std::size_t s = unknown.front();
                 Cells cells(rows);
                 for (std::size_t r = 0; r < rows && !stop.stop_requested(); ++r)
                     cells[r] = computed.cell(read.resolved->schemes[s], r);

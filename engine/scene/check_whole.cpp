@@ -117,15 +117,20 @@ std::string durationText(double seconds) {
     return formatNumber(seconds / 86400, 2) + " days";
 }
 
+SchemeCase caseOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
+    return {*systemOf(scene, scheme), initialOf(scene, scheme), scheme.discretization,
+            scheme.spec.step.value,   scheme.isComposed(),      scheme.spec.allowsUnstable,
+            scene.scene.end.value};
+}
+
 /// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds,
 /// but those of large wave functions.
 void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     constexpr double longest = 60;
     const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
-    const double slowestStep = family && family->slowestStep
-                                   ? family->slowestStep(*systemOf(scene, scheme), scheme.discretization)
-                                   : 5e-3;
+    const double slowestStep =
+        family && family->slowestStep ? family->slowestStep(caseOf(scene, scheme)) : 5e-3;
     const double duration = timeSpan(scene.scene).length();
     const SchemeSpec& spec = scheme.spec;
     if (!spec.isEnabled || (!scheme.isAdaptive() && duration / spec.step.value * slowestStep < longest))
@@ -142,9 +147,7 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
 void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     if (scheme.isAdaptive()) return;
-    const SchemeCase at{*systemOf(scene, scheme), initialOf(scene, scheme), scheme.discretization,
-                        scheme.spec.step.value,   scheme.isComposed(),      scheme.spec.allowsUnstable,
-                        scene.scene.end.value};
+    const SchemeCase at = caseOf(scene, scheme);
     Findings findings;
     if (scheme.baseline && scheme.baseline->check)
         scheme.baseline->check(at, findings);

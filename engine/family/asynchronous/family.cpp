@@ -235,11 +235,10 @@ Family asynchronous() {
     f.source = "Leok 2004, sec. 2.1";
     f.spaces = {asynchronousSpace()};
     f.hasDenseOutput = false;
-    f.slowestStep = [](const System& system, const Discretization& d) {
+    f.slowestStep = [](const SchemeCase& scheme) {
         constexpr double perUpdate = 1e-7;
-        if (isReal(d.space)) return perUpdate * mostUpdates;  // its steps are of any length
-        const Levels levels = levelsOf(system, d.space);
-        return std::max(5e-3, perUpdate * updatesIn(levels, levels.largest()));
+        const Levels levels = levelsOf(scheme.system, scheme.discretization.space);
+        return std::max(5e-3, perUpdate * updatesIn(levels, scheme.step));
     };
     f.applies = [](const System& system) {
         return isMembrane(system) || (isField(system) && system.fieldProblem().isBody);

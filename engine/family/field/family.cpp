@@ -454,8 +454,8 @@ Family field() {
     f.describe = describeTent;
     f.check = checkTent;
     f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };  // checkTent knows
-    f.slowestStep = [](const System& system, const Discretization&) {
-        return 5e-3 * std::max(1.0, system.fieldProblem().size() / 2000.0);
+    f.slowestStep = [](const SchemeCase& scheme) {
+        return 5e-3 * std::max(1.0, scheme.system.fieldProblem().size() / 2000.0);
     };
     f.choices = choices;
     f.rules = [](const Settings&) { return plainRules(); };

@@ -336,8 +336,8 @@ Family moving_mesh() {
     f.advice = adviceFor;
     f.choices = choicesOf;
     f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
-    f.slowestStep = [](const System& system, const Discretization&) {
-        return 5e-3 * std::max(1.0, system.fieldProblem().size() / 500.0);
+    f.slowestStep = [](const SchemeCase& scheme) {
+        return 5e-3 * std::max(1.0, scheme.system.fieldProblem().size() / 500.0);
     };
     f.rules = [](const Settings&) { return std::vector<std::string>{"auto"}; };
     f.isSame = [](const Discretization& a, double, const Discretization& b) { return a.space == b.space; };

@@ -218,8 +218,8 @@ Family wave() {
     f.check = checkStep;
     // Three-level schemes alone have a limit, and checkStep knows it exactly.
     f.frequency = [](const Discretization&, const System&, const State&) { return 0.0; };
-    f.slowestStep = [](const System& system, const Discretization&) {
-        return 5e-3 * std::max(1.0, system.hamiltonian()->size() / 1024.0);
+    f.slowestStep = [](const SchemeCase& scheme) {
+        return 5e-3 * std::max(1.0, scheme.system.hamiltonian()->size() / 1024.0);
     };
     f.advice = [](Outcome outcome) -> std::string {
         if (outcome != Outcome::notFinite) return {};
