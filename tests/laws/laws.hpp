@@ -1,4 +1,4 @@
-/// What the laws share: systems by name, every scheme and baseline of the catalogues, end states, slopes.
+/// What the laws share: systems by name, every scheme and baseline of the catalogues, end states.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/model/system.hpp"
+#include "tests/tools/slope.hpp"
 
 namespace extremal::laws {
 
@@ -123,21 +124,6 @@ inline double distance(const std::vector<double>& a, const std::vector<double>& 
     double sum = 0;
     for (std::size_t i = from; i < to; ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
     return std::sqrt(sum);
-}
-
-/// Least-squares slope of y over x.
-inline double slope(const std::vector<double>& x, const std::vector<double>& y) {
-    const double n = static_cast<double>(x.size());
-    double mx = 0, my = 0, sxx = 0, sxy = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        mx += x[i] / n;
-        my += y[i] / n;
-    }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        sxx += (x[i] - mx) * (x[i] - mx);
-        sxy += (x[i] - mx) * (y[i] - my);
-    }
-    return sxy / sxx;
 }
 
 inline const State keplerStart{0, 0, {0.4, 0, 0, 2}};

@@ -15,6 +15,7 @@
 #include "engine/space/polynomial.hpp"
 #include "engine/space/spline.hpp"
 #include "tests/tools/quadruple_kepler.hpp"
+#include "tests/tools/slope.hpp"
 
 namespace extremal::tools {
 namespace {
@@ -78,20 +79,6 @@ Quad distance(const std::vector<Quad>& a, const std::vector<Quad>& b, std::size_
     return sqrt(sum);
 }
 
-double slopeOf(const std::vector<double>& x, const std::vector<double>& y) {
-    const double n = static_cast<double>(x.size());
-    double mx = 0, my = 0, sxx = 0, sxy = 0;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        mx += x[i] / n;
-        my += y[i] / n;
-    }
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        sxx += (x[i] - mx) * (x[i] - mx);
-        sxy += (x[i] - mx) * (y[i] - my);
-    }
-    return sxy / sxx;
-}
-
 struct Errors {
     Quad q = 0, p = 0, curveQ = 0, curveP = 0;
     bool isComplete = false;
@@ -140,7 +127,7 @@ Orders fit(const Setting<D>& setting, const Table<Quad>& table, long long budget
     if (points < 3) return {0, 0, 0, 0, static_cast<int>(points)};
     h.erase(h.begin(), h.end() - points);
     for (auto& e : errors) e.erase(e.begin(), e.end() - points);
-    return {slopeOf(h, errors[0]), slopeOf(h, errors[1]), slopeOf(h, errors[2]), slopeOf(h, errors[3]),
+    return {slope(h, errors[0]), slope(h, errors[1]), slope(h, errors[2]), slope(h, errors[3]),
             static_cast<int>(points)};
 }
 

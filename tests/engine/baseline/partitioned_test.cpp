@@ -6,6 +6,7 @@
 
 #include "engine/baseline/partitioned.hpp"
 #include "tests/laws/laws.hpp"
+#include "tests/tools/slope.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::partitioned_test {
@@ -33,7 +34,7 @@ class PartitionedTest : public QObject {
             q.push_back(std::log(laws::distance(end.x, exact.x, 0, 2)));
             p.push_back(std::log(laws::distance(end.x, exact.x, 2, 4)));
         }
-        return {laws::slope(h, q), laws::slope(h, p)};
+        return {slope(h, q), slope(h, p)};
     }
 
 private slots:

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "engine/baseline/splitting_table.hpp"
-#include "tests/laws/laws.hpp"
+#include "tests/tools/slope.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::splitting_table_test {
@@ -154,7 +154,7 @@ Orders orderOnKepler(const Splitting& s) {
         eq.push_back(static_cast<double>(log(dq0 * dq0 + dq1 * dq1)) / 2);
         ep.push_back(static_cast<double>(log(dp0 * dp0 + dp1 * dp1)) / 2);
     }
-    return {laws::slope(h, eq), laws::slope(h, ep)};
+    return {slope(h, eq), slope(h, ep)};
 }
 
 /// The pendulum q'' = -g sin q after n steps to t = 3.
@@ -181,7 +181,7 @@ Orders orderOnThePendulum(const Splitting& s) {
         eq.push_back(static_cast<double>(log(abs(x[0] - fine[0]))));
         ep.push_back(static_cast<double>(log(abs(x[1] - fine[1]))));
     }
-    return {laws::slope(h, eq), laws::slope(h, ep)};
+    return {slope(h, eq), slope(h, ep)};
 }
 
 }  // namespace
