@@ -34,6 +34,7 @@
 #include "ui/shell/race_window.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
+#include "ui/shell/start_page.hpp"
 #include "ui/shell/starting.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
