@@ -1,7 +1,6 @@
 #include "ui/own/own_window.hpp"
 
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QGridLayout>
 #include <QLabel>
 #include <QPointer>

@@ -72,7 +72,8 @@ ValueEdit::ValueEdit(const FieldInfo& info, QWidget* parent) : QWidget(parent), 
     row->addWidget(input);
 }
 
-/// The base class takes the focus from the text field, which then says that its text is finished.
+/// The destructor of the base class takes the focus from the text field, which then says that its text is
+/// finished.
 ValueEdit::~ValueEdit() {
     if (text_) text_->disconnect(this);
 }

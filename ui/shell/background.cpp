@@ -3,7 +3,6 @@
 #include <QCoreApplication>
 #include <QThreadPool>
 
-#include <atomic>
 #include <deque>
 #include <mutex>
 #include <utility>
@@ -11,15 +10,14 @@
 namespace extremal {
 namespace {
 
-/// Work on its way to the threads, and messages on their way back. Both wait in queues with a lock that the
-/// sanitizer of threads sees, which those inside Qt are hidden from.
+/// Work on its way to the threads, and messages on their way back. Both wait in queues with a lock of their
+/// own, as the thread sanitizer does not see the locks inside Qt.
 class Background : public QObject {
 public:
     static Background& ofApplication() {
         if (!current) current = new Background(qApp);
         return *current;
     }
-    static Background* existing() { return current; }
 
     void run(std::function<void()> work) {
         add(work_, std::move(work));
@@ -32,7 +30,7 @@ public:
     }
 
 protected:
-    /// One message an event, so that those of an event loop inside of one come in turn.
+    /// One message per event: they stay in order where one of them runs an event loop.
     void customEvent(QEvent*) override { next(messages_)(); }
 
 private:
@@ -59,21 +57,17 @@ private:
         return first;
     }
 
-    static std::atomic<Background*> current;
+    inline static Background* current = nullptr;  ///< written while none of its threads works
 
     std::mutex mutex_;
     Queue work_, messages_;  ///< guarded by the mutex
     QThreadPool* pool_;
 };
 
-std::atomic<Background*> Background::current{nullptr};
-
 }  // namespace
 
 void runInBackground(std::function<void()> work) { Background::ofApplication().run(std::move(work)); }
 
-void sendToWindow(std::function<void()> message) {
-    if (Background* background = Background::existing()) background->send(std::move(message));
-}
+void sendToWindow(std::function<void()> message) { Background::ofApplication().send(std::move(message)); }
 
 }  // namespace extremal

@@ -1,6 +1,5 @@
 #include "ui/shell/case_preview.hpp"
 
-#include <QCoreApplication>
 #include <QPointer>
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 #include "ui/shell/compare_view.hpp"
 
 #include <QMenu>
-#include <QApplication>
 #include <QPointer>
 #include <QScrollArea>
 #include <QTimer>

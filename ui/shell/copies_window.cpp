@@ -1,6 +1,5 @@
 #include "ui/shell/copies_window.hpp"
 
-#include <QCoreApplication>
 #include <QLabel>
 #include <QPointer>
 #include <QSpinBox>

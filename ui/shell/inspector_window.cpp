@@ -1,6 +1,5 @@
 #include "ui/shell/inspector_window.hpp"
 
-#include <QCoreApplication>
 #include <QGridLayout>
 #include <QLabel>
 #include <QPointer>

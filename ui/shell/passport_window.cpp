@@ -1,6 +1,5 @@
 #include "ui/shell/passport_window.hpp"
 
-#include <QCoreApplication>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>

@@ -1,6 +1,5 @@
 #include "ui/shell/start_page.hpp"
 
-#include <QApplication>
 #include <QFileInfo>
 #include <QGridLayout>
 #include <QHideEvent>

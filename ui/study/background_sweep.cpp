@@ -1,6 +1,5 @@
 #include "ui/study/background_sweep.hpp"
 
-#include <QCoreApplication>
 #include <QPointer>
 
 #include <algorithm>
