@@ -124,17 +124,17 @@ SchemeCase caseOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
 }
 
 /// A trial is worth its time only for a scheme that may take long: no step takes more than some milliseconds,
-/// but those of large wave functions.
+/// unless its family says so.
 void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
     constexpr double longest = 60;
-    const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
-    const double slowestStep =
-        family && family->slowestStep ? family->slowestStep(caseOf(scene, scheme)) : 5e-3;
-    const double duration = timeSpan(scene.scene).length();
-    const SchemeSpec& spec = scheme.spec;
-    if (!spec.isEnabled || (!scheme.isAdaptive() && duration / spec.step.value * slowestStep < longest))
-        return;
+    if (!scheme.spec.isEnabled) return;
+    if (!scheme.isAdaptive()) {
+        const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
+        const double slowestStep =
+            family && family->slowestStep ? family->slowestStep(caseOf(scene, scheme)) : 5e-3;
+        if (timeSpan(scene.scene).length() / scheme.spec.step.value * slowestStep < longest) return;
+    }
     const double seconds = predictSeconds(scene, scheme);
     if (seconds > longest)
         reader.warning(pointer,

@@ -105,8 +105,6 @@ double stiffening(const FieldProblem& problem, const double* u) {
     return std::sqrt(most);
 }
 
-constexpr double mostUpdates = 1e7;  ///< of elements, in one step of the scheme
-
 /// How often elements are updated in one step of this length.
 double updatesIn(const Levels& levels, double step) {
     double updates = 0;
@@ -117,11 +115,12 @@ double updatesIn(const Levels& levels, double step) {
 
 /// A step of the scheme is one row, and is computed as a whole.
 void checkUpdates(const SchemeCase& scheme, Findings& findings) {
+    constexpr double most = 1e7;
     const double updates = updatesIn(levelsOf(scheme.system, scheme.discretization.space), scheme.step);
-    if (updates <= mostUpdates) return;
+    if (updates <= most) return;
     findings.error("/space",
                    "one step of all elements takes " + formatNumber(updates, 2) + " updates of elements, " +
-                       formatNumber(mostUpdates, 2) + " at most",
+                       formatNumber(most, 2) + " at most",
                    "elements of more equal sizes (a smaller ratio), or a shorter step");
 }
 
