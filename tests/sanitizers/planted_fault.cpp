@@ -1,5 +1,5 @@
-/// A fault on purpose, named by the argument, inside of Qt's event loop as in every test of the window: the
-/// sanitizers must report it, whatever the lists of what is not ours to mend leave out.
+/// A deliberate fault, named by the argument, inside Qt's event loop as in every test of the window: the
+/// sanitizers must report it, whatever the lists suppress.
 #include <QCoreApplication>
 #include <QTimer>
 

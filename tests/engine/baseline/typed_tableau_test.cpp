@@ -9,8 +9,8 @@
 #include "engine/scene/json.hpp"
 #include "engine/tableau/tableau.hpp"
 #include "tests/laws/laws.hpp"
-#include "tests/tools/slope.hpp"
 #include "tests/tools/jacobian.hpp"
+#include "tests/tools/slope.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::typed_tableau_test {
