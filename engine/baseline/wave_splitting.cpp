@@ -54,6 +54,10 @@ private:
     void step(double t, Complex* v, std::vector<double>&, StepReport& report) override {
         const auto& stages = splitting_.stages;
         for (std::size_t k = 0; k < stages.size(); ++k) {
+            if (stop().stop_requested()) {
+                report.outcome = Outcome::stopped;
+                return;
+            }
             if (!stages[k].isKick) {
                 multiply(v, *phases_[k]);
                 t += stages[k].fraction * dt();

@@ -69,9 +69,8 @@ public:
             part->setStep(tau * h_);
         }
         State at = start_;
-        const bool isFound = part->compose(at, start_.t + tau * h_).outcome == Outcome::converged;
-        for (std::size_t i = 0; i < x.size(); ++i)
-            x[i] = isFound ? at.x[i] : (1 - tau) * start_.x[i] + tau * end_.x[i];
+        advanceForDenseOutput(*part, at, start_.t + tau * h_);
+        std::copy(at.x.begin(), at.x.end(), x.begin());
     }
 
     /// Tangent maps multiply; every part has its own last step.

@@ -7,7 +7,9 @@
 /// Trouble is an Outcome in the report; the state is then left as it was.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -73,7 +75,8 @@ public:
     virtual void measure(const State& /*state*/, double* /*values*/) const {}
 
     /// The scheme's own solution inside the last step, at t = t_before + tau * step, tau in [0, 1]; x as in
-    /// State. Only valid after a converged advance().
+    /// State. Only valid after a converged advance(). It is whole even if a stop was requested since, and
+    /// not a number where it is computed by a step of its own that has no solution.
     virtual void denseOutput(double tau, std::span<double> x) const = 0;
 
     /// How many numbers a variation of the state has, 0 where the scheme has no tangent map. They are
@@ -122,6 +125,14 @@ inline StepReport advance(Integrator& integrator, State& state) {
     const double h = integrator.stepSize();
     const double start = state.t - static_cast<double>(state.node) * h;
     return integrator.advance(state, Clock{start, h}.at(state.node + 1));
+}
+
+/// The step of a copy that computes dense output: without the stop token, as the run may have been asked to
+/// stop since; x is not a number where the step has no solution.
+inline void advanceForDenseOutput(Integrator& copy, State& state, double until) {
+    copy.setStop({});
+    if (copy.advance(state, until).outcome != Outcome::converged)
+        std::fill(state.x.begin(), state.x.end(), std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace extremal

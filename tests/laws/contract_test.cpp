@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <set>
+#include <stop_token>
 
 #include "engine/core/text.hpp"
 #include "engine/scene/bind.hpp"
@@ -188,6 +189,22 @@ private slots:
             fresh->measure(resumed, saidAgain.data());
             QVERIFY(std::memcmp(said.data(), saidAgain.data(), said.size() * sizeof(double)) == 0);
         }
+    }
+    void denseOutputIsWholeAfterAStop_data() { addRuns(); }
+    void denseOutputIsWholeAfterAStop() {
+        const Run& run = current();
+        const auto integrator = run.make();
+        std::stop_source source;
+        integrator->setStop(source.get_token());
+        State state = run.start;
+        integrator->begin(state);
+        for (int k = 0; k < 3; ++k) QCOMPARE(step(run, *integrator, state).outcome, Outcome::converged);
+        std::vector<double> before(state.x.size()), after = before;
+        const auto clone = integrator->clone();  // compositions remember the steps that they made inside
+        integrator->denseOutput(0.3, before);
+        source.request_stop();
+        clone->denseOutput(0.3, after);
+        QVERIFY(before == after);
     }
     void memoryIsNamed_data() { addRuns(); }
     void memoryIsNamed() {

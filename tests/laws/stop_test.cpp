@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "tests/laws/laws.hpp"
+#include "tests/laws/waves.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::laws::stop_test {
@@ -35,6 +36,32 @@ private slots:
             QVERIFY2(state.x == keplerStart.x && state.t == keplerStart.t, scheme.name.c_str());
         }
         QVERIFY(iterative >= 10);
+    }
+    /// A step in many stages, each of them two transforms of a plane, goes back to where it began.
+    void aSplitStepIsStoppedBetweenStages() {
+        const System system = waveSystem(64);
+        const State start = waveStart(system);
+        for (const char* name : {"strang", "srkn-14a", "suzuki-4", "chebyshev-propagation"}) {
+            const auto make = [&] { return findBaseline(name)->make(system, {.step = 0.01}); };
+            const auto integrator = make(), whole = make();
+            State state = start, other = start;
+            QCOMPARE(advance(*integrator, state).outcome, Outcome::converged);
+            QCOMPARE(advance(*whole, other).outcome, Outcome::converged);
+            const State before = state;
+
+            std::stop_source source;
+            source.request_stop();
+            integrator->setStop(source.get_token());
+            const StepReport stopped = advance(*integrator, state);
+            QCOMPARE(stopped.outcome, Outcome::stopped);
+            QCOMPARE(stopped.cost.evaluations, 0);
+            QVERIFY(state.x == before.x && state.t == before.t);
+
+            integrator->setStop({});
+            QCOMPARE(advance(*integrator, state).outcome, Outcome::converged);
+            QCOMPARE(advance(*whole, other).outcome, Outcome::converged);
+            QVERIFY(distance(state.x, other.x, 0, state.x.size()) < 1e-14);
+        }
     }
 };
 

@@ -57,7 +57,7 @@ public:
         if (tau > 0) {
             DyadicSteps shorter = *this;
             shorter.setStep(tau * h_);
-            (void)shorter.advance(state, 0);
+            advanceForDenseOutput(shorter, state, 0);
         }
         std::copy(state.x.begin(), state.x.end(), x.begin());
     }

@@ -76,7 +76,7 @@ public:
     void denseOutput(double tau, std::span<double> x) const override {
         State state = before_;
         RealSteps shorter = *this;
-        if (tau > 0) (void)shorter.advance(state, before_.t + tau * h_);
+        if (tau > 0) advanceForDenseOutput(shorter, state, before_.t + tau * h_);
         std::copy(state.x.begin(), state.x.end(), x.begin());
     }
     std::string tangentProblem() const override {

@@ -106,7 +106,7 @@ void FieldMarch::denseOutput(double tau, std::span<double> x) const {
     if (tau > 0) {
         const auto shorter = clone();
         shorter->setStep(tau * h_);
-        (void)shorter->advance(state, 0);
+        advanceForDenseOutput(*shorter, state, 0);
     }
     std::copy(state.x.begin(), state.x.end(), x.begin());
 }

@@ -109,7 +109,7 @@ public:
         shorter.options_.hasEnergyTimes = false;
         if (tau > 0) {
             shorter.setStep(tau * lastStep_);
-            (void)shorter.advance(state, 0);
+            advanceForDenseOutput(shorter, state, 0);
         }
         std::copy(state.x.begin(), state.x.end(), x.begin());
     }

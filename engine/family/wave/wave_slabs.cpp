@@ -64,7 +64,8 @@ public:
         const auto again = slab_->clone();
         const int last = std::clamp(static_cast<int>(tau * slabs_), 0, slabs_ - 1);
         State state = start_;
-        for (int k = 0; k <= last; ++k) (void)again->advance(state, timeAfter(k, start_.t, start_.t + h_));
+        for (int k = 0; k <= last; ++k)
+            advanceForDenseOutput(*again, state, timeAfter(k, start_.t, start_.t + h_));
         again->denseOutput(tau * slabs_ - last, x);
     }
     std::unique_ptr<Integrator> clone() const override { return std::make_unique<Slabs>(*this); }

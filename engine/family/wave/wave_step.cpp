@@ -139,7 +139,7 @@ void WaveStep::denseOutput(double tau, std::span<double> x) const {
     if (tau > 0) {
         const auto shorter = inside();
         shorter->setStep(tau * h_);
-        (void)shorter->advance(state, startTime_ + tau * h_);
+        advanceForDenseOutput(*shorter, state, startTime_ + tau * h_);
     }
     std::copy(state.x.begin(), state.x.end(), x.begin());
 }
