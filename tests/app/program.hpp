@@ -8,6 +8,9 @@
 
 namespace extremal::tests {
 
+/// Milliseconds after which a program counts as hung: with sanitizers it is thirty times as slow.
+inline constexpr int patience = 600'000;
+
 struct Answer {
     int code = -1;  ///< -2: ended by a signal
     QString out, err;
@@ -26,7 +29,7 @@ inline Answer runProgram(const QStringList& arguments, const Surroundings& aroun
     process.start(QStringLiteral(EXTREMAL_BINARY), arguments);
     process.write(around.input);
     process.closeWriteChannel();
-    if (!process.waitForFinished(60000)) return {};
+    if (!process.waitForFinished(patience)) return {};
     return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
             QString::fromUtf8(process.readAllStandardOutput()),
             QString::fromUtf8(process.readAllStandardError())};

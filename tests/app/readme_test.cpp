@@ -7,6 +7,7 @@
 #include <QTemporaryDir>
 #include <QTest>
 
+#include "tests/app/program.hpp"
 #include "tests/tools/test.hpp"
 
 namespace extremal::readme_test {
@@ -61,7 +62,7 @@ private slots:
         shell.setWorkingDirectory(folder.path());
         for (const QString& command : commands) {
             shell.start("/bin/sh", {"-c", command});
-            QVERIFY(shell.waitForFinished(120000));
+            QVERIFY(shell.waitForFinished(tests::patience));
             const QByteArray said = shell.readAllStandardError();
             QVERIFY2(shell.exitStatus() == QProcess::NormalExit && shell.exitCode() == 0,
                      qPrintable(command + "\n" + said));
@@ -73,7 +74,7 @@ private slots:
         QProcess program;
         program.setWorkingDirectory(folder.path());
         program.start(EXTREMAL_BINARY, {"run", "preset:spring-pendulum", "--out", "pendulum", "--quiet"});
-        QVERIFY(program.waitForFinished(120000));
+        QVERIFY(program.waitForFinished(tests::patience));
         QCOMPARE(program.exitCode(), 0);
         const QStringList files = QDir(folder.filePath("pendulum")).entryList(QDir::Files);
         for (const char* name : {"scene.json", "summary.csv", "summary.json"})
