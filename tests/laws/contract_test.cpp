@@ -32,12 +32,16 @@ StepReport step(const Run& run, Integrator& integrator, State& state) {
     return advance(integrator, state);
 }
 
+bool isFinite(const State& state) {
+    return std::all_of(state.x.begin(), state.x.end(), [](double v) { return std::isfinite(v); });
+}
+
 bool takesSteps(const Run& run) {
     const auto integrator = run.make();
     State state = run.start;
     for (int k = 0; k < 20 && (integrator->grid() == TimeGrid::fixed || state.t < run.end); ++k)
         if (step(run, *integrator, state).outcome != Outcome::converged) return false;
-    return std::all_of(state.x.begin(), state.x.end(), [](double v) { return std::isfinite(v); });
+    return isFinite(state);
 }
 
 /// Everything on every ground, where it can take its steps.
@@ -199,12 +203,12 @@ private slots:
         State state = run.start;
         integrator->begin(state);
         for (int k = 0; k < 3; ++k) QCOMPARE(step(run, *integrator, state).outcome, Outcome::converged);
-        std::vector<double> before(state.x.size()), after = before;
-        const auto clone = integrator->clone();  // compositions remember the steps that they made inside
-        integrator->denseOutput(0.3, before);
+        State before = state, after = state;
+        integrator->denseOutput(0.3, before.x);
         source.request_stop();
-        clone->denseOutput(0.3, after);
-        QVERIFY(before == after);
+        integrator->denseOutput(0.3, after.x);
+        // Not the same bits: starting values of the first are those of the second.
+        QVERIFY(isFinite(before) && isFinite(after) && relativeDistance(after, before) < 1e-9);
     }
     void memoryIsNamed_data() { addRuns(); }
     void memoryIsNamed() {

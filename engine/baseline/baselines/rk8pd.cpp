@@ -1,6 +1,8 @@
 /// Prince and Dormand's Runge-Kutta pair 8(9) of the GNU Scientific Library, under its standard step control.
 #include <algorithm>
+#include <limits>
 #include <memory>
+#include <stop_token>
 
 #include "engine/baseline/adaptive_method.hpp"
 
@@ -51,11 +53,12 @@ public:
 
     void denseOutput(double tau, std::span<double> x) const override {
         const Step shorter(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size()));
-        Watch watch{*this, {}, Outcome::converged};
+        Watch watch{*this, {}, {}, Outcome::converged};  // whole, whether the run is to stop or not
         const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
         Vector y = before(), error(size());
-        gsl_odeiv2_step_apply(shorter.get(), startTime(), tau * (endTime() - startTime()), y.data(),
-                              error.data(), nullptr, nullptr, &system);
+        const int status = gsl_odeiv2_step_apply(shorter.get(), startTime(), tau * (endTime() - startTime()),
+                                                 y.data(), error.data(), nullptr, nullptr, &system);
+        if (status != GSL_SUCCESS) std::fill(y.begin(), y.end(), std::numeric_limits<double>::quiet_NaN());
         std::copy(y.begin(), y.end(), x.begin());
     }
 
@@ -85,6 +88,7 @@ private:
     /// What the right-hand side is given, and what it saw.
     struct Watch {
         const Rk8pd& method;
+        std::stop_token stop;
         StepReport report;
         Outcome trouble;
     };
@@ -95,7 +99,7 @@ private:
             gsl_odeiv2_step_reset(step_.get());
         }
         if (next == 0) next = std::min(firstStep(t, x), end() - t);
-        Watch watch{*this, report, Outcome::converged};
+        Watch watch{*this, stop(), report, Outcome::converged};
         const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
         const double start = t;
         const unsigned long refused = evolve_->failed_steps;
@@ -109,7 +113,7 @@ private:
     static int rate(double t, const double* x, double* dx, void* given) {
         auto& watch = *static_cast<Watch*>(given);
         ++watch.report.cost.evaluations;
-        if (watch.method.stop().stop_requested())
+        if (watch.stop.stop_requested())
             watch.trouble = Outcome::stopped;
         else if (!watch.method.flow(t, x, dx))
             watch.trouble = Outcome::singular;
