@@ -8,7 +8,7 @@
 #
 # ./test.sh --sanitize address,undefined (or thread) builds everything with these sanitizers of the compiler, in a folder of
 # its own, and runs all tests; the first report of one is a failure. What is not ours to mend is suppressed by name, with the
-# reason, in tests/sanitizers. Takes an hour or more.
+# reason, in tests/sanitizers. Takes about three hours on two cores.
 set -euo pipefail
 root=$(cd -P "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$root/.ci/prepare.sh"
