@@ -312,7 +312,7 @@ private slots:
 #endif
         QTRY_VERIFY_WITH_TIMEOUT(cpuTicks(process.processId()) > ticks, 120000);
         ::kill(static_cast<pid_t>(process.processId()), SIGINT);
-        QVERIFY(process.waitForFinished(tests::patience));
+        QVERIFY(process.waitForFinished(tests::limit(30000)));
         QCOMPARE(process.exitStatus(), QProcess::NormalExit);
         QCOMPARE(process.exitCode(), 130);
         QVERIFY(process.readAllStandardError().contains("interrupted: the results are partial"));
@@ -331,7 +331,7 @@ private slots:
             if (*display) environment.insert("DISPLAY", display);
             process.setProcessEnvironment(environment);
             process.start(QStringLiteral(EXTREMAL_BINARY), {"preset:kepler"});
-            QVERIFY(process.waitForFinished(tests::patience));
+            QVERIFY(process.waitForFinished(tests::limit(20000)));
             QCOMPARE(process.exitStatus(), QProcess::NormalExit);
             QCOMPARE(process.exitCode(), 2);
             const QByteArray said = process.readAllStandardError();
@@ -358,12 +358,12 @@ private slots:
             process.start(QStringLiteral(EXTREMAL_BINARY), {scene});
             process.setReadChannel(QProcess::StandardError);
             QByteArray said;
-            while (!said.contains(scene) && process.waitForReadyRead(tests::patience))
+            while (!said.contains(scene) && process.waitForReadyRead(tests::limit(30000)))
                 said += process.readAllStandardError();
             QVERIFY2(said.contains("extremal: ") && said.contains(scene), said.constData());
             QCOMPARE(process.state(), QProcess::Running);  // the start page is there
             process.terminate();
-            QVERIFY(process.waitForFinished(tests::patience));
+            QVERIFY(process.waitForFinished(tests::limit(30000)));
         }
     }
 };

@@ -31,7 +31,7 @@ QString shellSays(const QString& shell, const QString& command, const QString& f
     process.setProcessEnvironment(environment);
     process.setWorkingDirectory(folder);
     process.start(shell, {"-c", command});
-    code = process.waitForFinished(tests::patience) && process.exitStatus() == QProcess::NormalExit
+    code = process.waitForFinished(tests::limit(120000)) && process.exitStatus() == QProcess::NormalExit
                ? process.exitCode()
                : -1;
     return QString::fromUtf8(process.readAllStandardOutput()) +

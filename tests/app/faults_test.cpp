@@ -85,7 +85,7 @@ private slots:
             } else {
                 ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
                 ++killed;
-                process.waitForFinished(tests::patience);
+                process.waitForFinished();
             }
             QCOMPARE(faultOf(folder, whole()), "");
             withCheckpoints += !QDir(folder).entryList({"*.checkpoint"}).isEmpty();
@@ -117,7 +117,7 @@ private slots:
             QVERIFY(process.waitForStarted());
             if (!process.waitForFinished(static_cast<int>(part * duration))) {
                 ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
-                process.waitForFinished(tests::patience);
+                process.waitForFinished();
                 ++killed;
             }
             resumed += !folder.entryList({"*.checkpoint"}, QDir::Files).isEmpty();
@@ -138,9 +138,9 @@ private slots:
                       {"run", "preset:spring-pendulum", "--set", "/time/end=600", "--quiet", "--out", folder,
                        "--checkpoint", "0.001"});
         QVERIFY(process.waitForStarted());
-        QTRY_VERIFY_WITH_TIMEOUT(!QDir(folder).entryList({"*.checkpoint"}).isEmpty(), tests::patience);
+        QTRY_VERIFY_WITH_TIMEOUT(!QDir(folder).entryList({"*.checkpoint"}).isEmpty(), tests::limit(30000));
         ::kill(static_cast<pid_t>(process.processId()), SIGINT);
-        QVERIFY(process.waitForFinished(tests::patience));
+        QVERIFY(process.waitForFinished(tests::limit(30000)));
         QCOMPARE(process.exitCode(), 130);
         const QString said = QString::fromUtf8(process.readAllStandardError());
         QVERIFY2(said.contains("--resume goes on"), qPrintable(said));
@@ -173,7 +173,7 @@ private slots:
         other.start(QStringLiteral(EXTREMAL_BINARY), scene + QStringList{folder});
         QVERIFY(other.waitForStarted());
         QCOMPARE(runProgram(scene + QStringList{folder}).code, 0);
-        QVERIFY(other.waitForFinished(tests::patience));
+        QVERIFY(other.waitForFinished(tests::limit(30000)));
         QCOMPARE(other.exitCode(), 0);
         QCOMPARE(faultOf(folder, whole()), "");
         QCOMPARE(QDir(folder).entryList(QDir::Files | QDir::Hidden).size(), 9);
@@ -186,7 +186,7 @@ private slots:
         QVERIFY(process.waitForStarted());
         QTRY_VERIFY(QDir(folder).exists());
         QVERIFY(QDir(folder).removeRecursively());
-        QVERIFY(process.waitForFinished(tests::patience));
+        QVERIFY(process.waitForFinished(tests::limit(60000)));
         QCOMPARE(process.exitCode(), 0);
         QCOMPARE(QDir(folder).entryList(QDir::Files).size(), 9);
     }

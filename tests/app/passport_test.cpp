@@ -29,7 +29,7 @@ Said run(const QString& program, const QStringList& arguments) {
     QProcess process;
     process.setProcessChannelMode(QProcess::MergedChannels);
     process.start(program, arguments);
-    if (!process.waitForFinished(tests::patience)) return {};
+    if (!process.waitForFinished(tests::limit(120000))) return {};
     return {process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2,
             QString::fromUtf8(process.readAll())};
 }

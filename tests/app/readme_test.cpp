@@ -62,7 +62,7 @@ private slots:
         shell.setWorkingDirectory(folder.path());
         for (const QString& command : commands) {
             shell.start("/bin/sh", {"-c", command});
-            QVERIFY(shell.waitForFinished(tests::patience));
+            QVERIFY(shell.waitForFinished(tests::limit(120000)));
             const QByteArray said = shell.readAllStandardError();
             QVERIFY2(shell.exitStatus() == QProcess::NormalExit && shell.exitCode() == 0,
                      qPrintable(command + "\n" + said));
@@ -74,7 +74,7 @@ private slots:
         QProcess program;
         program.setWorkingDirectory(folder.path());
         program.start(EXTREMAL_BINARY, {"run", "preset:spring-pendulum", "--out", "pendulum", "--quiet"});
-        QVERIFY(program.waitForFinished(tests::patience));
+        QVERIFY(program.waitForFinished(tests::limit(120000)));
         QCOMPARE(program.exitCode(), 0);
         const QStringList files = QDir(folder.filePath("pendulum")).entryList(QDir::Files);
         for (const char* name : {"scene.json", "summary.csv", "summary.json"})

@@ -170,7 +170,7 @@ private slots:
         shell.start("sh", {"-c", QStringLiteral("printf '1\\n2\\n' | xargs -P 2 -I{} ") + EXTREMAL_BINARY +
                                      " study convergence scene.json --threads 1 --repeat 0 --no-plot --quiet "
                                      "--shard {}/2 --out part{}"});
-        QVERIFY(shell.waitForFinished(tests::patience));
+        QVERIFY(shell.waitForFinished(tests::limit(60000)));
         QCOMPARE(shell.exitCode(), 0);
         const QStringList quietly{"--quiet", "--no-plot", "--out"};
         QCOMPARE(study(QStringList{"merge", dir.filePath("part1"), dir.filePath("part2")} + quietly +
@@ -198,9 +198,9 @@ private slots:
         process.write(longScene);
         process.closeWriteChannel();
         const QString log = dir.filePath("cut/convergence.log");
-        QTRY_VERIFY_WITH_TIMEOUT(tests::contentOf(log).count('\n') >= 6, tests::patience);
+        QTRY_VERIFY_WITH_TIMEOUT(tests::contentOf(log).count('\n') >= 6, tests::limit(60000));
         ::kill(static_cast<pid_t>(process.processId()), SIGKILL);
-        process.waitForFinished(tests::patience);
+        process.waitForFinished();
         const auto before = tests::contentOf(log).count("point,");
         QVERIFY(!QFile::exists(dir.filePath("cut/convergence.csv")));
 

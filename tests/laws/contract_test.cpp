@@ -207,7 +207,7 @@ private slots:
         integrator->denseOutput(0.3, before.x);
         source.request_stop();
         integrator->denseOutput(0.3, after.x);
-        // Not the same bits: starting values of the first are those of the second.
+        // Not the same bits: iterations of the second may begin with what the first one found.
         QVERIFY(isFinite(before) && isFinite(after) && relativeDistance(after, before) < 1e-9);
     }
     void memoryIsNamed_data() { addRuns(); }

@@ -53,7 +53,7 @@ public:
 
     void denseOutput(double tau, std::span<double> x) const override {
         const Step shorter(gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, size()));
-        Watch watch{*this, {}, {}, Outcome::converged};  // whole, whether the run is to stop or not
+        Watch watch{*this, {}, {}, Outcome::converged};  // no stop token: it is needed whole
         const gsl_odeiv2_system system{&Rk8pd::rate, nullptr, size(), &watch};
         Vector y = before(), error(size());
         const int status = gsl_odeiv2_step_apply(shorter.get(), startTime(), tau * (endTime() - startTime()),
