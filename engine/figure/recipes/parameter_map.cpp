@@ -111,8 +111,7 @@ Figure makeParameterMap(const FigureContext& context) {
                                        [](const MapCell& c) { return c.end == MapCell::End::waiting; });
     const auto all = static_cast<std::ptrdiff_t>(shown->cells.size());
     const std::string unit = context.system->timeUnit.empty() ? "" : " " + context.system->timeUnit;
-    std::string measured = scale.substr(0, scale.find("  ["));
-    if (const auto at = measured.find("_ref"); at != std::string::npos) measured[at] = ' ';  // plain text
+    const std::string measured = scale.substr(0, scale.find("  ["));
     figure.subtitle = measured + " to " + context.system->independent + " = " +
                       shortNumber(scene.start.value + grid.duration, 4) + unit;
     if (known + waiting < all)
