@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace extremal {
 
@@ -70,7 +71,9 @@ void StateSampler::draw(SampledState& state) {
     const bool isSparse = drawn_++ % 2 == 1;
     for (std::size_t i = 0; i < d; ++i) {
         const double mass = std::abs(hessian_[(d + i) * 2 * d + d + i]);
-        const double speed = force > 0 && mass > 0 ? std::sqrt(force * size / mass) : size;
+        // A subnormal mass has hardly a digit, and speeds without bound.
+        const bool isHeavy = mass >= std::numeric_limits<double>::min();
+        const double speed = force > 0 && isHeavy ? std::sqrt(force * size / mass) : size;
         const double v = speed * uniform();
         if (!isSparse || i == alone) state.v[i] = v;
     }

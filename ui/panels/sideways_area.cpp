@@ -1,6 +1,6 @@
 #include "ui/panels/sideways_area.hpp"
 
-#include <QEvent>
+#include <QResizeEvent>
 #include <QScrollBar>
 
 namespace extremal {

@@ -149,6 +149,11 @@ private slots:
             "translation.theta theta1: 1, theta2: 1 | energy t: 1");
         for (const char* id : {"henon-heiles", "double-pendulum", "spring-pendulum"})
             row(id, laws::systemNamed(id), "energy t: 1");
+        // Near the ends of double precision: what overflows shows nothing, and nothing is made up.
+        row("stiffness 1e300", laws::systemNamed("harmonic-oscillator", {{"k", 1e300}}), "");
+        row("gravity 1e300", laws::systemNamed("double-pendulum", {{"g", 1e300}}), "");
+        row("length 1e155", laws::systemNamed("spring-pendulum", {{"l", 1e155}}), "energy t: 1");
+        row("a subnormal mass", laws::systemNamed("double-pendulum", {{"l2", 1e-155}}), "energy t: 1");
         row("forced pendulum", typed({"theta"}, "theta_t^2/2 + cos(theta) + 0.3*theta*cos(1.7*t)"), "");
     }
     void symmetriesAreFoundAndNamed() {
