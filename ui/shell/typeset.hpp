@@ -2,8 +2,9 @@
 /// Qt's Markdown reader sets structure only.
 #pragma once
 
+#include <QString>
+
 class QTextBrowser;
-class QString;
 
 namespace extremal {
 

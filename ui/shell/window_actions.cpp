@@ -5,16 +5,17 @@
 #include <QFileDialog>
 #include <QMenu>
 #include <QMessageBox>
+#include <QScrollArea>
 #include <QSettings>
 #include <QStatusBar>
 #include <QTabBar>
 #include <QTimer>
 
+#include "engine/core/text.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/view_choices.hpp"
 #include "engine/view/catalog.hpp"
-#include "engine/core/text.hpp"
 #include "ui/own/own_list.hpp"
 #include "ui/panels/scheme_list.hpp"
 #include "ui/panels/values_table.hpp"
