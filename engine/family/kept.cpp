@@ -30,7 +30,7 @@ bool keeps(const Discretization& discretization, const Symmetry& symmetry, const
     const Settings& space = discretization.space;
     if (!symmetry.isExact() || symmetry.movesTime()) return false;
     if (mixesCoordinates(symmetry) && !hasOneSpace(space)) return false;
-    const bool isBoost = std::any_of(symmetry.c.begin(), symmetry.c.end(), [](double c) { return c != 0; });
+    const bool isBoost = hasNonzero(symmetry.c);
     if (isTermRule(discretization.quadrature)) {
         const auto parts = ruledTerms(system.mechanics(), discretization.quadrature);
         return symmetry.F.empty() && !isBoost && breakerOf(parts, symmetry).empty();

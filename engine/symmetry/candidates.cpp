@@ -71,7 +71,7 @@ public:
     explicit Namer(const System& system) : system_(system), directions_(directions(system)) {}
 
     void name(Symmetry& s) const {
-        const bool hasA = isAny(s.A), hasB = isAny(s.b), hasC = isAny(s.c);
+        const bool hasA = hasNonzero(s.A), hasB = hasNonzero(s.b), hasC = hasNonzero(s.c);
         s.generator = generatorText(s);
         if (s.movesTime()) {
             s.kind = s.tau1 != 0 ? SymmetryKind::scaling : SymmetryKind::time;
@@ -102,9 +102,6 @@ private:
     /// The generator where it is short enough for a title.
     static std::string inBrackets(const Symmetry& s) {
         return s.generator.size() > 50 ? "" : " (" + s.generator + ")";
-    }
-    static bool isAny(const std::vector<double>& values) {
-        return std::any_of(values.begin(), values.end(), [](double x) { return x != 0; });
     }
     const std::string& nameOf(int i) const { return system_.coordinates[static_cast<std::size_t>(i)].name; }
 
@@ -161,7 +158,7 @@ private:
     }
     /// " about (5, -3)" where a rotation of one pair of coordinates keeps another point than the origin.
     static std::string centreText(const Symmetry& s) {
-        if (!isAny(s.b)) return {};
+        if (!hasNonzero(s.b)) return {};
         for (int i = 0; i < s.dimension; ++i)
             for (int j = 0; j < i; ++j)
                 if (s.a(i, j) != 0) {

@@ -71,7 +71,7 @@ void StateSampler::draw(SampledState& state) {
     const bool isSparse = drawn_++ % 2 == 1;
     for (std::size_t i = 0; i < d; ++i) {
         const double mass = std::abs(hessian_[(d + i) * 2 * d + d + i]);
-        // A subnormal mass has hardly a digit, and speeds without bound.
+        // A subnormal mass has hardly any digits, and would make the speed huge.
         const bool isHeavy = mass >= std::numeric_limits<double>::min();
         const double speed = force > 0 && isHeavy ? std::sqrt(force * size / mass) : size;
         const double v = speed * uniform();

@@ -70,13 +70,10 @@ void normalise(Symmetry& s) {
     changeAll(s, [&](double x) { return x / leading; });
 }
 
-/// Whether it moves anything, by numbers: with parameters near the smallest numbers all entries may vanish.
-/// Entries that overflow need no care here: then the violation is no number.
+/// Near the limits of double precision all entries may underflow. Those that overflow are not looked for:
+/// the violation is then not a number.
 bool movesSomething(const Symmetry& s) {
-    const auto isAny = [](const std::vector<double>& entries) {
-        return std::any_of(entries.begin(), entries.end(), [](double x) { return x != 0; });
-    };
-    return s.movesTime() || isAny(s.A) || isAny(s.b) || isAny(s.c);
+    return s.movesTime() || hasNonzero(s.A) || hasNonzero(s.b) || hasNonzero(s.c);
 }
 
 /// The largest violation over fresh states; infinity where there are none, or where it is no number.
@@ -172,6 +169,10 @@ std::vector<Symmetry> search(const System& system) {
 }
 
 }  // namespace
+
+bool hasNonzero(const std::vector<double>& entries) {
+    return std::any_of(entries.begin(), entries.end(), [](double x) { return x != 0; });
+}
 
 double GaugeTerm::value(double t, const double* q) const {
     return coefficient * std::pow(t, power) * productOf(*this, q);

@@ -61,11 +61,15 @@ struct Symmetry {
     /// xi, and F, at (t, q).
     void displacement(double t, const double* q, double* xi) const;
     double gauge(double t, const double* q) const;
-    /// |sum| / sum |terms| of the condition at a state.
+    /// |sum| / sum |terms| of the condition at a state; 0 where all terms vanish, and not a number where one
+    /// is not finite.
     double violation(const Mechanical& mechanics, double t, const double* q, const double* v) const;
     /// J = p.xi - tau H - F.
     double momentum(const Mechanical& mechanics, double t, const double* q, const double* p) const;
 };
+
+/// Whether any entry of A, b or c is not 0.
+bool hasNonzero(const std::vector<double>& entries);
 
 /// All of them, exact ones first. Remembered for the last few systems.
 std::shared_ptr<const std::vector<Symmetry>> symmetriesOf(const System& system);

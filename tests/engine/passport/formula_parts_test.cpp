@@ -37,7 +37,7 @@ private slots:
         row("braces go", "Y_1, …, Y_{m−1}", false, "Y[_1], …, Y[_m−1]");
         row("round brackets stay", "f^(4)(f, f)", false, "f[^(4)](f, f)");
         row("words are no index", "max_iterations", false, "max_iterations");
-        row("two characters are", "x_10^2n, x_abc", false, "x[_10][^2n], x_abc");
+        row("two characters are an index", "x_10^2n, x_abc", false, "x[_10][^2n], x_abc");
         row("a brace that is left open", "x_{a", false, "x_{a");
         row("nothing follows", "x_ y^", false, "x_ y^");
         row("variables", "S(q_0, q_1) = h Σ_i b_i L(t_0 + c_i h)", true,

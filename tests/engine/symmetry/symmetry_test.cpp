@@ -149,7 +149,7 @@ private slots:
             "translation.theta theta1: 1, theta2: 1 | energy t: 1");
         for (const char* id : {"henon-heiles", "double-pendulum", "spring-pendulum"})
             row(id, laws::systemNamed(id), "energy t: 1");
-        // Near the ends of double precision: what overflows shows nothing, and nothing is made up.
+        // Near the limits of double precision no symmetry is reported that does not exist.
         row("stiffness 1e300", laws::systemNamed("harmonic-oscillator", {{"k", 1e300}}), "");
         row("gravity 1e300", laws::systemNamed("double-pendulum", {{"g", 1e300}}), "");
         row("length 1e155", laws::systemNamed("spring-pendulum", {{"l", 1e155}}), "energy t: 1");

@@ -99,7 +99,7 @@ private slots:
         const ReadScene slow = checked(1e6);
         QVERIFY(slow.errors.empty());
         QVERIFY(has(slow.warnings, "/schemes/0", "will take about"));
-        for (const double ratio : {4e6, 9007199254740992.0})  // from about twice the most updates
+        for (const double ratio : {4e6, 9007199254740992.0})  // 4e6: about twice the limit
             for (const char* scheme : {"/schemes/0/space", "/schemes/1/space"})
                 QVERIFY(has(checked(ratio).errors, scheme, "updates of elements"));
         QVERIFY(!has(checked(50).warnings, "/schemes/0", "will take about"));
