@@ -12,6 +12,7 @@ struct ChoiceGrid {
     struct Heading {
         std::string text;         ///< "poly 3", "Gauss"
         std::string description;  ///< "polynomials of degree 3"
+        bool operator==(const Heading&) const = default;
     };
     struct Cell {
         Discretization discretization;  ///< complete
@@ -21,11 +22,13 @@ struct ChoiceGrid {
         /// Its functions or nodes are formulas to begin with: every scheme of this kind of space, degree and
         /// kind of rule is in this cell.
         bool isOwn = false;
+        bool operator==(const Cell&) const = default;
     };
     std::string subtitle = "space × quadrature";
     std::vector<Heading> rows, columns;  ///< columns may be empty: then without headings
     std::vector<Cell> cells;             ///< row by row
 
+    bool operator==(const ChoiceGrid&) const = default;
     std::size_t width() const { return rows.empty() ? 0 : cells.size() / rows.size(); }
 };
 

@@ -8,8 +8,8 @@
 
 #include "engine/core/markup.hpp"
 #include "engine/core/text.hpp"
+#include "engine/figure/faded_cell.hpp"
 #include "engine/figure/palette.hpp"
-#include "engine/figure/phase_colour.hpp"
 #include "engine/figure/png.hpp"
 #include "engine/figure/sample.hpp"
 
@@ -336,15 +336,7 @@ private:
             return valueColours(value > 0 ? std::log10(value / heat.low) / std::log10(heat.high / heat.low)
                                           : 0);
         }
-        if (!std::isfinite(value) || !(heat.high > heat.low)) return ground;
-        // Fields of both signs fade to the ground at zero.
-        const bool isSigned = heat.low < 0;
-        const double part = isSigned ? std::min(1.0, std::abs(value) / heat.high)
-                                     : std::clamp((value - heat.low) / (heat.high - heat.low), 0.0, 1.0);
-        Rgb full = rgbOf(colours_.series[isSigned && value < 0 ? 1 : 0]);
-        if (!heat.hues.empty()) full = phaseColour(heat.hues[i]);
-        for (std::size_t k = 0; k < 3; ++k) full[k] = ground[k] + std::sqrt(part) * (full[k] - ground[k]);
-        return full;
+        return fadedCell(heat, i, {ground, rgbOf(colours_.series[0]), rgbOf(colours_.series[1])});
     }
 
     struct Entry {

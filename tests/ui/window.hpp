@@ -3,18 +3,20 @@
 
 #include <QTest>
 
+#include "ui/panels/discretizer.hpp"
 #include "ui/shell/compare_view.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/run_control.hpp"
 
 namespace extremal {
 
-/// Until the run of the present scene is over and the plots show it.
+/// Until the run of the present scene is over, the plots show it, and the discretizer has its cells.
 inline bool waitForResults(MainWindow& window) {
     return QTest::qWaitFor(
         [&] {
             return window.runControl().state() == RunControl::State::finished &&
-                   !window.runControl().isStale() && window.compareView().isCurrent();
+                   !window.runControl().isStale() && window.compareView().isCurrent() &&
+                   window.discretizer().isCurrent();
         },
         120000);
 }

@@ -4,15 +4,18 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QPainter>
+#include <QPointer>
 #include <QRegularExpression>
 #include <QVBoxLayout>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
-#include "engine/family/scheme.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/sideways_area.hpp"
-#include "ui/shell/fitting.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/scheme_finder.hpp"
 #include "ui/shell/theme.hpp"
@@ -20,9 +23,8 @@
 
 namespace extremal {
 
-DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent)
+DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, const Properties& known, QWidget* parent)
     : QAbstractButton(parent), choice_(std::move(choice)) {
-    const Properties known = describe(choice_.discretization);
     const bool isPossible = known.refusal.empty() && known.instability.empty();
     setEnabled(isPossible);
     setObjectName("cell." + QString::fromStdString(choice_.id));
@@ -146,8 +148,7 @@ Discretizer::Discretizer(Workspace& workspace, QWidget* parent)
     body()->addWidget(about_);
     showAbout(nullptr);
     refresh();
-    // In a turn of its own: looking for what every cell stands for takes as long as reading the scene.
-    later_.setSingleShot(true);
+    later_.setSingleShot(true);  // in a turn of its own
     later_.setInterval(0);
     connect(&workspace_, &Workspace::sceneChanged, &later_, qOverload<>(&QTimer::start));
     connect(&later_, &QTimer::timeout, this, &Discretizer::refresh);
@@ -160,30 +161,67 @@ void Discretizer::showAbout(const DiscretizerCell* cell) {
                   "comparison."));
 }
 
-void Discretizer::fill(const std::vector<ChoiceGrid>& grids) {
+bool Discretizer::isCurrent() const {
+    return workspace_.hasScene() && workspace_.scene().model == model_ && !later_.isActive();
+}
+
+void Discretizer::refresh() {
+    if (!workspace_.hasScene()) return;
+    showUses();
+    look();
+}
+
+/// One search at a time; what comes while it goes on is looked for after it.
+void Discretizer::look() {
+    const Settings& model = workspace_.scene().model;
+    if (isLooking_ || model == model_) return;
+    isLooking_ = true;
+    runInBackground([self = QPointer(this), model] {
+        auto offered = std::make_shared<std::vector<DescribedGrid>>(describedChoices(model));
+        sendToWindow([self, model, offered] {
+            if (!self) return;
+            self->isLooking_ = false;
+            self->take(model, std::move(*offered));
+            self->look();
+        });
+    });
+}
+
+void Discretizer::take(const Settings& model, std::vector<DescribedGrid> offered) {
+    if (workspace_.scene().model.type != model.type) return;  // that one's is looked for next
+    model_ = model;
+    if (!grid_ || offered != offered_) {
+        offered_ = std::move(offered);
+        fill();
+    }
+    showUses();
+}
+
+void Discretizer::fill() {
     cells_.clear();
-    shown_.clear();
     delete grid_;
     grid_ = new QWidget;
     grid_->setProperty("ground", "panel");
     auto* column = new QVBoxLayout(grid_);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(3);
-    for (std::size_t i = 0; i < grids.size(); ++i) {
-        if (i > 0) column->addWidget(makeLabel(QString::fromStdString(grids[i].subtitle), "caption"));
+    for (std::size_t i = 0; i < offered_.size(); ++i) {
+        const QString subtitle = QString::fromStdString(offered_[i].choices.subtitle);
+        if (i > 0) column->addWidget(makeLabel(subtitle, "caption"));
         auto* grid = new QGridLayout;
         grid->setContentsMargins(0, 0, 0, 0);
         grid->setHorizontalSpacing(2);
         grid->setVerticalSpacing(3);
         column->addLayout(grid);
-        addGrid(grids[i], *grid);
+        addGrid(offered_[i], *grid);
     }
     room_->setWidget(grid_);
     showAbout(nullptr);
-    setSubtitle(grids.empty() ? QString() : QString::fromStdString(grids.front().subtitle));
+    setSubtitle(offered_.empty() ? QString() : QString::fromStdString(offered_.front().choices.subtitle));
 }
 
-void Discretizer::addGrid(const ChoiceGrid& choices, QGridLayout& grid) {
+void Discretizer::addGrid(const DescribedGrid& offered, QGridLayout& grid) {
+    const auto& [choices, known] = offered;
     const auto addHeading = [&](const ChoiceGrid::Heading& heading, int row, int column) {
         QLabel* label = makeLabel(QString::fromStdString(heading.text), "caption");
         if (!heading.description.empty()) label->setToolTip(QString::fromStdString(heading.description));
@@ -199,14 +237,13 @@ void Discretizer::addGrid(const ChoiceGrid& choices, QGridLayout& grid) {
     for (int row = 0; row < static_cast<int>(choices.rows.size()); ++row) {
         addHeading(choices.rows[static_cast<std::size_t>(row)], row + 1, 0);
         for (int column = 0; column < width; ++column) {
-            const auto& choice = choices.cells[static_cast<std::size_t>(row * width + column)];
-            auto* cell = new DiscretizerCell(choice);
+            const auto place = static_cast<std::size_t>(row * width + column);
+            auto* cell = new DiscretizerCell(choices.cells[place], known[place]);
             if (theme_) cell->setTheme(*theme_);
             connect(cell, &QAbstractButton::clicked, this, [this, cell] { choose(*cell); });
             connect(cell, &DiscretizerCell::pointedAt, this,
                     [this, cell](bool isPointedAt) { showAbout(isPointedAt ? cell : nullptr); });
             cells_.push_back(cell);
-            shown_.push_back(choice.discretization.space.type + " " + choice.id);
             grid.addWidget(cell, row + 1, column + 1);
         }
     }
@@ -221,14 +258,7 @@ DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
     return findChild<DiscretizerCell*>(QString("cell.%1.%2").arg(degree).arg(rule));
 }
 
-void Discretizer::refresh() {
-    if (!workspace_.hasScene()) return;
-    const std::vector<ChoiceGrid> grids = choiceGrids(workspace_.scene());
-    std::vector<std::string> ids;
-    for (const ChoiceGrid& choices : grids)
-        for (const ChoiceGrid::Cell& cell : choices.cells)
-            ids.push_back(cell.discretization.space.type + " " + cell.id);
-    if (ids != shown_ || cells_.empty()) fill(grids);
+void Discretizer::showUses() {
     const std::vector<SchemeSpec>& schemes = workspace_.scene().schemes;
     const SchemeFinder finder(workspace_.scene());
     for (DiscretizerCell* cell : cells_) {
@@ -245,6 +275,7 @@ void Discretizer::refresh() {
 
 void Discretizer::choose(const DiscretizerCell& cell) {
     const Scene& scene = workspace_.scene();
+    if (scene.model.type != model_.type) return;  // the cells of this model are on their way
     const bool isOwn = cell.choice().isOwn;
     if (const int there = SchemeFinder(scene).find(cell.choice()); there >= 0) {
         workspace_.selectScheme(there);

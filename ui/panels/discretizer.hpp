@@ -8,11 +8,11 @@
 #include <QAbstractButton>
 #include <QTimer>
 
-#include <string>
 #include <vector>
 
 #include "engine/family/choices.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/shell/fitting.hpp"
 
 class QGridLayout;
 class QLabel;
@@ -27,7 +27,7 @@ class Workspace;
 class DiscretizerCell : public QAbstractButton {
     Q_OBJECT
 public:
-    explicit DiscretizerCell(ChoiceGrid::Cell choice, QWidget* parent = nullptr);
+    DiscretizerCell(ChoiceGrid::Cell choice, const Properties& known, QWidget* parent = nullptr);
 
     const ChoiceGrid::Cell& choice() const { return choice_; }
     const Settings& space() const { return choice_.discretization.space; }
@@ -66,21 +66,28 @@ public:
     explicit Discretizer(Workspace& workspace, QWidget* parent = nullptr);
     void setTheme(const Theme& theme);
     DiscretizerCell* cell(int degree, const QString& rule) const;
+    /// Whether the cells are those of the scene's model; they are looked for in the background.
+    bool isCurrent() const;
 
 signals:
     /// A cell of one's own functions or nodes was clicked, and its scheme is selected: they are to be typed.
     void ownChosen();
 
 private:
-    void fill(const std::vector<ChoiceGrid>& grids);
-    void addGrid(const ChoiceGrid& choices, QGridLayout& grid);
     void refresh();
+    void look();
+    void take(const Settings& model, std::vector<DescribedGrid> offered);
+    void fill();
+    void addGrid(const DescribedGrid& offered, QGridLayout& grid);
+    void showUses();
     void choose(const DiscretizerCell& cell);
     void showAbout(const DiscretizerCell* cell);
 
     Workspace& workspace_;
     std::vector<DiscretizerCell*> cells_;
-    std::vector<std::string> shown_;  ///< ids of the cells
+    Settings model_;                      ///< that the cells are of
+    std::vector<DescribedGrid> offered_;  ///< what the cells show
+    bool isLooking_ = false;
     QTimer later_;
     SidewaysArea* room_;  ///< with large letters the columns need more than a narrow panel has
     QWidget* grid_ = nullptr;

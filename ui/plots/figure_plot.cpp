@@ -97,6 +97,7 @@ FigurePlot::~FigurePlot() = default;
 
 void FigurePlot::setTheme(const Theme& theme) {
     shared_->theme = theme;
+    shared_->fadedCells = {};
     shared_->plot.setBackground(QBrush(theme.panel));
 }
 
@@ -108,6 +109,7 @@ void FigurePlot::setFigure(Figure figure) {
     }
     shared_->view.setLog(figure.x.isLog, figure.y.isLog);
     shared_->figure = std::move(figure);
+    shared_->fadedCells = {};
     shared_->view.setFitted(PlotAxis::x, toPlotRange(shared_->figure.x.range));
     shared_->view.setFitted(PlotAxis::y, toPlotRange(shared_->figure.y.range));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/figure/build.hpp"
+#include "engine/figure/faded_cell.hpp"
 #include "ui/plots/axis_title.hpp"
 #include "ui/plots/tickers.hpp"
 #include "ui/plots/value_colour.hpp"
@@ -85,6 +86,21 @@ int scaleWidth(const Figure& figure, const Theme& theme) {
     const QFontMetricsF metrics(scaleFont(theme));
     return static_cast<int>(barLeft + barWidth + tickLength + 3 + metrics.horizontalAdvance(powerOfTen(-10)) +
                             metrics.height() + 5);
+}
+
+QImage fadedCells(const HeatMap& heat, const Theme& theme) {
+    const auto rgb = [](const QColor& c) { return std::array<double, 3>{c.redF(), c.greenF(), c.blueF()}; };
+    const FadedColours colours{rgb(theme.panel), rgb(theme.accent), rgb(theme.series(1).color)};
+    const auto byte = [](double part) { return static_cast<int>(255 * part + 0.5); };
+    QImage image(heat.columns, heat.rows, QImage::Format_RGB32);
+    for (int row = 0; row < heat.rows; ++row) {
+        auto* const pixels = reinterpret_cast<QRgb*>(image.scanLine(heat.rows - 1 - row));
+        for (int column = 0; column < heat.columns; ++column) {
+            const auto c = fadedCell(heat, static_cast<std::size_t>(column * heat.rows + row), colours);
+            pixels[column] = qRgb(byte(c[0]), byte(c[1]), byte(c[2]));
+        }
+    }
+    return image;
 }
 
 void drawMapCells(QCPPainter& painter, const PixelMap& map, const FigurePlot::Shared& shared) {

@@ -12,7 +12,6 @@
 #include "ui/plots/dense_curve.hpp"
 #include "ui/plots/dot_stamp.hpp"
 #include "ui/plots/map_layer.hpp"
-#include "engine/figure/phase_colour.hpp"
 #include "ui/plots/pill.hpp"
 #include "ui/plots/value_colour.hpp"
 
@@ -225,40 +224,15 @@ void CurvesLayer::drawKey(QCPPainter& painter, const PixelMap& map) const {
     }
 }
 
-/// One pixel a cell, stretched: from the ground of the plot at `low` to full colour at `high`.
+/// One pixel a cell, stretched.
 void CurvesLayer::drawHeat(QCPPainter& painter, const PixelMap& map) const {
     const auto& heat = shared_.figure.heat();
     if (!heat || heat->columns <= 0 || heat->rows <= 0) return;
     if (!heat->scale.empty()) return drawMapCells(painter, map, shared_);
-    QImage image(heat->columns, heat->rows, QImage::Format_RGB32);
-    const QColor ground = shared_.theme.panel, accent = shared_.theme.accent,
-                 other = shared_.theme.series(1).color;
-    for (int column = 0; column < heat->columns; ++column)
-        for (int row = 0; row < heat->rows; ++row) {
-            const auto i = static_cast<std::size_t>(column * heat->rows + row);
-            const double value = heat->values[i];
-            QRgb pixel = ground.rgb();
-            if (std::isfinite(value) && heat->high > heat->low) {
-                // Fields of both signs fade to the ground at zero.
-                const bool isSigned = heat->low < 0;
-                const double part =
-                    isSigned ? std::min(1.0, std::abs(value) / heat->high)
-                             : std::clamp((value - heat->low) / (heat->high - heat->low), 0.0, 1.0);
-                std::array<double, 3> full{accent.redF(), accent.greenF(), accent.blueF()};
-                if (isSigned && value < 0) full = {other.redF(), other.greenF(), other.blueF()};
-                if (!heat->hues.empty()) full = phaseColour(heat->hues[i]);
-                const double strength = std::sqrt(part);
-                const auto mix = [&](double from, double to) {
-                    return static_cast<int>(std::lround(255 * (from + strength * (to - from))));
-                };
-                pixel = qRgb(mix(ground.redF(), full[0]), mix(ground.greenF(), full[1]),
-                             mix(ground.blueF(), full[2]));
-            }
-            image.setPixel(column, heat->rows - 1 - row, pixel);
-        }
+    if (shared_.fadedCells.isNull()) shared_.fadedCells = fadedCells(*heat, shared_.theme);
     painter.setRenderHint(QPainter::SmoothPixmapTransform, true);
     painter.setOpacity(shared_.isStale ? 0.4 : 1);
-    painter.drawImage(QRectF(map(heat->left, heat->top), map(heat->right, heat->bottom)), image);
+    painter.drawImage(QRectF(map(heat->left, heat->top), map(heat->right, heat->bottom)), shared_.fadedCells);
     painter.setOpacity(1);
 }
 

@@ -19,6 +19,9 @@ struct FigurePlot::Shared {
     bool isStale = false;
     double density = 1;
     bool isTitleAbove = false;  ///< of the y axis: above the plot, where there is no room beside it
+    /// Of a heat map without a scale: made when it is drawn for the first time, and null before that, and
+    /// after another figure or theme.
+    mutable QImage fadedCells = {};
 
     PixelMap map() const;
     bool isShown(const Series& s) const { return !hidden.contains(QString::fromStdString(s.label)); }

@@ -1,6 +1,8 @@
 #include "ui/plots/plot_widget.hpp"
 
 #include <QClipboard>
+#include <QCoreApplication>
+#include <QEvent>
 #include <QFileDialog>
 #include <QSaveFile>
 #include <QVBoxLayout>
@@ -11,11 +13,16 @@
 namespace extremal {
 namespace {
 
-/// A plot that draws later when it is resized: the plots of a window would otherwise all be drawn within one
+/// A plot that is drawn in its turn when it is new or resized, and is on the screen with the window's next
+/// update: the plots of a window would otherwise all be drawn, and the window painted for each, within one
 /// event.
 class Canvas : public QCustomPlot {
 public:
-    using QCustomPlot::QCustomPlot;
+    explicit Canvas(QWidget* parent) : QCustomPlot(parent) {
+        setPlottingHint(QCP::phImmediateRefresh, false);
+        // The drawing that the constructor asks for, still without a size.
+        QCoreApplication::removePostedEvents(this, QEvent::MetaCall);
+    }
 
 protected:
     void resizeEvent(QResizeEvent*) override {

@@ -30,7 +30,7 @@ private:
         if (!waiting_.empty()) {
             const QPointer<QCustomPlot> plot = waiting_.front();
             waiting_.pop_front();
-            plot->replot(QCustomPlot::rpRefreshHint);
+            plot->replot();
         }
         if (waiting_.empty()) timer_.stop();
     }

@@ -1,12 +1,27 @@
 #include "ui/shell/fitting.hpp"
 
 #include <cstdlib>
+#include <utility>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/core/contained.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/scene/bind.hpp"
 
 namespace extremal {
+namespace {
+
+Properties describedSafely(const ChoiceGrid::Cell& cell) {
+    try {
+        return contained({}, [&] { return describe(cell.discretization); });
+    } catch (const InvalidScene& error) {
+        Properties unknown;
+        unknown.refusal = error.problems().front().message;
+        return unknown;
+    }
+}
+
+}  // namespace
 
 std::vector<CatalogItem> fittingSpaces(const Scene& scene) {
     const System system = makeSystem(scene);
@@ -33,7 +48,21 @@ std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene) {
     return entries;
 }
 
-std::vector<ChoiceGrid> choiceGrids(const Scene& scene) { return choiceGrids(makeSystem(scene)); }
+std::vector<DescribedGrid> describedChoices(const Settings& model) {
+    std::vector<DescribedGrid> all;
+    try {
+        contained("/model", [&] {
+            const ModelEntry* entry = findModel(model.type);
+            if (!entry) return;
+            for (ChoiceGrid& grid : choiceGrids(entry->make(model))) all.push_back({std::move(grid), {}});
+        });
+    } catch (const InvalidScene&) {
+        return {};
+    }
+    for (auto& [choices, known] : all)
+        for (const ChoiceGrid::Cell& cell : choices.cells) known.push_back(describedSafely(cell));
+    return all;
+}
 
 ChoiceGrid choicesFor(const Scene& scene) { return choicesFor(makeSystem(scene)); }
 

@@ -17,10 +17,17 @@ std::vector<CatalogItem> fittingSpaces(const Scene& scene);
 std::vector<const BaselineEntry*> fittingBaselines(const Scene& scene);
 std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene);
 
-/// What the discretizer offers for the scene's model: a grid of every family that applies, the usual one
-/// first.
-std::vector<ChoiceGrid> choiceGrids(const Scene& scene);
-/// The first of them.
+/// A grid of discretizations, and what is known of each cell.
+struct DescribedGrid {
+    ChoiceGrid choices;
+    std::vector<Properties> known;  ///< of choices.cells
+    bool operator==(const DescribedGrid& other) const { return choices == other.choices; }
+};
+/// What the discretizer offers for a model: a grid of every family that applies, the usual one first. Takes
+/// up to a few hundred milliseconds where nothing is known yet. From any thread; throws nothing: where the
+/// model admits no grid there is none, and a cell that cannot be described says why as a refusal.
+std::vector<DescribedGrid> describedChoices(const Settings& model);
+/// The first of these grids.
 ChoiceGrid choicesFor(const Scene& scene);
 /// The choice with this rule and the nearest degree, else the nearest degree with any rule; null where there
 /// is none.

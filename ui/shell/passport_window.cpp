@@ -54,7 +54,7 @@ void PassportWindow::open() {
     stop_ = std::stop_source();
     scheme_ = static_cast<std::size_t>(std::max(0, workspace_.selectedScheme()));
     try {
-        scene_ = std::make_shared<const ResolvedScene>(resolve(workspace_.scene()));
+        scene_ = workspace_.resolved();
         show(passportOf(*scene_, scheme_, {.isMeasured = false}), false);
     } catch (const InvalidScene& e) {
         notices_.post({Notice::Kind::error,

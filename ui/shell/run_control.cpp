@@ -268,7 +268,7 @@ void RunControl::compute(bool usesKnown) {
         if (entry) options.reference = entry->reference;
     }
     try {
-        run_ = std::make_unique<Run>(scene, options);
+        run_ = std::make_unique<Run>(*workspace_.resolved(), options);
         runScene_ = scene;
         wasStopped_ = false;
         run_->start();

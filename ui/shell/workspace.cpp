@@ -6,6 +6,7 @@
 #include <QThread>
 
 #include <algorithm>
+#include <chrono>
 #include <functional>
 #include <future>
 #include <memory>
@@ -37,15 +38,17 @@ std::string directoryOf(const QString& path) {
 }
 
 /// Reads a scene in a thread of its own, as tables in quadruple precision and forecasts take up to a few
-/// hundred milliseconds. The window goes on painting; what the user does waits.
+/// hundred milliseconds, and what is checked of moving nodes seconds. Where it is not read within a moment
+/// the window goes on painting; what the user does waits.
 ReadScene readAside(std::function<ReadScene()> read) {
+    using namespace std::chrono_literals;
     std::packaged_task<ReadScene()> task(std::move(read));
     std::future<ReadScene> result = task.get_future();
     const std::unique_ptr<QThread> thread(QThread::create(std::move(task)));
     QEventLoop loop;
     QObject::connect(thread.get(), &QThread::finished, &loop, &QEventLoop::quit);
     thread->start();
-    loop.exec(QEventLoop::ExcludeUserInputEvents);
+    if (result.wait_for(20ms) != std::future_status::ready) loop.exec(QEventLoop::ExcludeUserInputEvents);
     thread->wait();
     return result.get();
 }
@@ -54,16 +57,24 @@ ReadScene readAside(std::function<ReadScene()> read) {
 
 Workspace::Workspace(Notices& notices, QObject* parent) : QObject(parent), notices_(notices) {}
 
-bool Workspace::accept(const Value& candidate, const std::vector<Edit>& edits) {
-    ReadScene read = readScene(candidate, {}, directoryOf(path_));
+/// Makes the edits of the document, or of another one in its place.
+bool Workspace::accept(const std::vector<Edit>& edits, const Value* instead) {
+    Value candidate;
+    ReadScene read;
+    int revision = 0;
+    do {  // a field that loses the focus while the scene is read makes an edit of its own, which must stay
+        revision = revision_;
+        candidate = withEdits(instead ? *instead : document_, edits);
+        read = readAside([&] { return readScene(candidate, {}, directoryOf(path_)); });
+    } while (revision != revision_);
     if (!read.errors.empty()) {
         for (const Edit& e : edits)
             std::erase_if(problems_, [&](const Problem& p) { return isAtOrBelow(p.pointer, e.pointer); });
         problems_.insert(problems_.end(), read.errors.begin(), read.errors.end());
         return false;
     }
-    Value resolved = completed(read.scene, candidate);
-    setDocument(std::move(resolved), std::move(read.scene), std::move(read.warnings));
+    Value complete = completed(read.scene, candidate);
+    setDocument(std::move(complete), std::move(read));
     return true;
 }
 
@@ -86,13 +97,13 @@ bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const 
     all.insert(all.end(), edits.begin(), edits.end());
 
     problems_.clear();
-    if (accept(withEdits(document_, all), all)) {
+    if (accept(all)) {
         drafts_.clear();
         problems_.clear();
         return keep();
     }
     const std::vector<Problem> together = problems_;
-    if (hasOtherDrafts && accept(withEdits(document_, edits), edits)) {
+    if (hasOtherDrafts && accept(edits)) {
         for (const Edit& e : edits)
             std::erase_if(drafts_, [&](const auto& d) { return isAtOrBelow(d.first, e.pointer); });
         problems_ = together;
@@ -125,10 +136,12 @@ void Workspace::dropDraft(const std::string& pointer) {
     emit draftsChanged();
 }
 
-void Workspace::setDocument(Value document, Scene scene, std::vector<Problem> warnings) {
+void Workspace::setDocument(Value document, ReadScene read) {
     document_ = std::move(document);
-    scene_ = std::move(scene);
-    warnings_ = std::move(warnings);
+    scene_ = std::move(read.scene);
+    resolved_ = std::move(read.resolved);
+    warnings_ = std::move(read.warnings);
+    ++revision_;
     hasScene_ = true;
     if (selected_ >= static_cast<int>(scene_.schemes.size()))
         selectScheme(static_cast<int>(scene_.schemes.size()) - 1);
@@ -137,12 +150,13 @@ void Workspace::setDocument(Value document, Scene scene, std::vector<Problem> wa
 void Workspace::restore(const EditState& state) {
     drafts_.clear();
     problems_.clear();
-    accept(state.document, {});
+    accept({}, &state.document);
     if (!state.drafts.empty()) {
         drafts_ = state.drafts;
         std::vector<Edit> refused;
         for (const auto& [pointer, value] : drafts_) refused.push_back({pointer, value});
-        problems_ = readScene(withEdits(document_, refused), {}, directoryOf(path_)).errors;
+        const Value document = withEdits(document_, refused);
+        problems_ = readAside([&] { return readScene(document, {}, directoryOf(path_)); }).errors;
     }
     emit draftsChanged();
     emit sceneChanged();
@@ -209,7 +223,7 @@ bool Workspace::open(const QString& name, bool isTrusted) {
     history_.clear();
     Value document = completed(read.scene, parseJson(text));
     saved_ = document;
-    setDocument(std::move(document), std::move(read.scene), std::move(read.warnings));
+    setDocument(std::move(document), std::move(read));
     selectScheme(-1);
     emit opened();
     emit draftsChanged();
@@ -230,8 +244,8 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
     problems_.clear();
     history_.clear();
     saved_ = Value();
-    Value resolved = completed(read.scene, document);
-    setDocument(std::move(resolved), std::move(read.scene), std::move(read.warnings));
+    Value complete = completed(read.scene, document);
+    setDocument(std::move(complete), std::move(read));
     selectScheme(-1);
     emit opened();
     emit draftsChanged();

@@ -8,7 +8,9 @@
 
 #include <QObject>
 #include <QString>
+
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,8 @@
 namespace extremal {
 
 class Notices;
+struct ReadScene;
+struct ResolvedScene;
 
 class Workspace : public QObject {
     Q_OBJECT
@@ -29,6 +33,8 @@ public:
     bool hasScene() const { return hasScene_; }
     const Scene& scene() const { return scene_; }
     const Value& document() const { return document_; }
+    /// What runs: the scene with its model and schemes, made when it was read. Null: there is no scene.
+    const std::shared_ptr<const ResolvedScene>& resolved() const { return resolved_; }
     const std::vector<Problem>& warnings() const { return warnings_; }
 
     /// Makes the edits, or refuses them: then problemsAt() says why. `what` names the change for Undo.
@@ -73,8 +79,8 @@ signals:
     void selectionChanged();
 
 private:
-    bool accept(const Value& candidate, const std::vector<Edit>& edits);
-    void setDocument(Value document, Scene scene, std::vector<Problem> warnings);
+    bool accept(const std::vector<Edit>& edits, const Value* instead = nullptr);
+    void setDocument(Value document, ReadScene read);
     EditState state() const { return {document_, drafts_}; }
     void restore(const EditState& state);
     void report(const QString& name, const std::vector<Problem>& problems);
@@ -82,12 +88,14 @@ private:
     Notices& notices_;
     bool hasScene_ = false;
     Scene scene_;
+    std::shared_ptr<const ResolvedScene> resolved_;
     Value document_, saved_;
     std::vector<Problem> warnings_, problems_, openProblems_;
     std::map<std::string, Value> drafts_;
     History history_;
     QString path_, origin_;
     int selected_ = -1;
+    int revision_ = 0;  ///< counts documents
 };
 
 }  // namespace extremal

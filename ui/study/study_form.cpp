@@ -89,16 +89,15 @@ void StudyForm::showOptions() {
     emit chosenChanged();
 }
 
-void StudyForm::offer(const Scene& scene) {
-    offerMetrics(scene);
-    x_->offer(scene);
-    y_->offer(scene);
+void StudyForm::offer(const ResolvedScene& resolved) {
+    offerMetrics(resolved);
+    x_->offer(resolved.scene);
+    y_->offer(resolved.scene);
 }
 
 /// An error needs a reference.
-void StudyForm::offerMetrics(const Scene& scene) {
-    const ResolvedScene resolved = resolve(scene);
-    const bool hasReference = scene.reference.kind != ReferenceSpec::Kind::none;
+void StudyForm::offerMetrics(const ResolvedScene& resolved) {
+    const bool hasReference = resolved.scene.reference.kind != ReferenceSpec::Kind::none;
     QStringList names;
     for (const std::string& name : metricNames(*resolved.system, resolved.initial))
         if (hasReference ||
@@ -115,18 +114,18 @@ void StudyForm::offerMetrics(const Scene& scene) {
                                                                       : names.value(0));
 }
 
-Study StudyForm::study(const Scene& scene, double wantedError) const {
+Study StudyForm::study(const ResolvedScene& resolved, double wantedError) const {
     using Over = StudyEntry::Over;
     const Over over = chosen().over;
     if (over == Over::extremes) return ExtremesStudy();
-    if (over == Over::testEquation) return LinearStudy(resolve(scene), LinearOptions{});
+    if (over == Over::testEquation) return LinearStudy(resolved, LinearOptions{});
     if (over == Over::numbers) {
         StabilityOptions options;
         const std::optional<VariedNumber> x = x_->value();
         options.x = *x;
         options.y = y_->value();
         options.findsLimits = findsLimits_->isChecked();
-        return StabilityStudy(resolve(scene), options);
+        return StabilityStudy(resolved, options);
     }
     if (metric_->currentText().isEmpty())
         throw InvalidScene("", "the system has nothing that this study measures",
@@ -135,7 +134,7 @@ Study StudyForm::study(const Scene& scene, double wantedError) const {
     options.metric = metric_->currentText().toStdString();
     options.isAtEnd = isAtEnd_->isChecked();
     if (over == Over::wantedError) options.wantedError = wantedError;
-    return Sweep(resolve(scene), options);
+    return Sweep(resolved, options);
 }
 
 void StudyForm::showState(const StudyJob& job, const QString& text) {

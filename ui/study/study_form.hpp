@@ -24,9 +24,9 @@ public:
     void choose(const char* study);
     void openChoices();
     /// The metrics and numbers that the scene has.
-    void offer(const Scene& scene);
+    void offer(const ResolvedScene& resolved);
     /// The study as it is chosen. Throws InvalidScene where the options do not fit the scene.
-    Study study(const Scene& scene, double wantedError) const;
+    Study study(const ResolvedScene& resolved, double wantedError) const;
     void showState(const StudyJob& job, const QString& text);
 
 signals:
@@ -35,7 +35,7 @@ signals:
 
 private:
     void showOptions();
-    void offerMetrics(const Scene& scene);
+    void offerMetrics(const ResolvedScene& resolved);
 
     QComboBox *kind_, *metric_;
     QLabel *metricLabel_, *state_;

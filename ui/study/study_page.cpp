@@ -158,7 +158,7 @@ void StudyPage::start() {
     if (!workspace_.hasScene()) return;
     try {
         const StudyEntry& entry = form_->chosen();
-        Study study = form_->study(workspace_.scene(), wanted_->value());
+        Study study = form_->study(*workspace_.resolved(), wanted_->value());
         studied_ = studiedPart(workspace_.scene());
         shown_ = &entry;
         mapped_.clear();
@@ -218,7 +218,7 @@ void StudyPage::showKind() {
 
 void StudyPage::showScene() {
     if (!isVisible() || !workspace_.hasScene()) return;
-    form_->offer(workspace_.scene());
+    form_->offer(*workspace_.resolved());
     showState();
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "engine/figure/digest.hpp"
+#include "engine/figure/phase_colour.hpp"
 #include "engine/figure/sample.hpp"
 #include "engine/view/catalog.hpp"
 #include "engine/run/run.hpp"
@@ -39,6 +41,17 @@ class WaveViewsTest : public QObject {
     }
 
 private slots:
+    void thePhaseGoesRoundTheColoursEvenly() {
+        for (int k = -20000; k <= 20000; ++k) {
+            const double turns = 1e-3 * k / 7;
+            const auto colour = phaseColour(turns);
+            for (int i = 0; i < 3; ++i) {
+                const double exact = 0.52 + 0.4 * std::cos(2 * std::numbers::pi * (turns - i / 3.0));
+                QVERIFY(std::abs(colour[static_cast<std::size_t>(i)] - exact) < 2e-5);
+            }
+        }
+        QVERIFY(std::isnan(phaseColour(std::nan("")).front()));
+    }
     /// exp(i (3 x - 4.5 t))/sqrt(2 pi) at t = 0.5; Gauss 16 and the splitting, without a potential, are exact
     /// to round-off.
     void partsAreThoseOfThePlaneWave() {

@@ -46,7 +46,7 @@ private slots:
         MainWindow window(Theme::light(), false);
         window.show();
         window.open("preset:elliptic");
-        QCoreApplication::processEvents();  // the cells follow in the next turn
+        QTRY_VERIFY(window.discretizer().isCurrent());
         const auto cells = window.discretizer().findChildren<DiscretizerCell*>();
         QCOMPARE(cells.size(), qsizetype(12));
         for (DiscretizerCell* cell : cells) QTest::mouseClick(cell, Qt::LeftButton);

@@ -191,10 +191,12 @@ private slots:
         std::vector<Edit> edits = editsForCoordinates(window.workspace().document(), coordinates);
         edits.push_back({"/model/lagrangian", kinetic.toStdString()});
         QVERIFY(window.workspace().edit(edits, "many"));
-        window.formula()->setPlainText(kinetic + " + " + nest);
         const auto isDifferentiating = [] {
             return qApp->findChild<QThreadPool*>(QStringLiteral("background"))->activeThreadCount() > 0;
         };
+        // What the edit has set going in the background has come to its end.
+        QTRY_VERIFY_WITH_TIMEOUT(waitForResults(window) && !isDifferentiating(), 20000);
+        window.formula()->setPlainText(kinetic + " + " + nest);
         QTRY_VERIFY(isDifferentiating());
         QVERIFY(window.workspace().edit({{"/time/end", 5.0}}, "end"));
         QVERIFY(isDifferentiating());                        // the edit did not wait for it

@@ -39,7 +39,7 @@ private slots:
         for (const SchemeEntry* e : fittingSchemes(window.workspace().scene()))
             QVERIFY(e->make(e->minDegree).space.text("form") != "three-level");
         // New cells and their layout wait for the event loop.
-        QTRY_VERIFY(!window.discretizer().findChildren<DiscretizerCell*>().isEmpty() &&
+        QTRY_VERIFY(window.discretizer().isCurrent() &&
                     window.discretizer().findChild<DiscretizerCell*>()->height() > 0);
         for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
             if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
@@ -88,7 +88,7 @@ private slots:
         QVERIFY(offered.contains("leapfrog") && offered.contains("crank-nicolson"));
         for (const QString& id : missing) QVERIFY2(!offered.contains(id), qPrintable(id));
         QCOMPARE(offered.contains("strang"), missing.isEmpty());
-        QCoreApplication::processEvents();  // the cells follow in the next turn
+        QTRY_VERIFY(window.discretizer().isCurrent());
         for (DiscretizerCell* cell : window.discretizer().findChildren<DiscretizerCell*>())
             if (cell->isEnabled()) QTest::mouseClick(cell, Qt::LeftButton);
         QVERIFY(!window.workspace().hasDrafts());
@@ -106,7 +106,7 @@ private slots:
         window.show();
         window.open("preset:box-revival");
         const auto cells = [&] {
-            QCoreApplication::processEvents();
+            if (!QTest::qWaitFor([&] { return window.discretizer().isCurrent(); })) return qsizetype(-1);
             return window.discretizer().findChildren<DiscretizerCell*>().size();
         };
         const auto between = cells();

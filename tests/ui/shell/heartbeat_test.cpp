@@ -1,10 +1,14 @@
 /// The window's thread turns to its next event soon enough, whatever is done. Measured in processor time of
-/// that thread, which does not depend on what else the machine does.
+/// that thread, beside that of a fixed piece of painting: programs that share its processor and its caches
+/// slow down both.
 #include <QAbstractEventDispatcher>
+#include <QImage>
+#include <QPainter>
 #include <QTest>
 #include <QTimer>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -37,15 +41,36 @@ private:
     double last_ = threadSeconds();
 };
 
+/// Seconds that a fixed piece of painting takes: texts and an antialiased curve, as in a window.
+double secondsOfPainting() {
+    const double start = threadSeconds();
+    QImage image(1000, 600, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    painter.setRenderHint(QPainter::Antialiasing);
+    for (int i = 0; i < 300; ++i)
+        painter.drawText(10 + i % 6 * 160, 12 + i / 6 * 12, QString("text %1 of the yardstick").arg(i));
+    QPolygonF curve;
+    for (int i = 0; i < 3000; ++i) curve << QPointF(i / 3.0, 300 + 250 * std::sin(0.02 * i));
+    painter.setPen(QPen(Qt::blue, 1.5));
+    for (int i = 0; i + 100 < curve.size(); i += 100) painter.drawPolyline(curve.constData() + i, 101);
+    painter.end();
+    return threadSeconds() - start;
+}
+
 }  // namespace
 
 class HeartbeatTest : public QObject {
     Q_OBJECT
 
-    static constexpr double allowed = 0.05;  // seconds, of the design's rules
+    /// Seconds: a user does not notice less. For a processor on which the piece of painting takes no longer
+    /// than this; a slower one, or one that is shared, is allowed as much more as it takes for that.
+    static constexpr double rule = 0.05, painting = 0.01;
+    double allowed() const { return rule * std::max(1.0, paintingNow_ / painting); }
 
     /// What the act takes at most in one turn, until everything shows its outcome.
     double longestOf(const std::function<void()>& act) {
+        paintingNow_ = secondsOfPainting();
         Heartbeat heart;
         act();
         heart.beat();
@@ -53,9 +78,22 @@ class HeartbeatTest : public QObject {
             !QTest::qWaitFor([&] { return !window_->themeSwitch().isRunning(); }))
             return 1e9;
         for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();
-        return heart.longest;
+        const double longest = heart.longest;
+        paintingNow_ = std::max(paintingNow_, secondsOfPainting());
+        return longest;
+    }
+    /// That one of three rounds is within what is allowed: what others do to the caches is not in each.
+    bool isSoon(const std::function<double()>& round) {
+        bool isWithin = false;
+        for (int i = 0; i < 3 && !isWithin; ++i) {
+            const double longest = round();
+            isWithin = longest < allowed();
+            qInfo("%.0f ms of %.0f ms", 1e3 * longest, 1e3 * allowed());
+        }
+        return isWithin;
     }
     std::unique_ptr<MainWindow> window_;
+    double paintingNow_ = 0;  ///< seconds of secondsOfPainting(), around the last act
 
 private slots:
     void initTestCase() {
@@ -74,10 +112,11 @@ private slots:
     void aLongEventIsSeen() {
         const double longest = longestOf([] {
             QTimer::singleShot(0, qApp, [] {
-                for (const double start = threadSeconds(); threadSeconds() < start + 1.2 * allowed;) continue;
+                for (const double start = threadSeconds(); threadSeconds() < start + 1.2 * rule;) continue;
             });
         });
-        QVERIFY(longest > allowed);
+        QVERIFY(longest > rule);
+        QVERIFY(secondsOfPainting() > 0.1 * painting);  // the yardstick is not empty
     }
     void theWindowAnswers_data() {
         using Act = std::function<void(MainWindow&)>;
@@ -109,13 +148,10 @@ private slots:
     void theWindowAnswers() {
         QFETCH(const std::function<void(MainWindow&)>, act);
         QFETCH(const std::function<void(MainWindow&)>, back);
-        double best = 1e9;  // of three rounds: what other programs do to the caches does not happen in each
-        for (int round = 0; round < 3 && !(best < allowed); ++round) {
+        QVERIFY(isSoon([&] {
             const double there = longestOf([&] { act(*window_); });
-            best = std::min(best, std::max(there, longestOf([&] { back(*window_); })));
-        }
-        qInfo("%.0f ms", 1e3 * best);
-        QVERIFY2(best < allowed, qPrintable(QString("%1 ms").arg(1e3 * best)));
+            return std::max(there, longestOf([&] { back(*window_); }));
+        }));
     }
     void itAnswersWhileAPresetOpens_data() {
         QTest::addColumn<QString>("preset");
@@ -126,15 +162,23 @@ private slots:
     }
     void itAnswersWhileAPresetOpens() {
         QFETCH(QString, preset);
-        double best = 1e9;
-        for (int round = 0; round < 3 && !(best < allowed); ++round) {
-            QVERIFY(window_->open("preset:pendulum"));
-            QVERIFY(waitForResults(*window_));
+        QVERIFY(isSoon([&] {
+            if (!window_->open("preset:pendulum") || !waitForResults(*window_)) return 1e9;
             for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();
-            best = std::min(best, longestOf([&] { QVERIFY(window_->open(preset)); }));
-        }
-        qInfo("%.0f ms", 1e3 * best);
-        QVERIFY2(best < allowed, qPrintable(QString("%1 ms").arg(1e3 * best)));
+            return longestOf([&] { QVERIFY(window_->open(preset)); });
+        }));
+    }
+    /// Checking this scene takes longer than a turn may.
+    void itAnswersWhileAnEditIsChecked() {
+        QVERIFY(window_->open("preset:double-slit"));
+        window_->runControl().stop();
+        double shorter = 0.05;
+        QVERIFY(isSoon([&] {
+            return longestOf([&] {
+                QVERIFY(window_->workspace().edit({{"/time/end", shorter *= 0.9}}, "end"));
+                window_->runControl().start();
+            });
+        }));
     }
     void itAnswersDuringLongRuns() {
         Value::Array schemes;
@@ -149,8 +193,7 @@ private slots:
         scene.set("views", Value(Value::Array{"stage", "energy", "error", "phase"}));
         QVERIFY(window_->workspace().adopt(scene));
         for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();  // another scene has other forms
-        const double longest = longestOf([this] { window_->runControl().start(); });
-        QVERIFY2(longest < allowed, qPrintable(QString("%1 ms").arg(1e3 * longest)));
+        QVERIFY(isSoon([this] { return longestOf([this] { window_->runControl().start(); }); }));
     }
 };
 

@@ -139,7 +139,7 @@ private slots:
     void f1OpensThePageOfWhatHasTheFocus() {
         MainWindow window(Theme::light(), false);
         QVERIFY(window.open("preset:spring-pendulum"));
-        QCoreApplication::processEvents();  // the cells follow in the next turn
+        QTRY_VERIFY(window.discretizer().isCurrent());
         QCOMPARE(helpPageOf(window.findChild<QWidget*>("field.k")), QString("models"));
         QCOMPARE(helpPageOf(window.discretizer().cell(3, "lobatto")), QString("spaces"));
         QCOMPARE(helpPageOf(&window.studies()), QString("studies"));

@@ -264,6 +264,25 @@ private slots:
         QVERIFY(waitForResults(window));
         for (const PlotWidget* other : window.compareView().plots()) QVERIFY(!other->isUserZoomed());
     }
+    /// A field that loses the focus while a slow scene is checked, say.
+    void anEditDuringAnotherStays() {
+        MainWindow window(Theme::light(), false);
+        window.open("preset:double-slit");
+        window.runControl().stop();
+        Workspace& workspace = window.workspace();
+        bool isInner = false, isWithin = false;  // the inner edit, while the outer one is checked
+        QTimer::singleShot(0, &window, [&] {
+            isWithin = isInner;
+            workspace.edit({{"/title", "inner"}}, "title");
+        });
+        isInner = true;
+        QVERIFY(workspace.edit({{"/model/modes", 512}}, "modes"));  // checked for about a second
+        isInner = false;
+        QVERIFY(isWithin);
+        QCOMPARE(workspace.scene().model.number("modes"), 512.0);
+        QCOMPARE(QString::fromStdString(workspace.scene().title), "inner");
+        window.runControl().stop();
+    }
     void theDiscretizerMarksWhatIsOn() {
         Window window;  // Gauss and Lobatto of degree 2 are in the scene
         using Use = DiscretizerCell::Use;
