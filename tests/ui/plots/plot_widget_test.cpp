@@ -8,6 +8,8 @@
 #include <QTest>
 
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "engine/figure/sample.hpp"
 #include "tests/engine/figure/hand_made_figure.hpp"
@@ -83,6 +85,35 @@ private slots:
         QCOMPARE(count(), 0);
         plot->setStale(false);
         QVERIFY(count() > 50);
+    }
+    /// Of the lower and the upper cell of the latest figure, in the colours of the latest theme.
+    void cellsFadeFromTheGroundToTheirColour() {
+        const auto plot = shown("energy");
+        const auto figureOf = [](double lower, double upper) {
+            Figure figure;
+            figure.view = "profile";
+            figure.x.range = figure.y.range = {0, 1};
+            HeatMap cells;
+            cells.columns = 1;
+            cells.rows = 2;
+            cells.values = {lower, upper};
+            figure.add(cells);
+            return figure;
+        };
+        const auto colours = [&] {
+            canvas(*plot).replot();
+            const QImage image = plot->grab().toImage();
+            const QRect rect = canvas(*plot).axisRect()->rect();
+            return std::pair(image.pixelColor(rect.left() + 2, rect.bottom() - 2),
+                             image.pixelColor(rect.left() + 2, rect.top() + 2));
+        };
+        const Theme &light = Theme::light(), &dark = Theme::dark();
+        plot->setFigure(figureOf(0, 1));
+        QCOMPARE(colours(), std::pair(light.panel, light.accent));
+        plot->setFigure(figureOf(1, std::nan("")));
+        QCOMPARE(colours(), std::pair(light.accent, light.panel));
+        plot->setTheme(dark);
+        QCOMPARE(colours(), std::pair(dark.accent, dark.panel));
     }
     void wheelOnAnAxisZoomsThatAxisAlone() {
         const auto plot = shown("energy");
