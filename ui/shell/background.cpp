@@ -26,12 +26,23 @@ public:
 
     void send(std::function<void()> message) {
         add(messages_, std::move(message));
-        QCoreApplication::postEvent(this, new QEvent(QEvent::User));
+        announce();
+    }
+
+    void hold() { ++holders_; }
+    void release() {
+        if (--holders_ > 0) return;
+        for (; waiting_ > 0; --waiting_) announce();
     }
 
 protected:
     /// One message per event: they stay in order where one of them runs an event loop.
-    void customEvent(QEvent*) override { next(messages_)(); }
+    void customEvent(QEvent*) override {
+        if (holders_ > 0)
+            ++waiting_;
+        else
+            next(messages_)();
+    }
 
 private:
     using Queue = std::deque<std::function<void()>>;
@@ -46,6 +57,7 @@ private:
         current = nullptr;
     }
 
+    void announce() { QCoreApplication::postEvent(this, new QEvent(QEvent::User)); }
     void add(Queue& queue, std::function<void()> last) {
         const std::lock_guard lock(mutex_);
         queue.push_back(std::move(last));
@@ -62,6 +74,7 @@ private:
     std::mutex mutex_;
     Queue work_, messages_;  ///< guarded by the mutex
     QThreadPool* pool_;
+    int holders_ = 0, waiting_ = 0;  ///< of messages; of the window's thread
 };
 
 }  // namespace
@@ -69,5 +82,8 @@ private:
 void runInBackground(std::function<void()> work) { Background::ofApplication().run(std::move(work)); }
 
 void sendToWindow(std::function<void()> message) { Background::ofApplication().send(std::move(message)); }
+
+HeldMessages::HeldMessages() { Background::ofApplication().hold(); }
+HeldMessages::~HeldMessages() { Background::ofApplication().release(); }
 
 }  // namespace extremal

@@ -16,4 +16,14 @@ void runInBackground(std::function<void()> work);
 /// with a QPointer to the receiver, which may be gone by then.
 void sendToWindow(std::function<void()> message);
 
+/// While there is one, such messages wait: for an event loop inside an event, where what they do could remove
+/// what the event comes from. On the window's thread.
+class HeldMessages {
+public:
+    HeldMessages();
+    ~HeldMessages();
+    HeldMessages(const HeldMessages&) = delete;
+    HeldMessages& operator=(const HeldMessages&) = delete;
+};
+
 }  // namespace extremal

@@ -1,5 +1,7 @@
 #include "ui/shell/workspace.hpp"
 
+#include <QCoreApplication>
+#include <QEvent>
 #include <QEventLoop>
 #include <QFileInfo>
 #include <QSaveFile>
@@ -16,6 +18,7 @@
 #include "engine/scene/json.hpp"
 #include "engine/scene/own_folder.hpp"
 #include "engine/scene/topics.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/notices.hpp"
 
 namespace extremal {
@@ -37,6 +40,17 @@ std::string directoryOf(const QString& path) {
     return path.isEmpty() ? "." : QFileInfo(path).absolutePath().toStdString();
 }
 
+/// While there is one, the window paints and nothing else: what a timer or a message from a thread sets going
+/// could remove the field or the cell whose edit is checked. Timers try again by themselves.
+class PaintingOnly : public QObject {
+public:
+    PaintingOnly() { qApp->installEventFilter(this); }
+    bool eventFilter(QObject*, QEvent* event) override { return event->type() == QEvent::Timer; }
+
+private:
+    HeldMessages held_;
+};
+
 /// Reads a scene in a thread of its own, as tables in quadruple precision and forecasts take up to a few
 /// hundred milliseconds, and what is checked of moving nodes seconds. Where it is not read within a moment
 /// the window goes on painting; what the user does waits.
@@ -48,7 +62,10 @@ ReadScene readAside(std::function<ReadScene()> read) {
     QEventLoop loop;
     QObject::connect(thread.get(), &QThread::finished, &loop, &QEventLoop::quit);
     thread->start();
-    if (result.wait_for(20ms) != std::future_status::ready) loop.exec(QEventLoop::ExcludeUserInputEvents);
+    if (result.wait_for(20ms) != std::future_status::ready) {
+        const PaintingOnly painting;
+        loop.exec(QEventLoop::ExcludeUserInputEvents);
+    }
     thread->wait();
     return result.get();
 }

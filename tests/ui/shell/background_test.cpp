@@ -45,6 +45,25 @@ private slots:
         });
         QTRY_COMPARE(order, QStringLiteral("abc"));
     }
+    void messagesThatAreHeldComeLaterInTheirOrder() {
+        QString order;
+        const auto send = [&order](const char* letter) {
+            sendToWindow([&order, letter] { order += letter; });
+        };
+        {
+            const HeldMessages outer;
+            {
+                const HeldMessages inner;
+                send("a");
+                for (int i = 0; i < 10; ++i) QCoreApplication::processEvents();
+            }
+            send("b");
+            for (int i = 0; i < 10; ++i) QCoreApplication::processEvents();
+            QVERIFY(order.isEmpty());
+        }
+        send("c");
+        QTRY_COMPARE(order, QStringLiteral("abc"));
+    }
 };
 
 EXTREMAL_TEST(BackgroundTest)

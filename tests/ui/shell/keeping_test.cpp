@@ -21,6 +21,7 @@
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -271,6 +272,11 @@ private slots:
         window.runControl().stop();
         Workspace& workspace = window.workspace();
         bool isInner = false, isWithin = false;  // the inner edit, while the outer one is checked
+        int otherWork = 0, messages = 0;         // which could remove the field of the outer edit
+        QTimer timer;
+        connect(&timer, &QTimer::timeout, &window, [&] { otherWork += isInner; });
+        timer.start(1);
+        runInBackground([&] { sendToWindow([&] { otherWork += isInner, ++messages; }); });
         QTimer::singleShot(0, &window, [&] {
             isWithin = isInner;
             workspace.edit({{"/title", "inner"}}, "title");
@@ -279,6 +285,8 @@ private slots:
         QVERIFY(workspace.edit({{"/model/modes", 512}}, "modes"));  // checked for about a second
         isInner = false;
         QVERIFY(isWithin);
+        QCOMPARE(otherWork, 0);
+        QTRY_COMPARE(messages, 1);
         QCOMPARE(workspace.scene().model.number("modes"), 512.0);
         QCOMPARE(QString::fromStdString(workspace.scene().title), "inner");
         window.runControl().stop();
