@@ -329,14 +329,14 @@ private:
     }
     Rgb colourOf(const HeatMap& heat, std::size_t i) const {
         const double value = heat.values[i];
-        const Rgb ground = rgbOf(colours_.ground);
+        const Rgb& ground = faded_.ground;
         if (!heat.scale.empty()) {
             if (!std::isfinite(value))
                 return heat.faults.empty() || heat.faults[i].empty() ? ground : rgbOf(colours_.error);
             return valueColours(value > 0 ? std::log10(value / heat.low) / std::log10(heat.high / heat.low)
                                           : 0);
         }
-        return fadedCell(heat, i, {ground, rgbOf(colours_.series[0]), rgbOf(colours_.series[1])});
+        return fadedCell(heat, i, faded_);
     }
 
     struct Entry {
@@ -379,6 +379,7 @@ private:
     const Figure& figure_;
     int width_, height_;
     Colours colours_;
+    FadedColours faded_{rgbOf(colours_.ground), rgbOf(colours_.series[0]), rgbOf(colours_.series[1])};
     double left_ = 0, right_ = 0, top_ = 0, bottom_ = 0;
     Scale x_, y_;
     std::vector<std::vector<Entry>> legend_;

@@ -176,8 +176,8 @@ void Discretizer::look() {
     const Settings& model = workspace_.scene().model;
     if (isLooking_ || model == model_) return;
     isLooking_ = true;
-    runInBackground([self = QPointer(this), model] {
-        auto offered = std::make_shared<std::vector<DescribedGrid>>(describedChoices(model));
+    runInBackground([self = QPointer(this), model, system = workspace_.resolved()->system] {
+        auto offered = std::make_shared<std::vector<DescribedGrid>>(describedChoices(*system));
         sendToWindow([self, model, offered] {
             if (!self) return;
             self->isLooking_ = false;
@@ -260,9 +260,8 @@ DiscretizerCell* Discretizer::cell(int degree, const QString& rule) const {
 
 void Discretizer::showUses() {
     const std::vector<SchemeSpec>& schemes = workspace_.scene().schemes;
-    const SchemeFinder finder(workspace_.scene());
     for (DiscretizerCell* cell : cells_) {
-        const int there = finder.find(cell->choice());
+        const int there = findScheme(*workspace_.resolved(), cell->choice());
         if (there < 0) {
             cell->setUse(DiscretizerCell::Use::none, 0);
             continue;
@@ -277,7 +276,7 @@ void Discretizer::choose(const DiscretizerCell& cell) {
     const Scene& scene = workspace_.scene();
     if (scene.model.type != model_.type) return;  // the cells of this model are on their way
     const bool isOwn = cell.choice().isOwn;
-    if (const int there = SchemeFinder(scene).find(cell.choice()); there >= 0) {
+    if (const int there = findScheme(*workspace_.resolved(), cell.choice()); there >= 0) {
         workspace_.selectScheme(there);
         if (isOwn) emit ownChosen();
         return;

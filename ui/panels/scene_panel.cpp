@@ -8,7 +8,6 @@
 #include <algorithm>
 
 #include "engine/model/system.hpp"
-#include "engine/scene/bind.hpp"
 #include "engine/scene/event_names.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/resolve.hpp"
@@ -281,7 +280,7 @@ void ScenePanel::rebuild() {
     shownInitial_ = keys;
     model_->setCurrentIndex(model_->findData(QString::fromStdString(shownModel_)));
     model_->setToolTip(QString::fromStdString(entry->item.description));
-    const System system = entry->make(scene.model);
+    const System& system = *workspace_.resolved()->system;
     parameters_->setFields(isTyped(*entry) ? std::vector<FormField>{} : parameterFields(workspace_, *entry));
     parameters_->setVisible(!isTyped(*entry));
     lagrangian_->setVisible(isTyped(*entry));
@@ -296,14 +295,15 @@ void ScenePanel::rebuild() {
 
 /// The second position is the one that the first scheme with a fixed step reaches in one step.
 void ScenePanel::startFromTwoPositions() {
-    const Scene& scene = workspace_.scene();
-    const System system = makeSystem(scene);
-    if (scene.initial.second == Initial::Second::position || !isMechanical(system)) return;
-    for (const SchemeSpec& spec : scene.schemes) {
+    const auto resolved = workspace_.resolved();
+    const System& system = *resolved->system;
+    if (resolved->scene.initial.second == Initial::Second::position || !isMechanical(system)) return;
+    for (const ResolvedScheme& scheme : resolved->schemes) {
+        const SchemeSpec& spec = scheme.spec;
         if (spec.tolerance) continue;
-        State state = initialState(scene, system);
-        const State start = state;
-        const auto integrator = resolve(spec).make(system, spec.step.value, state);
+        const State& start = resolved->initial;
+        State state = start;
+        const auto integrator = scheme.make(system, spec.step.value, state);
         if (advance(*integrator, state).outcome != Outcome::converged) continue;
         const auto positions = [&](const State& s) {
             Value::Array values;
@@ -321,10 +321,10 @@ void ScenePanel::startFromTwoPositions() {
 }
 
 void ScenePanel::startFromMomentum() {
-    const Scene& scene = workspace_.scene();
-    const System system = makeSystem(scene);
-    if (scene.initial.second == Initial::Second::momentum || !isMechanical(system)) return;
-    const State start = initialState(scene, system);
+    const auto resolved = workspace_.resolved();
+    const System& system = *resolved->system;
+    if (resolved->scene.initial.second == Initial::Second::momentum || !isMechanical(system)) return;
+    const State& start = resolved->initial;
     const auto half = start.x.begin() + system.dimension();
     Value initial{Value::Object{}};
     initial.set("q", Value::Array(start.x.begin(), half));
@@ -337,7 +337,7 @@ void ScenePanel::addEvent() {
     const Scene& scene = workspace_.scene();
     std::vector<std::string> parameters;
     for (const auto& [key, value] : scene.model.keys) parameters.push_back(key);
-    const auto names = stateNames(makeSystem(scene), parameters);
+    const auto names = stateNames(*workspace_.resolved()->system, parameters);
     std::string first = names.size() > 1 ? names[1].name : names.front().name;
     for (const StateName& name : names)
         if (name.column == 0) first = name.name;  // the shortest name comes last

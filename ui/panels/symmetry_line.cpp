@@ -6,6 +6,7 @@
 #include "engine/core/contained.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/model/system.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/symmetry/symmetry.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/workspace.hpp"
@@ -16,18 +17,13 @@ namespace {
 constexpr int debounceMs = 250;
 
 /// Empty for systems without coordinates.
-std::string textFor(const Settings& model) {
-    std::string text;
+std::string textFor(const System& system) {
+    if (!isMechanical(system)) return {};
     try {
-        contained("/model", [&] {
-            const ModelEntry* entry = findModel(model.type);
-            const System system = entry ? entry->make(model) : System();
-            if (isMechanical(system)) text = symmetryText(system);
-        });
+        return contained("/model", [&] { return symmetryText(system); });
     } catch (const InvalidScene&) {
-        text.clear();
+        return {};
     }
-    return text;
 }
 
 }  // namespace
@@ -51,12 +47,13 @@ SymmetryLine::SymmetryLine(Workspace& workspace, QWidget* parent) : QLabel(paren
 
 void SymmetryLine::search() {
     if (!workspace_.hasScene() || workspace_.scene().model == shown_) return;
-    runInBackground([self = QPointer(this), model = workspace_.scene().model] {
-        const QString text = QString::fromStdString(textFor(model));
-        sendToWindow([self, model, text] {
-            if (self) self->take(model, text);
+    runInBackground(
+        [self = QPointer(this), model = workspace_.scene().model, system = workspace_.resolved()->system] {
+            const QString text = QString::fromStdString(textFor(*system));
+            sendToWindow([self, model, text] {
+                if (self) self->take(model, text);
+            });
         });
-    });
 }
 
 void SymmetryLine::take(const Settings& model, const QString& text) {

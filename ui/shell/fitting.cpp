@@ -48,14 +48,11 @@ std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene) {
     return entries;
 }
 
-std::vector<DescribedGrid> describedChoices(const Settings& model) {
+std::vector<DescribedGrid> describedChoices(const System& system) {
     std::vector<DescribedGrid> all;
     try {
-        contained("/model", [&] {
-            const ModelEntry* entry = findModel(model.type);
-            if (!entry) return;
-            for (ChoiceGrid& grid : choiceGrids(entry->make(model))) all.push_back({std::move(grid), {}});
-        });
+        for (ChoiceGrid& grid : contained("/model", [&] { return choiceGrids(system); }))
+            all.push_back({std::move(grid), {}});
     } catch (const InvalidScene&) {
         return {};
     }

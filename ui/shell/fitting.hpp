@@ -12,6 +12,7 @@ namespace extremal {
 
 struct BaselineEntry;
 struct SchemeEntry;
+struct System;
 
 std::vector<CatalogItem> fittingSpaces(const Scene& scene);
 std::vector<const BaselineEntry*> fittingBaselines(const Scene& scene);
@@ -21,12 +22,13 @@ std::vector<const SchemeEntry*> fittingSchemes(const Scene& scene);
 struct DescribedGrid {
     ChoiceGrid choices;
     std::vector<Properties> known;  ///< of choices.cells
+    /// What is known of a cell follows from its discretization.
     bool operator==(const DescribedGrid& other) const { return choices == other.choices; }
 };
-/// What the discretizer offers for a model: a grid of every family that applies, the usual one first. Takes
-/// up to a few hundred milliseconds where nothing is known yet. From any thread; throws nothing: where the
-/// model admits no grid there is none, and a cell that cannot be described says why as a refusal.
-std::vector<DescribedGrid> describedChoices(const Settings& model);
+/// What the discretizer offers for a system: a grid for every family that applies, the usual one first. Takes
+/// up to a few hundred milliseconds where nothing is known yet. From any thread. Throws nothing: there are no
+/// grids where they cannot be made, and a cell that cannot be described is refused, with the reason.
+std::vector<DescribedGrid> describedChoices(const System& system);
 /// The first of these grids.
 ChoiceGrid choicesFor(const Scene& scene);
 /// The choice with this rule and the nearest degree, else the nearest degree with any rule; null where there

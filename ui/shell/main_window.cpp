@@ -23,6 +23,7 @@
 #include <thread>
 
 #include "engine/scene/bind.hpp"
+#include "engine/scene/resolve.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/own/own_list.hpp"
 #include "ui/own/own_window.hpp"
@@ -357,7 +358,7 @@ void MainWindow::showScene() {
     setWindowTitle(tr("%1[*] - Extremal").arg(workspace_->fileName()));
     setWindowModified(workspace_->isDirty());
     playback_->setRange(timeSpan(scene).first, timeSpan(scene).last);
-    timeline_->setUnit(QString::fromStdString(makeSystem(scene).timeUnit));
+    timeline_->setUnit(QString::fromStdString(workspace_->resolved()->system->timeUnit));
     QString notes = QString::fromStdString("# " + scene.title + "\n\n");
     if (!scene.lesson.empty()) notes += "*" + QString::fromStdString(scene.lesson) + "*\n\n";
     notes += QString::fromStdString(scene.notes);

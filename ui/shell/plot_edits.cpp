@@ -18,6 +18,7 @@
 #include "engine/figure/figure.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/view_choices.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
@@ -103,7 +104,7 @@ public:
             const View before = view();
             View after = before;
             change(after);
-            const System system = makeSystem(workspace.scene());
+            const System& system = *workspace.resolved()->system;
             if (axesOf(before, system).variable != axesOf(after, system).variable) after.curve = {};
             workspace.edit(editsForPlot(workspace.scene(), before, after),
                            QObject::tr("Change the contents of a plot"));
@@ -162,7 +163,7 @@ void addChoices(QMenu& menu, Workspace& workspace, const std::string& id, const 
 }
 
 void addNames(QMenu& menu, Workspace& workspace, const std::string& id, const ViewSource& view) {
-    const System system = makeSystem(workspace.scene());
+    const System& system = *workspace.resolved()->system;
     const ViewKeys keys = keysOf(id, &system);
     const QString usual = QObject::tr("default");
     using Names = std::function<std::vector<std::string>(const Scene&)>;
@@ -204,8 +205,7 @@ void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {
     dialog.setWindowTitle(QObject::tr("Compare with a curve"));
     dialog.setMinimumWidth(440);
     auto* layout = new QVBoxLayout(&dialog);
-    const System system = makeSystem(workspace.scene());
-    const QString variable = QString::fromStdString(axesOf(view, system).variable);
+    const QString variable = QString::fromStdString(axesOf(view, *workspace.resolved()->system).variable);
     layout->addWidget(makeLabel(
         QObject::tr("An expression in %1 and the model's parameters; empty: no curve.").arg(variable),
         "caption"));

@@ -28,16 +28,12 @@ bool areSame(const Discretization& a, const Discretization& b) {
 
 }  // namespace
 
-SchemeFinder::SchemeFinder(const Scene& scene) {
-    for (const SchemeSpec& spec : scene.schemes) schemes_.push_back(resolve(spec));
-}
-
-int SchemeFinder::find(const ChoiceGrid::Cell& cell) const {
+int findScheme(const ResolvedScene& scene, const ChoiceGrid::Cell& cell) {
     const Discretization wanted{cell.discretization.space, cell.discretization.quadrature, {}};
     const Family* const family = familyOf(wanted.space);
     int found = -1;
-    for (std::size_t i = 0; i < schemes_.size(); ++i) {
-        const ResolvedScheme& scheme = schemes_[i];
+    for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
+        const ResolvedScheme& scheme = scene.schemes[i];
         const Discretization* const plain = scheme.plain();
         if (!plain || scheme.family != family) continue;
         const bool isSame = cell.isOwn       ? isOfKind(*plain, wanted)

@@ -7,6 +7,7 @@
 
 #include "engine/scene/bind.hpp"
 #include "engine/scene/plane_start.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/view/catalog.hpp"
 #include "ui/plots/plot_widget.hpp"
 #include "ui/shell/plot_edits.hpp"
@@ -133,7 +134,7 @@ void addStartActions(QMenu& menu, Workspace& workspace, const std::function<View
     });
     QObject::connect(&menu, &QMenu::aboutToShow, &workspace, [&workspace, view, spread, undo, remove] {
         const View now = view();
-        const bool takes = takesStarts(now, makeSystem(workspace.scene()));
+        const bool takes = takesStarts(now, *workspace.resolved()->system);
         const bool hasRoom = keysOf(now.id, nullptr).hasZeros || (now.xRange && now.yRange);
         spread->setVisible(takes);
         spread->setEnabled(hasRoom);

@@ -40,8 +40,8 @@ std::string directoryOf(const QString& path) {
     return path.isEmpty() ? "." : QFileInfo(path).absolutePath().toStdString();
 }
 
-/// While there is one, the window paints and nothing else: what a timer or a message from a thread sets going
-/// could remove the field or the cell whose edit is checked. Timers try again by themselves.
+/// While there is one, timers and messages from threads wait: what they set going could remove the field or
+/// the cell whose edit is being checked. A timer whose event is dropped fires again.
 class PaintingOnly : public QObject {
 public:
     PaintingOnly() { qApp->installEventFilter(this); }
@@ -52,8 +52,8 @@ private:
 };
 
 /// Reads a scene in a thread of its own, as tables in quadruple precision and forecasts take up to a few
-/// hundred milliseconds, and what is checked of moving nodes seconds. Where it is not read within a moment
-/// the window goes on painting; what the user does waits.
+/// hundred milliseconds, and checks of free knots seconds. Where it is not read within a moment the window
+/// goes on painting; what the user does waits.
 ReadScene readAside(std::function<ReadScene()> read) {
     using namespace std::chrono_literals;
     std::packaged_task<ReadScene()> task(std::move(read));
@@ -96,7 +96,7 @@ bool Workspace::accept(const std::vector<Edit>& edits, const Value* instead) {
 }
 
 bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const QString& mergeKey) {
-    if (!hasScene_) return false;
+    if (!hasScene()) return false;
     const EditState before = state();
     const auto keep = [&] {
         if (!(before == state())) history_.push(before, what, mergeKey);
@@ -159,7 +159,6 @@ void Workspace::setDocument(Value document, ReadScene read) {
     resolved_ = std::move(read.resolved);
     warnings_ = std::move(read.warnings);
     ++revision_;
-    hasScene_ = true;
     if (selected_ >= static_cast<int>(scene_.schemes.size()))
         selectScheme(static_cast<int>(scene_.schemes.size()) - 1);
 }

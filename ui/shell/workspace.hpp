@@ -30,7 +30,7 @@ class Workspace : public QObject {
 public:
     explicit Workspace(Notices& notices, QObject* parent = nullptr);
 
-    bool hasScene() const { return hasScene_; }
+    bool hasScene() const { return resolved_ != nullptr; }
     const Scene& scene() const { return scene_; }
     const Value& document() const { return document_; }
     /// What runs: the scene with its model and schemes, made when it was read. Null: there is no scene.
@@ -64,7 +64,7 @@ public:
     QString path() const { return path_; }      ///< empty: not saved yet
     QString origin() const { return origin_; }  ///< SCENE as on the command line: a path or "preset:NAME"
     QString fileName() const;                   ///< for titles: "spring-pendulum.json"
-    bool isDirty() const { return hasScene_ && !(document_ == saved_); }
+    bool isDirty() const { return hasScene() && !(document_ == saved_); }
 
     int selectedScheme() const { return selected_; }  ///< -1: none
     void selectScheme(int index);
@@ -86,7 +86,6 @@ private:
     void report(const QString& name, const std::vector<Problem>& problems);
 
     Notices& notices_;
-    bool hasScene_ = false;
     Scene scene_;
     std::shared_ptr<const ResolvedScene> resolved_;
     Value document_, saved_;

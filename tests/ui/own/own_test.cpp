@@ -219,18 +219,18 @@ private slots:
         DiscretizerCell* const there = window.cell(cell);
         QVERIFY(there);
         QVERIFY2(there->isEnabled(), qPrintable(there->about()));
-        const bool isUsed = SchemeFinder(window.workspace().scene()).find(there->choice()) >= 0;
+        const bool isUsed = findScheme(*window.workspace().resolved(), there->choice()) >= 0;
         QCOMPARE(there->use() != DiscretizerCell::Use::none, isUsed);
         if (isUsed) return;
         there->click();
         QCoreApplication::processEvents();  // the marks follow in the next turn
-        QVERIFY2(SchemeFinder(window.workspace().scene()).find(there->choice()) >= 0,
+        QVERIFY2(findScheme(*window.workspace().resolved(), there->choice()) >= 0,
                  qPrintable(QString::fromStdString(writeCompactJson(window.workspace().document()))));
         // Nothing else is marked by it.
         int marked = 0;
         for (const DiscretizerCell* each : window.findChildren<DiscretizerCell*>())
             marked += each->use() != DiscretizerCell::Use::none &&
-                      SchemeFinder(window.workspace().scene()).find(each->choice()) ==
+                      findScheme(*window.workspace().resolved(), each->choice()) ==
                           static_cast<int>(window.workspace().scene().schemes.size()) - 1;
         QCOMPARE(marked, 1);
     }

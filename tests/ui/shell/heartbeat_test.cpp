@@ -63,8 +63,8 @@ double secondsOfPainting() {
 class HeartbeatTest : public QObject {
     Q_OBJECT
 
-    /// Seconds: a user does not notice less. For a processor on which the piece of painting takes no longer
-    /// than this; a slower one, or one that is shared, is allowed as much more as it takes for that.
+    /// Seconds of a turn, where the fixed piece of painting takes no longer than `painting`. On a processor
+    /// that is slower or shared, the limit grows in proportion.
     static constexpr double rule = 0.05, painting = 0.01;
     double allowed() const { return rule * std::max(1.0, paintingNow_ / painting); }
 
@@ -82,7 +82,8 @@ class HeartbeatTest : public QObject {
         paintingNow_ = std::max(paintingNow_, secondsOfPainting());
         return longest;
     }
-    /// That one of three rounds is within what is allowed: what others do to the caches is not in each.
+    /// Whether one of three rounds is within the limit: what other programs do to the caches does not happen
+    /// in each.
     bool isSoon(const std::function<double()>& round) {
         bool isWithin = false;
         for (int i = 0; i < 3 && !isWithin; ++i) {
@@ -93,7 +94,7 @@ class HeartbeatTest : public QObject {
         return isWithin;
     }
     std::unique_ptr<MainWindow> window_;
-    double paintingNow_ = 0;  ///< seconds of secondsOfPainting(), around the last act
+    double paintingNow_ = 0;  ///< what secondsOfPainting() was at most, before and after the last act
 
 private slots:
     void initTestCase() {
@@ -193,7 +194,8 @@ private slots:
         scene.set("views", Value(Value::Array{"stage", "energy", "error", "phase"}));
         QVERIFY(window_->workspace().adopt(scene));
         for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();  // another scene has other forms
-        QVERIFY(isSoon([this] { return longestOf([this] { window_->runControl().start(); }); }));
+        const double longest = longestOf([this] { window_->runControl().start(); });
+        QVERIFY2(longest < allowed(), qPrintable(QString("%1 ms").arg(1e3 * longest)));
     }
 };
 
