@@ -44,12 +44,50 @@ std::string missingVelocity(const Formula& formula, const Matrix& mass) {
     return {};
 }
 
-std::string singularText(const Formula& formula, const Matrix& mass, const std::string& where) {
+constexpr const char* singularMatrix =
+    "the second derivatives with respect to the velocities form a singular matrix";
+constexpr const char* consequence = ", so momenta do not determine velocities";
+
+/// Of a Lagrangian that is degenerate everywhere.
+std::string degenerateText(const Formula& formula, const Matrix& mass) {
     const std::string missing = missingVelocity(formula, mass);
-    return "is degenerate" + where + ": " +
-           (missing.empty() ? "the second derivatives with respect to the velocities form a singular matrix"
+    return "is degenerate: " +
+           (missing.empty() ? singularMatrix
                             : "there is no square of " + missing + " or other curvature in it") +
-           ", so momenta do not determine velocities";
+           consequence;
+}
+
+/// Of one that is so at the initial data alone: the factor of a velocity's square vanishes there, as that of
+/// the azimuth does at the pole of spherical coordinates.
+std::string singularText(const Formula& formula, const Matrix& mass) {
+    const std::string missing = missingVelocity(formula, mass);
+    return "is degenerate at the initial data: " +
+           (missing.empty() ? singularMatrix
+                            : "its second derivative with respect to " + missing + " vanishes there") +
+           consequence;
+}
+
+/// "x = 1, y = 2, ..."
+std::string stateText(const Formula& formula, const double* q) {
+    std::string state;
+    for (std::size_t i = 0; i < formula.coordinates.size() && i < 4; ++i)
+        state += (i ? ", " : "") + formula.coordinates[i] + " = " + formatNumber(q[i]);
+    return state + (formula.coordinates.size() > 4 ? ", ..." : "");
+}
+
+/// Where no velocity belongs to the momenta: at velocities of several sizes, a regular one if there is one,
+/// else a finite one.
+Sample anySample(const Mechanics<double>& mechanics, double t, const double* q) {
+    std::vector<double> v(static_cast<std::size_t>(mechanics.dimension));
+    Sample found;
+    for (const double speed : {0.0, 0.3, 0.05, 2.0}) {
+        for (std::size_t k = 0; k < v.size(); ++k) v[k] = speed * (1 + 0.1 * static_cast<double>(k));
+        const Sample sample = sampleAt(mechanics, t, q, v.data());
+        if (!sample.isFinite) continue;
+        if (!isSingular(sample.mass)) return sample;
+        found = sample;
+    }
+    return found;
 }
 
 }  // namespace
@@ -74,7 +112,7 @@ std::optional<std::string> degeneracy(const Formula& formula, const Mechanics<do
         singular = sample.mass;
     }
     if (!singular) return {};
-    return singularText(formula, *singular, "");
+    return degenerateText(formula, *singular);
 }
 
 std::optional<std::string> faultAt(const Formula& formula, const Mechanics<double>& mechanics, double t,
@@ -82,17 +120,14 @@ std::optional<std::string> faultAt(const Formula& formula, const Mechanics<doubl
     const auto d = static_cast<std::size_t>(mechanics.dimension);
     std::vector<double> v(d, 0);
     const bool hasVelocity = mechanics.velocity(mechanics.model.get(), t, q, p, v.data());
-    if (!hasVelocity) std::fill(v.begin(), v.end(), 0);
-    const Sample sample = sampleAt(mechanics, t, q, v.data());
-    if (!sample.isFinite) {
-        std::string state;
-        for (std::size_t i = 0; i < d && i < 4; ++i)
-            state += (i ? ", " : "") + formula.coordinates[i] + " = " + formatNumber(q[i]);
-        return "is not finite, or has no finite derivatives, at the initial data (" + state +
-               (d > 4 ? ", ...)" : ")");
-    }
-    if (isSingular(sample.mass)) return singularText(formula, sample.mass, " at the initial data");
-    if (!hasVelocity) return "has no velocity with the momenta of the initial data";
+    const Sample sample = hasVelocity ? sampleAt(mechanics, t, q, v.data()) : anySample(mechanics, t, q);
+    if (!sample.isFinite)
+        return "is not finite, or has no finite derivatives, at the initial data (" + stateText(formula, q) +
+               ")";
+    if (isSingular(sample.mass)) return singularText(formula, sample.mass);
+    if (!hasVelocity)
+        return "has no velocity that belongs to the momenta of the initial data (" + stateText(formula, q) +
+               ")";
     return {};
 }
 

@@ -194,15 +194,15 @@ bool quadraticVelocity(const void* p, const double& t, const double* q, const do
     return solveVelocity(m, r, v);
 }
 
-/// Newton on L_v(t, q, v) = p from v = 0, to round-off.
-bool newtonVelocity(const void* p, const double& t, const double* q, const double* momentum, double* v) {
-    const Model& m = self(p);
+/// Newton on L_v(t, q, v) = p from the velocity in v, to round-off.
+bool newtonVelocityFrom(const Model& m, double t, const double* q, const double* momentum, double* v) {
     const auto d = static_cast<std::size_t>(m.d);
-    std::fill_n(v, d, 0);
     double change[maxCoordinates], step[maxCoordinates] = {}, last = -1;
     for (int iteration = 0; iteration < 100; ++iteration) {
         const Registers r(m, m.legendre, t, q, v);
         for (std::size_t i = 0; i < d; ++i) change[i] = momentum[i] - r[i];
+        // The root itself, where the mass matrix may be singular: v^4 at rest.
+        if (std::all_of(change, change + d, [](double x) { return x == 0; })) return true;
         // Out of the domain of L, such as beyond the speed of light: half as far.
         if (!std::all_of(change, change + d, [](double x) { return std::isfinite(x); })) {
             for (std::size_t i = 0; i < d; ++i) v[i] -= step[i] /= 2;
@@ -221,6 +221,23 @@ bool newtonVelocity(const void* p, const double& t, const double* q, const doubl
         if (iteration > 5 && size >= last && size <= 1e-10 * scale) return true;
         last = size;
     }
+    return false;
+}
+
+/// Newton from v = 0, and where L has no curvature or no meaning at rest (v^4, |v|^3, v log v) from
+/// velocities of several sizes, in the directions of the momenta and, where these do not help, all positive.
+bool newtonVelocity(const void* p, const double& t, const double* q, const double* momentum, double* v) {
+    const Model& m = self(p);
+    const auto d = static_cast<std::size_t>(m.d);
+    std::fill_n(v, d, 0);
+    if (newtonVelocityFrom(m, t, q, momentum, v)) return true;
+    constexpr double speeds[] = {1, 0.1, 10, 1e-2, 100, 1e-4, 1e4};
+    for (const bool isAlongMomenta : {true, false})
+        for (const double speed : speeds) {
+            for (std::size_t i = 0; i < d; ++i)
+                v[i] = isAlongMomenta ? std::copysign(speed, momentum[i]) : speed;
+            if (newtonVelocityFrom(m, t, q, momentum, v)) return true;
+        }
     return false;
 }
 

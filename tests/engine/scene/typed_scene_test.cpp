@@ -90,6 +90,9 @@ private slots:
         QTest::newRow("degenerate at the start") << "/model/lagrangian=(x - 1/w)^2*x_t^2"
                                                  << "/model/lagrangian"
                                                  << "is degenerate at the initial data";
+        QTest::newRow("at a pole") << "/model/lagrangian=x_t^2*(1 + sin(x - 1/w)^2)*sin(x - 1/w)^2 - x"
+                                   << "/model/lagrangian"
+                                   << "its second derivative with respect to x_t vanishes there";
         QTest::newRow("too many data") << "/initial/q=[1, 2]"
                                        << "/initial/q"
                                        << "must have 1 number (x), got 2";

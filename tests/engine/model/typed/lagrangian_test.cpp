@@ -235,6 +235,19 @@ private slots:
             QVERIFY(m.velocity(m.model.get(), 0, q, g + 2, found));
             QVERIFY(std::abs(found[0] - v[0]) < 1e-14 && std::abs(found[1] - v[1]) < 1e-14);
         }
+        // L has no curvature at rest, or no value there.
+        for (const char* text : {"x_t^4/4 - x^2/2", "abs(x_t)^3/3", "x_t*log(x_t)", "x_t^6 + x*x_t",
+                                 "x_t^4/4 + x^2*x_t^3/10", "abs(x_t)^1.5"}) {
+            const System hard = typedSystem({"x"}, {}, text);
+            const auto& m = hard.mechanics();
+            for (const double speed : {1e-3, 0.2, 1.0, 3.0, 50.0}) {
+                const double q = 0.3;
+                double g[2], found = 0;
+                m.gradient(m.model.get(), 0, &q, &speed, g);
+                QVERIFY2(m.velocity(m.model.get(), 0, &q, g + 1, &found), text);
+                QVERIFY2(std::abs(found - speed) < 1e-9 * speed, text);  // of 1e-3, 1e-14 of the momentum
+            }
+        }
         // Where no velocity has this momentum it says so.
         const System bounded = typedSystem({"x"}, {}, "atan(x_t)*x_t + x_t^2/1e6 - x_t^4");
         double v = 0;
