@@ -2,10 +2,52 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
+#include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/run/judge.hpp"
 
 namespace extremal {
+namespace {
+
+/// Whether some steps of this length go on from a state, and stay on its motion.
+bool goesOn(const ResolvedScheme& scheme, const System& system, State state, double step) {
+    constexpr int fewSteps = 16;
+    state.node = 0;
+    state.memory.clear();
+    try {
+        const auto integrator = scheme.make(system, step, state);
+        integrator->begin(state);
+        Judge judge(system, state, step);
+        for (int i = 0; i < fewSteps; ++i) {
+            if (advance(*integrator, state).outcome != Outcome::converged) return false;
+            if (!judge.isSound(state.t, state.x.data())) return false;
+        }
+        if (judge.hasGained()) return false;
+    } catch (const InvalidScene&) {
+        return false;
+    }
+    return std::all_of(state.x.begin(), state.x.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// The advice to take a shorter step, `longest` or a part of it: the first one that goes on from `state`, as
+/// it is written. States of fields and waves are too wide to try it.
+std::string shorterStep(const ResolvedScheme& scheme, const System& system, const State& state, double step,
+                        double longest) {
+    constexpr std::size_t widest = 1000;
+    constexpr int digits = 2, mostHalvings = 6;
+    if (state.x.size() > widest) return "A smaller step may help.";
+    double h = longest;
+    for (int halvings = 0; halvings <= mostHalvings; ++halvings, h /= 2) {
+        const std::string text = formatNumber(h, digits);
+        if (goesOn(scheme, system, state, std::copysign(std::strtod(text.c_str(), nullptr), step)))
+            return "Try h ≤ " + text + ".";
+    }
+    return "Steps down to h = " + formatNumber(2 * h, digits) + " fail there too.";
+}
+
+}  // namespace
 
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
                       const State& initial, const State& state) {
@@ -19,21 +61,24 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
     if (!scheme.properties.caution.empty()) return "The scheme " + scheme.properties.caution + ".";
     // A state that has blown up says nothing of frequencies: the start counts as well.
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
-    const double limit = scheme.stabilityLimit();
-    if (w > 0 && std::isfinite(limit) && limit > 0 && step * w > limit)
-        return "h ω = " + formatNumber(step * w, 2) + " is beyond its stability limit " +
-               formatNumber(limit, 3) + ". Try h ≤ " + formatNumber(limit / w, 2) + ".";
+    const double limit = scheme.stabilityLimit(), length = std::abs(step);
+    if (w > 0 && std::isfinite(limit) && limit > 0 && length * w > limit)
+        return "h ω = " + formatNumber(length * w, 2) + " is beyond its stability limit " +
+               formatNumber(limit, 3) + ". " + shorterStep(scheme, system, initial, step, limit / w);
     if (outcome == Outcome::lost)
         return "The run has left the motion: its energy grows beyond all bounds, or the equations of the "
-               "step "
-               "have no root that follows the forces. Try a smaller step.";
+               "step have no root that follows the forces. " +
+               (state.node == initial.node ? shorterStep(scheme, system, initial, step, length / 2)
+                                           : "A smaller step may help.");
     if (scheme.spec.tolerance) return "Try a smaller tolerance, or start away from the singularity.";
     if (outcome == Outcome::singular)
-        return "The equations of the step are singular here. Try other initial data, or a smaller step.";
-    if (w > 0 && step * w > 0.5)
-        return "h ω = " + formatNumber(step * w, 2) + " is large for the solver. Try h ≤ " +
-               formatNumber(0.5 / w, 2) + ".";
-    return "Try half the step, h = " + formatNumber(step / 2, 3) + ".";
+        return "The equations of the step are singular here. " +
+               shorterStep(scheme, system, state, step, length / 2);
+    if (w > 0 && length * w > 0.5)
+        return "h ω = " + formatNumber(length * w, 2) + " is large for the solver. " +
+               shorterStep(scheme, system, state, step, 0.5 / w);
+    return "The step has no solution that the solver finds. " +
+           shorterStep(scheme, system, state, step, length / 2);
 }
 
 }  // namespace extremal

@@ -9,7 +9,8 @@
 
 namespace extremal {
 
-/// `initial` is the start of the run, `state` the last node that was reached.
+/// `step`: signed, as the run takes it. `initial` is the start of the run, `state` the last node that was
+/// reached. A step that is advised has been tried: some steps of that length go on from there.
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
                       const State& initial, const State& state);
 

@@ -306,7 +306,7 @@ struct Recording {
             s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
-            s.advice = adviceFor(outcome, scheme, std::abs(step), system, initialNode, state);
+            s.advice = adviceFor(outcome, scheme, step, system, initialNode, state);
             if (recordsSteps() && outcome != Outcome::stopped) {
                 StepRecord record;
                 record.k = state.node;
