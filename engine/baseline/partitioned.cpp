@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
 
 namespace extremal {
@@ -180,6 +181,7 @@ private:
         start_ = x;
         double last = std::numeric_limits<double>::infinity();
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        CoordinateWatch watch;
         for (int iteration = 0; iteration < 200; ++iteration) {
             if (this->stop().stop_requested()) {
                 this->report_.outcome = Outcome::stopped;
@@ -190,13 +192,16 @@ private:
             ++this->report_.cost.iterations;
             change_ = start_ + s * (isKick ? dp_ : dq_) - x;
             x += change_;
+            for (int k = 0; k < this->d(); ++k) watch.add(change_(k), x(k) - start_(k), start_(k));
+            const bool isSettled = watch.isSettled(stallOfSweeps);
             const double size = change_.cwiseAbs().maxCoeff(), scale = x.cwiseAbs().maxCoeff();
             this->report_.residual = scale > 0 ? size / scale : size;
             if (!(size < std::numeric_limits<double>::infinity())) {
                 this->report_.outcome = Outcome::notFinite;
                 return;
             }
-            if (size <= epsilon * scale || (size < 100 * epsilon * scale && size >= last)) return;
+            if ((size <= epsilon * scale || (size < 100 * epsilon * scale && size >= last)) && isSettled)
+                return;
             last = size;
         }
         this->report_.outcome = Outcome::diverged;

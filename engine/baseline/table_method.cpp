@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "engine/baseline/coordinate_watch.hpp"
+
 namespace extremal {
 namespace {
 
@@ -86,9 +88,20 @@ private:
             {V_.cwiseAbs().maxCoeff(), F_.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min()});
     }
 
+    /// Changes of the slopes at stage i, over the step.
+    template <class Q, class P>
+    void watchChange(CoordinateWatch& watch, Eigen::Index i, const Q& dV, const P& dF) const {
+        const double h = this->h();
+        for (int k = 0; k < this->d(); ++k) {
+            watch.add(h * dV.coeff(k, 0), h * V_(k, i), this->q0_(k));
+            watch.add(h * dF.coeff(k, 0), h * F_(k, i), this->p0_(k));
+        }
+    }
+
     /// Each stage with the latest of the others.
     bool iterate(double t) {
         double last = std::numeric_limits<double>::infinity();
+        CoordinateWatch watch;
         for (int iteration = 0; iteration < 100; ++iteration) {
             if (isStopped()) return false;
             double size = 0;
@@ -97,14 +110,18 @@ private:
                 if (!evaluate(t, i)) return false;
                 size = std::max(
                     {size, (dq_ - V_.col(i)).cwiseAbs().maxCoeff(), (dp_ - F_.col(i)).cwiseAbs().maxCoeff()});
+                watchChange(watch, i, dq_ - V_.col(i), dp_ - F_.col(i));
                 V_.col(i) = dq_;
                 F_.col(i) = dp_;
             }
             ++this->report_.cost.iterations;
             this->report_.residual = size / scale();
             if (!(size < std::numeric_limits<double>::infinity())) return false;
-            if (size <= epsilon * scale() || (size < 1e3 * epsilon * scale() && size >= last)) return true;
-            if (iteration > 3 && size > 0.7 * last) return false;
+            const bool isSettled = watch.isSettled(stallOfSweeps),
+                       isSmall =
+                           size <= epsilon * scale() || (size < 1e3 * epsilon * scale() && size >= last);
+            if (isSmall && isSettled) return true;
+            if (iteration > 3 && size > 0.7 * last && !isSmall) return false;
             last = size;
         }
         return false;
@@ -120,6 +137,7 @@ private:
         const int d = this->d();
         Eigen::VectorXd residual(2 * d * table_.stages());
         double last = std::numeric_limits<double>::infinity();
+        CoordinateWatch watch;
         for (int iteration = 0; iteration < 50; ++iteration) {
             if (isStopped()) return false;
             if (!assemble(t)) return false;
@@ -135,14 +153,17 @@ private:
             for (Eigen::Index i = 0; i < table_.stages(); ++i) {
                 V_.col(i) += residual.segment(2 * d * i, d);
                 F_.col(i) += residual.segment(2 * d * i + d, d);
+                watchChange(watch, i, residual.segment(2 * d * i, d), residual.segment(2 * d * i + d, d));
             }
+            const bool isSettled = watch.isSettled();
             const double size = residual.cwiseAbs().maxCoeff();
             this->report_.residual = size / scale();
             if (!(size < std::numeric_limits<double>::infinity())) {
                 this->report_.outcome = Outcome::notFinite;
                 return false;
             }
-            if (size <= epsilon * scale() || (size < 1e4 * epsilon * scale() && size >= last / 4))
+            if ((size <= epsilon * scale() || (size < 1e4 * epsilon * scale() && size >= last / 4)) &&
+                isSettled)
                 return true;
             last = size;
         }

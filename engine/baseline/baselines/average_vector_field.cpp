@@ -13,6 +13,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
+#include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/quadrature/rule.hpp"
 
@@ -46,6 +47,7 @@ private:
         if (this->report_.outcome != Outcome::converged) return;
         change_ << h * dq_, h * dp_;
         double last = infinity;
+        CoordinateWatch watch;
         bool wantsJacobian = true;
         for (int iteration = 0; iteration < 50; ++iteration) {
             if (this->stop().stop_requested()) {
@@ -58,6 +60,11 @@ private:
             change_ += residual_;
             ++this->report_.cost.linearSolves;
             ++this->report_.cost.iterations;
+            for (int k = 0; k < d; ++k) {
+                watch.add(residual_(k), change_(k), this->q0_(k));
+                watch.add(residual_(d + k), change_(d + k), this->p0_(k));
+            }
+            const bool isSettled = watch.isSettled();
             const double size = residual_.cwiseAbs().maxCoeff(),
                          scale = std::max({this->q0_.cwiseAbs().maxCoeff(), this->p0_.cwiseAbs().maxCoeff(),
                                            change_.cwiseAbs().maxCoeff()});
@@ -66,7 +73,8 @@ private:
                 this->report_.outcome = Outcome::notFinite;
                 return;
             }
-            if (size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) {
+            if ((size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) &&
+                isSettled) {
                 this->q1_ = this->q0_ + change_.head(d);
                 this->p1_ = this->p0_ + change_.tail(d);
                 return;

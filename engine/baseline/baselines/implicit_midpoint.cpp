@@ -9,6 +9,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
+#include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
 
@@ -42,6 +43,7 @@ private:
         q_ = this->q0_;
         p_ = this->p0_;
         double last = std::numeric_limits<double>::infinity();
+        CoordinateWatch watch;
         for (int iteration = 0; iteration < 50; ++iteration) {
             if (this->stop().stop_requested()) {
                 this->report_.outcome = Outcome::stopped;
@@ -57,6 +59,11 @@ private:
             q_ += r_.head(d);
             p_ += r_.tail(d);
             ++this->report_.cost.iterations;
+            for (int k = 0; k < d; ++k) {
+                watch.add(r_(k), q_(k) - this->q0_(k), this->q0_(k));
+                watch.add(r_(d + k), p_(k) - this->p0_(k), this->p0_(k));
+            }
+            const bool isSettled = watch.isSettled();
             const double size = r_.cwiseAbs().maxCoeff();
             const double scale = std::max(q_.cwiseAbs().maxCoeff(), p_.cwiseAbs().maxCoeff());
             this->report_.residual = scale > 0 ? size / scale : size;
@@ -64,7 +71,8 @@ private:
                 this->report_.outcome = Outcome::notFinite;
                 return;
             }
-            if (size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) {
+            if ((size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) &&
+                isSettled) {
                 this->flow(t + half, q_, p_, dq_, dp_);
                 this->q1_ = this->q0_ + 2 * half * dq_;
                 this->p1_ = this->p0_ + 2 * half * dp_;

@@ -21,6 +21,7 @@
 #include <limits>
 
 #include "engine/baseline/catalog.hpp"
+#include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
 
 namespace extremal::baselines {
@@ -171,6 +172,7 @@ private:
         constexpr double infinity = std::numeric_limits<double>::infinity();
         z_ = z0_;
         double last = infinity;
+        CoordinateWatch watch;
         for (int iteration = 0; iteration < 60; ++iteration) {
             if (stop().stop_requested()) {
                 report_.outcome = Outcome::stopped;
@@ -184,13 +186,16 @@ private:
             residual_ = lu_.solve(residual_);
             ++report_.cost.linearSolves;
             ++report_.cost.iterations;
+            for (int k = 0; k < z_.size(); ++k) watch.add(residual_(k), z_(k) - z0_(k), z0_(k));
+            const bool isSettled = watch.isSettled();
             const double size = residual_.cwiseAbs().maxCoeff(), scale = z_.cwiseAbs().maxCoeff();
             report_.residual = scale > 0 ? size / scale : size;
             if (!(size < infinity)) {
                 report_.outcome = Outcome::notFinite;
                 return;
             }
-            if (size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) {
+            if ((size <= epsilon * scale || (size < 1e4 * epsilon * scale && size >= last / 4)) &&
+                isSettled) {
                 z1_ = z0_ + first_ * turned_;
                 return;
             }
