@@ -59,6 +59,7 @@
 #include "engine/integrator/velocity_iteration.hpp"
 #include "engine/integrator/small_product.hpp"
 #include "engine/model/mechanics.hpp"
+#include "engine/solve/correction_size.hpp"
 #include "engine/solve/newton_policy.hpp"
 
 namespace extremal {
@@ -182,6 +183,10 @@ private:
     bool startFromMotion(const T& t);
     bool followsForces(const T& t);
     T correction();
+    T massAt(int k) const;
+    CorrectionSize<T> measured() const;
+    bool retreat();
+    bool shortenIntoDomain(const T& t);
     Attempt iterate(const T& t, StartingValue start, const std::stop_token& stop);
     Attempt newton(const T& t, StartingValue start, const std::stop_token& stop);
     Attempt fromElsewhere(const T& t, const std::stop_token& stop);

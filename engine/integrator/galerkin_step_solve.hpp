@@ -116,7 +116,22 @@ bool GalerkinStep<T, D>::startFromMotion(const T& t) {
         Y_.segment(offset(c), m(c)) =
             Square(value.transpose() * value).partialPivLu().solve(Flat(value.transpose() * places.col(c)));
     }
-    return Y_.allFinite();
+    return Y_.allFinite() && shortenIntoDomain(t);
+}
+
+/// Makes the increments in Y smaller until L has a gradient at all nodes: where velocities are bounded, a
+/// fitted curve may be slightly too fast.
+template <class T, int D>
+bool GalerkinStep<T, D>::shortenIntoDomain(const T& t) {
+    constexpr int mostDoublings = 20;
+    T part = T(1e-6);
+    for (int doublings = 0; doublings <= mostDoublings; ++doublings, part *= T(2)) {
+        placeNodes();
+        evaluateGradients(t);
+        if (gradient_.allFinite()) return true;
+        Y_ *= T(1) - std::min(part, T(0.5));
+    }
+    return false;
 }
 
 /// Solves J delta = R, Newton's correction being -delta; returns its size relative to the unknowns.
@@ -133,31 +148,70 @@ T GalerkinStep<T, D>::correction() {
     return worst;
 }
 
+/// The largest L_vv(k, k) of the nodes, where the Jacobian was assembled last.
+template <class T, int D>
+T GalerkinStep<T, D>::massAt(int k) const {
+    return hessians_.col((d() + k) * 2 * d() + d() + k).head(n()).cwiseAbs().maxCoeff();
+}
+
+/// The size of the correction at hand, apart from that of buried coordinates.
+template <class T, int D>
+CorrectionSize<T> GalerkinStep<T, D>::measured() const {
+    return measureCorrection<T>(d(), [&](int k) {
+        return CoordinateCorrection<T>{delta_.segment(offset(k), m(k)).cwiseAbs().maxCoeff(),
+                                       Y_.segment(offset(k), m(k)).cwiseAbs().maxCoeff(), q0_(k), massAt(k),
+                                       h_ * p0_(k)};
+    });
+}
+
+/// Takes half of the last correction back, where it has left the domain of L.
+template <class T, int D>
+bool GalerkinStep<T, D>::retreat() {
+    delta_ /= T(2);
+    Y_ += delta_;
+    placeNodes();
+    return delta_.allFinite();
+}
+
 /// Newton's method from the starting value in Y. At its end the forces at hand are those of the solution.
 template <class T, int D>
 typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, StartingValue start,
                                                                  const std::stop_token& stop) {
     using Verdict = typename NewtonPolicy<T>::Verdict;
-    NewtonPolicy<T> policy(NewtonLimits<T>::condensedStep(tolerance_, start == StartingValue::fallback));
+    const auto limits = NewtonLimits<T>::condensedStep(tolerance_, start == StartingValue::fallback);
+    NewtonPolicy<T> policy(limits);
+    bool needsJacobian = true;
+    int retreats = 0;
     placeNodes();
-    if (!assembleJacobian(t)) return Attempt::singular;
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop.stop_requested()) return Attempt::stopped;
         evaluateGradients(t);
         residual();
+        if (iteration > 0 && !R_.allFinite()) {
+            // No Newton step leads out of the domain of L, such as beyond the speed of light or into a wall.
+            if (++retreats > mostRetreats || !retreat()) return Attempt::notFinite;
+            needsJacobian = true;
+            continue;
+        }
+        if (needsJacobian) {
+            if (!assembleJacobian(t)) return Attempt::singular;
+            policy.jacobianIsNew();
+            needsJacobian = false;
+            // Corrections that were cut short say nothing of how the next ones should shrink.
+            if (retreats > 0) policy = NewtonPolicy<T>(limits);
+            retreats = 0;
+        }
         const T size = correction();
         ++report_.cost.iterations;
         report_.residual = static_cast<double>(size);
         if (iteration == 0) nearness_ = size;
-        const Verdict verdict = policy.judge(size);
+        const Verdict verdict = policy.judge(size, [&] { return measured(); });
         if (verdict == Verdict::converged) return Attempt::solved;
         if (verdict == Verdict::notFinite) return Attempt::notFinite;
         if (verdict == Verdict::diverged) return Attempt::failed;
         Y_ -= delta_;
         placeNodes();
-        if (verdict == Verdict::proceed) continue;
-        if (!assembleJacobian(t)) return Attempt::singular;
-        policy.jacobianIsNew();
+        needsJacobian = verdict == Verdict::slow;
     }
     return Attempt::failed;
 }
@@ -217,10 +271,10 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const
     /// that of the motion.
     constexpr double far = 0.25;
     Attempt result = anyRoot(t, stop);
-    // With spaces of their own, some coordinates have many periods in a step, which no parabola follows.
+    // A parabola may leave the domain of L, such as velocities below that of light; and with spaces of their
+    // own some coordinates have many periods in a step, which no parabola follows.
     const bool hasNoRoot = result != Attempt::solved && result != Attempt::stopped;
-    if (hasNoRoot && defect_ && tables_.size() > 1 && startFromMotion(t))
-        result = iterate(t, StartingValue::fallback, stop);
+    if (hasNoRoot && defect_ && startFromMotion(t)) result = iterate(t, StartingValue::fallback, stop);
     if (result != Attempt::solved || !defect_ || !(nearness_ > T(far)) || followsForces(t)) return result;
     return fromElsewhere(t, stop);
 }

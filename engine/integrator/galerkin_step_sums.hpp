@@ -256,7 +256,16 @@ bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
         if (!(pivot >= smallest)) smallest = pivot;
         if (pivot > largest) largest = pivot;
     }
-    return isRegular(smallest, largest);
+    if (isRegular(smallest, largest)) return true;
+    // Masses of very different sizes: each pivot against its own equation.
+    T least(1);
+    const auto& order = lu_.permutationP().indices();
+    for (int row = 0; row < jacobian_.rows(); ++row) {
+        const T size = jacobian_.row(row).cwiseAbs().maxCoeff(),
+                pivot = abs(lu_.matrixLU()(order(row), order(row)));
+        if (!(pivot >= least * size)) least = pivot / size;
+    }
+    return isRegular(least, T(1));
 }
 
 }  // namespace extremal

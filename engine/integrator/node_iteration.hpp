@@ -34,6 +34,7 @@
 #include "engine/core/outcome.hpp"
 #include "engine/integrator/node_kernel.hpp"
 #include "engine/model/mechanics.hpp"
+#include "engine/solve/correction_size.hpp"
 
 namespace extremal {
 
@@ -79,6 +80,7 @@ private:
     void weigh();  ///< impulses from forces
     void startFromConstantForce(const T& t, const T* q);
     T largestChange(const T* q) const;
+    CorrectionSize<T> measured(const T* q, const T* p) const;
     /// The sums that move q and p go through extended precision: rounded in double they were biased, and the
     /// energy of ten million steps drifted by 1e-12.
     using Accumulator = std::conditional_t<std::is_same_v<T, double>, long double, T>;

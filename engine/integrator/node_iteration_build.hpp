@@ -199,6 +199,15 @@ T NodeIteration<T>::largestChange(const T* q) const {
     return worst;
 }
 
+/// The same apart from that of buried coordinates.
+template <class T>
+CorrectionSize<T> NodeIteration<T>::measured(const T* q, const T* p) const {
+    return measureCorrection<T>(d_, [&](int k) {
+        const SweepSize<T>& size = size_[static_cast<std::size_t>(k)];
+        return CoordinateCorrection<T>{size.change, size.scale, q[k], mechanics_.masses[k], h_ * p[k]};
+    });
+}
+
 template <class T>
 FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ, const T* carryP,
                                          int maxIterations, const std::stop_token& stop, StepReport& report) {
@@ -230,7 +239,7 @@ FixedPointResult NodeIteration<T>::solve(const T& t, const T* q, const T* p, con
         if (iteration == 0) nearness_ = isOnward ? size : T(1);
         report.residual = static_cast<double>(size);
         hasForces_ = false;
-        const Verdict verdict = policy.judge(size);
+        const Verdict verdict = policy.judge(size, [&] { return measured(q, p); });
         if (verdict == Verdict::notFinite) return FixedPointResult::notFinite;
         if (verdict == Verdict::slow) return FixedPointResult::slow;
         if (verdict == Verdict::proceed) continue;

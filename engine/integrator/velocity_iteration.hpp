@@ -30,6 +30,7 @@
 #include "engine/integrator/node_iteration.hpp"
 #include "engine/integrator/node_kernel.hpp"
 #include "engine/model/mechanics.hpp"
+#include "engine/solve/correction_size.hpp"
 
 namespace extremal {
 
@@ -67,6 +68,7 @@ private:
     void invertMasses();
     void kick(const T* p);
     void drift(const T* q);
+    CorrectionSize<T> measured(const T* q, const T* p) const;
 
     Mechanics<T> mechanics_;
     int d_, n_, stride_;

@@ -159,6 +159,16 @@ void VelocityIteration<T>::drift(const T* q) {
             ones_.data(), q, moved_.data(), Q_.data()});
 }
 
+/// The size of the last correction, apart from that of buried coordinates.
+template <class T>
+CorrectionSize<T> VelocityIteration<T>::measured(const T* q, const T* p) const {
+    return measureCorrection<T>(d_, [&](int k) {
+        const SweepSize<T>& size = size_[static_cast<std::size_t>(k)];
+        return CoordinateCorrection<T>{size.change, size.scale, q[k], T(1) / inverse_[at(k * d_ + k, 0)],
+                                       h_ * p[k]};
+    });
+}
+
 template <class T>
 FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p, const T* carryQ,
                                              const T* carryP, int maxIterations, const std::stop_token& stop,
@@ -188,7 +198,7 @@ FixedPointResult VelocityIteration<T>::solve(const T& t, const T* q, const T* p,
         }
         if (iteration == 0) nearness_ = isOnward ? size : T(1);
         report.residual = static_cast<double>(size);
-        const Verdict verdict = policy.judge(size);
+        const Verdict verdict = policy.judge(size, [&] { return measured(q, p); });
         if (verdict == Verdict::notFinite) return FixedPointResult::notFinite;
         if (verdict == Verdict::slow) return FixedPointResult::slow;
         if (verdict == Verdict::proceed) continue;

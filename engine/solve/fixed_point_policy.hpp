@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/solve/correction_size.hpp"
+
 namespace extremal {
 
 template <class T>
@@ -30,7 +32,28 @@ public:
         return isSlow ? Verdict::slow : Verdict::proceed;
     }
 
+    /// The same where some coordinates may be buried (correction_size.hpp): `measure()` gives the
+    /// CorrectionSize of the correction, and is asked once the iteration seems slow.
+    template <class Measure>
+    Verdict judge(const T& size, const Measure& measure) {
+        if (hasBuried_) return judgeApart(measure());
+        const Verdict verdict = judge(size);
+        if (verdict != Verdict::slow || !(measure().size < size)) return verdict;
+        *this = FixedPointPolicy(tolerance_);
+        hasBuried_ = true;
+        return Verdict::proceed;
+    }
+
 private:
+    /// The verdicts above do not see buried coordinates, for which it may go on.
+    Verdict judgeApart(const CorrectionSize<T>& correction) {
+        const bool isSettled = buried_.hasSettled(correction.buried);
+        const Verdict verdict = judge(correction.size);
+        if (verdict != Verdict::converged || correction.buried <= std::max(tolerance_, epsilon))
+            return verdict;
+        return isSettled ? Verdict::converged : Verdict::proceed;
+    }
+
     static constexpr T epsilon = std::numeric_limits<T>::epsilon();
     /// Sweeps before a slow contraction counts: the first ones are those of the starting value.
     static constexpr int patience = 5;
@@ -39,11 +62,12 @@ private:
 
     /// The iteration to round-off ends where one more sweep would change a hundredth of the last place, at
     /// the slower contraction of the last two: left at round-off itself the forces have a bias that adds up
-    /// over millions of steps.
+    /// over millions of steps. A correction beyond the increments, of a coordinate near zero, says nothing of
+    /// the contraction.
     bool isSmall(const T& size) const {
         if (tolerance_ > epsilon) return size <= tolerance_;
         T ratio(1);
-        if (sweeps_ > 0)
+        if (sweeps_ > 0 && earlier_[0] < T(1))
             ratio = std::min(ratio, std::max(T(size / earlier_[0]), T(earlier_[0] / earlier_[1])));
         return size * ratio <= epsilon / 100;
     }
@@ -51,7 +75,8 @@ private:
     /// over three sweeps, within four digits of it, as sums of terms that cancel leave no more.
     bool isRoundOff(const T& size) const {
         const bool isSudden = size >= earlier_[0] * T(stall) && earlier_[0] < earlier_[2] * T(stall * stall);
-        return (size < 8 * epsilon && isSudden) || (size < 10000 * epsilon && size >= earlier_[2] * T(stall));
+        return (size < 8 * epsilon && isSudden) ||
+               (size < roundOffOfSums<T>() && size >= earlier_[2] * T(stall));
     }
     /// More than 21 sweeps from round-off: Newton's method is cheaper, whose step costs 20 to 60 of them.
     bool isFar(const T& size) const {
@@ -60,6 +85,8 @@ private:
     }
 
     T tolerance_;
+    bool hasBuried_ = false;
+    BuriedWatch<T> buried_;
     int sweeps_ = 0;
     T earlier_[3] = {std::numeric_limits<T>::infinity(), std::numeric_limits<T>::infinity(),
                      std::numeric_limits<T>::infinity()};

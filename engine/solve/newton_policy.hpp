@@ -1,17 +1,21 @@
 /// The one policy of the iterations that solve a step: when they are done, when they want a new Jacobian,
 /// when they are given up, and what they start from. Every number is named here, with its reason.
 ///
-/// An iteration says how large its correction is relative to the unknowns, e_j = |delta_j| / |x|, and is told
-/// what to do. Corrections go on to round-off, so that symplecticity and momentum maps hold to round-off: a
-/// tolerance is for those who want less. Users: the condensed Galerkin step (integrator/), the Lie group
-/// step, the product form and the moving times (family/), small dense systems (solve/newton.hpp). Fixed-point
-/// iterations have a policy of their own (solve/fixed_point_policy.hpp).
+/// An iteration says how large its correction is relative to the unknowns, e_j = |delta_j| / |x|
+/// (solve/correction_size.hpp), and is told what to do. Corrections go on to round-off, so that symplecticity
+/// and momentum maps hold to round-off: a tolerance is for those who want less. Users: the condensed Galerkin
+/// step (integrator/), the Lie group step, the product form and the moving times (family/), small dense
+/// systems (solve/newton.hpp). Fixed-point iterations have a policy of their own
+/// (solve/fixed_point_policy.hpp).
 ///
 /// T: scalar of the step. epsilon: unit of its last place.
 #pragma once
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
+
+#include "engine/solve/correction_size.hpp"
 
 namespace extremal {
 
@@ -39,9 +43,8 @@ struct NewtonLimits {
     /// So does one after which the next, e_{j+1} = e_j^2 / e_{j-1} if the contraction stays as it is, would
     /// be at most this; 0: never. Saves the evaluation that would only confirm it.
     T predicted = T(0);
-    /// Below this, a correction that no longer shrinks is the round-off of the equations, and the end: four
-    /// digits, as a residual is a sum of many terms that cancel, divided by a Jacobian of modest condition.
-    T stagnation = T(1e4) * std::numeric_limits<T>::epsilon();
+    /// Below this, a correction that no longer shrinks is the round-off of the equations, and the end.
+    T stagnation = roundOffOfSums<T>();
     /// Below this, it is so after it has not shrunk three times, whatever the Jacobian; 0: never. Steps of
     /// stiff systems are ill-conditioned, and stay two digits further from round-off.
     T illConditioned = T(0);
@@ -106,6 +109,10 @@ struct NewtonLimits {
     }
 };
 
+/// How often half of a correction is taken back that leads out of the domain of L, before an iteration is given
+/// up: so many halvings leave 1e-9 of it.
+inline constexpr int mostRetreats = 30;
+
 template <class T>
 class NewtonPolicy {
 public:
@@ -133,6 +140,14 @@ public:
         if (growing_ >= limits_.mostGrowing) return Verdict::diverged;
         return isSlow || size > limits_.refreshAbove ? Verdict::slow : Verdict::proceed;
     }
+    /// The same where some coordinates may be buried (correction_size.hpp): `measure()` gives the
+    /// CorrectionSize of the correction, and is asked once a correction has stopped shrinking far from
+    /// round-off.
+    template <class Measure>
+    requires std::is_invocable_v<Measure> Verdict judge(const T& size, const Measure& measure) {
+        hasBuried_ = hasBuried_ || (size > limits_.stagnation && size >= last_ * T(stall));
+        return hasBuried_ ? judgeApart(measure()) : judge(size);
+    }
     void jacobianIsNew() { sinceJacobian_ = 0; }
     bool isJacobianNew() const { return sinceJacobian_ == 0; }
 
@@ -141,26 +156,28 @@ private:
     static constexpr double stall = 0.25;
     static constexpr int mostStalls = 3;
 
+    /// The verdicts above do not see buried coordinates: a correction is the last one when these no longer
+    /// shrink either, with a new Jacobian.
+    Verdict judgeApart(const CorrectionSize<T>& correction) {
+        const bool isNew = isJacobianNew(), isStalled = correction.buried >= lastBuried_ * T(stall);
+        lastBuried_ = correction.buried;
+        const Verdict verdict = judge(correction.size);
+        if (verdict != Verdict::converged || correction.buried <= limits_.tolerance) return verdict;
+        if (isStalled && isNew) return Verdict::converged;
+        ++sinceJacobian_;
+        return isStalled ? Verdict::slow : Verdict::proceed;
+    }
+
     bool isNextSmall(const T& size, bool isFirst) const {
         if (!(limits_.predicted > T(0))) return false;
         return (isFirst ? size : T(size * std::min(T(1), T(size / last_)))) <= limits_.predicted;
     }
 
     NewtonLimits<T> limits_;
-    T last_ = std::numeric_limits<T>::infinity();
+    T last_ = std::numeric_limits<T>::infinity(), lastBuried_ = std::numeric_limits<T>::infinity();
+    bool hasBuried_ = false;
     int growing_ = 0, stalls_ = 0, sinceJacobian_ = 0;
 };
-
-/// Size of a correction of one coordinate: against its increments in the step, or the round-off of its own
-/// value, whichever is larger. A hundredth of that round-off is no correction at all.
-template <class T>
-T relativeCorrection(const T& change, const T& increments, const T& value) {
-    using std::abs;
-    if (!(change <= std::numeric_limits<T>::max())) return std::numeric_limits<T>::infinity();
-    const T roundOff = std::numeric_limits<T>::epsilon() * abs(value), known = std::max(increments, roundOff);
-    if (!(change > roundOff * T(0.01))) return T(0);
-    return known > T(0) ? T(change / known) : T(1);  // 0: at rest in 0 so far
-}
 
 /// Whether the pivots of a factorised Jacobian tell that it is regular: a thousand times closer to singular
 /// than round-off, as stiff and soft directions of one step legitimately differ by that much.

@@ -20,6 +20,7 @@
 #include "engine/baseline/flow_method.hpp"
 #include "engine/baseline/gauss_tableau.hpp"
 #include "engine/quadrature/rule.hpp"
+#include "engine/solve/correction_size.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -143,25 +144,41 @@ private:
         constexpr double infinity = std::numeric_limits<double>::infinity();
         double before = infinity, earlier = infinity;
         int growing = 0;
+        bool hasBuried = false;
+        BuriedWatch<double> buried;
         for (int iteration = 0; iteration < 200; ++iteration) {
             if (this->stop().stop_requested()) return Attempt::stopped;
             Kq_.swap(newKq_);
             Kp_.swap(newKp_);
             if (!evaluate(t)) return Attempt::singular;
             ++this->report_.cost.iterations;
-            const double size = change();
+            double size = change();
             this->report_.residual = size;
+            if (!hasBuried && size > roundOffOfSums<double>() && size >= earlier) {
+                hasBuried = true;
+                before = earlier = infinity;  // what was seen so far has another meaning
+            }
+            bool isSettled = true;
+            if (hasBuried) {
+                const CorrectionSize<double> apart = measured(t);
+                size = apart.size;
+                isSettled = buried.hasSettled(apart.buried) || apart.buried <= epsilon;
+            }
             if (!(size < infinity)) return Attempt::notFinite;
             // At round-off; or so close that what is left to come, by the contraction seen, is below it; or
-            // no longer shrinking (over two iterations, as oscillations make it shrink by turns).
+            // no longer shrinking (over two iterations, as oscillations make it shrink by turns). A
+            // correction beyond the increments, of a coordinate near zero, says nothing of the contraction.
             const double rate = size / before;
-            if (size <= epsilon || (rate > 0 && rate < 0.5 && size * rate / (1 - rate) < 0.1 * epsilon) ||
-                (size < 1e4 * epsilon && size >= earlier)) {
+            const bool isSolved =
+                size <= epsilon ||
+                (before < 1 && rate > 0 && rate < 0.5 && size * rate / (1 - rate) < 0.1 * epsilon) ||
+                (size < roundOffOfSums<double>() && size >= earlier);
+            if (isSolved && isSettled) {
                 Kq_.swap(newKq_);
                 Kp_.swap(newKp_);
                 return Attempt::solved;
             }
-            growing = size >= before ? growing + 1 : 0;
+            growing = size >= before && !isSolved ? growing + 1 : 0;
             if (growing >= 4) return Attempt::failed;
             earlier = before;
             before = size;
@@ -255,6 +272,36 @@ private:
             if (!isSeparable()) look(newKq_.col(k), Kq_.col(k), this->q0_(k));
         }
         return worst;
+    }
+
+    /// The same apart from that of buried coordinates: momenta first, then, where they are iterated,
+    /// positions.
+    CorrectionSize<double> measured(double t) {
+        const int d = this->d();
+        const double h = std::abs(this->h());
+        if (!isSeparable()) findMasses(t);
+        return measureCorrection<double>(isSeparable() ? d : 2 * d, [&](int j) {
+            const bool isMomentum = j < d;
+            const int k = isMomentum ? j : j - d;
+            const auto now = isMomentum ? newKp_.col(k) : newKq_.col(k),
+                       then = isMomentum ? Kp_.col(k) : Kq_.col(k);
+            const double mass = isMomentum ? h * h * inverseMass_(k) : 1 / inverseMass_(k);
+            return CoordinateCorrection<double>{
+                h * (now - then).cwiseAbs().maxCoeff(), h * now.cwiseAbs().maxCoeff(),
+                isMomentum ? this->p0_(k) : this->q0_(k), mass, isMomentum ? 0 : h * this->p0_(k)};
+        });
+    }
+
+    /// 1/L_vv(k, k) at the start of the step.
+    void findMasses(double t) {
+        const int d = this->d(), n = 2 * d;
+        std::vector<double> gradient(static_cast<std::size_t>(n));
+        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(n, n);
+        double value = 0;
+        const auto& m = this->mechanics_;
+        if (!m.velocity(m.model.get(), t, this->q0_.data(), this->p0_.data(), dq_.data())) return;
+        m.jet(m.model.get(), t, this->q0_.data(), dq_.data(), &value, gradient.data(), hessian.data());
+        inverseMass_ = hessian.diagonal().tail(d).cwiseInverse();
     }
 
     void finish() {

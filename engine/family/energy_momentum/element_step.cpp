@@ -18,7 +18,9 @@ ElementStep::ElementStep(Mechanics<double> mechanics, Table<double> table, const
     for (Vector* v : {&Y_, &byStep_, &residual_}) *v = Vector::Zero(unknowns);
     z_ = Vector::Zero(unknowns + d);
     p0_ = velocity_ = Vector::Zero(d);
+    masses_ = Vector::Zero(d);
     gradient_ = Vector::Zero(2 * d);
+    hessian_ = Vector::Zero(4 * d * d);
 }
 
 void ElementStep::startAt(const double* q, const double* p) {
@@ -49,13 +51,33 @@ bool ElementStep::evaluate(double t, double h, StepReport& report) {
     return true;
 }
 
+/// L_vv(k, k) at the start of the step and its mean velocity.
+void ElementStep::findMasses(double t, double h) {
+    const int d = dimension();
+    double value = 0;
+    velocity_ = Y_.tail(d) / h;
+    mechanics_.jet(mechanics_.model.get(), t, z_.data(), velocity_.data(), &value, gradient_.data(),
+                   hessian_.data());
+    for (int k = 0; k < d; ++k) masses_(k) = hessian_((d + k) * (2 * d + 1));
+}
+
 Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, StepReport& report) {
     using Verdict = NewtonPolicy<double>::Verdict;
     const int d = dimension(), n = unknowns(), m = table_.unknowns();
-    NewtonPolicy<double> policy(NewtonLimits<double>::elementStep(tolerance_));
+    const auto limits = NewtonLimits<double>::elementStep(tolerance_);
+    NewtonPolicy<double> policy(limits);
+    int retreats = 0;
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop.stop_requested()) return Outcome::stopped;
-        if (!evaluate(t, h, report)) return Outcome::notFinite;
+        if (!evaluate(t, h, report)) {
+            // No Newton step leads out of the domain of L: half of the last correction is taken back.
+            if (iteration == 0 || ++retreats > mostRetreats) return Outcome::notFinite;
+            residual_ /= 2;
+            Y_ += residual_;
+            continue;
+        }
+        if (retreats > 0) policy = NewtonPolicy<double>(limits);
+        retreats = 0;
         const auto& H = derivatives_.hessian;
         for (int j = 0; j < n; ++j) {
             double* const column = lu_.column(j);
@@ -68,17 +90,24 @@ Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, Ste
         lu_.solve(residual_.data());
         report.cost.linearSolves += 2;
         ++report.cost.iterations;
+        const auto coordinate = [&](int k) {
+            CoordinateCorrection<double> c{0, 0, z_(k), masses_(k), h * p0_(k)};
+            for (int a = 0; a < m; ++a) {
+                c.change = std::max(c.change, std::abs(residual_(a * d + k)));
+                c.increments = std::max(c.increments, std::abs(Y_(a * d + k)));
+            }
+            return c;
+        };
         double size = 0;
         for (int k = 0; k < d; ++k) {
-            double change = 0, increment = 0;
-            for (int a = 0; a < m; ++a) {
-                change = std::max(change, std::abs(residual_(a * d + k)));
-                increment = std::max(increment, std::abs(Y_(a * d + k)));
-            }
-            size = std::max(size, relativeCorrection(change, increment, z_(k)));
+            const CoordinateCorrection<double> c = coordinate(k);
+            size = std::max(size, relativeCorrection(c.change, c.increments, c.value));
         }
         report.residual = size;
-        const Verdict verdict = policy.judge(size);
+        const Verdict verdict = policy.judge(size, [&] {
+            findMasses(t, h);
+            return measureCorrection<double>(d, coordinate);
+        });
         policy.jacobianIsNew();
         if (verdict == Verdict::converged) return Outcome::converged;
         if (verdict == Verdict::notFinite) return Outcome::notFinite;

@@ -65,6 +65,7 @@ private:
     bool evaluate(double t, double h, StepReport& report);
     Outcome newton(double t, double h, const std::stop_token& stop, StepReport& report);
     bool startAfresh(double t, double h);
+    void findMasses(double t, double h);
     void followStep();
 
     Mechanics<double> mechanics_;
@@ -76,7 +77,7 @@ private:
     SolverPolicy policy_;
     double tolerance_;
     Vector z_, Y_, byStep_, residual_;  ///< z = (q_0, Y); byStep: dY/dh
-    Vector p0_, velocity_, gradient_;
+    Vector p0_, velocity_, masses_, gradient_, hessian_;
     double h_ = 0, energyByStep_ = 0;
     bool isSolved_ = false;  ///< Y_ belongs to h_ and to this start
 };

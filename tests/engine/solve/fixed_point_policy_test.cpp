@@ -2,6 +2,7 @@
 /// spring.
 #include <QTest>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -72,6 +73,27 @@ private slots:
         // A contraction of 0.4 goes on.
         QCOMPARE(lastOf(eps, {1e-12, 4e-13, 1.6e-13, 6.4e-14, 2.6e-14, 1e-14, 4e-15, 1.6e-15}),
                  Verdict::proceed);
+    }
+    void aCorrectionBeyondTheIncrementsPromisesNothing() {
+        QCOMPARE(lastOf(eps, {7e17, 1.3}), Verdict::proceed);
+        QCOMPARE(lastOf(eps, {0.9, 1e-18}), Verdict::converged);
+    }
+    void buriedCoordinatesEndOnceTheyNoLongerHalve() {
+        const auto sweepsOf = [](double contraction) {
+            Policy policy(eps);
+            double buried = 1;
+            for (int sweep = 1; sweep <= 200; ++sweep, buried *= contraction) {
+                const double size = std::pow(0.05, sweep);
+                const Verdict verdict = policy.judge(std::max(size, buried), [&] {
+                    return CorrectionSize<double>{size, buried};
+                });
+                if (verdict == Verdict::converged) return sweep;
+                if (verdict != Verdict::proceed) return -sweep;
+            }
+            return 0;
+        };
+        QVERIFY(sweepsOf(1) > 5 && sweepsOf(1) < 20);
+        QVERIFY(sweepsOf(0.8) > 150);  // a light body that converges slowly goes on to round-off
     }
     void whatIsNotFiniteIsSaid() {
         QCOMPARE(lastOf(eps, {0.1, std::nan("")}), Verdict::notFinite);

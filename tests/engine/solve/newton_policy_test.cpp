@@ -1,6 +1,7 @@
 /// The verdicts of the Newton policy on made-up sequences of corrections, and the ladder of starting values.
 #include <QTest>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -80,6 +81,37 @@ private slots:
         QCOMPARE(relativeCorrection(eps_ / 200, 0.0, 1.0), 0.0);  // below a hundredth of it
         QCOMPARE(relativeCorrection(1e-300, 0.0, 0.0), 1.0);
         QVERIFY(std::isinf(relativeCorrection(std::nan(""), 1.0, 1.0)));
+    }
+    /// The third coordinate is kept at rest by a symmetry; the metric is that of the kinetic energy.
+    void smallCoordinatesAreBuriedByTheMetric() {
+        const auto sizeOf = [](double change, double mass, double impulse) {
+            const CoordinateCorrection<double> all[] = {
+                {1e-20, 0.1, 1, 1, 0.1}, {1e-20, 3e-3, 1, 100, impulse}, {change, 2 * change, 0, mass, 0}};
+            return measureCorrection<double>(3, [&](int k) { return all[k]; });
+        };
+        // Below 100 eps of 10 |q_2|, and above it.
+        QCOMPARE(sizeOf(200 * eps_, 1, 0).buried, 0.5);
+        QCOMPARE(sizeOf(200 * eps_, 1, 0).size, 0.0);
+        QCOMPARE(sizeOf(2000 * eps_, 1, 0).size, 0.5);
+        // The same length is more for a heavier body, and less beside a larger momentum.
+        QCOMPARE(sizeOf(200 * eps_, 1e4, 0).size, 0.5);
+        QCOMPARE(sizeOf(2000 * eps_, 1, 1e4).buried, 0.5);
+        QCOMPARE(sizeOf(200 * eps_, 0, 0).size, 0.5);  // a mass that is not known
+    }
+    void buriedCoordinatesEndWithANewJacobianOnceTheyStall() {
+        Policy policy(Limits::condensedStep(eps_, true));
+        const auto judge = [&](double size, double buried) {
+            return policy.judge(std::max(size, buried), [&] { return CorrectionSize<double>{size, buried}; });
+        };
+        QCOMPARE(judge(1e-2, 0.9), Verdict::slow);
+        policy.jacobianIsNew();
+        QCOMPARE(judge(1e-6, 0.7), Verdict::proceed);   // stalled: from here on apart
+        QCOMPARE(judge(1e-16, 0.1), Verdict::proceed);  // still shrinks
+        QCOMPARE(judge(1e-16, 0.08), Verdict::slow);    // does not, but the Jacobian is old
+        policy.jacobianIsNew();
+        QCOMPARE(judge(1e-16, 0.01), Verdict::proceed);
+        policy.jacobianIsNew();
+        QCOMPARE(judge(1e-16, 0.012), Verdict::converged);
     }
     void startingValuesGoDownTheLadderAndBack() {
         StartingLadder ladder;
