@@ -248,7 +248,16 @@ const Measure* measureOf(const System& system, std::string_view observable);
 std::vector<Quantity> stateColumns(const System& system);
 /// The energy, of the system itself or of its mechanics; empty where there is none. It keeps what it needs.
 EnergyFunction energyOf(const System& system);
-/// The usual measure of d coordinates: |q - q_ref|, |p - p_ref| and each q_i - q_ref,i.
+/// Whether a sum of squares has neither overflowed nor lost digits to underflow.
+inline bool isSafeSquare(double sum) { return sum > 1e-280 && sum < 1e300; }
+/// |x - y| of d numbers, of any size.
+inline double scaledDistance(std::size_t d, const double* x, const double* y) {
+    double sum = 0;
+    for (std::size_t i = 0; i < d; ++i) sum = std::hypot(sum, x[i] - y[i]);
+    return sum;
+}
+/// The usual measure of d coordinates: |q - q_ref|, |p - p_ref| and each q_i - q_ref,i. Norms whose squares
+/// leave the range of numbers are computed again from scaled entries.
 inline void coordinateError(std::size_t d, const double* x, const double* reference, double* values) {
     double q = 0, p = 0;
     for (std::size_t i = 0; i < d; ++i) {
@@ -257,8 +266,8 @@ inline void coordinateError(std::size_t d, const double* x, const double* refere
         q += dq * dq;
         p += dp * dp;
     }
-    values[0] = std::sqrt(q);
-    values[1] = std::sqrt(p);
+    values[0] = isSafeSquare(q) ? std::sqrt(q) : scaledDistance(d, x, reference);
+    values[1] = isSafeSquare(p) ? std::sqrt(p) : scaledDistance(d, x + d, reference + d);
 }
 /// The system's own measure, else the usual one.
 ErrorMeasure errorMeasure(const System& system, const State& initial);

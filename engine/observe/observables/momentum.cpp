@@ -42,17 +42,23 @@ ObservableEntry momentum() {
                              momenta.empty() ? "" : momenta[0].unit,
                              {},
                              {}});
-        o.evaluate = [momenta, start, isWritten, isTimeCounted](const NodeBlock& nodes, double* values,
-                                                                std::size_t stride) {
+        o.evaluate = [momenta, start, isWritten, isTimeCounted, change = std::vector<double>(momenta.size()),
+                      zero = std::vector<double>(momenta.size())](const NodeBlock& nodes, double* values,
+                                                                  std::size_t stride) mutable {
             for (std::size_t node = 0; node < nodes.size(); ++node, values += stride) {
                 double sum = 0;
                 std::size_t column = 0;
                 for (std::size_t i = 0; i < momenta.size(); ++i) {
                     const double now = momenta[i].value(nodes.t(node), nodes.x(node));
                     if (isWritten[i]) values[column++] = now;
-                    if (isTimeCounted || !momenta[i].movesTime) sum += (now - start[i]) * (now - start[i]);
+                    const bool isCounted = isTimeCounted || !momenta[i].movesTime;
+                    change[i] = isCounted ? now - start[i] : 0;
+                    sum += change[i] * change[i];
                 }
-                values[column] = std::sqrt(sum);
+                // Squares leave the range of numbers long before the changes do.
+                values[column] = isSafeSquare(sum)
+                                     ? std::sqrt(sum)
+                                     : scaledDistance(change.size(), change.data(), zero.data());
             }
         };
         return o;
