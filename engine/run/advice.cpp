@@ -47,24 +47,41 @@ std::string shorterStep(const ResolvedScheme& scheme, const System& system, cons
     return "Steps down to h = " + formatNumber(2 * h, digits) + " fail there too.";
 }
 
+/// Of a step from `state` to a finite state without an energy, at time `at`. `w`: of the fastest motion.
+std::string adviceOutsideDomain(const ResolvedScheme& scheme, double step, double w, const System& system,
+                                const State& initial, const State& state, double at) {
+    const EnergyFunction energy = energyOf(system);
+    if (energy && !std::isfinite(energy(at, initial.x.data())))
+        return "The Lagrangian is not defined at t = " + formatNumber(at, 4) +
+               ", whatever the state. Try an end before that.";
+    const double half = std::abs(step) / 2, longest = w > 0 ? std::min(0.5 / w, half) : half;
+    return "At t = " + formatNumber(at, 4) +
+           " the state is finite and its energy is not a number: the step jumped over the edge of where the "
+           "Lagrangian is defined, such as the 0 of log(x). " +
+           (scheme.spec.tolerance ? std::string("Try a smaller tolerance.")
+                                  : shorterStep(scheme, system, state, step, longest));
+}
+
 }  // namespace
 
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
-                      const State& initial, const State& state) {
+                      const State& initial, const State& state, std::optional<double> undefinedAt) {
     if (outcome == Outcome::stopped || outcome == Outcome::converged) return {};
     const Family* const family = scheme.family ? scheme.family : familyFor(system);
-    if (family && family->advice)
+    if (family && family->advice && !undefinedAt)
         if (const std::string own = family->advice(outcome); !own.empty()) return own;
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
                "earlier end.";
-    if (!scheme.properties.caution.empty()) return "The scheme " + scheme.properties.caution + ".";
+    if (!scheme.properties.caution.empty() && !undefinedAt)
+        return "The scheme " + scheme.properties.caution + ".";
     // A state that has blown up says nothing of frequencies: the start counts as well.
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
     const double limit = scheme.stabilityLimit(), length = std::abs(step);
     if (w > 0 && std::isfinite(limit) && limit > 0 && length * w > limit)
         return "h ω = " + formatNumber(length * w, 2) + " is beyond its stability limit " +
                formatNumber(limit, 3) + ". " + shorterStep(scheme, system, initial, step, limit / w);
+    if (undefinedAt) return adviceOutsideDomain(scheme, step, w, system, initial, state, *undefinedAt);
     if (outcome == Outcome::lost)
         return "The run has left the motion: its energy grows beyond all bounds, or the equations of the "
                "step have no root that follows the forces. " +

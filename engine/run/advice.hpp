@@ -1,6 +1,7 @@
 /// What to try after a failure, in one or two sentences for the scheme's row.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/core/outcome.hpp"
@@ -10,8 +11,10 @@
 namespace extremal {
 
 /// `step`: signed, as the run takes it. `initial` is the start of the run, `state` the last node that was
-/// reached. A step that is advised has been tried: some steps of that length go on from there.
+/// reached. `undefinedAt`: of a run that is lost since its energy, or another value of the state, is not a
+/// number after the next step, the time there. A step that is advised has been tried: some steps of that
+/// length go on from there.
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
-                      const State& initial, const State& state);
+                      const State& initial, const State& state, std::optional<double> undefinedAt = {});
 
 }  // namespace extremal

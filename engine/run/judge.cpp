@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "engine/model/conservative.hpp"
+#include "engine/run/state_values.hpp"
 
 namespace extremal {
 namespace {
@@ -34,6 +36,62 @@ OfState kineticEnergyOf(const System& system) {
     return {};
 }
 
+/// Numbers for states to try: the same in every run.
+class Trials {
+public:
+    /// In [0, 1).
+    double next() {
+        state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
+        return static_cast<double>(state_ >> 11) * 0x1p-53;
+    }
+    double sign() { return next() < 0.5 ? -1 : 1; }
+    /// From a hundredth to a hundred.
+    double size() { return std::pow(10, 4 * next() - 2); }
+
+private:
+    unsigned long long state_ = 1;
+};
+
+/// Puts other numbers in place of x: all of one size, or each of its own. Entries that are 0 take the size of
+/// the largest.
+void scatter(std::span<const double> from, std::span<double> x, bool isEven, Trials& trials) {
+    double largest = 0;
+    for (const double each : from) largest = std::max(largest, std::abs(each));
+    const double common = trials.size();
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        const double own = from[k] != 0 ? std::abs(from[k]) : largest > 0 ? largest : 1;
+        x[k] = trials.sign() * own * (isEven ? common : trials.size());
+    }
+}
+
+/// Whether H of some finite state is not a number; judge.hpp says which are tried.
+bool hasStatesWithoutEnergy(const System& system, const State& start, const OfState& energy,
+                            const std::function<bool(double, const double*)>& hasVelocity) {
+    if (system.field && system.field.hasMovingNodes) return true;
+    const bool isSpread = isField(system);
+    if (!isMechanical(system) && !isBody(system) && !isSpread) return false;
+    constexpr std::size_t most = 32, least = 4, numbers = 1 << 14;
+    constexpr std::size_t attitude = 4;  // of a body: a quaternion, which has a length
+    const std::size_t fixed = isBody(system) ? attitude : 0, size = start.x.size();
+    const std::size_t halves = isMechanical(system) || isSpread ? 2 : 1, part = (size - fixed) / halves;
+    std::vector<double> x(start.x);
+    Trials trials;
+    const std::size_t count = std::clamp(numbers / std::max<std::size_t>(1, size), least, most);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::span<const double> from(start.x);
+        for (std::size_t half = 0; half < halves; ++half) {
+            const std::size_t first = fixed + half * part;
+            scatter(from.subspan(first, part), std::span(x).subspan(first, part), i % 2 == 0, trials);
+        }
+        double length = 0;
+        for (std::size_t k = 0; k < fixed; ++k) length = std::hypot(length, x[k] = trials.next() - 0.5);
+        for (std::size_t k = 0; k < fixed; ++k) x[k] /= length;
+        const double t = start.t + (i % 4 < 2 ? 0 : trials.sign() * trials.size());
+        if (std::isnan(energy(t, x.data())) && (!hasVelocity || hasVelocity(t, x.data()))) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 /// By the number of the node alone, as the sizes of blocks follow the clock.
@@ -44,7 +102,12 @@ bool Judge::looksAt(long long node) const {
     return node % often == node / often * apart % often;
 }
 
-Judge::Judge(const System& system, const State& start, double step) {
+Judge::Judge(const System& system, const State& start, double step, bool isEnergySeen) {
+    energy_ = energyOf(system);
+    const double atStart = energy_ ? energy_(start.t, start.x.data()) : 0;
+    if (!std::isfinite(atStart)) energy_ = {};
+    hasVelocity_ = velocityTestOf(system);
+    hasEdge_ = energy_ && !isEnergySeen && hasStatesWithoutEnergy(system, start, energy_, hasVelocity_);
     if (isWave(system)) {
         const std::size_t size = start.x.size();
         conserved_ = [size](double, const double* x) {
@@ -54,10 +117,11 @@ Judge::Judge(const System& system, const State& start, double step) {
         };
     } else if (conservesEnergy(system)) {
         conserved_ = energyOf(system);
+        isConservedEnergy_ = true;
         kinetic_ = kineticEnergyOf(system);
     }
     if (!conserved_) return;
-    start_ = conserved_(start.t, start.x.data());
+    start_ = isConservedEnergy_ ? atStart : conserved_(start.t, start.x.data());
     startTime_ = lastTime_ = gainTime_ = start.t;
     scale_ = std::abs(start_);
     if (kinetic_) {
@@ -70,9 +134,16 @@ Judge::Judge(const System& system, const State& start, double step) {
     if (!std::isfinite(start_) || (!kinetic_ && !(scale_ > 0))) conserved_ = {};
 }
 
+bool Judge::isDefined(double t, const double* x, double energy) {
+    hasLeftDomain_ = !std::isfinite(energy) && (!hasVelocity_ || hasVelocity_(t, x));
+    return !hasLeftDomain_;
+}
+
 bool Judge::isSound(double t, const double* x) {
+    const double H = energy_ ? energy_(t, x) : 0;
+    if (!isDefined(t, x, H)) return false;
     if (!conserved_) return true;
-    const double change = conserved_(t, x) - start_;
+    const double change = (isConservedEnergy_ ? H : conserved_(t, x)) - start_;
     if (kinetic_) {
         const double kinetic = kinetic_(t, x);
         if (std::abs(change) <= kinetic / 2) scale_ = std::max(scale_, kinetic);
@@ -109,11 +180,16 @@ double Judge::gainedKineticEnergy(const System& system, const State& start, doub
 }
 
 std::size_t Judge::soundNodes(const NodeBlock& nodes, bool isLast) {
-    if (!conserved_) return nodes.size();
+    if (!conserved_ && !energy_) return nodes.size();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const bool isEnd = isLast && i + 1 == nodes.size();
-        if (!isEnd && !looksAt(nodes.node(i))) continue;
-        if (!isSound(nodes.t(i), nodes.x(i)) || (isEnd && hasGained())) return i;
+        const double t = nodes.t(i);
+        const double* const x = nodes.x(i);
+        if (isEnd || looksAt(nodes.node(i))) {
+            if (!isSound(t, x) || (isEnd && hasGained())) return i;
+        } else if (hasEdge_ && !isDefined(t, x, energy_(t, x))) {
+            return i;
+        }
     }
     return nodes.size();
 }

@@ -31,6 +31,20 @@
 /// one, whatever the blocks of steps (march.hpp), whose sizes follow the clock: a lost run ends at the first
 /// of these that is out of bounds. The nodes are at changing distances, and while there is such a gain every
 /// node is looked at, so that no oscillation is taken for constant.
+///
+/// A step may also jump over the edge of the region in which L is defined (of log(x), to x < 0), to a finite
+/// state with finite forces: 1 - 1/x is as good there as anywhere. What gives it away is that H is not a
+/// number. Such a run, conservative or not, ends at the last node before. What is guaranteed:
+///
+///   * Where H of some finite states is not a number, every node is looked at. Such states are sought once,
+///     around the start: 32 of them, by the signs of their entries and by sizes from a hundredth to a hundred
+///     times those of the start (of wide states fewer, and of moving meshes, wave functions and membranes
+///     none: the first are looked at everywhere, H of the others is defined everywhere).
+///   * Where the run computes H at every node in any case, the one who does so ends it (state_values.hpp);
+///     `isEnergySeen` tells.
+///   * Everywhere else H is finite but for overflow, and the run ends at one of the nodes above.
+///
+/// H that is unknown because no velocity is found for a momentum says nothing of the motion.
 #pragma once
 
 #include <functional>
@@ -45,9 +59,9 @@ class Judge {
 public:
     static constexpr double band = 100;
 
-    /// Keeps what it needs of the system. Finds nothing wrong where nothing is conserved. `step`: 0 where it
-    /// is not known.
-    Judge(const System& system, const State& start, double step);
+    /// Keeps what it needs of the system. Where nothing is conserved it finds nothing wrong but energies that
+    /// are not numbers. `step`: 0 where it is not known. `isEnergySeen`: by others, at every node.
+    Judge(const System& system, const State& start, double step, bool isEnergySeen = false);
 
     /// How many of these nodes, in order, still belong to the motion. `isLast`: the run ends with them.
     std::size_t soundNodes(const NodeBlock& nodes, bool isLast);
@@ -56,8 +70,10 @@ public:
     double scale() const { return scale_; }
 
     /// For whoever goes on with a lost run: node by node, in order. Learns S, and whether the energy is
-    /// within bounds at this one. True where nothing is conserved.
+    /// a number and, where it is conserved, within bounds at this one.
     bool isSound(double t, const double* x);
+    /// Whether the last node that was not sound has an energy that is not a number.
+    bool hasLeftDomain() const { return hasLeftDomain_; }
     /// Whether it is to be shown this node.
     bool looksAt(long long node) const;
     /// Of a run that ends at the last node that isSound() has seen: whether energy has come and stayed.
@@ -68,10 +84,16 @@ public:
 private:
     using OfState = std::function<double(double t, const double* x)>;
 
+    bool isDefined(double t, const double* x, double energy);
     void noteGain(double t, double change, double kinetic);
     double gainedKineticEnergy(const System& system, const State& start, double step) const;
 
     OfState conserved_, kinetic_;  ///< empty: nothing is conserved; nothing is known of the parts
+    OfState energy_;               ///< empty: there is no energy, or it is not a number from the start
+    std::function<bool(double t, const double* x)> hasVelocity_;  ///< empty: every state has one
+    bool isConservedEnergy_ = false;                              ///< conserved_ is the same as energy_
+    bool hasEdge_ = false;                                        ///< there are states without an energy
+    bool hasLeftDomain_ = false;
     double start_ = 0, scale_ = 0;
     double startTime_ = 0, lastTime_ = 0, work_ = 0;  ///< work: kinetic energy times time
     double gainTime_ = 0;                             ///< the last node without a gain

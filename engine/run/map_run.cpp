@@ -10,6 +10,7 @@
 #include "engine/observe/catalog.hpp"
 #include "engine/run/map_reference.hpp"
 #include "engine/run/march_grid.hpp"
+#include "engine/run/state_values.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
@@ -83,7 +84,8 @@ std::string keyOf(Value document, const MapGrid& grid, std::size_t scheme) {
 double sizeOf(const double* x, std::size_t n) {
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) sum += x[i] * x[i];
-    return std::sqrt(sum);
+    if (isSafeSquare(sum)) return std::sqrt(sum);
+    return scaledDistance(n, x, std::vector<double>(n).data());
 }
 
 /// A column being computed: one value of the parameter.
@@ -129,11 +131,16 @@ struct MapColumn {
         result.end = MapCell::End::done;
         // Without a reference an error stays unknown; a state that grows is seen all the same.
         const bool isKnown = !observable.needsReference || exact;
-        const auto measure = [&](const Stretch& stretch) {
-            const NodeBlock& nodes = stretch.nodes;
+        const StateValues stateValues(observable, observer, system, start);
+        const auto soundNodes = [&](const NodeBlock& nodes) {
             values.resize(std::max(values.size(), width * nodes.capacity()),
                           std::numeric_limits<double>::quiet_NaN());
-            if (isKnown) observer.evaluate(nodes, values.data(), width);
+            if (!isKnown) return nodes.size();
+            observer.evaluate(nodes, values.data(), width);
+            return stateValues.finiteNodes(nodes, values.data(), width);
+        };
+        const auto measure = [&](const Stretch& stretch) {
+            const NodeBlock& nodes = stretch.nodes;
             const double* column = values.data() + (found - observer.columns.begin());
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 const double value = std::abs(column[i * width]);
@@ -142,7 +149,7 @@ struct MapColumn {
             }
             return result.isDone();
         };
-        const MarchSink sink{measure, false, observer.readsQuantities};
+        const MarchSink sink{measure, false, observer.readsQuantities, soundNodes};
         State state = start;
         const MarchGrid nodesOfTime = marchGrid(scene, scheme, step);
         const Outcome outcome = march(*integrator, state, nodesOfTime, {&sink, 1}, stop).outcome;

@@ -46,6 +46,7 @@ public:
             if (step.outcome != Outcome::converged) report_.cost += step.cost;
             checkFinite(nodes);
             checkSound(nodes);
+            checkValues(nodes);
             taken += static_cast<long long>(nodes.size());
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 const StepReport& each = nodes.report(i);
@@ -72,6 +73,8 @@ private:
         nodes.push(state_, {});
         if (double* values = nodes.lastQuantities())
             std::fill_n(values, nodes.quantities(0).size(), std::numeric_limits<double>::quiet_NaN());
+        for (const MarchSink& sink : sinks_)
+            if (sink.soundNodes) (void)sink.soundNodes(nodes);
         return show(nodes, true);
     }
     bool goOn(const MarchReport& soFar) {
@@ -125,6 +128,16 @@ private:
         if (sound == nodes.size()) return;
         report_.outcome = Outcome::lost;
         if (remembers_) goBack(nodes, sound);
+    }
+    /// The same by what sinks compute of the nodes.
+    void checkValues(NodeBlock& nodes) {
+        for (const MarchSink& sink : sinks_) {
+            if (!sink.soundNodes || nodes.size() == 0) continue;
+            const std::size_t sound = sink.soundNodes(nodes);
+            if (sound == nodes.size()) continue;
+            report_.outcome = Outcome::lost;
+            if (remembers_) goBack(nodes, sound);
+        }
     }
     /// To the last of the first `count` nodes of a block.
     void goBack(NodeBlock& nodes, std::size_t count) {
@@ -185,7 +198,9 @@ MarchReport march(Integrator& integrator, State& state, const MarchGrid& grid,
     const std::size_t capacity =
         looksInside ? 1
                     : std::clamp<std::size_t>(numbersOfBlock / std::max<std::size_t>(1, width), 1, mostNodes);
-    const bool isCutInside = !integrator.checksFinite() || (judge && capacity > 1);
+    const bool isJudged = judge || std::any_of(sinks.begin(), sinks.end(),
+                                               [](const MarchSink& sink) { return sink.soundNodes; });
+    const bool isCutInside = !integrator.checksFinite() || (isJudged && capacity > 1);
     March run(integrator, state, grid, sinks, looksInside || isCutInside, judge);
     if (capacity == 1) {
         NodeBlock nodes = NodeBlock::referring(width, quantities);

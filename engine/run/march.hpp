@@ -60,6 +60,10 @@ struct MarchSink {
     std::function<bool(const Stretch&)> see;  ///< false: the march need not go on
     bool looksInsideSteps = false;            ///< at dense output, which is that of the last step alone
     bool readsQuantities = false;             ///< NodeBlock::quantities, which are not measured otherwise
+    /// How many nodes of a block, in order, belong to the motion by what this sink computes of them; the
+    /// march ends, as lost, where that is not all. Asked before any sink is shown the block. Empty: it
+    /// computes nothing that could tell.
+    std::function<std::size_t(const NodeBlock&)> soundNodes = {};
 };
 
 /// Takes one step from the state with a copy of the integrator, and forgets it: what is met for the first

@@ -25,6 +25,7 @@
 #include "engine/run/open_bar.hpp"
 #include "engine/run/reference.hpp"
 #include "engine/run/row_sampler.hpp"
+#include "engine/run/state_values.hpp"
 #include "engine/run/timing.hpp"
 #include "engine/run/variations_for.hpp"
 #include "engine/scene/bind.hpp"
@@ -47,6 +48,10 @@ struct Recording {
         std::size_t firstColumn;
         std::size_t extreme;   ///< index in Summary::extremes; none if the observable declares none
         double Summary::*own;  ///< the same number under a name of its own; or null
+        StateValues state;     ///< which of its values must be numbers
+        /// Nodes at which its extreme is not a number, and the time of the first of them.
+        long long unknownNodes = 0;
+        double unknownFrom = 0;
     };
     static constexpr auto none = static_cast<std::size_t>(-1);
     const Scene& scene;
@@ -70,6 +75,8 @@ struct Recording {
     State initialNode, state;
     bool isLastNodeRow = false;
     bool isCutShort = false;     ///< stopped between the rows of a step
+    bool isEnergySeen = false;   ///< an observer computes it at every node
+    bool hasLeftDomain = false;  ///< the run is lost since a value of the state is not a number
     long long nextMultiple = 1;  ///< of output.every, for dense rows
     std::vector<double> values, kept;
     DelayedRows delayed;
@@ -125,7 +132,12 @@ struct Recording {
             Bound b{entry->bind({system, initial, entry->needsReference ? references.back() : ExactSolution{},
                                  scheme.plain(), step, integrator->quantities(), integrator.get(),
                                  scheme.claims.order}),
-                    result.trajectory.columns.size(), none, nullptr};
+                    result.trajectory.columns.size(),
+                    none,
+                    nullptr,
+                    {}};
+            b.state = StateValues(*entry, b.observer, system, initial);
+            isEnergySeen = isEnergySeen || id == "energy";
             // What is not conserved has no error.
             if (b.observer.extreme >= 0 && (id != "energy" || conservesEnergy(system))) {
                 b.extreme = summary.extremes.size();
@@ -141,6 +153,16 @@ struct Recording {
             observers.push_back(std::move(b));
         }
     }
+    /// Evaluates every observer at the nodes of a block, and counts those whose values are what a motion has.
+    std::size_t soundNodes(const NodeBlock& nodes) {
+        evaluate(nodes);
+        std::size_t sound = nodes.size();
+        for (const Bound& b : observers)
+            sound = std::min(sound, b.state.finiteNodes(nodes, values.data() + b.firstColumn,
+                                                        result.trajectory.columns.size()));
+        hasLeftDomain = hasLeftDomain || (sound < nodes.size() && nodes.node(0) > 0);
+        return sound;
+    }
     /// Evaluates every observer at the nodes of a block; row i of `values` belongs to node i.
     void evaluate(const NodeBlock& nodes) {
         const std::size_t width = result.trajectory.columns.size();
@@ -151,11 +173,14 @@ struct Recording {
     void growExtremes(const NodeBlock& nodes) {
         const std::size_t width = result.trajectory.columns.size();
         Summary& summary = result.summary;
-        for (const Bound& b : observers) {
+        for (Bound& b : observers) {
             if (b.extreme == none) continue;
             const double* v = values.data() + b.firstColumn + static_cast<std::size_t>(b.observer.extreme);
             double& extreme = summary.extremes[b.extreme].value;
-            for (std::size_t i = 0; i < nodes.size(); ++i) growTo(extreme, v[i * width]);
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                growTo(extreme, v[i * width]);
+                if (!std::isfinite(v[i * width]) && b.unknownNodes++ == 0) b.unknownFrom = nodes.t(i);
+            }
             if (b.own) summary.*(b.own) = extreme;
             if (b.own == &Summary::maxError) summary.finalError = v[(nodes.size() - 1) * width];
         }
@@ -306,7 +331,14 @@ struct Recording {
             s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
-            s.advice = adviceFor(outcome, scheme, step, system, initialNode, state);
+            std::optional<double> undefinedAt;
+            if (outcome == Outcome::lost && hasLeftDomain) {
+                // Wide states are not copied, and are those of the node itself.
+                const EnergyFunction energy = energyOf(system);
+                const bool isThere = energy && !std::isfinite(energy(state.t, state.x.data()));
+                undefinedAt = isThere ? state.t : state.t + (scheme.isFixed() ? step : report.last.step);
+            }
+            s.advice = adviceFor(outcome, scheme, step, system, initialNode, state, undefinedAt);
             if (recordsSteps() && outcome != Outcome::stopped) {
                 StepRecord record;
                 record.k = state.node;
@@ -316,18 +348,38 @@ struct Recording {
             }
         }
         if (hasCompanion) judgeBar(result, system, initialNode);
+        nameUnknownNodes();
         const Column* energy = result.trajectory.find("energy_error");
         if (energy && conservesEnergy(system))
             s.energyDrift = lineThrough(result.trajectory.columns[0].values, energy->values).slope;
     }
 
+    /// Extremes over nodes some of which have no value say so: those that the observer knows at all, and not
+    /// for want of nodes around them or of a first step.
+    void nameUnknownNodes() {
+        Summary& s = result.summary;
+        for (const Bound& b : observers) {
+            if (b.extreme == none || b.observer.delay > 0) continue;
+            const Summary::Extreme& extreme = s.extremes[b.extreme];
+            const long long known = s.steps + 1 - b.unknownNodes;
+            if (!std::isfinite(extreme.value) || b.unknownNodes == 0 || b.unknownFrom == initialNode.t)
+                continue;
+            s.caution += (s.caution.empty() ? "" : "; ") + extreme.column + " is known at " +
+                         std::to_string(known) + " of " + std::to_string(s.steps + 1) +
+                         " nodes, not at t = " + formatNumber(b.unknownFrom, 4) +
+                         ", and its largest value is that of those";
+        }
+    }
+
     /// All that the march has made so far, and needs to go on, but for its integrator.
     void checkpoint(Archive& archive, MarchReport& report, Judge& judge) {
         archive(state, report, judge, sampler, frames, delayed, isLastNodeRow, nextMultiple, hasOverflown,
-                stopped, stoppedAt);
+                hasLeftDomain, stopped, stoppedAt);
         archive(result.trajectory, result.products, result.summary);
-        for (Bound& b : observers)
+        for (Bound& b : observers) {
+            archive(b.unknownNodes, b.unknownFrom);
             if (b.observer.checkpoint) b.observer.checkpoint(archive);
+        }
         archive(references);
     }
 
@@ -345,10 +397,7 @@ struct Recording {
         std::vector<MarchSink> sinks;
         const bool readsQuantities = std::any_of(observers.begin(), observers.end(),
                                                  [](const Bound& b) { return b.observer.readsQuantities; });
-        const auto observe = [&](const Stretch& stretch) {
-            evaluate(stretch.nodes);
-            growExtremes(stretch.nodes);
-        };
+        const auto observe = [&](const Stretch& stretch) { growExtremes(stretch.nodes); };
         // First of all: the node after an event that stops the run is not shown to the others.
         if (watch)
             sinks.push_back({[&](const Stretch& stretch) { return seeEvents(*watch, stretch); }, true});
@@ -358,7 +407,8 @@ struct Recording {
                 return true;
             };
         };
-        sinks.push_back({beforeStop(observe), false, readsQuantities});
+        sinks.push_back({beforeStop(observe), false, readsQuantities,
+                         [this](const NodeBlock& nodes) { return soundNodes(nodes); }});
         sinks.push_back({beforeStop([&](const Stretch& stretch) { recordRows(stretch, isDense); }), isDense});
         if (recordsSteps())
             sinks.push_back({beforeStop([&](const Stretch& stretch) { recordSteps(stretch); }), false, true});
@@ -380,7 +430,7 @@ struct Recording {
         const MarchGrid grid = marchGrid(scene, scheme, step);
         const auto fresh = isTimed ? integrator->clone() : nullptr;
         warmUp(*integrator, state, grid, stop);
-        const Judge freshJudge(system, initialNode, step);
+        const Judge freshJudge(system, initialNode, step, isEnergySeen);
         Judge judge = freshJudge;
         MarchReport report;
         // False where the integrator keeps its history to itself: it is left out where the march has ended.
@@ -413,10 +463,12 @@ struct Recording {
         }
         if (!hasEnded) {
             report = march(*integrator, state, grid, sinks, stop, &judge, known ? &report : nullptr);
+            hasLeftDomain = hasLeftDomain || judge.hasLeftDomain();
             if (file) keep(report, true);
         }
         if (isCutShort) report.outcome = Outcome::stopped;
         MarchGrid taken = grid;
+        if (report.outcome == Outcome::lost) taken.steps = std::min(grid.steps, state.node);
         if (stopped) {
             taken.steps = std::min(grid.steps, state.node);
             taken.end = state.t;

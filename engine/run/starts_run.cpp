@@ -9,6 +9,7 @@
 #include "engine/integrator/with_variations.hpp"
 #include "engine/run/crossing.hpp"
 #include "engine/run/inside_step.hpp"
+#include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
@@ -95,7 +96,8 @@ public:
             !sink.looksInsideSteps || isSection_ || grid.steps == 0
                 ? 1
                 : std::clamp(static_cast<int>(static_cast<long long>(mostPoints_) / grid.steps), 1, 20);
-        const MarchReport report = march(*integrator, state, grid, {&sink, 1}, stop);
+        Judge judge(system_, state, step);
+        const MarchReport report = march(*integrator, state, grid, {&sink, 1}, stop, &judge);
         orbit_.outcome = report.outcome;
         orbit_.steps = state.node;
         const auto quantities = integrator->quantities();

@@ -9,6 +9,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"
+#include "engine/run/state_values.hpp"
 #include "engine/run/timing.hpp"
 #include "engine/scene/two_positions.hpp"
 
@@ -20,12 +21,21 @@ constexpr double shortest = 2e-3, longest = 2;  ///< seconds: of one measurement
 /// Largest size over all nodes, or that of the last one, of the observer's extreme.
 class Measured {
 public:
-    Measured(Observer observer, bool isAtEnd) : observer_(std::move(observer)), isAtEnd_(isAtEnd) {}
+    Measured(const ObservableEntry& entry, Observer observer, const System& system, const State& start,
+             bool isAtEnd)
+        : observer_(std::move(observer)), isAtEnd_(isAtEnd) {
+        state_ = StateValues(entry, observer_, system, start);
+    }
 
-    void see(const NodeBlock& nodes) {
+    /// How many nodes are those of a motion, by their values, which are computed here.
+    std::size_t soundNodes(const NodeBlock& nodes) {
         const std::size_t width = observer_.columns.size();
         values_.resize(std::max(values_.size(), width * nodes.capacity()), PointResult::unknown);
         observer_.evaluate(nodes, values_.data(), width);
+        return state_.finiteNodes(nodes, values_.data(), width);
+    }
+    void see(const NodeBlock& nodes) {
+        const std::size_t width = observer_.columns.size();
         const double* column = values_.data() + observer_.extreme;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             const double size = std::abs(column[i * width]);
@@ -38,6 +48,7 @@ public:
 
 private:
     Observer observer_;
+    StateValues state_;
     bool isAtEnd_;
     std::vector<double> values_;
 };
@@ -64,17 +75,21 @@ public:
         PointResult result;
         const auto integrator = integrator_->clone();
         const bool isKnown = !metric.observable->needsReference || reference;
-        Measured measured(metric.observable->bind({system_, start_, std::move(reference), scheme_.plain(),
+        Measured measured(*metric.observable,
+                          metric.observable->bind({system_, start_, std::move(reference), scheme_.plain(),
                                                    step_, integrator->quantities()}),
-                          metric.isAtEnd);
+                          system_, start_, metric.isAtEnd);
         const auto see = [&](const Stretch& stretch) {
             if (isKnown) measured.see(stretch.nodes);
             return true;
         };
-        const MarchSink sink{see, false, measured.readsQuantities()};
+        const auto soundNodes = [&](const NodeBlock& nodes) {
+            return isKnown ? measured.soundNodes(nodes) : nodes.size();
+        };
+        const MarchSink sink{see, false, measured.readsQuantities(), soundNodes};
         State state = start_;
         warmUp(*integrator, state, grid_, stop_);
-        Judge judge(system_, start_, step_);
+        Judge judge(system_, start_, step_, metric.observable->item.id == "energy");
         const MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &judge);
         result.error = measured.value;
         result.steps = state.node;

@@ -22,7 +22,8 @@ constexpr double blowUp = 1e6;
 double sizeOf(const double* x, std::size_t n) {
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) sum += x[i] * x[i];
-    return std::sqrt(sum);
+    if (isSafeSquare(sum)) return std::sqrt(sum);
+    return scaledDistance(n, x, std::vector<double>(n).data());
 }
 
 /// The line through the energy errors, from sums.
@@ -84,23 +85,25 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
     const std::size_t size = start.x.size();
     const double first = energy ? energy(start.t, start.x.data()) : 0, norm = sizeOf(start.x.data(), size);
     EnergyLine line;
-    Judge judge(system, start, step);
+    Judge judge(system, start, step, true);
     bool isLarge = false, isOut = false;
     double last = norm, lastTime = start.t, leftAt = start.t;
     const MarchSink look{[&](const Stretch& stretch) {
-        for (std::size_t i = 0; i < stretch.nodes.size() && !isLarge; ++i) {
+        for (std::size_t i = 0; i < stretch.nodes.size() && !isLarge && !judge.hasLeftDomain(); ++i) {
             last = sizeOf(stretch.nodes.x(i), size);
             lastTime = stretch.nodes.t(i);
             isLarge = norm > 0 && last > blowUp * norm;
-            // Near a limit of stability energies go far, and come back; a motion that was left does not.
-            if (isOut || judge.looksAt(stretch.nodes.node(i))) {
+            const double H = energy ? energy(lastTime, stretch.nodes.x(i)) : 0;
+            // Near a limit of stability energies go far, and come back; a motion that was left does not, and
+            // neither does one beyond the edge of where the Lagrangian is defined.
+            if (isOut || !std::isfinite(H) || judge.looksAt(stretch.nodes.node(i))) {
                 const bool wasOut = isOut;
                 isOut = !judge.isSound(lastTime, stretch.nodes.x(i));
                 if (isOut && !wasOut) leftAt = lastTime;
             }
-            if (energy) line.add(stretch.nodes.t(i), energy(stretch.nodes.t(i), stretch.nodes.x(i)) - first);
+            if (energy && std::isfinite(H)) line.add(lastTime, H - first);
         }
-        return !isLarge;
+        return !isLarge && !judge.hasLeftDomain();
     }};
     State state = start;
     const MarchGrid grid = marchGrid(scene.scene, scheme, step);
