@@ -9,56 +9,13 @@
 
 #include "engine/core/quiet.hpp"
 #include "engine/group/so3.hpp"
+#include "engine/model/jacobi_elliptic.hpp"
 
 namespace extremal {
 namespace {
 
 using Vector = so3::Vector<double>;
 using Quaternion = so3::Quaternion<double>;
-
-/// sn, cn, dn of u from the complementary parameter m1 = 1 - m, by descending Landen steps (Bulirsch 1965).
-/// Boost's jacobi_elliptic takes the modulus, which near 1 no longer says what m1 is.
-struct Jacobi {
-    double sn, cn, dn;
-
-    Jacobi(double u, double m1) {
-        if (m1 <= 0) {
-            sn = std::tanh(u);
-            cn = dn = 1 / std::cosh(u);
-            return;
-        }
-        std::array<double, 14> em{}, en{};
-        double a = 1, c = 0;
-        dn = 1;
-        std::size_t last = 0;
-        for (std::size_t i = 0; i < em.size(); ++i) {
-            last = i;
-            em[i] = a;
-            m1 = std::sqrt(m1);
-            en[i] = m1;
-            c = 0.5 * (a + m1);
-            if (std::abs(a - m1) <= 1e-9 * a) break;  // the next correction is its square
-            m1 *= a;
-            a = c;
-        }
-        u *= c;
-        sn = std::sin(u);
-        cn = std::cos(u);
-        if (sn == 0) return;
-        a = cn / sn;
-        c *= a;
-        for (std::size_t i = last + 1; i-- > 0;) {
-            const double b = em[i];
-            a *= c;
-            c *= dn;
-            dn = (en[i] + a) / (b + a);
-            a = c / b;
-        }
-        a = 1 / std::sqrt(c * c + 1);
-        sn = sn >= 0 ? a : -a;
-        cn = c * sn;
-    }
-};
 
 /// A proper rotation that takes body axes to the renamed ones: entry i of the image is sign[i] * v(axis[i]).
 struct Renaming {
@@ -165,7 +122,7 @@ private:
         const double halves = std::isfinite(quarter_) ? std::round(u / (2 * quarter_)) : 0;
         const double v = halves == 0 ? u : u - 2 * quarter_ * halves;
         const double parity = std::fmod(std::abs(halves), 2) == 1 ? -1 : 1;
-        const Jacobi j(v, m1_);
+        const JacobiElliptic j(v, m1_);
         const double root = std::sqrt(1 - n_);
         const double third =
             n_ == 0 ? 0

@@ -11,6 +11,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/run/exact_reference.hpp"
 #include "engine/run/reference_file.hpp"
 #include "engine/run/shared_solution.hpp"
 #include "engine/scene/bind.hpp"
@@ -195,25 +196,6 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
     return best;
 }
 
-/// The error of an exact solution: an angle that grows by w t is not known better than to round-off of w t.
-/// Where the error is not one of the phase itself, most of the motion is slower than at its fastest (measured
-/// in engine.run.reference).
-double exactError(const System& system, const State& initial, double duration) {
-    const auto norm = [](const std::vector<double>& v) {
-        double sum = 0;
-        for (const double x : v) sum = std::hypot(sum, x);
-        return sum;
-    };
-    double w = highestFrequency(system, initial);
-    if (std::vector<double> rate(initial.x.size());
-        w == 0 && rateOf(system, initial.t, initial.x.data(), rate.data()) && norm(initial.x) > 0)
-        w = norm(rate) / norm(initial.x);
-    if (system.error.isOfPhase) return 1e-14 * std::max(1.0, w * duration / 4);
-    double scale = 0;
-    for (const double v : initial.x) scale = std::max(scale, std::abs(v));
-    return 2e-15 * scale * std::max(1.0, w * duration / 10);
-}
-
 /// The family that references of the system are computed with on meshes of their own; null: there is none.
 const Family* familyOnMeshes(const System& system) {
     for (const Family& family : families())
@@ -336,8 +318,7 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (kind == Kind::file) return readReference(scene.reference.path, system);
     if (exactSolution(scene, system, initial)) {
         Reference reference;
-        const double estimate = exactError(system, initial, scene.end.value - scene.start.value);
-        reference.info = {"exact", estimate, "exact solution"};
+        reference.info = {"exact", errorOfExact(resolved, stop), "exact solution"};
         reference.make = [scene, system, initial] { return exactSolution(scene, system, initial); };
         return reference;
     }

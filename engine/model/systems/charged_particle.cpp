@@ -21,6 +21,7 @@
 
 #include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/stumpff.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/system.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
@@ -143,26 +144,45 @@ std::optional<UniformFields> uniformFields(const Mechanics<double>& m) {
     return fields;
 }
 
-/// m a = F + v x C: along C a fall, across it a drift F x C / C^2 and a circle of the frequency |C|/m.
+/// s, s^2/2 and s^3/6 for a frequency w = 0, and bounded multiples of 1/w, 1/w^2 and s/w^2 for others: the
+/// integrals of cos(w s) from 0 to s, once to three times. Nothing is divided by a small w.
+struct TurnIntegrals {
+    double once, twice, thrice;
+
+    TurnIntegrals(double w, double s) {
+        const double z = w * s, half = sinc(z / 2);
+        once = s * sinc(z);
+        twice = s * s / 2 * half * half;
+        // Beyond, the difference loses half a digit at most.
+        thrice = z * z < 4 ? s * s * s * stumpff(3.0, z * z) : (s - once) / (w * w);
+    }
+    static double sinc(double x) { return x == 0 ? 1 : std::sin(x) / x; }
+};
+
+/// The motion m a = F + v x C in uniform fields: with f = F/m and the frequency W = C/m, |W| = w, and I_1,
+/// I_2, I_3 the integrals of cos(w s),
+///     along W:    q = q_0 + v_0 s + f s^2/2,                        v = v_0 + f s
+///     across W:   q = q_0 + v_0 I_1 + (v_0 x W + f) I_2 + (f x W) I_3,
+///                 v = v_0 cos(w s) + (v_0 x W + f) I_1 + (f x W) I_2
+/// In a strong field I_3 is the drift F x C / C^2, in a weak one the fall; neither is a limit of the formula.
 ExactSolution exactMotion(const Mechanics<double>& m, const UniformFields& fields, double mass,
                           const State& initial) {
-    const double t0 = initial.t, C = fields.curl.norm();
-    const Vector q0(initial.x.data());
+    const double t0 = initial.t;
+    const Vector q0(initial.x.data()), W = fields.curl / mass, f = fields.force / mass;
     Vector v0;
     if (!m.velocity(m.model.get(), t0, q0.data(), initial.x.data() + 3, v0.data())) return {};
-    const Vector b = C > 0 ? Vector(fields.curl / C) : Vector(Vector::Zero());
-    const Vector drift = C > 0 ? Vector(fields.force.cross(b) / C) : Vector(Vector::Zero());
-    const Vector along = C > 0 ? Vector(b * (b.dot(fields.force) / mass)) : Vector(fields.force / mass);
-    const Vector steady = C > 0 ? Vector(b * b.dot(v0)) : v0;
-    const Vector u = C > 0 ? Vector(v0 - steady - drift) : Vector(Vector::Zero());
-    const Vector w = u.cross(b);
-    const double omega = C / mass;
+    const double w = W.stableNorm();
+    const Vector b = w > 0 ? Vector(W / w) : Vector(Vector::Zero());
+    const auto alongField = [&](const Vector& a) { return w > 0 ? Vector(b * b.dot(a)) : a; };
+    const Vector vAlong = alongField(v0), vAcross = v0 - vAlong;
+    const Vector fAlong = alongField(f), fAcross = f - fAlong;
+    const Vector turned = vAcross.cross(W) + fAcross, drift = fAcross.cross(W);
     return [=](double t, std::span<double> x) {
-        const double s = t - t0, turned = std::sin(omega * s), half = std::sin(0.5 * omega * s);
-        const double left = 2 * half * half;  // 1 - cos
-        const Vector v = steady + drift + along * s + u * (1 - left) + w * turned;
-        Vector q = q0 + (steady + drift) * s + along * (0.5 * s * s);
-        if (omega > 0) q += (u * turned + w * left) / omega;
+        const double s = t - t0;
+        const TurnIntegrals I(w, s);
+        const Vector v = vAlong + fAlong * s + vAcross * std::cos(w * s) + turned * I.once + drift * I.twice;
+        const Vector q =
+            q0 + vAlong * s + fAlong * (0.5 * s * s) + vAcross * I.once + turned * I.twice + drift * I.thrice;
         std::array<double, 6> gradient;
         m.gradient(m.model.get(), t, q.data(), v.data(), gradient.data());
         std::copy_n(q.data(), 3, x.begin());

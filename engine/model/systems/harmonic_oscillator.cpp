@@ -34,7 +34,8 @@ const std::vector<Field<HarmonicOscillator>>& harmonicOscillatorFields() {
 }
 
 ExactSolution exactSolution(const HarmonicOscillator& o, const State& initial) {
-    const double w = std::sqrt(o.k / o.m), impedance = std::sqrt(o.k * o.m);
+    // Roots apart: the product of two small numbers may be 0.
+    const double w = std::sqrt(o.k / o.m), impedance = std::sqrt(o.k) * std::sqrt(o.m);
     return [=](double t, std::span<double> x) {
         const double c = std::cos(w * (t - initial.t)), s = std::sin(w * (t - initial.t));
         x[0] = c * initial.x[0] + s / impedance * initial.x[1];

@@ -1,7 +1,8 @@
 /// Kepler problem in the plane: L = (x_t^2 + y_t^2) / 2 + mu / r. Dimensionless.
 ///
-/// Exact solution of elliptic and hyperbolic orbits by Kepler's equation, in the basis of the perihelion;
-/// radial and parabolic orbits have none here (the reference is then computed).
+/// Exact solution in the basis of the perihelion: of ellipses up to e = 0.9 by Kepler's equation, at many
+/// times together; of all other orbits, the parabola and its neighbours among them, by universal variables
+/// (model/conic.hpp). Motion through the centre has no exact solution here: its reference is computed.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "engine/model/bind.hpp"
+#include "engine/model/conic.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
 
@@ -54,39 +56,38 @@ const std::vector<Field<Kepler>>& keplerFields() {
     return all;
 }
 
-/// An orbit that is no circle-degenerate line: semi-major axis a > 0 (|a| for hyperbolas), eccentricity e,
-/// mean motion n, unit vectors P (to the perihelion) and Q (90 degrees further along the motion).
+/// An ellipse: semi-axes a and b, eccentricity e, mean motion n, and the mean anomaly at the start, from what
+/// the conic knows without cancellation.
 struct Orbit {
-    bool isElliptic = true;
-    double a = 1, e = 0, b = 1, n = 1, start = 0, meanAnomaly = 0;
-    double px = 1, py = 0, qx = 0, qy = 1;
+    double a, e, b, n, start, meanAnomaly, px, py, qx, qy;
 
-    /// Position and velocity where cos, sin (hyperbolas: cosh, sinh) of the anomaly are c and s, and dE/dM =
-    /// r.
+    Orbit(double mu, const Conic& conic)
+        : a(mu / conic.beta()),
+          e(conic.eccentricity()),
+          b(conic.angularMomentum() / std::sqrt(conic.beta())),
+          n(conic.beta() * std::sqrt(conic.beta()) / mu),
+          start(conic.start()),
+          meanAnomaly(n * conic.sincePerihelion()),
+          px(conic.px),
+          py(conic.py),
+          qx(conic.qx),
+          qy(conic.qy) {
+        auto all = std::make_shared<std::vector<Anchor>>();
+        for (std::size_t k = 0; k < anchors; ++k) all->push_back(anchorAt(spacing * static_cast<double>(k)));
+        anchors_ = std::move(all);
+    }
+
+    /// Position and velocity where cos and sin of the anomaly are c and s, and dE/dM = r.
     void place(double c, double s, double r, double* x) const {
-        const double sign = isElliptic ? 1 : -1, rate = n * r;
-        const double u = sign * a * (c - e), v = b * s;
+        const double rate = n * r;
+        const double u = a * (c - e), v = b * s;
         const double ut = -a * s * rate, vt = b * c * rate;
         x[0] = u * px + v * qx;
         x[1] = u * py + v * qy;
         x[2] = ut * px + vt * qx;
         x[3] = ut * py + vt * qy;
     }
-    void operator()(std::span<const double> t, double* x) const {
-        constexpr std::size_t width = 4;
-        if (isElliptic) return near(t, x);
-        for (std::size_t i = 0; i < t.size(); ++i) {
-            const double E = solveHyperbolic(meanAnomaly + n * (t[i] - start));
-            const double c = std::cosh(E);
-            place(c, std::sinh(E), 1 / (e * c - 1), x + i * width);
-        }
-    }
-    /// Of ellipses: prepares places from which others are near.
-    void makeAnchors() {
-        auto all = std::make_shared<std::vector<Anchor>>();
-        for (std::size_t k = 0; k < anchors; ++k) all->push_back(anchorAt(spacing * static_cast<double>(k)));
-        anchors_ = std::move(all);
-    }
+    void operator()(std::span<const double> t, double* x) const { near(t, x); }
 
 private:
     static constexpr std::size_t lanes = 8, anchors = 512;
@@ -158,54 +159,16 @@ private:
         }
         return E;
     }
-    /// e sinh E - E = M.
-    double solveHyperbolic(double mean) const {
-        double E = std::asinh(mean / e);
-        for (int i = 0; i < 60; ++i) {
-            const double s = e * std::sinh(E), slope = e * std::cosh(E) - 1;
-            const double f = s - E - mean;
-            const double step = f / (slope - 0.5 * f * s / slope);
-            E -= step;
-            if (std::abs(step) < 1e-8 * (1 + std::abs(E)) || !std::isfinite(E)) break;
-        }
-        return E;
-    }
-
     std::shared_ptr<const std::vector<Anchor>> anchors_;
 };
 
+/// Kepler's equation divides by 1 - e: long ellipses, parabolas and hyperbolas go by universal variables.
 ExactSolution exactSolution(double mu, const State& initial) {
-    const double x = initial.x[0], y = initial.x[1], vx = initial.x[2], vy = initial.x[3];
-    const double r = std::hypot(x, y), L = x * vy - y * vx;
-    const double inverseA = 2 / r - (vx * vx + vy * vy) / mu;  // 1/a, negative for hyperbolas
-    // Laplace-Runge-Lenz vector: length e, towards the perihelion.
-    const double ex = vy * L / mu - x / r, ey = -vx * L / mu - y / r;
-    Orbit o;
-    o.e = std::hypot(ex, ey);
-    if (!(r > 0) || !std::isfinite(inverseA) || std::abs(L) < 1e-12 * std::sqrt(mu * r) ||
-        std::abs(inverseA) * r < 1e-9)
-        return {};
-    o.isElliptic = inverseA > 0;
-    o.a = 1 / std::abs(inverseA);
-    o.n = std::sqrt(mu * std::abs(inverseA)) * std::abs(inverseA);
-    o.b = std::abs(L) / std::sqrt(mu * o.a) * o.a;  // a sqrt|1 - e^2| without cancellation
-    o.start = initial.t;
-    const double scale = o.e > 1e-300 ? o.e : 1;
-    o.px = o.e > 1e-300 ? ex / scale : x / r;
-    o.py = o.e > 1e-300 ? ey / scale : y / r;
-    const double turn = L > 0 ? 1 : -1;
-    o.qx = -turn * o.py;
-    o.qy = turn * o.px;
-    const double u = x * o.px + y * o.py, v = x * o.qx + y * o.qy;
-    if (o.isElliptic) {
-        const double E = std::atan2(v / o.b, u / o.a + o.e);
-        o.meanAnomaly = E - o.e * std::sin(E);
-        o.makeAnchors();
-    } else {
-        const double E = std::asinh(v / o.b);
-        o.meanAnomaly = o.e * std::sinh(E) - E;
-    }
-    return o;
+    constexpr double mostByAnomaly = 0.9;
+    const Conic conic(mu, initial);
+    if (!conic.isKnown()) return {};
+    if (conic.isElliptic() && conic.eccentricity() < mostByAnomaly) return Orbit(mu, conic);
+    return [conic](double t, std::span<double> x) { conic(t, x.data()); };
 }
 
 void drawKepler(const double* x, Drawing& drawing) {

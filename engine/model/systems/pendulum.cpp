@@ -5,16 +5,15 @@
 ///     kappa^2 = sin^2(theta_0/2) + (y/(2 w))^2
 ///     libration, kappa < 1:  sin(theta/2) = kappa sn(w t + u_0, kappa)
 ///     rotation,  kappa > 1:  theta/2 = am(kappa w t + u_0, 1/kappa), with the sign of the motion
-/// At kappa = 1, the separatrix, theta/2 is the Gudermannian.
+/// At kappa = 1, the separatrix, theta/2 is the Gudermannian. The elliptic functions are taken from 1 -
+/// kappa^2 or 1 - 1/kappa^2, which is formed as a product.
 #include <array>
-#include <boost/math/special_functions/ellint_1.hpp>
-#include <boost/math/special_functions/jacobi_elliptic.hpp>
 #include <cmath>
-#include <string>
 #include <numbers>
+#include <string>
 
-#include "engine/core/quiet.hpp"
 #include "engine/model/bind.hpp"
+#include "engine/model/jacobi_elliptic.hpp"
 #include "engine/model/parameters.hpp"
 #include "engine/model/system.hpp"
 
@@ -45,63 +44,67 @@ const std::vector<Field<Pendulum>>& pendulumFields() {
     return all;
 }
 
-/// The incomplete integral F(phi, k) for any phi, through the quarter period.
-double ellipticF(double k, double phi) { return boost::math::ellint_1(k, phi, quiet); }
-
-struct PendulumFlow {
-    double w, inertia, kappa, modulus, quarter, u0, sign, start, turns;
-    bool isRotation, isSeparatrix;
-
-    PendulumFlow(const Pendulum& p, const State& initial) : start(initial.t) {
-        w = std::sqrt(p.g / p.l);
-        inertia = p.m * p.l * p.l;
-        const double pi = std::numbers::pi;
-        const double theta = initial.x[0], y = initial.x[1] / inertia;
-        turns = std::round(theta / (2 * pi));
-        const double half = (theta - 2 * pi * turns) / 2;
-        kappa = std::hypot(std::sin(half), y / (2 * w));
-        isSeparatrix = std::abs(kappa - 1) < 1e-14;
-        isRotation = !isSeparatrix && kappa > 1;
-        sign = y < 0 ? -1 : 1;
-        modulus = isRotation ? 1 / kappa : std::min(kappa, 1.0);
-        quarter = isSeparatrix ? 0 : boost::math::ellint_1(modulus, quiet);
-        if (isSeparatrix) {
-            u0 = sign * std::atanh(std::sin(half));
-        } else if (isRotation) {
-            u0 = sign * ellipticF(modulus, half);
-        } else if (kappa == 0) {
-            u0 = 0;
-        } else {
-            // sin(half) = kappa sin(phi), cos(phi) has the sign of y.
-            const double phi = std::atan2(std::sin(half), y / (2 * w));
-            u0 = ellipticF(modulus, phi);
+/// The motion from an initial state. With s, c the sine and cosine of theta_0/2 and Y = y/(2 w), all from the
+/// full angle, so that nothing is lost where theta_0 is near the top,
+///     kappa^2 = s^2 + Y^2,   1 - kappa^2 = (c - |Y|)(c + |Y|)
+/// The difference is formed in extended precision where the machine has it: near the separatrix the time to
+/// fall is the logarithm of it.
+class PendulumFlow {
+public:
+    PendulumFlow(const Pendulum& p, const State& initial) : start_(initial.t) {
+        using Wide = long double;
+        const Wide pi = std::numbers::pi_v<Wide>, theta = initial.x[0];
+        const Wide inertia = Wide(p.m) * p.l * p.l, w = std::sqrt(Wide(p.g) / p.l);
+        const Wide y = Wide(initial.x[1]) / inertia;
+        Wide s = std::sin(theta / 2), c = std::cos(theta / 2);
+        if (c < 0) {
+            s = -s;
+            c = -c;
+        }
+        turns_ = static_cast<double>(std::round((theta / 2 - std::atan2(s, c)) / pi));
+        const Wide Y = std::abs(y) / (2 * w), below = (c - Y) * (c + Y), kappa = std::hypot(s, Y);
+        w_ = static_cast<double>(w);
+        inertia_ = static_cast<double>(inertia);
+        kappa_ = static_cast<double>(kappa);
+        sign_ = y < 0 ? -1 : 1;
+        kind_ = kappa == 0 ? Kind::rest : below > 0 ? Kind::libration : Kind::rotation;
+        m1_ = static_cast<double>(kind_ == Kind::rotation ? -below / (kappa * kappa) : below);
+        quarter_ = quarterPeriod(m1_);
+        const auto square = [](Wide x) { return static_cast<double>(x * x); };
+        if (kind_ == Kind::rotation) {
+            u0_ = sign_ * integralOfFirstKind(static_cast<double>(s), square(c), square(c) + m1_ * square(s));
+        } else if (kind_ == Kind::libration) {
+            // s = kappa sin(phi), Y = kappa |cos(phi)|, and cos(phi) has the sign of y.
+            u0_ = integralOfFirstKind(static_cast<double>(s / kappa), square(Y / kappa), square(c));
+            if (y < 0) u0_ = std::copysign(2 * quarter_, u0_) - u0_;
         }
     }
     void operator()(double t, std::span<double> x) const {
-        const double pi = std::numbers::pi;
         double half = 0, rate = 0;
-        if (isSeparatrix) {
-            const double u = w * (t - start) + u0;
-            half = sign * 2 * std::atan(std::tanh(u / 2));
-            rate = sign * w / std::cosh(u);
-        } else if (isRotation) {
-            double dn = 0, cn = 0;
-            const double u = kappa * w * (t - start) + u0;
-            const double cycles = std::round(u / (2 * quarter));
-            const double sn =
-                boost::math::jacobi_elliptic(modulus, u - 2 * quarter * cycles, &cn, &dn, quiet);
-            half = sign * (std::atan2(sn, cn) + cycles * pi);
-            rate = sign * kappa * w * dn;
-        } else if (kappa > 0) {
-            double dn = 0, cn = 0;
-            const double u = std::remainder(w * (t - start) + u0, 4 * quarter);
-            const double sn = boost::math::jacobi_elliptic(modulus, u, &cn, &dn, quiet);
-            half = std::asin(kappa * sn);
-            rate = kappa * w * cn;
+        if (kind_ == Kind::rotation) {
+            const double u = kappa_ * w_ * (t - start_) + u0_;
+            const double cycles = std::isfinite(quarter_) ? std::round(u / (2 * quarter_)) : 0;
+            const JacobiElliptic j(cycles == 0 ? u : u - 2 * quarter_ * cycles, m1_);
+            half = sign_ * (std::atan2(j.sn, j.cn) + cycles * std::numbers::pi);
+            rate = sign_ * kappa_ * w_ * j.dn;
+        } else if (kind_ == Kind::libration) {
+            const double u = w_ * (t - start_) + u0_;
+            const JacobiElliptic j(std::remainder(u, 4 * quarter_), m1_);
+            half = std::atan2(kappa_ * j.sn, j.dn);  // its cosine is dn
+            rate = kappa_ * w_ * j.cn;
         }
-        x[0] = 2 * half + 2 * pi * turns;
-        x[1] = 2 * rate * inertia;
+        x[0] = 2 * half + 2 * std::numbers::pi * turns_;
+        x[1] = 2 * rate * inertia_;
     }
+
+private:
+    /// On the separatrix itself, 1 - kappa^2 = 0, rotation takes forever for half a turn.
+    enum class Kind { rest, libration, rotation };
+
+    Kind kind_ = Kind::rest;
+    double start_, w_ = 0, inertia_ = 0, kappa_ = 0, sign_ = 1, turns_ = 0;
+    double m1_ = 1;  ///< the complementary parameter, 1 - kappa^2 or 1 - 1/kappa^2
+    double quarter_ = 0, u0_ = 0;
 };
 
 System makePendulum(const Settings& settings) {

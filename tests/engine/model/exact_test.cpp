@@ -28,6 +28,7 @@ private slots:
         QTest::newRow("ellipse, clockwise, other mu")
             << "kepler" << QList<double>{0.3, 0.5, 0.9, -1.1} << 1.7;
         QTest::newRow("circle") << "kepler" << QList<double>{1, 0, 0, 1} << 1.0;
+        QTest::newRow("parabola") << "kepler" << QList<double>{1, 0, 0, std::sqrt(2.0)} << 1.0;
         QTest::newRow("hyperbola") << "kepler" << QList<double>{1, 0.2, 0.3, 1.9} << 1.0;
     }
     void exactSolutionsAgreeWithATightIntegration() {
@@ -80,8 +81,7 @@ private slots:
     }
     void someOrbitsHaveNone() {
         const System kepler = laws::systemNamed("kepler");
-        QVERIFY(!kepler.exact({0, 0, {1, 0, 0.5, 0}}));             // through the centre
-        QVERIFY(!kepler.exact({0, 0, {1, 0, 0, std::sqrt(2.0)}}));  // parabola
+        QVERIFY(!kepler.exact({0, 0, {1, 0, 0.5, 0}}));  // through the centre
         QVERIFY(!laws::systemNamed("spring-pendulum").exact);
     }
 };
