@@ -7,10 +7,12 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <utility>
 
 #include "engine/core/expression.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/group/so3.hpp"
+#include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 
 namespace extremal {
@@ -166,16 +168,67 @@ std::vector<std::pair<std::string, double>> parametersOf(const Settings& setting
     return all;
 }
 
+/// Places and attitudes at which a potential is looked at: random ones of several sizes, and some near the
+/// landmarks of the formula, which are sought along a straight line or about an axis.
+class PoseSampler {
+public:
+    explicit PoseSampler(const TypedPotential& potential)
+        : movesInSpace_(potential.dimension == 6), landmarks_(*typed::landmarksOf(potential.mechanics)) {}
+
+    static constexpr int random = 24, atEachLandmark = 24;
+    int count() const { return random + atEachLandmark * static_cast<int>(landmarks_.size()); }
+    std::pair<Vector, Rotation> next() {
+        const int i = drawn_++;
+        Vector x = vector() * (movesInSpace_ ? std::pow(10.0, i % 4 - 1) : 0);
+        Rotation R = so3::Exponential<double, 0>(vector()).rotation();
+        if (i < random) return {x, R};
+        // One landmark, or all in turn, so that what lies at x = 50, y = 50 is met.
+        const auto first = static_cast<std::size_t>((i - random) / atEachLandmark);
+        for (std::size_t j = 0; j < (i % 2 == 0 ? 1 : landmarks_.size()); ++j)
+            approach((first + j) % landmarks_.size(), x, R);
+        return {x, R};
+    }
+
+private:
+    Vector vector() { return Vector(normal_(random_), normal_(random_), normal_(random_)); }
+    /// Goes along a coordinate that the landmark depends on, or turns about a random axis.
+    void approach(std::size_t k, Vector& x, Rotation& R) {
+        const std::vector<int>& symbols = landmarks_.symbols(k);
+        const int symbol = symbols[random_() % symbols.size()];
+        if (symbol >= entries) return;
+        const Vector direction = symbol < 3 ? Vector(Vector::Unit(symbol)) : vector().normalized();
+        const auto placeAt = [&](double s) { return symbol < 3 ? Vector(x + s * direction) : x; };
+        const auto attitudeAt = [&](double s) {
+            if (symbol < 3) return R;
+            return Rotation(R * so3::Exponential<double, 0>(Vector(s * direction)).rotation());
+        };
+        const auto sum = [&](double s) {
+            std::array<double, 2 * entries + 1> inputs{};  // at rest, t = 0
+            const Vector place = placeAt(s);
+            const Rotation attitude = attitudeAt(s);
+            const Place pose(attitude.data(), place.data());
+            std::copy(pose.q.begin(), pose.q.end(), inputs.begin());
+            return landmarks_.value(k, inputs.data());
+        };
+        const double s = typed::nearZero(sum, 0, random_);
+        x = placeAt(s);
+        R = attitudeAt(s);
+    }
+
+    bool movesInSpace_;
+    const typed::Landmarks& landmarks_;
+    int drawn_ = 0;
+    std::mt19937 random_{1};
+    std::normal_distribution<double> normal_;
+};
+
 /// Whether U stays the same when everything is turned about space axis k.
 bool isSymmetricAbout(int k, const TypedPotential& potential) {
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal;
-    const auto vector = [&] { return Vector(normal(random), normal(random), normal(random)); };
     const Mechanics<double>& m = potential.mechanics;
+    PoseSampler poses(potential);
     int probes = 0;
-    for (int i = 0; i < 24; ++i) {
-        const Vector x = vector() * (potential.dimension == 6 ? std::pow(10.0, i % 4 - 1) : 0);
-        const Rotation R = so3::Exponential<double, 0>(vector()).rotation();
+    for (int i = 0; i < poses.count(); ++i) {
+        const auto [x, R] = poses.next();
         const Place place(R.data(), x.data());
         Gradient dL;
         m.force(m.model.get(), 0.0, place.q.data(), dL.data());

@@ -119,14 +119,18 @@ std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampl
     constexpr double exact = 1e-12, almost = 1e-6;
     const int d = system.dimension();
     const Unknowns unknowns(d);
-    const Index m = unknowns.size(), rows = 3 * m + 20;
     StateSampler sampler = from;
+    const Index m = unknowns.size(), random = 3 * m + 20, rows = random + sampler.statesAtLandmarks();
     MatrixXd M(rows, m);
     VectorXd row(m);
     SampledState state;
     for (Index i = 0; i < rows; ++i) {
-        if (!sampler.next(state)) return {};
-        unknowns.fillRow(state, row);
+        const bool isRandom = i < random;
+        if (isRandom && !sampler.next(state)) return {};
+        if (isRandom || sampler.nextAtLandmarks(state))
+            unknowns.fillRow(state, row);
+        else
+            row.setZero();
         M.row(i) = row;
     }
     const VectorXd scales = equilibrate(M);

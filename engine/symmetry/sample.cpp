@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 
 namespace extremal {
 
 StateSampler::StateSampler(const Mechanical& mechanics, unsigned seed)
-    : mechanics_(&mechanics), random_(seed) {
+    : mechanics_(&mechanics), random_(seed), landmarks_(typed::landmarksOf(mechanics)) {
     const auto d = static_cast<std::size_t>(mechanics.dimension);
     gradient_.resize(2 * d);
     hessian_.resize(4 * d * d);
@@ -79,18 +81,55 @@ void StateSampler::draw(SampledState& state) {
     }
 }
 
+bool StateSampler::evaluate(SampledState& state) {
+    mechanics_->jet(mechanics_->model.get(), state.t, state.q.data(), state.v.data(), &state.L,
+                    state.gradient.data(), hessian_.data());
+    state.Lt = timeDerivative(state.t, state.q.data(), state.v.data());
+    return std::isfinite(state.L) && std::isfinite(state.Lt) &&
+           std::all_of(state.gradient.begin(), state.gradient.end(),
+                       [](double g) { return std::isfinite(g); });
+}
+
 bool StateSampler::next(SampledState& state) {
     for (int attempt = 0; attempt < 50; ++attempt) {
         draw(state);
-        mechanics_->jet(mechanics_->model.get(), state.t, state.q.data(), state.v.data(), &state.L,
-                        state.gradient.data(), hessian_.data());
-        state.Lt = timeDerivative(state.t, state.q.data(), state.v.data());
-        if (std::isfinite(state.L) && std::isfinite(state.Lt) &&
-            std::all_of(state.gradient.begin(), state.gradient.end(),
-                        [](double g) { return std::isfinite(g); }))
-            return true;
+        if (evaluate(state)) return true;
     }
     return false;
+}
+
+int StateSampler::statesAtLandmarks() const {
+    constexpr int each = 24, most = 240;
+    return landmarks_ ? static_cast<int>(std::min<std::size_t>(most, each * landmarks_->size())) : 0;
+}
+
+bool StateSampler::nextAtLandmarks(SampledState& state) {
+    draw(state);
+    const auto d = static_cast<std::size_t>(mechanics_->dimension);
+    std::vector<double> inputs(state.q);
+    inputs.insert(inputs.end(), state.v.begin(), state.v.end());
+    inputs.push_back(state.t);
+    std::vector<std::size_t> order(landmarks_->size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), random_);
+    // One of them, or all in turn: what lies at x = 50, y = 50 is seen where both sums vanish.
+    if (random_() % 2 == 0) order.resize(1);
+    for (const std::size_t k : order) {
+        const std::vector<int>& symbols = landmarks_->symbols(k);
+        double& moved = inputs[static_cast<std::size_t>(symbols[random_() % symbols.size()])];
+        moved = typed::nearZero(
+            [&](double value) {
+                const double before = std::exchange(moved, value),
+                             result = landmarks_->value(k, inputs.data());
+                moved = before;
+                return result;
+            },
+            moved, random_);
+    }
+    std::copy_n(inputs.begin(), d, state.q.begin());
+    std::copy_n(inputs.begin() + static_cast<std::ptrdiff_t>(d), d, state.v.begin());
+    state.t = inputs.back();
+    return evaluate(state);
 }
 
 }  // namespace extremal

@@ -76,19 +76,30 @@ bool movesSomething(const Symmetry& s) {
     return s.movesTime() || hasNonzero(s.A) || hasNonzero(s.b) || hasNonzero(s.c);
 }
 
-/// The largest violation over fresh states; infinity where there are none, or where it is no number.
+/// The largest violation over fresh states, those near the landmarks of the formula among them; infinity
+/// where there are no states, or where it is not a number.
 double worstViolation(const Mechanical& mechanics, const Symmetry& s) {
     constexpr int states = 40;
     StateSampler sampler(mechanics, 2718);
     SampledState state;
     double worst = 0;
+    const auto look = [&] {
+        const double violation = s.violation(mechanics, state.t, state.q.data(), state.v.data());
+        worst = std::isnan(violation) ? std::numeric_limits<double>::infinity() : std::max(worst, violation);
+    };
     for (int i = 0; i < states; ++i) {
         if (!sampler.next(state)) return std::numeric_limits<double>::infinity();
-        const double violation = s.violation(mechanics, state.t, state.q.data(), state.v.data());
-        if (std::isnan(violation)) return std::numeric_limits<double>::infinity();
-        worst = std::max(worst, violation);
+        look();
     }
+    for (int i = 0; i < sampler.statesAtLandmarks(); ++i)
+        if (sampler.nextAtLandmarks(state)) look();
     return worst;
+}
+
+/// Whether t alone moves, and F does not make up for it: then L_t = 0, which the formula itself tells.
+bool isPureTime(const Symmetry& s) {
+    return s.tau0 != 0 && s.tau1 == 0 && !hasNonzero(s.A) && !hasNonzero(s.b) && !hasNonzero(s.c) &&
+           s.F.empty();
 }
 
 /// dJ/d(q, p) at fixed t, entries times the sizes of q and p.
@@ -151,7 +162,7 @@ std::vector<Symmetry> search(const System& system) {
     std::vector<Symmetry> found;
     for (Symmetry& s : isSmall ? symmetriesOnSamples(system, StateSampler(mechanics)) : candidates(system)) {
         normalise(s);
-        if (!movesSomething(s)) continue;
+        if (!movesSomething(s) || (isPureTime(s) && mechanics.isTimeDependent)) continue;
         Symmetry rounded = s;
         changeAll(rounded, snapped);
         const double limit = s.isExact() ? exact : almost;

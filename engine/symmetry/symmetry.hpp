@@ -9,8 +9,9 @@
 /// b, c, tau0, tau1, F): the symmetries are the null space of a matrix with one row per random state. Found
 /// in milliseconds for up to 8 coordinates; of more, translations, rotations and boosts of all bodies
 /// together are tried by name.
-/// Not found: symmetries that are not affine in these coordinates (a translation in polar coordinates),
-/// hidden ones (Runge-Lenz), and what differs from L outside the sampled states only.
+/// States near the places where a typed formula changes are among them, and the energy of a formula with t in
+/// it is not conserved, whatever the states say. Not found: symmetries that are not affine in these
+/// coordinates (a translation in polar coordinates), and hidden ones (Runge-Lenz).
 #pragma once
 
 #include <memory>

@@ -24,6 +24,7 @@
 #include "engine/core/stumpff.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/system.hpp"
+#include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/typed_mechanics.hpp"
 
 namespace extremal::systems {
@@ -98,7 +99,8 @@ Sample sampleAt(const Mechanics<double>& m, double t, const Vector& q, const Vec
     m.jet(m.model.get(), t, q.data(), v.data(), &s.L, s.gradient.data(), s.hessian.data());
     return s;
 }
-/// Places of several sizes, at rest or not; those where the potentials have no value are left out.
+/// Places of several sizes and near the landmarks of the potentials, at rest or not; those where the
+/// potentials have no value are left out.
 std::vector<Sample> samples(const Mechanics<double>& m, bool isMoving) {
     std::vector<Sample> all;
     std::mt19937 random(1897);
@@ -111,6 +113,27 @@ std::vector<Sample> samples(const Mechanics<double>& m, bool isMoving) {
             v[k] = isMoving ? uniform() : 0;
         }
         const Sample s = sampleAt(m, i % 8 + 0.5 * uniform(), q, v);
+        if (s.isFinite()) all.push_back(s);
+    }
+    const typed::Landmarks* const landmarks = typed::landmarksOf(m);
+    for (std::size_t i = 0; i < 24 * landmarks->size(); ++i) {
+        Eigen::Matrix<double, 7, 1> at;  // q, v, t
+        for (double& number : at) number = uniform();
+        if (!isMoving) at.segment<3>(3).setZero();
+        // One landmark, or all in turn; only places and the time move.
+        for (std::size_t j = 0; j < (i % 2 ? landmarks->size() : 1); ++j) {
+            const std::size_t k = (i / 24 + j) % landmarks->size();
+            const std::vector<int>& symbols = landmarks->symbols(k);
+            const int symbol = symbols[random() % symbols.size()];
+            if (symbol >= 3 && symbol < 6) continue;
+            const auto sum = [&](double value) {
+                auto moved = at;
+                moved[symbol] = value;
+                return landmarks->value(k, moved.data());
+            };
+            at[symbol] = typed::nearZero(sum, at[symbol], random);
+        }
+        const Sample s = sampleAt(m, at[6], at.head<3>(), at.segment<3>(3));
         if (s.isFinite()) all.push_back(s);
     }
     return all;

@@ -13,6 +13,7 @@
 #include "engine/core/dimension.hpp"
 #include "engine/core/instruction_set.hpp"
 #include "engine/core/lanes.hpp"
+#include "engine/model/typed/landmarks.hpp"
 #include "engine/model/typed/symbolic.hpp"
 #include "engine/model/typed/tape.hpp"
 #include "engine/model/typed/tape_run.hpp"
@@ -32,6 +33,7 @@ struct Model {
         std::size_t output, at, mirrored;  ///< output of the jet's tape -> two entries of the Hessian
     };
     std::vector<Place> places;
+    Landmarks landmarks;
 };
 
 const Model& self(const void* p) { return *static_cast<const Model*>(p); }
@@ -308,6 +310,7 @@ public:
         model_->force = tape({n_.gradient.begin(), n_.gradient.begin() + d_});
         buildJet();
         buildLegendre();
+        model_->landmarks = Landmarks(n_.graph, n_.value, 2 * d_ + 1);
         TypedMechanics made;
         Mechanics<double>& m = made.mechanics;
         m.dimension = d_;
@@ -404,6 +407,10 @@ private:
 };
 
 }  // namespace
+
+const Landmarks* landmarksOf(const Mechanics<double>& mechanics) {
+    return mechanics.jet == jet ? &self(mechanics.model.get()).landmarks : nullptr;
+}
 
 TypedMechanics makeMechanics(const Formula& formula) {
     const auto symbolic = differentiate(formula);

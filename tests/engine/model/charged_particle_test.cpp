@@ -74,6 +74,10 @@ private slots:
         QVERIFY(!particle({"-y*sqrt(x^2+y^2)/3", "x*sqrt(x^2+y^2)/3", "0"}, "0").exact);
         QVERIFY(!particle({"-y/2", "x/2", "0"}, "x^2/2").exact);
         QVERIFY(!particle({"-y/2*cos(t)", "x/2*cos(t)", "0"}, "0").exact);
+        // Uniform where one usually looks.
+        QVERIFY(!particle({"-y/2", "x/2", "0"}, "exp(-(x-50)^2)").exact);
+        QVERIFY(!particle({"-y/2", "x/2 + exp(-(x-70)^2)*y", "0"}, "0").exact);
+        QVERIFY(!particle({"-y/2", "x/2", "exp(-(t-50)^2)"}, "0").exact);
     }
     void momentaFollowTheSymmetry() {
         QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "0")), (Names{"z", "linear.z"}));
@@ -82,6 +86,9 @@ private slots:
             momentaOf(particle({"-y*sqrt(x^2+y^2)/3", "x*sqrt(x^2+y^2)/3", "0"}, "z/(100*sqrt(x^2+y^2))")),
             Names{"z"});
         QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "(x^2 + 1.0000001*y^2)*z")), Names{});
+        QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "exp(-(x-50)^2)")), Names{"linear.z"});
+        QCOMPARE(momentaOf(particle({"-y/2", "x/2", "0"}, "exp(-(x^2+y^2-2500)^2)")),
+                 (Names{"z", "linear.z"}));
     }
     void momentaAreKept() {
         const System s =

@@ -126,6 +126,9 @@ private slots:
         QCOMPARE(names("R33 + R31^2", 3), (Names{"space.z"}));
         QCOMPARE(names("R33 + R21", 3), (Names{}));
         QCOMPARE(names("0").size(), std::size_t(6));
+        // What is nearly constant where one usually looks.
+        QCOMPARE(names("exp(-(x-500)^2 - (y-20)^2)"), (Names{"linear.z"}));
+        QCOMPARE(names("exp(-1e6*(R33-0.5)^2)", 3), (Names{"space.z"}));
         QVERIFY(bodyWith("2*mass").isFree());
     }
     void whatHasNoMeaningIsRefusedWithItsPlace_data() {

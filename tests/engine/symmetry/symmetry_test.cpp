@@ -162,6 +162,42 @@ private slots:
         QCOMPARE(found, expected);
     }
 
+    /// What lies outside the places and times where one usually looks.
+    void whatIsFarAwayIsSeen_data() {
+        QTest::addColumn<QString>("found");
+        QTest::addColumn<QString>("expected");
+        const auto row = [](const char* name, const System& system, const char* expected) {
+            QTest::newRow(name) << QString::fromStdString(allOf(system)) << QString(expected);
+        };
+        row("pulse at t = 50", typed({"x"}, "x_t^2/2 - x^2/2 + 3*x*exp(-(t-50)^2)"), "");
+        row("the same, multiplied out", typed({"x"}, "x_t^2/2 - x^2/2 + 3*x*exp(-t^2 + 100*t - 2500)"), "");
+        row("sharp pulse", typed({"x"}, "x_t^2/2 - x^2/2 + x*exp(-1e4*(t-3.37)^2)"), "");
+        row("parametric pulse", typed({"x"}, "x_t^2/2 - x^2/2*(1 + exp(-(t-50)^2))"), "");
+        row("a time that is written and does not matter", typed({"x"}, "x_t^2/2 - x^2/2 + 0*t"),
+            "energy t: 1");
+        row("hill at x = 50", typed({"x"}, "x_t^2/2 - exp(-(x-50)^2)"), "energy t: 1");
+        row("step at x = -300", typed({"x"}, "x_t^2/2 - tanh((x+300)/0.1)"), "energy t: 1");
+        row("resonance", typed({"x"}, "x_t^2/2 - 1/(1 + 1e4*(x-80)^2)^4"), "energy t: 1");
+        row("hill at (50, 50)", typed({"x", "y"}, kinetic + " - exp(-(x-50)^2 - (y-50)^2)"),
+            "rotation.x-y x: -y + 50, y: x - 50 | energy t: 1");
+        row("hill of a distance", typed({"x", "y"}, kinetic + " - exp(-(x-y-50)^2)"),
+            "translation.x+y x: 1, y: 1 | boost.x+y x: t, y: t; F = x + y | energy t: 1");
+        row("wall around the origin", typed({"x", "y"}, kinetic + " - exp(-(x^2 + y^2 - 2500)^2)"),
+            "rotation.x-y x: -y, y: x | energy t: 1");
+        row("terms",
+            laws::systemNamed("lagrangian",
+                              {{"coordinates", Value(Value::Array{"x"})},
+                               {"lagrangian", Value(Value::Object{{"kinetic", "x_t^2/2"},
+                                                                  {"far", "-exp(-(x-50)^2)"},
+                                                                  {"pulse", "x*exp(-(t-90)^2)"}})}}),
+            "");
+    }
+    void whatIsFarAwayIsSeen() {
+        QFETCH(QString, found);
+        QFETCH(QString, expected);
+        QCOMPARE(found, expected);
+    }
+
     void aNearSymmetryIsNoMomentum() {
         const System system = typed({"x", "y"}, "x_t^2/2 + 1.000001*y_t^2/2 + 1/sqrt(x^2 + y^2)");
         const Symmetry s = named(system, "rotation.x-y");

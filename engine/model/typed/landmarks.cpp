@@ -1,0 +1,46 @@
+#include "engine/model/typed/landmarks.hpp"
+
+#include <algorithm>
+
+namespace extremal::typed {
+namespace {
+
+/// The symbols below a node.
+std::vector<int> symbolsBelow(const Graph& graph, int root, int inputs) {
+    std::vector<int> found;
+    for (int symbol = 0; symbol < inputs; ++symbol)
+        if (graph.dependsOn({root}, [symbol](int s) { return s == symbol; })) found.push_back(symbol);
+    return found;
+}
+
+}  // namespace
+
+Landmarks::Landmarks(const Graph& graph, int root, int inputs) {
+    std::vector<char> isSeen(static_cast<std::size_t>(graph.size()), 0);
+    std::vector<int> open{root}, sums;
+    while (!open.empty()) {
+        const int at = open.back();
+        open.pop_back();
+        if (isSeen[static_cast<std::size_t>(at)]) continue;
+        isSeen[static_cast<std::size_t>(at)] = 1;
+        const Graph::Node& node = graph.at(at);
+        for (const Graph::Operand& operand : node.operands) open.push_back(operand.node);
+        const bool isShifted = node.number != 0 || node.operands.size() > 1;
+        if (at != root && node.kind == Graph::Kind::sum && isShifted) sums.push_back(at);
+    }
+    std::stable_sort(sums.begin(), sums.end(),
+                     [&](int a, int b) { return (graph.at(a).number != 0) > (graph.at(b).number != 0); });
+    sums.resize(std::min(sums.size(), most));
+    for (const int sum : sums) symbols_.push_back(symbolsBelow(graph, sum, inputs));
+    tape_ = Tape::of(graph, sums, inputs);
+}
+
+double Landmarks::value(std::size_t k, const double* inputs) const {
+    thread_local std::vector<double> registers;
+    if (registers.size() < tape_.registers()) registers.resize(tape_.registers());
+    std::copy_n(inputs, tape_.inputs(), registers.begin());
+    tape_.run(registers.data());
+    return tape_.output(k, registers.data());
+}
+
+}  // namespace extremal::typed
