@@ -235,8 +235,15 @@ void HelpWindow::filter() {
     found_->setVisible(!words.isEmpty());
     found_->setText(found.isEmpty() ? tr("No page has these words")
                                     : tr("%n pages", nullptr, static_cast<int>(found.size())));
-    if (words.isEmpty()) return text_->setExtraSelections({});
-    if (!found.isEmpty() && !found.contains(page())) goTo(found.front());
+    if (!words.isEmpty() && !found.isEmpty() && !found.contains(page())) goTo(found.front());
+    mark(words);
+    QTextCursor first = words.isEmpty() ? QTextCursor() : text_->document()->find(words.front());
+    if (first.isNull()) first = nextMark(0);  // the other words may be there
+    if (!first.isNull()) text_->setTextCursor(first);
+}
+
+/// Marks every place of the page that has one of the words.
+void HelpWindow::mark(const QStringList& words) {
     QList<QTextEdit::ExtraSelection> marks;
     for (const QString& word : words)
         for (QTextCursor at = text_->document()->find(word); !at.isNull();
@@ -248,23 +255,31 @@ void HelpWindow::filter() {
             marks << mark;
         }
     text_->setExtraSelections(marks);
-    if (!marks.isEmpty()) {
-        text_->moveCursor(QTextCursor::Start);
-        findNext();
-    }
 }
 
-/// The next place with the first word; after the last one of a page, the next page.
+/// The first mark that begins at a position of the page or behind it; null: there is no further one.
+QTextCursor HelpWindow::nextMark(int position) const {
+    QTextCursor next;
+    for (const QTextEdit::ExtraSelection& mark : text_->extraSelections())
+        if (const int start = mark.cursor.selectionStart();
+            start >= position && (next.isNull() || start < next.selectionStart()))
+            next = mark.cursor;
+    return next;
+}
+
+/// The next place with one of the words; after the last one of a page, the next page that has them.
 void HelpWindow::findNext() {
-    const QString word = search_->text().section(' ', 0, 0, QString::SectionSkipEmpty);
-    if (word.isEmpty() || text_->find(word)) return;
-    for (int i = pages_->currentRow() + 1; i < pages_->count(); ++i)
-        if (!pages_->item(i)->isHidden()) {
-            goTo(pages_->item(i)->data(Qt::UserRole).toString());
-            return filter();
-        }
-    text_->moveCursor(QTextCursor::Start);
-    text_->find(word);
+    const QStringList words = search_->text().toLower().split(' ', Qt::SkipEmptyParts);
+    if (words.isEmpty()) return;
+    QTextCursor next = nextMark(text_->textCursor().selectionEnd());
+    for (int i = pages_->currentRow() + 1; i < pages_->count() && next.isNull(); ++i) {
+        if (pages_->item(i)->isHidden()) continue;
+        goTo(pages_->item(i)->data(Qt::UserRole).toString());
+        mark(words);
+        next = nextMark(0);
+    }
+    if (next.isNull()) next = nextMark(0);
+    if (!next.isNull()) text_->setTextCursor(next);
 }
 
 }  // namespace extremal

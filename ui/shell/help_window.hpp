@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QStringList>
+#include <QTextCursor>
 #include <QWidget>
 
 #include <vector>
@@ -40,6 +41,8 @@ private:
     void showPage(const QString& page);
     void follow(const QUrl& url);
     void filter();
+    void mark(const QStringList& words);
+    QTextCursor nextMark(int position) const;
     void findNext();
     void leave();  ///< remembers where the reader is
     void go(int by);

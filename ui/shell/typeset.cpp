@@ -85,6 +85,9 @@ void show(QTextBrowser& browser, const QString& markdown, void (*typeset)(QTextD
     for (QTextFrame* frame : document.rootFrame()->childFrames())
         if (auto* table = qobject_cast<QTextTable*>(frame)) typesetTable(*table, palette);
     const QPointer<QTextDocument> last = browser.document();
+    // The marks of a search are cursors of the last document: the browser would ask it for their places when
+    // it is given others.
+    browser.setExtraSelections({});
     browser.setDocument(page);
     delete last;  // where the browser has not
     browser.verticalScrollBar()->setValue(0);

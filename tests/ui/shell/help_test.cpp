@@ -1,6 +1,7 @@
 /// The handbook in the window: every page of it is listed, and its page of keys is what the actions say.
 #include <QDir>
 #include <QFile>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QRegularExpression>
 #include <QTabBar>
@@ -102,6 +103,73 @@ private slots:
         for (int i = 0; i < pages->count(); ++i) QVERIFY(pages->item(i)->isHidden());
         help.search({});
         QVERIFY(!pages->item(0)->isHidden() && text->extraSelections().isEmpty());
+    }
+    /// What is typed brings page after page under the marks of the letter before: from every page of the
+    /// handbook, letter by letter, there and back.
+    void theSearchIsTypedLetterByLetterFromEveryPage() {
+        const QStringList typed{"chaos",       "lobatto gauss", "zq9",  "f(x)",       "é α",
+                                "  the  step", "symplectic",    "0.01", "`a*[b].\\$", "Kepler e"};
+        HelpWindow help;
+        help.show();
+        const auto* pages = help.findChild<QListWidget*>();
+        auto* search = help.findChild<QLineEdit*>("search");
+        auto* text = help.findChild<QTextBrowser*>();
+        for (int i = 0; i < pages->count(); ++i) {
+            search->clear();
+            help.open(pages->item(i)->data(Qt::UserRole).toString());
+            const QString words = typed[i % typed.size()];
+            for (const QChar letter : words) {
+                search->insert(QString(letter));
+                QApplication::processEvents();  // paints the marks
+            }
+            QCOMPARE(search->text(), words);
+            for (const QTextEdit::ExtraSelection& mark : text->extraSelections())
+                QCOMPARE(mark.cursor.document(), text->document());
+            QTest::keyClick(search, Qt::Key_Return);
+            while (!search->text().isEmpty()) {
+                search->backspace();
+                QApplication::processEvents();
+            }
+            QVERIFY(text->extraSelections().isEmpty());
+        }
+    }
+    /// Other ways to another page, and other text in the same browser, under the marks of a search.
+    void pagesAreReplacedUnderTheMarksOfASearch() {
+        HelpWindow help;
+        help.show();
+        auto* text = help.findChild<QTextBrowser*>();
+        help.open("tour");
+        help.search("step");
+        for (const char* place : {"schemes", "scenes#time", "keys", "index"}) {
+            QVERIFY(!text->extraSelections().isEmpty());
+            help.open(place);
+            QApplication::processEvents();
+            help.search("the step");
+            help.search("step");
+        }
+        help.back();
+        QApplication::processEvents();
+        help.search("a");
+        help.forward();
+        help.search({});
+        QVERIFY(text->extraSelections().isEmpty());
+        help.open("keys");  // a page without marks: the words of a search are in others
+        QApplication::processEvents();
+        QVERIFY(text->toPlainText().contains("Keys"));
+    }
+    /// Return goes through all places with any of the words, page after page, and begins again.
+    void returnGoesFromPlaceToPlace() {
+        HelpWindow help;
+        auto* text = help.findChild<QTextBrowser*>();
+        auto* search = help.findChild<QLineEdit*>("search");
+        help.search("chebyshev");
+        QStringList pages{help.page()};
+        for (int i = 0; i < 200 && pages.size() < 3; ++i) {
+            QCOMPARE(text->textCursor().selectedText().toLower(), QString("chebyshev"));
+            QTest::keyClick(search, Qt::Key_Return);
+            if (help.page() != pages.back()) pages << help.page();
+        }
+        QCOMPARE(pages.size(), 3);
     }
     void theWayBackLeadsToWhereOneWas() {
         HelpWindow help;
