@@ -2,6 +2,7 @@
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
+#include <QAbstractScrollArea>
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
 #include <QApplication>
@@ -12,6 +13,7 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QPlainTextEdit>
+#include <QSlider>
 #include <QTimer>
 
 namespace extremal {
@@ -42,6 +44,13 @@ QAction* Actions::find(const QString& id) const {
     for (QAction* action : all_)
         if (action->objectName() == id) return action;
     return nullptr;
+}
+
+void Actions::setSceneInSight(bool isInSight) {
+    for (QAction* action : all_)
+        if (!withoutScene_.contains(action->objectName())) action->setEnabled(isInSight);
+    for (const Item& item : items_)
+        if (item.submenu) item.submenu->menuAction()->setEnabled(isInSight);
 }
 
 QString Actions::menuOf(const QAction* action) { return action->data().toString(); }
@@ -152,6 +161,20 @@ bool KeyGuard::takesKey(QWidget& widget, const QKeyEvent& key) {
     return false;
 }
 
+/// Fields that scroll along under the pointer: choices and spin boxes, and sliders inside a panel that
+/// scrolls.
+bool KeyGuard::refusesWheel(const QWidget& widget) const {
+    const bool isSlider = qobject_cast<const QSlider*>(&widget);
+    if (!isSlider && !qobject_cast<const QComboBox*>(&widget) &&
+        !qobject_cast<const QAbstractSpinBox*>(&widget))
+        return false;
+    if (widget.hasFocus()) return false;
+    const QWidget* around = widget.parentWidget();
+    while (isSlider && around && !qobject_cast<const QAbstractScrollArea*>(around))
+        around = around->parentWidget();
+    return around != nullptr;
+}
+
 bool KeyGuard::eventFilter(QObject* watched, QEvent* event) {
     auto* const widget = qobject_cast<QWidget*>(watched);
     if (!widget) return QObject::eventFilter(watched, event);
@@ -164,6 +187,15 @@ bool KeyGuard::eventFilter(QObject* watched, QEvent* event) {
         case QEvent::KeyPress:
             if (widget == QApplication::focusWidget() && takesKey(*widget, *static_cast<QKeyEvent*>(event)))
                 return true;
+            break;
+        case QEvent::Polish:  // the wheel gives the focus to no field
+            if (widget->focusPolicy() == Qt::WheelFocus) widget->setFocusPolicy(Qt::StrongFocus);
+            break;
+        case QEvent::Wheel:
+            if (refusesWheel(*widget)) {
+                event->ignore();  // goes on to what is around it
+                return true;
+            }
             break;
         case QEvent::FocusIn:
             if (static_cast<QFocusEvent*>(event)->reason() == Qt::MouseFocusReason)

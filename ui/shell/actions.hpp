@@ -30,6 +30,11 @@ public:
     /// A submenu filled by someone else, such as the recent files.
     void addSubmenu(const QString& menu, QMenu* submenu);
 
+    /// Names the actions that need no scene. All others are of the scene, and off while it is not in sight:
+    /// their keys would change what cannot be seen.
+    void keepWithoutScene(const QStringList& ids) { withoutScene_ = ids; }
+    void setSceneInSight(bool isInSight);
+
     QAction* find(const QString& id) const;
     const QList<QAction*>& all() const { return all_; }
     static QString menuOf(const QAction* action);
@@ -45,7 +50,7 @@ private:
     QWidget& window_;
     QList<QAction*> all_;
     QList<Item> items_;
-    QStringList menus_;
+    QStringList menus_, withoutScene_;
 };
 
 /// Makes all fields of the window answer to keys alike. Install it on the application.
@@ -54,6 +59,9 @@ private:
 /// buttons get Space, lists get arrows. A click into a field selects its text; Enter takes it and leaves the
 /// field; Esc brings back the text from before and leaves it. Undo in a field is that of the field while
 /// there is something typed and not taken, else that of the window.
+///
+/// The wheel changes a field only where a click or a key has given it the focus; elsewhere it scrolls what is
+/// around the field.
 class KeyGuard : public QObject {
     Q_OBJECT
 public:
@@ -63,6 +71,7 @@ public:
 private:
     bool overridesShortcut(QWidget& widget, QKeyEvent& key);
     bool takesKey(QWidget& widget, const QKeyEvent& key);
+    bool refusesWheel(const QWidget& widget) const;
     QPointer<QLineEdit> clicked_;  ///< a field that has just got the focus by a click
 };
 

@@ -64,6 +64,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     stage_ = new StageWidget;
     stage_->setTheme(theme);
     stage_->setAccessibleName(tr("Stage"));
+    stage_->setFocusPolicy(Qt::ClickFocus);
     stageCard_->body()->addWidget(stage_, 1);
     stageCard_->menu()->addAction(tr("Fit"), stage_, &StageWidget::fit);
     makeMaximizable(*stageCard_);

@@ -106,7 +106,14 @@ void HeaderBar::showScene() {
 
 void HeaderBar::showState() {
     runButton_->setText(run_.isRunning() ? tr("Stop") : tr("Run"));
-    runButton_->setEnabled(workspace_.hasScene());
+    runButton_->setEnabled(isSceneInSight_);
+}
+
+void HeaderBar::setSceneInSight(bool isInSight) {
+    isSceneInSight_ = isInSight;
+    for (QWidget* part : std::initializer_list<QWidget*>{wanted_, choice_, use_}) part->setEnabled(isInSight);
+    for (QPushButton* button : secondary_) button->setEnabled(isInSight);
+    showState();
 }
 
 double HeaderBar::wantedError() const { return std::pow(10.0, wanted_->value()); }

@@ -24,6 +24,8 @@ public:
     double wantedError() const;
     /// To a power of ten.
     void setWantedError(double error);
+    /// While the scene is not in sight, nothing here acts on it.
+    void setSceneInSight(bool isInSight);
 
 signals:
     void runRequested();
@@ -49,7 +51,8 @@ private:
     std::vector<QPushButton*> secondary_;  ///< which a narrow window does without
     QSlider* wanted_;
     QPushButton *runButton_, *use_;
-    std::string chosen_;     ///< label of the scheme that is proposed with another step; empty: none is
+    std::string chosen_;  ///< label of the scheme that is proposed with another step; empty: none is
+    bool isSceneInSight_ = false;
     double chosenStep_ = 0;  ///< or tolerance
 };
 

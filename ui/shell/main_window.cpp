@@ -81,6 +81,8 @@ MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), i
     }
     showScene();
     showStatus();
+    showSight();
+    startPage_->setFocus();
 }
 
 MainWindow::~MainWindow() = default;
@@ -91,7 +93,7 @@ void MainWindow::makePages() {
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(0);
     auto* sweep = new BackgroundSweep(*run_, this);
-    auto* header = new HeaderBar(*workspace_, *run_, *sweep);
+    auto* header = header_ = new HeaderBar(*workspace_, *run_, *sweep);
     connect(header, &HeaderBar::runRequested, run_, &RunControl::start);
     connect(header, &HeaderBar::stopRequested, run_, &RunControl::stop);
     connect(header, &HeaderBar::stepRequested, this, [this] { playback_->stepBy(1, rowStep()); });
@@ -149,10 +151,7 @@ void MainWindow::makePages() {
     values_ = new ValuesTable;
     values_->hide();
     centreColumn->addWidget(values_);
-    connect(tabs_, &QTabBar::currentChanged, this, [this](int page) {
-        pages_->setCurrentIndex(page);
-        timeline_->setVisible(page == 0);  // nothing else follows the time
-    });
+    connect(tabs_, &QTabBar::currentChanged, this, &MainWindow::showPage);
     connect(lesson_, &LessonBar::viewPointed, this, [this](const QString& view) {
         if (!view.isEmpty()) tabs_->setCurrentIndex(0);
         compare_->pointAt(view);
@@ -213,9 +212,7 @@ void MainWindow::makePages() {
 
     startPage_ = new StartPage(theme_, *notices_);
     connect(startPage_, &StartPage::restoreRequested, this, [this](const UnsavedScene& scene) {
-        if (!mayLeaveScene() || !autosave_->restore(scene)) return;
-        stack_->setCurrentIndex(1);
-        offerUnsaved();
+        if (mayLeaveScene() && autosave_->restore(scene)) offerUnsaved();
     });
     connect(startPage_, &StartPage::discardRequested, this, [this](const UnsavedScene& scene) {
         autosave_->discard(scene);
@@ -226,6 +223,7 @@ void MainWindow::makePages() {
     connect(startPage_, &StartPage::lessonChosen, this, [this](const QString& name) {
         if (open("preset:" + name)) startLesson();
     });
+    connect(startPage_, &StartPage::backRequested, this, &MainWindow::goBack);
     connect(startPage_, &StartPage::openRequested, this, &MainWindow::openDialog);
     connect(startPage_, &StartPage::newRequested, this, &MainWindow::newFromLagrangian);
     connect(startPage_, &StartPage::fileChosen, this, [this](const QString& path) { open(path); });
@@ -240,6 +238,7 @@ void MainWindow::makePages() {
     stack_ = new QStackedWidget;
     stack_->addWidget(startPage_);
     stack_->addWidget(work);
+    connect(stack_, &QStackedWidget::currentChanged, this, &MainWindow::showSight);
     column->addWidget(stack_, 1);
     setCentralWidget(whole);
     status_ = makeLabel({}, "caption", this);
@@ -253,6 +252,7 @@ void MainWindow::connectState() {
     connect(workspace_, &Workspace::fileChanged, this, &MainWindow::showScene);
     connect(workspace_, &Workspace::fileChanged, this, &MainWindow::keepRecent);
     connect(workspace_, &Workspace::opened, this, &MainWindow::keepRecent);
+    connect(workspace_, &Workspace::opened, this, &MainWindow::showWork);
     connect(workspace_, &Workspace::agreedToRead, this, [this](const QString& name) { open(name, true); });
     connect(notices_, &Notices::logRequested, this, &MainWindow::showLog);
     connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);
@@ -272,15 +272,12 @@ void MainWindow::offerUnsaved() { startPage_->offer(autosave_->unsaved()); }
 
 bool MainWindow::open(const QString& scene, bool isTrusted) {
     if (!mayLeaveScene()) return false;
-    const bool isOpen = workspace_->open(scene, isTrusted);
-    stack_->setCurrentIndex(workspace_->hasScene() ? 1 : 0);
-    return isOpen;
+    return workspace_->open(scene, isTrusted);
 }
 
 void MainWindow::newFromLagrangian() {
     if (!mayLeaveScene()) return;
     workspace_->adopt(newLagrangianScene());
-    stack_->setCurrentIndex(1);
     if (auto* const formula = left_->findChild<QPlainTextEdit*>(QStringLiteral("field.lagrangian"))) {
         formula->setFocus();
         formula->selectAll();
@@ -349,7 +346,6 @@ void MainWindow::showOwn() {
 }
 
 void MainWindow::showScene() {
-    stack_->setCurrentIndex(workspace_->hasScene() ? 1 : 0);
     if (!workspace_->hasScene()) {
         setWindowTitle(tr("Extremal"));
         return;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QMainWindow>
+#include <QPointer>
 #include <QUrl>
 
 #include <deque>
@@ -29,6 +30,7 @@ class CompareView;
 class CopiesWindow;
 class Discretizer;
 struct ExportParts;
+class HeaderBar;
 class HelpWindow;
 class InspectorWindow;
 class LessonBar;
@@ -83,6 +85,7 @@ protected:
     void dragEnterEvent(QDragEnterEvent* event) override;
     void dropEvent(QDropEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
+    bool focusNextPrevChild(bool next) override;
 
 private:
     void makePages();
@@ -100,6 +103,13 @@ private:
     void startLesson();
     void startFromCursor();
     void shareWidth();
+    bool isSceneInSight() const;
+    void showStartPage();
+    void showWork();
+    void goBack();
+    void showSight();
+    void showPage(int page);
+    void focusStage();
     void showScene();
     void showStatus();
     void offerUnsaved();
@@ -141,6 +151,7 @@ private:
     LessonBar* lesson_;
     Discretizer* discretizer_;
     SchemeList* schemes_;
+    HeaderBar* header_;
     StartPage* startPage_;
     StudyPage* studies_;
     Timeline* timeline_;
@@ -159,7 +170,9 @@ private:
     QSplitter* splitter_;
     QScrollArea* left_;  ///< the panel of the scene
     QTextBrowser* notes_;
-    QString shownNotes_;  ///< their source
+    QString shownNotes_;             ///< their source
+    QPointer<QWidget> focusBefore_;  ///< what the start page has taken the focus from
+    bool wasPlaying_ = false;        ///< when the start page hid the scene
     QLabel* status_;
 };
 

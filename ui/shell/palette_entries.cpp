@@ -55,7 +55,7 @@ std::vector<PaletteEntry> MainWindow::paletteEntries() {
         entries.push_back(
             {tr("Open preset: %1").arg(id), {}, true, [this, id] { open(QStringLiteral("preset:") + id); }});
     }
-    if (!workspace_->hasScene()) return entries;
+    if (!isSceneInSight()) return entries;
     addFields(*left_, entries);
     const auto& schemes = workspace_->scene().schemes;
     for (std::size_t i = 0; i < schemes.size(); ++i)

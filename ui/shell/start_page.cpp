@@ -62,6 +62,11 @@ StartPage::StartPage(const Theme& theme, Notices& notices, QWidget* parent)
 
 void StartPage::makeHead(QVBoxLayout& column) {
     auto* head = new QHBoxLayout;
+    back_ = new QPushButton;
+    back_->setObjectName("back");
+    back_->setToolTip(tr("To the scene as it was (Esc)"));
+    back_->hide();
+    connect(back_, &QPushButton::clicked, this, &StartPage::backRequested);
     auto* words = new QVBoxLayout;
     words->setSpacing(3);
     words->addWidget(makeLabel(tr("Choose a comparison"), "heading"));
@@ -71,6 +76,8 @@ void StartPage::makeHead(QVBoxLayout& column) {
         "caption");
     about->setWordWrap(true);
     words->addWidget(about);
+    head->addWidget(back_, 0, Qt::AlignVCenter);
+    head->addSpacing(10);
     head->addLayout(words, 1);
     search_ = new QLineEdit;
     search_->setObjectName("search");
@@ -213,6 +220,14 @@ void StartPage::hideEvent(QHideEvent* event) {
 void StartPage::resizeEvent(QResizeEvent* event) {
     QWidget::resizeEvent(event);
     arrange();
+}
+
+void StartPage::setBack(const QString& title) {
+    constexpr int room = 240;
+    back_->setText(
+        tr("Back to %1").arg(fontMetrics().elidedText(title, Qt::ElideRight, room)).replace('&', "&&"));
+    back_->setAccessibleName(tr("Back to %1").arg(title));
+    back_->setVisible(!title.isEmpty());
 }
 
 void StartPage::search(const QString& text) { search_->setText(text); }

@@ -17,6 +17,7 @@
 class QGridLayout;
 class QHBoxLayout;
 class QLineEdit;
+class QPushButton;
 class QTimer;
 class QVBoxLayout;
 
@@ -34,6 +35,8 @@ public:
     void offer(std::vector<UnsavedScene> scenes);
     /// The latest first.
     void setRecent(const QStringList& files);
+    /// The title of the scene that the button leads back to; empty: no scene is open, and there is no button.
+    void setBack(const QString& title);
     void search(const QString& text);
     /// The presets that are in sight, from the first on.
     QStringList shownPresets() const;
@@ -41,6 +44,7 @@ public:
 signals:
     void presetChosen(const QString& name);
     void lessonChosen(const QString& name);  ///< the lesson of a preset
+    void backRequested();
     void openRequested();
     void newRequested();
     void fileChosen(const QString& path);
@@ -75,6 +79,7 @@ private:
     QWidget *inside_, *unsaved_, *recent_;
     QHBoxLayout* recentRow_;
     QGridLayout* unsavedGrid_;
+    QPushButton* back_;
     QLineEdit* search_;
     QVBoxLayout* gallery_;  ///< sections, only while the page is in sight: hundreds of widgets
     std::vector<std::unique_ptr<Entry>> entries_, unsavedEntries_;

@@ -33,6 +33,7 @@ Timeline::Timeline(Playback& playback, QWidget* parent) : QWidget(parent), playb
     slider_->setMinimumWidth(48);  // the label gives way first
     speed_ = new ComboBox(this);
     speed_->setAccessibleName(tr("Speed"));
+    speed_->setObjectName("speed");
     for (const double s : {0.1, 0.25, 0.5, 1.0, 2.0, 4.0}) speed_->addItem(QStringLiteral("%1×").arg(s), s);
     speed_->setCurrentIndex(3);
     row->addWidget(play_);

@@ -76,6 +76,10 @@ void MainWindow::makeActions() {
         QMessageBox::about(this, tr("About Extremal"), aboutText(compare_->stage()->drawingBackend()));
     });
     QDesktopServices::setUrlHandler(QStringLiteral("handbook"), this, "openHandbook");
+    // All others are of the scene.
+    actions_->keepWithoutScene({"gallery", "newLagrangian", "open", "pasteScene", "quit", "palette", "theme",
+                                "larger", "smaller", "fullScreen", "ownSchemes", "help", "searchHelp",
+                                "paper", "keys", "log", "about"});
 }
 
 void MainWindow::startLesson() {
@@ -84,7 +88,7 @@ void MainWindow::startLesson() {
                         "lesson",
                         tr("This scene has no lesson."),
                         tr("the start page marks the presets that have one"),
-                        {{tr("Start page"), [this] { stack_->setCurrentIndex(0); }}}});
+                        {{tr("Start page"), [this] { showStartPage(); }}}});
         return;
     }
     tabs_->setCurrentIndex(0);
@@ -123,7 +127,7 @@ void MainWindow::showHelp(const QString& page) {
 void MainWindow::addFileActions() {
     const QString menu = tr("File");
     actions_->add("gallery", menu, tr("New from the gallery"), {QKeySequence::New},
-                  [this] { stack_->setCurrentIndex(0); });
+                  [this] { showStartPage(); });
     actions_->add("newLagrangian", menu, tr("New from a Lagrangian"),
                   {QKeySequence(Qt::CTRL | Qt::SHIFT | Qt::Key_N)}, [this] { newFromLagrangian(); });
     actions_->add("open", menu, tr("Open..."), {QKeySequence::Open}, [this] { openDialog(); });
@@ -214,7 +218,7 @@ void MainWindow::toggleScheme(int index) {
 /// The plots of the catalogue, checked where the scene has them.
 void MainWindow::fillPlots(QMenu& menu) {
     menu.clear();
-    if (!workspace_->hasScene()) return;
+    if (!isSceneInSight()) return;
     const Scene& scene = workspace_->scene();
     for (const ViewEntry* const offered : offeredPlots(scene)) {
         const ViewEntry& entry = *offered;
@@ -235,6 +239,9 @@ void MainWindow::fillPlots(QMenu& menu) {
 
 void MainWindow::addViewActions() {
     const QString menu = tr("View");
+    actions_->add(
+        "back", menu, tr("Back to the scene"), {QKeySequence(Qt::Key_Escape)}, [this] { goBack(); },
+        tr("From the start page to the scene that was open, as it was"));
     actions_->add("palette", menu, tr("Find an action..."), {QKeySequence(Qt::CTRL | Qt::Key_K)},
                   [this] { showPalette(); });
     actions_->add("fit", menu, tr("Fit all"), {QKeySequence(Qt::Key_A)}, [this] { compare_->fitAll(); });

@@ -169,7 +169,7 @@ void MainWindow::pasteScene() {
     try {
         const Value document = parseJson(text);
         if (!mayLeaveScene()) return;
-        if (workspace_->adopt(document)) return stack_->setCurrentIndex(1);
+        if (workspace_->adopt(document)) return;
         problem = workspace_->openProblems().empty()
                       ? QString()
                       : QString::fromStdString(workspace_->openProblems().front().message);
