@@ -179,14 +179,14 @@ void OwnList::addToScene() {
     const Value* const scheme = schemes_.find(current().toStdString());
     if (!scheme || !workspace_.hasScene()) return;
     const QString name = current();
-    if (workspace_.edit(editsForAdding(workspace_.scene(), newOwn(workspace_.scene(), *scheme)),
-                        tr("Add %1").arg(name)))
+    const std::vector<Problem> problems = workspace_.tryEdit(
+        editsForAdding(workspace_.scene(), newOwn(workspace_.scene(), *scheme)), tr("Add %1").arg(name));
+    if (problems.empty())
         return workspace_.selectScheme(static_cast<int>(workspace_.scene().schemes.size()) - 1);
-    const auto problems = workspace_.problemsAt("/schemes");
     notices_.post({Notice::Kind::error,
                    QStringLiteral("ownSchemes"),
                    tr("%1 cannot be used in this scene").arg(name),
-                   problems.empty() ? QString() : QString::fromStdString(problems.front().message),
+                   QString::fromStdString(problems.front().message),
                    {}});
 }
 

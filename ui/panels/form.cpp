@@ -87,13 +87,15 @@ void Form::refresh() {
         const Value* draft = workspace_.draftAt(row.field.pointer);
         const Value* value = draft ? draft : valueAt(workspace_.document(), row.field.pointer);
         row.edit->show(value ? *value : row.field.info.fallback);
-        const std::vector<Problem> problems =
-            workspace_.problemsAt(row.field.place.empty() ? row.field.pointer : row.field.place);
-        const bool isWrong = !problems.empty() && draft;
+        const std::string& place = row.field.place.empty() ? row.field.pointer : row.field.place;
+        const std::vector<Problem> problems = draft ? workspace_.refusalAt(place) : std::vector<Problem>{};
+        const bool isWrong = !problems.empty();
         row.edit->setInvalid(isWrong);
         row.problem->setVisible(isWrong);
         setHelp(*row.edit, isWrong ? handbookPlace(problems.front()) : std::string());
-        if (isWrong) row.problem->setText(problemText(problems.front()));
+        if (!isWrong) continue;
+        row.problem->setText(refusalText(workspace_, place));
+        if (!isSentAway(*row.edit)) workspace_.claimRefusal(row.field.pointer);
     }
 }
 

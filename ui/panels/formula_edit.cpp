@@ -58,8 +58,11 @@ void FormulaEdit::mark(std::optional<int> position) {
         selections << wrong;
     }
     setExtraSelections(selections);
-    if (property("invalid").toBool() == position.has_value()) return;
-    setProperty("invalid", position.has_value());
+}
+
+void FormulaEdit::setWrong(bool isWrong) {
+    if (property("invalid").toBool() == isWrong) return;
+    setProperty("invalid", isWrong);
     repolish(*this);
 }
 

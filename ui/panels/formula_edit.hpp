@@ -14,6 +14,8 @@ public:
 
     /// Underlines the word at a character; none: nothing.
     void mark(std::optional<int> position);
+    /// The whole of it was refused, wherever the place is.
+    void setWrong(bool isWrong);
 
 protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -15,6 +15,7 @@
 #include "ui/panels/lagrangian_edits.hpp"
 #include "ui/panels/parameter_table.hpp"
 #include "ui/shell/background.hpp"
+#include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
@@ -86,7 +87,10 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     row->addWidget(coordinates_, 1);
     row->addWidget(add);
     column->addLayout(row);
-    parameters_ = new ParameterTable(workspace);
+    parameters_ = new ParameterTable(
+        workspace, [this](const EditsOfScene& edits, const QString& what, const FollowingText& follow) {
+            return change(edits, what, follow);
+        });
     column->addWidget(makeLabel(tr("Parameters"), "strong"));
     column->addWidget(parameters_);
 
@@ -100,7 +104,8 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     });
     connect(coordinates_, &QLineEdit::editingFinished, this, &LagrangianEditor::changeCoordinates);
     connect(add, &QToolButton::clicked, this, [this] {
-        workspace_.edit(editsForNewCoordinate(workspace_.document()), tr("Add a coordinate"));
+        if (coordinates_->isModified()) changeCoordinates();
+        change(editsForNewCoordinate, tr("Add a coordinate"), [](const std::string& typed) { return typed; });
     });
     connect(&workspace_, &Workspace::sceneChanged, this, &LagrangianEditor::refresh);
     connect(&workspace_, &Workspace::draftsChanged, this, &LagrangianEditor::refresh);
@@ -159,22 +164,35 @@ void LagrangianEditor::take(const std::string& text, const typed::Examination& f
 }
 
 void LagrangianEditor::showProblem() {
-    const auto problems = workspace_.problemsAt("/model");
     const std::string text = text_->toPlainText().toStdString();
-    std::string message, hint;
-    for (const Problem& p : problems) {
-        const bool isFormula = p.pointer.starts_with(formulaPlace);
-        if (!(isFormula || p.pointer.starts_with(coordinatesPlace)) || !message.empty()) continue;
-        message = (isFormula ? "L " : "") + p.message.substr(0, p.message.find('\n'));
-        hint = p.hint;
+    // Of the formula, else of the names of the coordinates: there, or what they make wrong elsewhere.
+    std::vector<Problem> problems = workspace_.refusalAt(formulaPlace);
+    const std::vector<Problem> ofNames = workspace_.refusalAt(coordinatesPlace);
+    const bool areNamesWrong = workspace_.draftAt(coordinatesPlace) && !ofNames.empty();
+    const bool isFormulaWrong = !problems.empty();
+    if (problems.empty()) problems = ofNames;
+    if (coordinates_->property("invalid").toBool() != areNamesWrong) {
+        coordinates_->setProperty("invalid", areNamesWrong);
+        repolish(*coordinates_);
     }
-    const bool isWrong = !message.empty();
+    for (const char* place : {formulaPlace, coordinatesPlace})
+        if (!problems.empty()) workspace_.claimRefusal(place);
+    const bool isWrong = !problems.empty();
+    const bool isPlaced = isWrong && place_ && problems.front().pointer.starts_with(formulaPlace);
     problem_->setVisible(isWrong);
-    text_->mark(isWrong && place_ ? std::optional(characterAt(text, *place_)) : std::nullopt);
+    text_->mark(isPlaced ? std::optional(characterAt(text, *place_)) : std::nullopt);
+    text_->setWrong(isFormulaWrong || isPlaced);
     if (!isWrong) return;
-    QString shown = QString::fromStdString(message).toHtmlEscaped();
-    if (!hint.empty()) shown += " (" + QString::fromStdString(hint).toHtmlEscaped() + ")";
-    if (place_) {
+    const Problem& first = problems.front();
+    const bool isFormula = first.pointer.starts_with(formulaPlace);
+    const QString where = isFormula ? QStringLiteral("L ")
+                          : first.pointer.starts_with(coordinatesPlace)
+                              ? QString()
+                              : workspace_.placeName(first.pointer) + ": ";
+    QString shown =
+        (where + QString::fromStdString(first.message.substr(0, first.message.find('\n')))).toHtmlEscaped();
+    if (!first.hint.empty()) shown += " (" + QString::fromStdString(first.hint).toHtmlEscaped() + ")";
+    if (isPlaced) {
         const QFontMetrics metrics(text_->font());
         const int columns = std::max(16, problem_->width() / metrics.horizontalAdvance('x'));
         const auto lines =
@@ -194,16 +212,46 @@ void LagrangianEditor::changeCoordinates() {
         for (const char* place : {coordinatesPlace, "/initial"}) workspace_.dropDraft(place);
         return;
     }
-    // A formula that is not valid yet follows the new names as well, and waits again.
-    const std::string typed = text_->toPlainText().toStdString();
-    const Value* formula = valueAt(workspace_.document(), formulaPlace);
-    const bool isUnfinished = !(formula && *formula == lagrangianFrom(typed));
-    const std::string renamed = isUnfinished ? formulaFor(workspace_.document(), names, typed) : typed;
+    change([&](const Value& document) { return editsForCoordinates(document, names); },
+           tr("Change the coordinates"),
+           [&, before = workspace_.document()](const std::string& typed) {
+               return formulaFor(before, names, typed);
+           });
+}
+
+/// Takes what was typed a moment ago before its time: into the scene, or as refused.
+void LagrangianEditor::takeNow() {
+    if (!isPending_) return;
     isPending_ = false;
     debounce_.stop();
-    workspace_.edit(editsForCoordinates(workspace_.document(), names), tr("Change the coordinates"));
-    if (isUnfinished)
-        workspace_.edit({{formulaPlace, lagrangianFrom(renamed)}}, tr("Change the coordinates"));
+    const Value* const now = valueAt(workspace_.document(), formulaPlace);
+    const Value typed = lagrangianFrom(text_->toPlainText().toStdString());
+    if (now && *now == typed)
+        workspace_.dropDraft(formulaPlace);
+    else
+        workspace_.edit({{formulaPlace, typed}}, tr("Change the Lagrangian"), formulaPlace);
+}
+
+/// Makes edits that change the formula of the scene as well. What is typed and not valid yet is never
+/// replaced: it follows a new name, and waits again, as one step of undo.
+bool LagrangianEditor::change(const EditsOfScene& edits, const QString& what, const FollowingText& follow) {
+    takeNow();
+    if (!workspace_.draftAt(formulaPlace)) return workspace_.edit(edits(workspace_.document()), what);
+    const std::string typed = text_->toPlainText().toStdString(), followed = follow(typed);
+    const QString step = QStringLiteral("formula%1").arg(++changes_);
+    isPending_ = true;  // keeps the text while the scene changes
+    const bool isMade = workspace_.edit(edits(workspace_.document()), what, step);
+    if (followed != typed) {
+        const QSignalBlocker block(text_);
+        const int position = text_->textCursor().position();
+        text_->setPlainText(QString::fromStdString(followed));
+        QTextCursor cursor = text_->textCursor();
+        cursor.setPosition(std::min(position, static_cast<int>(text_->document()->characterCount()) - 1));
+        text_->setTextCursor(cursor);
+    }
+    isPending_ = false;
+    workspace_.edit({{formulaPlace, lagrangianFrom(followed)}}, what, step);
+    return isMade;
 }
 
 void LagrangianEditor::refresh() {

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "engine/model/typed/typed_model.hpp"
+#include "ui/panels/parameter_table.hpp"
 
 class QLabel;
 class QLineEdit;
@@ -21,7 +22,6 @@ class QToolButton;
 namespace extremal {
 
 class FormulaEdit;
-class ParameterTable;
 class Workspace;
 
 class LagrangianEditor : public QWidget {
@@ -38,6 +38,8 @@ private:
     void take(const std::string& text, const typed::Examination& found);
     void showProblem();
     void changeCoordinates();
+    void takeNow();
+    bool change(const EditsOfScene& edits, const QString& what, const FollowingText& follow);
     typed::Formula formulaNow() const;
 
     Workspace& workspace_;
@@ -47,6 +49,7 @@ private:
     ParameterTable* parameters_;
     QTimer debounce_;
     std::stop_source stop_;
+    int changes_ = 0;
     bool isPending_ = false;  ///< typed, and not yet in the scene or refused
     std::optional<std::size_t> place_;
 };

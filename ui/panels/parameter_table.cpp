@@ -45,8 +45,8 @@ int ParameterTable::Range::position(double value) const {
     return static_cast<int>(std::lround((value - low) / (high - low) * sliderSteps));
 }
 
-ParameterTable::ParameterTable(Workspace& workspace, QWidget* parent)
-    : QWidget(parent), workspace_(workspace) {
+ParameterTable::ParameterTable(Workspace& workspace, FormulaChange change, QWidget* parent)
+    : QWidget(parent), workspace_(workspace), change_(std::move(change)) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(4);
@@ -123,9 +123,10 @@ void ParameterTable::addRow(const std::string& name) {
     });
     connect(row.slider, &QSlider::valueChanged, this, [this, name](int position) { slide(name, position); });
     connect(row.remove, &QToolButton::clicked, this, [this, name] {
-        if (!workspace_.edit(editsForParameterRemoval(workspace_.document(), name),
-                             tr("Remove %1").arg(QString::fromStdString(name)))) {
-            workspace_.dropDraft("/model/parameters");
+        if (!workspace_
+                 .tryEdit(editsForParameterRemoval(workspace_.document(), name),
+                          tr("Remove %1").arg(QString::fromStdString(name)))
+                 .empty()) {
             problem_->setText(tr("%1 is used in a number of the scene").arg(QString::fromStdString(name)));
             problem_->show();
         }
@@ -150,8 +151,11 @@ void ParameterTable::rename(const std::string& from, QLineEdit& edit) {
     for (const auto& parameter : formula.parameters)
         if (parameter.first == to) trouble = "is already a parameter";
     if (trouble.empty()) {
-        workspace_.edit(editsForParameterName(workspace_.document(), from, to),
-                        tr("Rename %1").arg(QString::fromStdString(from)));
+        const bool isMade =
+            change_([=](const Value& document) { return editsForParameterName(document, from, to); },
+                    tr("Rename %1").arg(QString::fromStdString(from)),
+                    [=](const std::string& typed) { return withNameReplaced(typed, from, to); });
+        if (!isMade) refresh();
         return;
     }
     edit.setProperty("invalid", true);
@@ -187,11 +191,12 @@ void ParameterTable::refresh() {
         const Value* draft = workspace_.draftAt(place);
         const Value* written = draft ? draft : valueAt(workspace_.document(), place);
         row.valueEdit->show(*written);
-        const auto problems = workspace_.problemsAt(place);
         row.valueEdit->setInvalid(draft != nullptr);
-        if (draft && !problems.empty()) {
-            problem_->setText(problemText(problems.front(), QString::fromStdString(row.name + " ")));
+        if (draft) {
+            problem_->setText(QString::fromStdString(row.name).toHtmlEscaped() + ' ' +
+                              refusalText(workspace_, place));
             problem_->show();
+            if (!isSentAway(*row.valueEdit)) workspace_.claimRefusal(place);
         }
         const bool isNumber = written->isNumber();
         row.slider->setEnabled(isNumber);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "engine/core/value.hpp"
+#include "ui/shell/document.hpp"
 
 class QGridLayout;
 class QLabel;
@@ -19,10 +21,17 @@ namespace extremal {
 class ValueEdit;
 class Workspace;
 
+/// The edits of a scene that a change means, and what becomes of a formula that is typed and not valid yet.
+using EditsOfScene = std::function<std::vector<Edit>(const Value& document)>;
+using FollowingText = std::function<std::string(const std::string& typed)>;
+/// Makes edits that change the formula of the scene; false: they were refused.
+using FormulaChange =
+    std::function<bool(const EditsOfScene& edits, const QString& what, const FollowingText& follow)>;
+
 class ParameterTable : public QWidget {
     Q_OBJECT
 public:
-    explicit ParameterTable(Workspace& workspace, QWidget* parent = nullptr);
+    ParameterTable(Workspace& workspace, FormulaChange change, QWidget* parent = nullptr);
 
     /// Shows the scene's parameters, drafts and problems.
     void refresh();
@@ -53,6 +62,7 @@ private:
     Row* rowOf(const std::string& name);
 
     Workspace& workspace_;
+    FormulaChange change_;
     QGridLayout* grid_;
     QLabel* problem_;
     std::vector<Row> rows_;

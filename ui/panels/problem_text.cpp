@@ -6,6 +6,7 @@
 
 #include "engine/scene/topics.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/shell/workspace.hpp"
 
 namespace extremal {
 
@@ -20,6 +21,24 @@ QString problemText(const Problem& problem, const QString& lead) {
     QString text = lead + QString::fromStdString(problem.message);
     if (!problem.hint.empty()) text += " (" + QString::fromStdString(problem.hint) + ")";
     return text.toHtmlEscaped() + QStringLiteral(" ") + handbookLink(handbookPlace(problem));
+}
+
+QString refusalText(const Workspace& workspace, const std::string& place) {
+    const std::vector<Problem> problems = workspace.refusalAt(place);
+    if (problems.empty()) return {};
+    const Problem& first = problems.front();
+    if (first.pointer.starts_with(place)) return problemText(first);
+    const QString where = workspace.placeName(first.pointer);
+    QString text = problemText(first, where.isEmpty() ? QString() : where + ": ");
+    if (problems.size() > 1)
+        text += QCoreApplication::translate("extremal", " (and %1 more)").arg(problems.size() - 1);
+    return text;
+}
+
+bool isSentAway(const QWidget& widget) {
+    for (const QWidget* w = &widget; w && !w->isWindow(); w = w->parentWidget())
+        if (w->testAttribute(Qt::WA_WState_ExplicitShowHide) && w->isHidden()) return true;
+    return false;
 }
 
 QLabel* makeLinkLabel(const char* role, QWidget* parent) {

@@ -43,6 +43,11 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     parts_ = makeElidedLabel({}, "caption");
     second_->addWidget(parts_, 1);
     layout_->addLayout(second_);
+    refusal_ = makeLinkLabel("caption");
+    refusal_->setObjectName("refusal");
+    refusal_->setProperty("problem", true);
+    refusal_->hide();
+    layout_->addWidget(refusal_);
     events_ = makeLabel({}, "caption");
     events_->setObjectName("events");
     events_->setWordWrap(true);
@@ -70,6 +75,7 @@ SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWid
     progress_->hide();
     layout_->addWidget(progress_);
     setIndex(index);
+    connect(&workspace_, &Workspace::draftsChanged, this, &SchemeCard::showRefusal);
 }
 
 void SchemeCard::setIndex(int index) {
@@ -245,65 +251,7 @@ void SchemeCard::showSpec() {
     line_->setAccessibleName(line_->toolTip());
     if (!s.isEnabled) showResult(nullptr, false, {});
     showCaution();
-}
-
-namespace {
-
-/// The first warning that concerns a scheme.
-const Problem* cautionOf(const std::vector<Problem>& warnings, int index) {
-    const std::string place = "/schemes/" + std::to_string(index);
-    for (const Problem& p : warnings)
-        if (p.pointer == place || p.pointer.starts_with(place + "/")) return &p;
-    return nullptr;
-}
-
-}  // namespace
-
-/// A warning is shown in the row of its scheme; a remedy is offered, but never applied automatically.
-void SchemeCard::showCaution() {
-    const Problem* caution = spec().isEnabled ? cautionOf(workspace_.warnings(), index_) : nullptr;
-    caution_->setVisible(caution);
-    setHelp(*this, caution ? handbookPlace(*caution) : std::string());
-    remedy_->setVisible(caution && !caution->remedy.isNull());
-    if (!caution) return;
-    Problem shown = *caution;
-    if (!shown.remedy.isNull()) shown.hint.clear();  // it is on the button
-    caution_->setText(problemText(shown, tr("Warning: ")));
-    remedy_->setText(tr("Take %1").arg(QString::fromStdString(caution->hint)));
-}
-
-void SchemeCard::takeRemedy() {
-    const Problem* caution = cautionOf(workspace_.warnings(), index_);
-    if (!caution || caution->remedy.isNull()) return;
-    const Problem taken = *caution;
-    workspace_.edit({{taken.pointer, taken.remedy}}, tr("Take %1").arg(QString::fromStdString(taken.hint)));
-}
-
-void SchemeCard::showFailure(const Summary& summary) {
-    const bool hasFailed = summary.status == RunStatus::failed;
-    const QVariant banner = hasFailed ? QVariant("warning") : QVariant();
-    if (property("banner") != banner) {
-        setProperty("banner", banner);
-        setProperty("card", !hasFailed);
-        repolish(*this);
-    }
-    const bool wasStopped = summary.status == RunStatus::partial;
-    failure_->setVisible(hasFailed || wasStopped);
-    const std::string& words = hasFailed ? summary.advice : summary.caution;
-    advice_->setVisible(!words.empty());
-    const std::string place = hasFailed ? handbookPlace(summary.cause) : std::string();
-    advice_->setText(QString::fromStdString(words).toHtmlEscaped() + QStringLiteral(" ") +
-                     handbookLink(place));
-    if (hasFailed) setHelp(*this, place);
-    if (wasStopped)
-        failure_->setText(std::isfinite(summary.tEnd)
-                              ? tr("stopped at t = %1").arg(shortNumber(summary.tEnd, 3))
-                              : tr("stopped"));
-    if (!hasFailed) return;
-    const std::string_view cause = name(summary.cause);
-    QString text = QString::fromUtf8(cause.data(), static_cast<qsizetype>(cause.size())).replace('-', ' ');
-    if (std::isfinite(summary.failedAt)) text += tr(" at t = %1").arg(shortNumber(summary.failedAt, 3));
-    failure_->setText(text);
+    showRefusal();
 }
 
 void SchemeCard::showResult(const SchemeResult* result, bool isStale, const ReferenceInfo& reference) {
@@ -379,22 +327,22 @@ void SchemeCard::editStep(const QString& typed) {
     if (!typed.isEmpty()) stepEdit_->insert(typed);
 }
 
+std::string SchemeCard::stepPlace() const {
+    return "/schemes/" + std::to_string(index_) + (spec().tolerance ? "/tolerance" : "/step");
+}
+
 void SchemeCard::finishStep() {
     if (stepEdit_->isHidden()) return;
+    const std::string at = stepPlace();
+    const Value value = numberOrExpression(stepEdit_->text());
+    const Value* const now = valueAt(workspace_.document(), at);
+    const Value* const draft = workspace_.draftAt(at);
+    const bool isChanged = !value.isNull() && stepEdit_->isModified() && !(now && *now == value);
+    if (draft && !stepEdit_->isModified()) return;  // what was refused stays until it is changed
     stepEdit_->hide();
     step_->show();
-    const Value value = numberOrExpression(stepEdit_->text());
-    const std::string at = "/schemes/" + std::to_string(index_) + (spec().tolerance ? "/tolerance" : "/step");
-    const Value* now = valueAt(workspace_.document(), at);
-    if (value.isNull() || !stepEdit_->isModified() || (now && *now == value)) return;
-    if (workspace_.edit({{at, value}}, tr("Change the step"), QString::fromStdString(at))) return;
-    for (const Problem& p : workspace_.problemsAt(at)) {  // what was typed is not lost
-        editStep(stepEdit_->text());
-        stepEdit_->setToolTip(QString::fromStdString(p.message));
-        stepEdit_->setProperty("invalid", true);
-        repolish(*stepEdit_);
-        return;
-    }
+    if (!isChanged) return workspace_.dropDraft(at);
+    workspace_.edit({{at, value}}, tr("Change the step"), QString::fromStdString(at));
 }
 
 /// The digits are keys of the window as well: at a card that has the focus they are typed.
@@ -421,11 +369,12 @@ void SchemeCard::setEditing(bool isOpen) {
     if (!isOpen) {
         editor_->deleteLater();
         editor_ = nullptr;
-        return;
+        return showRefusal();
     }
     editor_ = new SchemeEditor(workspace_, index_);
     connect(editor_, &SchemeEditor::closed, this, [this] { setEditing(false); });
     layout_->insertWidget(2, editor_);
+    showRefusal();
 }
 
 /// A click on a number explains it at once.

@@ -72,6 +72,8 @@ private:
     void takeRemedy();
     void finishName();
     void finishStep();
+    void showRefusal();
+    std::string stepPlace() const;
     const SchemeSpec& spec() const;
 
     Workspace& workspace_;
@@ -82,7 +84,7 @@ private:
     QHBoxLayout *first_, *second_;
     LineSample* line_;
     ScrubLabel* step_;
-    QLabel *name_, *parts_, *caution_, *events_, *failure_, *advice_;
+    QLabel *name_, *parts_, *refusal_, *caution_, *events_, *failure_, *advice_;
     QPushButton* remedy_;
     QLineEdit *nameEdit_, *stepEdit_;
     QWidget* figures_;

@@ -17,6 +17,7 @@
 #include "ui/own/own_list.hpp"
 #include "ui/panels/combo_box.hpp"
 #include "ui/panels/form.hpp"
+#include "ui/panels/problem_text.hpp"
 #include "ui/panels/term_strip.hpp"
 #include "ui/shell/fitting.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -125,6 +126,11 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
             if (value.isArray()) tree.set(key, value);
         workspace_.edit({{place() + "/quadrature", tree}}, tr("Change quadrature"));
     });
+    problem_ = makeLinkLabel("caption");
+    problem_->setObjectName("problem.scheme");
+    problem_->setProperty("problem", true);
+    problem_->hide();
+    layout_->addWidget(problem_);
     terms_ = new TermStrip(workspace);
     layout_->addWidget(terms_);
     form_ = new Form(workspace);
@@ -134,6 +140,7 @@ SchemeEditor::SchemeEditor(Workspace& workspace, int index, QWidget* parent)
     connect(close, &QPushButton::clicked, this, &SchemeEditor::closed);
     layout_->addWidget(close, 0, Qt::AlignRight);
     connect(&workspace_, &Workspace::sceneChanged, this, &SchemeEditor::refresh);
+    connect(&workspace_, &Workspace::draftsChanged, this, &SchemeEditor::showRefusal);
     rebuild();
 }
 
@@ -178,10 +185,34 @@ void SchemeEditor::refresh() {
     terms_->setScheme(index_);
 }
 
+/// A kind, a choice or a rule that the scene does not take: the words stand below the lists, which show what
+/// the scheme still is.
+void SchemeEditor::showRefusal() {
+    if (index_ >= static_cast<int>(workspace_.scene().schemes.size())) return;
+    std::string refused;
+    for (const std::string& at : {place(), place() + "/quadrature"})
+        if (workspace_.drafts().contains(at)) refused = at;
+    problem_->setVisible(!refused.empty());
+    if (refused.empty()) return;
+    problem_->setText(refusalText(workspace_, refused));
+    workspace_.claimRefusal(refused);
+    showChoices();
+}
+
+/// What the scheme is, in the lists.
+void SchemeEditor::showChoices() {
+    const SchemeSpec& s = spec();
+    kind_->setCurrentIndex(static_cast<int>(s.kind));
+    if (s.kind == SchemeSpec::Kind::discretization) choose(*rule_, s.quadrature.type);
+    choose(*first_, s.kind == SchemeSpec::Kind::discretization ? s.space.type
+                    : s.kind == SchemeSpec::Kind::baseline     ? s.baseline.type
+                                                               : s.named);
+    terms_->setScheme(index_);
+}
+
 void SchemeEditor::rebuild() {
     shown_ = signature();
     const SchemeSpec& s = spec();
-    kind_->setCurrentIndex(static_cast<int>(s.kind));
     if (auto* kinds = qobject_cast<QStandardItemModel*>(kind_->model()))  // a model may have no baselines
         kinds->item(static_cast<int>(SchemeSpec::Kind::baseline))
             ->setEnabled(!baselineItems(workspace_.scene()).empty());
@@ -189,25 +220,21 @@ void SchemeEditor::rebuild() {
     std::vector<FormField> fields;
     if (s.kind == SchemeSpec::Kind::discretization) {
         fill(*first_, fittingSpaces(workspace_.scene()));
-        choose(*first_, s.space.type);
         rule_->clear();
         for (const CatalogItem& item : quadratureCatalog())
             if (fittingRule(item.id, s.space) == item.id)
                 rule_->addItem(QString::fromStdString(item.title), QString::fromStdString(item.id));
-        choose(*rule_, s.quadrature.type);
         if (const CatalogItem* space = itemNamed(spaceCatalog(), s.space.type))
             addFields(fields, space->parameters, place() + "/space");
         if (const CatalogItem* rule = itemNamed(quadratureCatalog(), s.quadrature.type))
             addFields(fields, rule->parameters, place() + "/quadrature");
     } else if (s.kind == SchemeSpec::Kind::baseline) {
         fill(*first_, baselineItems(workspace_.scene()));
-        choose(*first_, s.baseline.type);
         if (const BaselineEntry* entry = findBaseline(s.baseline.type))
             addFields(fields, entry->item.parameters, place() + "/baseline");
     } else {
         fill(*first_, namedItems(workspace_.scene()));
         addOwn(*first_);
-        choose(*first_, s.named);
     }
     if (s.tolerance)
         fields.push_back(
@@ -228,7 +255,8 @@ void SchemeEditor::rebuild() {
              {}});
     addComposition(fields);
     form_->setFields(std::move(fields));
-    terms_->setScheme(index_);
+    showChoices();
+    showRefusal();
 }
 
 /// Symmetric schemes with fixed steps can be composed.

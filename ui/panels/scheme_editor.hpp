@@ -10,6 +10,7 @@
 #include "engine/core/settings.hpp"
 
 class QComboBox;
+class QLabel;
 class QVBoxLayout;
 
 namespace extremal {
@@ -32,6 +33,8 @@ signals:
 
 private:
     void refresh();
+    void showRefusal();
+    void showChoices();
     void rebuild();
     void changeKind(int kind);
     void change(const Value& scheme);
@@ -47,6 +50,7 @@ private:
     QWidget* ruleRow_ = nullptr;
     Form* form_;
     TermStrip* terms_;
+    QLabel* problem_;
     QVBoxLayout* layout_;
     std::string shown_;
 };

@@ -156,8 +156,8 @@ void ValueEdit::show(const Value& value) {
 }
 
 void ValueEdit::setInvalid(bool isInvalid) {
-    QWidget* input = text_ ? static_cast<QWidget*>(text_) : spin_;
-    if (!input || input->property("invalid").toBool() == isInvalid) return;
+    QWidget* const input = focusProxy();
+    if (input->property("invalid").toBool() == isInvalid) return;
     input->setProperty("invalid", isInvalid);
     repolish(*input);
 }

@@ -161,6 +161,16 @@ bool KeyGuard::takesKey(QWidget& widget, const QKeyEvent& key) {
     return false;
 }
 
+void KeyGuard::leaveField(const QWidget& pressed) {
+    QWidget* const focus = QApplication::focusWidget();
+    const QLineEdit* const field = focus ? fieldOf(*focus) : nullptr;
+    const bool takesNoFocus =
+        qobject_cast<const QAbstractButton*>(&pressed) && !(pressed.focusPolicy() & Qt::ClickFocus);
+    if (field && field->isModified() && takesNoFocus && pressed.window() == focus->window() &&
+        !focus->isAncestorOf(&pressed))
+        focus->clearFocus();
+}
+
 /// Fields that scroll along under the pointer: choices and spin boxes, and sliders inside a panel that
 /// scrolls.
 bool KeyGuard::refusesWheel(const QWidget& widget) const {
@@ -188,6 +198,12 @@ bool KeyGuard::eventFilter(QObject* watched, QEvent* event) {
             if (widget == QApplication::focusWidget() && takesKey(*widget, *static_cast<QKeyEvent*>(event)))
                 return true;
             break;
+        case QEvent::MouseButtonPress: {
+            const QPointer<QWidget> pressed(widget);
+            leaveField(*widget);
+            if (!pressed) return true;  // it has gone with what was typed
+            break;
+        }
         case QEvent::Polish:  // the wheel gives the focus to no field
             if (widget->focusPolicy() == Qt::WheelFocus) widget->setFocusPolicy(Qt::StrongFocus);
             break;

@@ -60,6 +60,9 @@ private:
 /// field; Esc brings back the text from before and leaves it. Undo in a field is that of the field while
 /// there is something typed and not taken, else that of the window.
 ///
+/// A press of a button that takes no focus leaves the field first, so that what is typed there is taken
+/// before the button acts.
+///
 /// The wheel changes a field only where a click or a key has given it the focus; elsewhere it scrolls what is
 /// around the field.
 class KeyGuard : public QObject {
@@ -71,6 +74,7 @@ public:
 private:
     bool overridesShortcut(QWidget& widget, QKeyEvent& key);
     bool takesKey(QWidget& widget, const QKeyEvent& key);
+    static void leaveField(const QWidget& pressed);
     bool refusesWheel(const QWidget& widget) const;
     QPointer<QLineEdit> clicked_;  ///< a field that has just got the focus by a click
 };

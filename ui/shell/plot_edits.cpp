@@ -224,13 +224,11 @@ void askForCurve(Workspace& workspace, const View& view, QWidget* parent) {
     QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, [&] {
         View after = view;
         after.curve = {input->text().trimmed().toStdString(), {}};
-        if (workspace.edit(editsForPlot(workspace.scene(), view, after), QObject::tr("Compare with a curve")))
-            return dialog.accept();
-        const auto problems = workspace.problemsAt("/views");
-        problem->setText(problems.empty() ? QObject::tr("The curve is not accepted.")
-                                          : QString::fromStdString(problems.front().message));
+        const std::vector<Problem> problems = workspace.tryEdit(editsForPlot(workspace.scene(), view, after),
+                                                                QObject::tr("Compare with a curve"));
+        if (problems.empty()) return dialog.accept();
+        problem->setText(QString::fromStdString(problems.front().message));
         problem->show();
-        workspace.dropDraft("/views");
     });
     dialog.exec();
 }

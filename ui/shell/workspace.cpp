@@ -17,6 +17,7 @@
 #include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/own_folder.hpp"
+#include "engine/scene/pointer.hpp"
 #include "engine/scene/topics.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/notices.hpp"
@@ -74,7 +75,7 @@ ReadScene readAside(std::function<ReadScene()> read) {
 
 Workspace::Workspace(Notices& notices, QObject* parent) : QObject(parent), notices_(notices) {}
 
-/// Makes the edits of the document, or of another one in its place.
+/// Makes the edits of the document, or of another one in its place; else problems_ says why not.
 bool Workspace::accept(const std::vector<Edit>& edits, const Value* instead) {
     Value candidate;
     ReadScene read;
@@ -84,73 +85,155 @@ bool Workspace::accept(const std::vector<Edit>& edits, const Value* instead) {
         candidate = withEdits(instead ? *instead : document_, edits);
         read = readAside([&] { return readScene(candidate, {}, directoryOf(path_)); });
     } while (revision != revision_);
-    if (!read.errors.empty()) {
-        for (const Edit& e : edits)
-            std::erase_if(problems_, [&](const Problem& p) { return isAtOrBelow(p.pointer, e.pointer); });
-        problems_.insert(problems_.end(), read.errors.begin(), read.errors.end());
-        return false;
-    }
+    problems_ = read.errors;
+    if (!problems_.empty()) return false;
     Value complete = completed(read.scene, candidate);
     setDocument(std::move(complete), std::move(read));
     return true;
 }
 
-bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const QString& mergeKey) {
-    if (!hasScene()) return false;
-    const EditState before = state();
-    const auto keep = [&] {
-        if (!(before == state())) history_.push(before, what, mergeKey);
-        emit draftsChanged();
-        emit sceneChanged();
-        emit fileChanged();
-        return true;
-    };
-    std::vector<Edit> all;
+/// What was typed before and refused at places that the edits leave alone.
+std::vector<Edit> Workspace::draftsBeside(const std::vector<Edit>& edits) const {
+    std::vector<Edit> beside;
     for (const auto& [pointer, value] : drafts_)
         if (std::none_of(edits.begin(), edits.end(),
                          [&](const Edit& e) { return isAtOrBelow(pointer, e.pointer); }))
-            all.push_back({pointer, value});
+            beside.push_back({pointer, value});
+    return beside;
+}
+
+void Workspace::announce() {
+    emit draftsChanged();
+    emit sceneChanged();
+    emit fileChanged();
+}
+
+std::optional<Workspace::Refusal> Workspace::attempt(const std::vector<Edit>& edits, const QString& what,
+                                                     const QString& mergeKey) {
+    const EditState before = state();
+    std::vector<Edit> all = draftsBeside(edits);
     const bool hasOtherDrafts = !all.empty();
     all.insert(all.end(), edits.begin(), edits.end());
-
-    problems_.clear();
     if (accept(all)) {
         drafts_.clear();
-        problems_.clear();
-        return keep();
-    }
-    const std::vector<Problem> together = problems_;
-    if (hasOtherDrafts && accept(edits)) {
+    } else {
+        Refusal refusal{problems_, problems_};
+        if (!hasOtherDrafts) return refusal;
+        const bool isAccepted = accept(edits);
+        refusal.alone = std::exchange(problems_, refusal.together);
+        if (!isAccepted) return refusal;
         for (const Edit& e : edits)
             std::erase_if(drafts_, [&](const auto& d) { return isAtOrBelow(d.first, e.pointer); });
-        problems_ = together;
-        return keep();
     }
-    problems_ = together;
-    for (const Edit& e : edits)
-        if (e.value) drafts_[e.pointer] = *e.value;
     if (!(before == state())) history_.push(before, what, mergeKey);
+    notices_.dismiss("refused");
+    announce();
+    return {};
+}
+
+bool Workspace::edit(const std::vector<Edit>& edits, const QString& what, const QString& mergeKey) {
+    if (!hasScene()) return false;
+    const EditState before = state();
+    const std::vector<Problem> problemsBefore = problems_;
+    const std::optional<Refusal> refusal = attempt(edits, what, mergeKey);
+    if (!refusal) return true;
+    for (const Problem& p : refusal->alone)
+        notices_.addToLog(
+            tr("%1 was refused: %2: %3").arg(what, placeName(p.pointer), QString::fromStdString(p.message)));
+    problems_ = refusal->together;
+    for (const Edit& e : edits) {
+        if (e.value) drafts_[e.pointer] = *e.value;
+        unclaimed_.push_back(e.pointer);
+    }
     emit draftsChanged();
+    if (unclaimed_.empty()) {
+        if (!(before == state())) history_.push(before, what, mergeKey);
+        return false;
+    }
+    unclaimed_.clear();
+    drafts_ = before.drafts;
+    problems_ = problemsBefore;
+    emit draftsChanged();
+    post(what, refusal->alone);
     return false;
 }
 
-std::vector<Problem> Workspace::problemsAt(std::string_view pointer) const {
-    std::vector<Problem> found;
-    for (const Problem& p : problems_)
-        if (isAtOrBelow(p.pointer, pointer)) found.push_back(p);
-    return found;
+std::vector<Problem> Workspace::tryEdit(const std::vector<Edit>& edits, const QString& what) {
+    if (!hasScene()) return {{{}, "there is no scene", {}}};
+    const std::vector<Problem> problemsBefore = problems_;
+    const std::optional<Refusal> refusal = attempt(edits, what, {});
+    if (!refusal) return {};
+    problems_ = problemsBefore;
+    return refusal->alone;
+}
+
+void Workspace::post(const QString& what, const std::vector<Problem>& problems) {
+    const Problem& first = problems.front();
+    const QString where = placeName(first.pointer);
+    QString text = QString::fromStdString(first.message);
+    if (!where.isEmpty()) text = where + ": " + text;
+    if (problems.size() > 1) text += tr(", and %n more", nullptr, static_cast<int>(problems.size()) - 1);
+    notices_.post({Notice::Kind::warning,
+                   "refused",
+                   tr("%1 was refused. %2").arg(what, text),
+                   QString::fromStdString(first.hint),
+                   {},
+                   handbookPlace(first)});
+}
+
+QString Workspace::placeName(const std::string& pointer) const {
+    const auto tokens = splitPointer(pointer);
+    const auto index = tokens && tokens->size() > 1 && tokens->front() == "schemes" ? arrayIndex((*tokens)[1])
+                                                                                    : std::nullopt;
+    if (!index || *index >= scene_.schemes.size()) return QString::fromStdString(pointer);
+    QStringList words;
+    for (std::size_t i = 2; i < tokens->size(); ++i) words << QString::fromStdString((*tokens)[i]);
+    const QString label = QString::fromStdString(scene_.schemes[*index].label);
+    return words.isEmpty() ? label : label + ", " + words.join(' ');
 }
 
 const Value* Workspace::draftAt(const std::string& pointer) const {
-    const auto found = drafts_.find(pointer);
-    return found == drafts_.end() ? nullptr : &found->second;
+    for (const auto& [place, value] : drafts_) {
+        if (!isAtOrBelow(pointer, place)) continue;
+        const Value* const typed = valueAt(value, std::string_view(pointer).substr(place.size()));
+        const Value* const now = valueAt(document_, pointer);
+        if (typed && !(now && *now == *typed)) return typed;
+    }
+    return nullptr;
+}
+
+std::vector<Problem> Workspace::refusalAt(const std::string& pointer) const {
+    const bool isRefused =
+        draftAt(pointer) || std::any_of(drafts_.begin(), drafts_.end(),
+                                        [&](const auto& d) { return isAtOrBelow(d.first, pointer); });
+    if (!isRefused) return {};
+    std::vector<Problem> here, elsewhere;
+    for (const Problem& p : problems_) {
+        if (isAtOrBelow(p.pointer, pointer)) here.push_back(p);
+        const bool isOfOther = std::any_of(drafts_.begin(), drafts_.end(), [&](const auto& d) {
+            return isAtOrBelow(p.pointer, d.first) && !isAtOrBelow(pointer, d.first) &&
+                   !isAtOrBelow(d.first, pointer);
+        });
+        if (!isOfOther) elsewhere.push_back(p);
+    }
+    return !here.empty() ? here : !elsewhere.empty() ? elsewhere : problems_;
+}
+
+void Workspace::claimRefusal(const std::string& pointer) {
+    if (std::any_of(unclaimed_.begin(), unclaimed_.end(), [&](const std::string& place) {
+            return isAtOrBelow(place, pointer) || isAtOrBelow(pointer, place);
+        }))
+        unclaimed_.clear();
 }
 
 void Workspace::dropDraft(const std::string& pointer) {
+    const EditState before = state();
     if (!drafts_.erase(pointer)) return;
-    std::erase_if(problems_, [&](const Problem& p) { return isAtOrBelow(p.pointer, pointer); });
-    if (drafts_.empty()) problems_.clear();
-    emit draftsChanged();
+    problems_.clear();
+    if (drafts_.empty() || !accept(draftsBeside({}))) return emit draftsChanged();
+    drafts_.clear();
+    history_.push(before, tr("Change what was refused"), {});
+    announce();
 }
 
 void Workspace::setDocument(Value document, ReadScene read) {
@@ -165,8 +248,8 @@ void Workspace::setDocument(Value document, ReadScene read) {
 
 void Workspace::restore(const EditState& state) {
     drafts_.clear();
-    problems_.clear();
     accept({}, &state.document);
+    notices_.dismiss("refused");
     if (!state.drafts.empty()) {
         drafts_ = state.drafts;
         std::vector<Edit> refused;
@@ -174,9 +257,7 @@ void Workspace::restore(const EditState& state) {
         const Value document = withEdits(document_, refused);
         problems_ = readAside([&] { return readScene(document, {}, directoryOf(path_)); }).errors;
     }
-    emit draftsChanged();
-    emit sceneChanged();
-    emit fileChanged();
+    announce();
 }
 
 void Workspace::undo() {
@@ -232,6 +313,7 @@ bool Workspace::open(const QString& name, bool isTrusted) {
         return false;
     }
     notices_.dismiss("open");
+    notices_.dismiss("refused");
     path_ = path;
     origin_ = isPreset ? name : path;
     drafts_.clear();
@@ -242,9 +324,7 @@ bool Workspace::open(const QString& name, bool isTrusted) {
     setDocument(std::move(document), std::move(read));
     selectScheme(-1);
     emit opened();
-    emit draftsChanged();
-    emit sceneChanged();
-    emit fileChanged();
+    announce();
     return true;
 }
 
@@ -264,9 +344,7 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
     setDocument(std::move(complete), std::move(read));
     selectScheme(-1);
     emit opened();
-    emit draftsChanged();
-    emit sceneChanged();
-    emit fileChanged();
+    announce();
     return true;
 }
 

@@ -1,9 +1,10 @@
 /// The scene being worked on: a value, its history, its file.
 ///
 /// The document is always valid and complete: an edit goes through readScene(), and one that is refused
-/// leaves the document alone and is kept as a draft with its problem, for the form to show in place. A later
+/// leaves the document alone and is kept as a draft with its problems, for the form to show in place,
+/// wherever in the scene they are found: a run that is too long is found at the step of a scheme. A later
 /// edit takes the drafts along, so that two fields that are only valid together can be changed one after the
-/// other.
+/// other. A refusal that no field shows is said in a banner, and nothing of it is kept.
 #pragma once
 
 #include <QObject>
@@ -11,6 +12,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,13 +39,21 @@ public:
     const std::shared_ptr<const ResolvedScene>& resolved() const { return resolved_; }
     const std::vector<Problem>& warnings() const { return warnings_; }
 
-    /// Makes the edits, or refuses them: then problemsAt() says why. `what` names the change for Undo.
+    /// Makes the edits, or refuses them: then refusalAt() says why. `what` names the change for Undo.
     bool edit(const std::vector<Edit>& edits, const QString& what, const QString& mergeKey = {});
-    /// The problems of the last refused edits at this place or below it.
-    std::vector<Problem> problemsAt(std::string_view pointer) const;
-    /// What the user typed at this place and was refused, or null.
+    /// Makes the edits, or returns why not: for callers that say so themselves. Nothing is kept as a draft.
+    std::vector<Problem> tryEdit(const std::vector<Edit>& edits, const QString& what);
+    /// What the user typed at this place, as a value or inside of one, and was refused; null: the document
+    /// has it.
     const Value* draftAt(const std::string& pointer) const;
-    /// Drops what was typed and refused at this place.
+    /// Why what was typed at this place or below it was refused: the problems there, and where there are
+    /// none, those that it makes at other places of the scene. Empty where nothing was refused.
+    std::vector<Problem> refusalAt(const std::string& pointer) const;
+    /// A field in sight shows what was refused at this place, and why.
+    void claimRefusal(const std::string& pointer);
+    /// A place of the scene in words: "RK4, step" for "/schemes/4/step".
+    QString placeName(const std::string& pointer) const;
+    /// Drops what was typed and refused at this place; what is left may be valid then.
     void dropDraft(const std::string& pointer);
     bool hasDrafts() const { return !drafts_.empty(); }
     const std::map<std::string, Value>& drafts() const { return drafts_; }
@@ -80,6 +90,15 @@ signals:
 
 private:
     bool accept(const std::vector<Edit>& edits, const Value* instead = nullptr);
+    std::vector<Edit> draftsBeside(const std::vector<Edit>& edits) const;
+    /// Why the edits cannot be made, alone and with what was refused before; nothing: they are made.
+    struct Refusal {
+        std::vector<Problem> alone, together;
+    };
+    std::optional<Refusal> attempt(const std::vector<Edit>& edits, const QString& what,
+                                   const QString& mergeKey);
+    void post(const QString& what, const std::vector<Problem>& problems);
+    void announce();
     void setDocument(Value document, ReadScene read);
     EditState state() const { return {document_, drafts_}; }
     void restore(const EditState& state);
@@ -91,6 +110,7 @@ private:
     Value document_, saved_;
     std::vector<Problem> warnings_, problems_, openProblems_;
     std::map<std::string, Value> drafts_;
+    std::vector<std::string> unclaimed_;  ///< places of a refused edit, until a field shows it
     History history_;
     QString path_, origin_;
     int selected_ = -1;

@@ -433,14 +433,14 @@ bool StudyPage::use(const LoadableRun& run, QString& text) {
     text = tr("%1 with %2").arg(QString::fromStdString(run.label), parts.join(QStringLiteral(", ")));
     const std::vector<Edit> edits = run.scheme ? editsForScheme(workspace_.scene(), *run.scheme)
                                                : editsForRun(workspace_.scene(), run.label, run.numbers);
-    if (!edits.empty() && workspace_.edit(edits, tr("Use a result of a study"))) {
-        workspace_.selectScheme(indexOfScheme(workspace_.scene(), run.label));
-        return true;
-    }
     QString why = tr("the scene has no such scheme");
-    for (const Edit& edit : edits) {
-        for (const Problem& p : workspace_.problemsAt(edit.pointer)) why = QString::fromStdString(p.message);
-        workspace_.dropDraft(edit.pointer);
+    if (!edits.empty()) {
+        const std::vector<Problem> problems = workspace_.tryEdit(edits, tr("Use a result of a study"));
+        if (problems.empty()) {
+            workspace_.selectScheme(indexOfScheme(workspace_.scene(), run.label));
+            return true;
+        }
+        why = QString::fromStdString(problems.front().message);
     }
     emit problemFound(tr("%1 cannot be put into the scene: %2").arg(text, why), {});
     return false;

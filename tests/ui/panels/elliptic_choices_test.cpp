@@ -99,10 +99,9 @@ private slots:
             window.open(preset);
             const ModelEntry* entry = findModel(model);
             QVERIFY2(entry, model);
-            const bool isDone =
-                window.workspace().edit(editsForModel(window.workspace().scene(), *entry), "model");
-            const auto problems = window.workspace().problemsAt("");
-            QVERIFY2(isDone,
+            const auto problems =
+                window.workspace().tryEdit(editsForModel(window.workspace().scene(), *entry), "model");
+            QVERIFY2(problems.empty(),
                      problems.empty() ? model : (problems[0].pointer + ": " + problems[0].message).c_str());
             QVERIFY(waitForResults(window));
             for (const auto& scheme : window.runControl().results()->schemes)

@@ -12,6 +12,7 @@
 
 #include "tests/tools/test.hpp"
 #include "tests/ui/enter.hpp"
+#include "tests/ui/window.hpp"
 #include "ui/panels/formula_edit.hpp"
 #include "ui/panels/lagrangian_edits.hpp"
 #include "ui/shell/actions.hpp"
@@ -154,6 +155,68 @@ private slots:
         enter(taken, "x");
         QVERIFY(window.part<QLabel>("problem.parameters")->isVisible());
         QVERIFY(valueAt(window.workspace().document(), "/model/parameters/k"));
+    }
+    /// What is typed and not valid yet stays as it was typed, whatever button is pressed beside it.
+    void whatIsTypedIsNeverReplaced() {
+        Window window("preset:duffing");
+        const QString half = "m/2*x_t^2 - k*(x + c*";
+        const auto typeHalf = [&] {
+            window.type(half);
+            QTRY_VERIFY(!window.problem().isEmpty());
+        };
+        typeHalf();
+        const QString before = window.inScene();
+        QTest::mouseClick(window.part<QToolButton>("addCoordinate"), Qt::LeftButton);
+        QCOMPARE(window.coordinates(), std::size_t(2));
+        QCOMPARE(window.formula()->toPlainText(), half);
+        QCOMPARE(window.inScene(), before + " + y_t^2/2");  // sound with both
+        QVERIFY(!window.problem().isEmpty());
+        window.workspace().undo();  // one step
+        QCOMPARE(window.coordinates(), std::size_t(1));
+        QCOMPARE(window.formula()->toPlainText(), half);
+        QVERIFY(!window.problem().isEmpty());
+        enter(window.part<QLineEdit>("name.c"), "beta");
+        QVERIFY(valueAt(window.workspace().document(), "/model/parameters/beta"));
+        QCOMPARE(window.formula()->toPlainText(), QString("m/2*x_t^2 - k*(x + beta*"));
+        QVERIFY(window.inScene().contains("beta"));
+        window.workspace().undo();
+        QCOMPARE(window.formula()->toPlainText(), half);
+        QTest::mouseClick(window.part<QToolButton>("addParameter"), Qt::LeftButton);
+        QVERIFY(valueAt(window.workspace().document(), "/model/parameters/a"));
+        QCOMPARE(window.formula()->toPlainText(), half);
+        window.part<QSlider>("slider.c")->setValue(120);
+        QCOMPARE(window.formula()->toPlainText(), half);
+        QTest::mouseClick(window.part<QToolButton>("remove.a"), Qt::LeftButton);
+        QCOMPARE(window.formula()->toPlainText(), half);
+        enter(window.part<QLineEdit>("field.coordinates"), "z");
+        QCOMPARE(window.formula()->toPlainText(), QString("m/2*z_t^2 - k*(z + c*"));
+    }
+    /// Typed a moment ago, and not looked at yet: taken first, whether it is valid or not.
+    void whatWasJustTypedIsNotReplacedEither() {
+        Window window("preset:duffing");
+        window.type("m/2*x_t^2 - k/2*x^2 + c*x");
+        QTest::mouseClick(window.part<QToolButton>("addCoordinate"), Qt::LeftButton);
+        QCOMPARE(window.inScene(), QString("m/2*x_t^2 - k/2*x^2 + c*x + y_t^2/2"));
+        QTRY_COMPARE(window.formula()->toPlainText(), window.inScene());
+        window.type("m/2*x_t^2 - k/2*x^");
+        QTest::mouseClick(window.part<QToolButton>("addCoordinate"), Qt::LeftButton);
+        QCOMPARE(window.formula()->toPlainText(), QString("m/2*x_t^2 - k/2*x^"));
+        QCOMPARE(window.coordinates(), std::size_t(3));
+        window.type("m/2*x_t^2 + y_t^2/2 + z_t^2/2 - k/2*x^2");
+        enter(window.part<QLineEdit>("name.k"), "kappa");
+        QCOMPARE(window.inScene(), QString("m/2*x_t^2 + y_t^2/2 + z_t^2/2 - kappa/2*x^2"));
+    }
+    /// Names that are typed and not taken yet are taken by the button beside them.
+    void namesAreTakenBeforeAButtonActs() {
+        Window window("preset:double-well");
+        auto* names = window.part<QLineEdit>("field.coordinates");
+        names->setFocus();
+        names->selectAll();
+        QTest::keyClicks(names, "u");
+        QTest::mouseClick(window.part<QToolButton>("addCoordinate"), Qt::LeftButton);
+        QCOMPARE(names->text(), QString("u, x"));
+        QCOMPARE(window.coordinates(), std::size_t(2));
+        QVERIFY(window.inScene().contains("u_t"));
     }
     void coordinatesAreAddedRenamedAndRemoved() {
         Window window("preset:double-well");

@@ -335,9 +335,9 @@ private slots:
         const Scene before = window.workspace().scene();
         QVERIFY(!window.workspace().edit({{"/model/k", Value(-1.0)}}, "stiffness"));
         QVERIFY(window.workspace().scene() == before);
-        QVERIFY(!window.workspace().problemsAt("/model/k").empty());
+        QVERIFY(!window.workspace().refusalAt("/model/k").empty());
         QVERIFY(window.workspace().edit({{"/model/k", Value(2e4)}}, "stiffness"));
-        QVERIFY(window.workspace().problemsAt("/model/k").empty());
+        QVERIFY(window.workspace().refusalAt("/model/k").empty());
     }
     void rapidEditsLeaveOneRun() {
         MainWindow window(Theme::light(), false);

@@ -109,8 +109,6 @@ private slots:
                 if (v.xRange) return std::optional(*v.xRange);
             return std::optional<ViewRange>();
         };
-        for (const Problem& p : window.workspace().problemsAt("/views"))
-            qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
         QVERIFY(part());
         QCOMPARE((std::pair{part()->low.value, part()->high.value}), (std::pair{1.0, 2.0}));
         QVERIFY(waitForResults(window));
@@ -122,8 +120,6 @@ private slots:
                           Qt::NoScrollPhase, false);
         QApplication::sendEvent(canvas, &wheel);
         QVERIFY(choose(window, 1, "Store this range in the scene"));
-        for (const Problem& p : window.workspace().problemsAt("/views"))
-            qInfo("%s: %s", p.pointer.c_str(), p.message.c_str());
         QVERIFY(part()->low.value > 1 && part()->high.value < 2);
         window.workspace().undo();
         QVERIFY(waitForResults(window));
