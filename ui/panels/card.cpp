@@ -103,6 +103,7 @@ private:
 
 QLabel* makeWrappedLabel(const QString& text, const char* role, QWidget* parent) {
     auto* label = new WrappedLabel(text, parent);
+    label->setTextFormat(Qt::PlainText);
     label->setProperty("role", role);
     QSizePolicy policy(QSizePolicy::Preferred, QSizePolicy::Preferred);
     policy.setHeightForWidth(true);
@@ -111,13 +112,16 @@ QLabel* makeWrappedLabel(const QString& text, const char* role, QWidget* parent)
 }
 
 QLabel* makeLabel(const QString& text, const char* role, QWidget* parent) {
-    auto* label = new QLabel(text, parent);
+    auto* label = new QLabel(parent);
+    label->setTextFormat(Qt::PlainText);
+    label->setText(text);
     label->setProperty("role", role);
     return label;
 }
 
 QLabel* makeElidedLabel(const QString& text, const char* role, QWidget* parent) {
     auto* label = new ElidedLabel(text, parent);
+    label->setTextFormat(Qt::PlainText);
     label->setProperty("role", role);
     label->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Preferred);
     return label;

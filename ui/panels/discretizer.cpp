@@ -38,7 +38,7 @@ DiscretizerCell::DiscretizerCell(ChoiceGrid::Cell choice, const Properties& know
 }
 
 QString DiscretizerCell::textAbout(const Properties& known) const {
-    const QString discretization = QString::fromStdString(choice_.title);
+    const QString discretization = QString::fromStdString(choice_.title).toHtmlEscaped();
     if (!known.refusal.empty())
         return tr("<b>%1</b><br>No scheme: %2")
             .arg(discretization, QString::fromStdString(known.refusal).toHtmlEscaped());
@@ -46,8 +46,8 @@ QString DiscretizerCell::textAbout(const Properties& known) const {
         return tr("<b>%1</b><br>Unstable for every step: %2")
             .arg(discretization, QString::fromStdString(known.instability).toHtmlEscaped());
     if (!known.remark.empty())
-        return "<b>" + QString::fromStdString(known.knownAs) + "</b><br>" + discretization + "<br>" +
-               QString::fromStdString(known.remark);
+        return "<b>" + QString::fromStdString(known.knownAs).toHtmlEscaped() + "</b><br>" + discretization +
+               "<br>" + QString::fromStdString(known.remark).toHtmlEscaped();
     QString text =
         "<b>" +
         (known.knownAs.empty() ? discretization : QString::fromStdString(known.knownAs).toHtmlEscaped()) +

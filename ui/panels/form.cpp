@@ -46,15 +46,17 @@ void Form::addRow(FormField field) {
     auto* edit = new ValueEdit(info);
     QLabel* name = nullptr;
     if (info.type == FieldType::number) {
-        auto* scrub = new ScrubLabel(label);
+        auto* scrub = new ScrubLabel;
         connect(scrub, &ScrubLabel::scrubbed, edit, &ValueEdit::scaleBy);
         connect(scrub, &ScrubLabel::clicked, edit, [edit] { edit->setFocus(); });
         scrub->setToolTip(tr("Drag sideways to change %1").arg(QString::fromStdString(info.title)));
         name = scrub;
     } else {
-        name = new QLabel(label);
+        name = new QLabel;
     }
     name->setObjectName("label." + QString::fromStdString(info.key));
+    name->setTextFormat(Qt::RichText);  // what comes from a scene is escaped
+    name->setText(label);
     name->setWordWrap(true);  // narrow panels; then as wide as its longest word
     name->setBuddy(edit);
     constexpr int roomOfUnit = 72;  // a longer one would leave the field no room

@@ -1,7 +1,9 @@
 #include "ui/panels/problem_text.hpp"
 
 #include <QCoreApplication>
+#include <QDesktopServices>
 #include <QLabel>
+#include <QUrl>
 #include <QVariant>
 
 #include "engine/scene/topics.hpp"
@@ -47,7 +49,10 @@ QLabel* makeLinkLabel(const char* role, QWidget* parent) {
     label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard |
                                    Qt::TextSelectableByMouse);
-    label->setOpenExternalLinks(true);  // "handbook:" is the window's
+    QObject::connect(label, &QLabel::linkActivated, label, [](const QString& link) {
+        const QUrl url(link);  // its texts are escaped, so no other link can be in it
+        if (url.scheme() == QLatin1String("handbook")) QDesktopServices::openUrl(url);
+    });
     return label;
 }
 

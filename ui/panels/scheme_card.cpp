@@ -24,6 +24,7 @@
 #include "ui/panels/problem_text.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/scrub_label.hpp"
+#include "ui/shell/plain_tips.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
@@ -381,7 +382,8 @@ void SchemeCard::setEditing(bool isOpen) {
 bool SchemeCard::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::MouseButtonRelease)
         if (auto* label = qobject_cast<QLabel*>(watched))
-            QToolTip::showText(label->mapToGlobal(QPoint(0, label->height())), label->toolTip(), label);
+            QToolTip::showText(label->mapToGlobal(QPoint(0, label->height())), plainTip(label->toolTip()),
+                               label);
     return QFrame::eventFilter(watched, event);
 }
 

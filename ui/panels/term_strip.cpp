@@ -108,7 +108,7 @@ void TermStrip::fill(const std::vector<std::string>& terms) {
         row.nodes->setAccessibleName(tr("Nodes for %1").arg(name));
         row.nodes->setRange(1, 64);
         row.nodes->setKeyboardTracking(false);
-        grid_->addWidget(new QLabel(name), line, 0);
+        grid_->addWidget(makeLabel(name, "body"), line, 0);
         grid_->addWidget(row.rule, line, 1);
         grid_->addWidget(row.nodes, line, 2);
         rows_.push_back(row);

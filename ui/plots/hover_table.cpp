@@ -25,7 +25,7 @@ QString valuesAt(const Figure& figure, double t, std::optional<double> pinned, c
     const QString unit = QString::fromStdString(figure.x.title).section('[', 1).section(']', 0, 0);
     QString text =
         QStringLiteral("<table cellspacing='0' cellpadding='1'><tr><td><b>t = %1%2</b></td><td></td>")
-            .arg(sixDigits(t), unit.isEmpty() ? QString() : " " + unit);
+            .arg(sixDigits(t), unit.isEmpty() ? QString() : " " + unit.toHtmlEscaped());
     if (pinned)
         text += QStringLiteral("<td align='right'>&nbsp;&nbsp;<b>%1</b></td>")
                     .arg(HoverTable::tr("from t = %1").arg(sixDigits(*pinned)));

@@ -1,7 +1,6 @@
 #include "ui/shell/export_folder.hpp"
 
 #include <QBuffer>
-#include <QTextDocument>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,7 @@
 #include "engine/run/export.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/plots/plot_renderer.hpp"
-#include "ui/shell/formula_text.hpp"
+#include "ui/shell/foreign_text.hpp"
 
 namespace extremal {
 namespace {
@@ -43,9 +42,9 @@ QString embedded(const Figure& figure) {
 
 /// Notes with their formulas: what stands between the tags of the body.
 QString notesHtml(const std::string& notes) {
-    QTextDocument document;
-    document.setMarkdown(withFormulas(QString::fromStdString(notes)));
-    formatFormulas(document);
+    ForeignDocument document;
+    document.read(QString::fromStdString(notes));
+    document.keepOutsideLinks();
     const QString html = document.toHtml();
     const qsizetype from = html.indexOf('>', html.indexOf(QLatin1String("<body"))) + 1;
     return html.mid(from, html.lastIndexOf(QLatin1String("</body>")) - from);

@@ -106,16 +106,30 @@ private:
         const bool isFunction = known->size() == 3 && known->at(0).isLower() && known->at(0).unicode() < 128;
         return isFunction ? *known + QChar(0x2009) : *known;
     }
-    QString argument() { return at_ < text_.size() ? atom() : QString(); }
+    /// Deeper than any formula of use; beyond it braces are characters, as the stack is not without end.
+    static constexpr int mostLevels = 64;
+
+    QString argument() {
+        if (at_ >= text_.size()) return {};
+        if (levels_ >= mostLevels) return text_[at_++];
+        ++levels_;
+        const QString out = atom();
+        --levels_;
+        return out;
+    }
     QString group() {
+        if (levels_ >= mostLevels) return QStringLiteral("{");
+        ++levels_;
         QString out;
         while (at_ < text_.size() && text_[at_] != '}') out += atom();
         ++at_;
+        --levels_;
         return out;
     }
 
     const QString& text_;
     qsizetype at_ = 0;
+    int levels_ = 0;
 };
 
 }  // namespace
@@ -139,17 +153,23 @@ QString withFormulas(const QString& text) {
 }
 
 void formatFormulas(QTextDocument& document) {
+    // One change: outside of an edit block each cursor looks for its line in the whole paragraph.
+    QTextCursor whole(&document);
+    whole.beginEditBlock();
     for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
         QVector<std::pair<int, char16_t>> open;  // positions in the block, and what begins there
-        for (int at = 0; at < block.length() - 1;) {
-            const char16_t c = block.text().at(at).unicode();
+        const QString text = block.text();       // read once: notes can be one long paragraph
+        int at = 0;                              // in the block, of which the marks so far are gone
+        for (const QChar character : text) {
+            const char16_t c = character.unicode();
             if (c < italic || c > closed) {
                 ++at;
                 continue;
             }
             QTextCursor cursor(block);
             cursor.setPosition(block.position() + at);
-            cursor.deleteChar();
+            cursor.setPosition(block.position() + at + 1, QTextCursor::KeepAnchor);
+            cursor.removeSelectedText();  // deleteChar would look for the next letter in the whole paragraph
             if (c != closed) {
                 open.push_back({at, c});
                 continue;
@@ -166,6 +186,7 @@ void formatFormulas(QTextDocument& document) {
             cursor.mergeCharFormat(format);
         }
     }
+    whole.endEditBlock();
 }
 
 void formatPage(QTextDocument& document) {

@@ -6,7 +6,6 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSplitter>
-#include <QTextBrowser>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -20,7 +19,7 @@
 #include "ui/shell/background.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
-#include "ui/shell/typeset.hpp"
+#include "ui/shell/text_view.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
@@ -49,7 +48,7 @@ InspectorWindow::InspectorWindow(Workspace& workspace, RunControl& run, Playback
     grid_->setContentsMargins(0, 0, 2, 0);
     grid_->setSpacing(10);
     scroll->setWidget(inside);
-    text_ = new QTextBrowser;
+    text_ = new TextView;
     text_->setAccessibleName(tr("Equations of the step"));
     splitter->addWidget(scroll);
     splitter->addWidget(text_);
@@ -155,7 +154,7 @@ void InspectorWindow::show(const StepInspection& step) {
         plots_[i]->setFigure(step.figures[i]);
     }
     const int place = text_->verticalScrollBar()->value();
-    showPage(*text_, step.page);
+    text_->showPage(step.page);
     text_->verticalScrollBar()->setValue(place);
     emit shown();
 }

@@ -13,7 +13,6 @@
 
 class QGridLayout;
 class QLabel;
-class QTextBrowser;
 
 namespace extremal {
 
@@ -21,6 +20,7 @@ class Playback;
 class PlotWidget;
 class RunControl;
 struct StepInspection;
+class TextView;
 class Workspace;
 
 class InspectorWindow : public QWidget {
@@ -49,7 +49,7 @@ private:
     Theme theme_;
     QLabel* title_;
     QGridLayout* grid_;
-    QTextBrowser* text_;
+    TextView* text_;
     std::vector<PlotWidget*> plots_;
     QTimer timer_;  ///< changes that follow each other are shown once
     std::stop_source stop_{std::nostopstate};

@@ -3,29 +3,17 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QTextDocument>
 #include <QVBoxLayout>
 
 #include <algorithm>
 
 #include "ui/panels/card.hpp"
-#include "ui/shell/formula_text.hpp"
 #include "ui/shell/playback.hpp"
+#include "ui/shell/text_view.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
-namespace {
-
-/// Markdown with formulas, as the rich text of a label.
-QString richText(const std::string& markdown) {
-    QTextDocument document;
-    document.setMarkdown(withFormulas(QString::fromStdString(markdown)));
-    formatFormulas(document);
-    return document.toHtml();
-}
-
-}  // namespace
 
 LessonBar::LessonBar(Workspace& workspace, Playback& playback, QWidget* parent)
     : QFrame(parent), workspace_(workspace), playback_(playback) {
@@ -35,10 +23,12 @@ LessonBar::LessonBar(Workspace& workspace, Playback& playback, QWidget* parent)
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(14, 10, 14, 10);
     column->setSpacing(6);
-    text_ = makeLabel({}, "body", this);
+    text_ = new TextView(this);
     text_->setObjectName("lessonText");
-    text_->setWordWrap(true);
-    text_->setTextFormat(Qt::RichText);
+    text_->setAccessibleName(tr("What to do next"));
+    text_->setFocusPolicy(Qt::ClickFocus);  // keys stay with the window
+    constexpr int mostLines = 12;
+    text_->setFitted(mostLines);
     column->addWidget(text_);
     auto* row = new QHBoxLayout;
     place_ = makeLabel({}, "caption", this);
@@ -78,7 +68,7 @@ void LessonBar::start() {
 void LessonBar::go(int step) {
     at_ = step;
     const LessonStep& now = steps_[static_cast<std::size_t>(at_)];
-    text_->setText(richText(now.text));
+    text_->showText(QString::fromStdString(now.text));
     const auto& schemes = workspace_.scene().schemes;
     const auto scheme = std::find_if(schemes.begin(), schemes.end(),
                                      [&](const SchemeSpec& s) { return s.label == now.scheme; });

@@ -14,6 +14,7 @@ class QPushButton;
 namespace extremal {
 
 class Playback;
+class TextView;
 class Workspace;
 
 class LessonBar : public QFrame {
@@ -44,7 +45,8 @@ private:
     Playback& playback_;
     std::vector<LessonStep> steps_;
     int at_ = -1;
-    QLabel *place_, *text_, *state_;
+    QLabel *place_, *state_;
+    TextView* text_;
     QPushButton *back_, *do_, *next_;
 };
 

@@ -14,7 +14,6 @@
 #include <QStackedWidget>
 #include <QStatusBar>
 #include <QTabBar>
-#include <QTextBrowser>
 #include <QTimer>
 #include <QVBoxLayout>
 
@@ -38,20 +37,20 @@
 #include "ui/shell/banners.hpp"
 #include "ui/shell/compare_view.hpp"
 #include "ui/shell/copies_window.hpp"
-#include "ui/shell/formula_text.hpp"
 #include "ui/shell/header_bar.hpp"
 #include "ui/shell/inspector_window.hpp"
 #include "ui/shell/lesson_bar.hpp"
 #include "ui/shell/log_window.hpp"
 #include "ui/shell/notices.hpp"
+#include "ui/shell/plain_tips.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/race_window.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/theme_switch.hpp"
+#include "ui/shell/text_view.hpp"
 #include "ui/shell/timeline.hpp"
-#include "ui/shell/typeset.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/study/background_sweep.hpp"
 #include "ui/study/study_page.hpp"
@@ -59,6 +58,7 @@
 namespace extremal {
 
 MainWindow::MainWindow(const Theme& theme, bool isRemembered) : theme_(theme), isRemembered_(isRemembered) {
+    showTipsAsPlainText(*qApp);
     setAcceptDrops(true);
     setMinimumSize(760, 520);
     resize(1600, 1000);
@@ -138,8 +138,8 @@ void MainWindow::makePages() {
     compare_->setWanted(header->wantedError());
     connect(header, &HeaderBar::wantedChanged, compare_, &CompareView::setWanted);
     connect(compare_, &CompareView::wantedMoved, header, &HeaderBar::setWantedError);
-    notes_ = new QTextBrowser;
-    notes_->setOpenExternalLinks(true);
+    notes_ = new TextView;
+    notes_->setObjectName("notes");
     notes_->setAccessibleName(tr("Notes"));
     pages_->addWidget(compare_);
     studies_ = new StudyPage(*workspace_, theme_);
@@ -363,7 +363,7 @@ void MainWindow::showScene() {
     if (shownNotes_ == notes) return;
     shownNotes_ = notes;
     QTimer::singleShot(0, notes_, [this, notes] {
-        if (shownNotes_ == notes) showMarkdown(*notes_, withFormulas(notes));
+        if (shownNotes_ == notes) notes_->showText(notes);
     });
 }
 
@@ -415,9 +415,12 @@ double MainWindow::rowStep() const {
 /// False if the user wants to stay with changes that are not saved.
 bool MainWindow::mayLeaveScene() {
     if (!isRemembered_ || !(workspace_->isDirty() || workspace_->hasDrafts())) return true;
-    const auto answer = QMessageBox::question(
-        this, tr("Extremal"), tr("%1 has changes that are not saved.").arg(workspace_->fileName()),
-        QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
+    QMessageBox box(QMessageBox::Question, tr("Extremal"),
+                    tr("%1 has changes that are not saved.").arg(workspace_->fileName()),
+                    QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+    box.setTextFormat(Qt::PlainText);  // a name of a file can look like HTML
+    box.setDefaultButton(QMessageBox::Save);
+    const int answer = box.exec();
     if (answer == QMessageBox::Save) save(false);
     return answer == QMessageBox::Discard || (answer == QMessageBox::Save && !workspace_->isDirty());
 }

@@ -20,7 +20,6 @@ class QMenu;
 class QStackedWidget;
 class QTabBar;
 class QScrollArea;
-class QTextBrowser;
 
 namespace extremal {
 
@@ -47,6 +46,7 @@ class SchemeList;
 class StartPage;
 class StudyPage;
 class ThemeSwitch;
+class TextView;
 class Timeline;
 class ValuesTable;
 class Workspace;
@@ -79,6 +79,8 @@ public:
 public slots:
     /// "handbook:multiscale#resonances", of links in messages.
     void openHandbook(const QUrl& url);
+    /// "preset:kepler", of links in texts.
+    void openPreset(const QUrl& url);
 
 protected:
     void closeEvent(QCloseEvent* event) override;
@@ -169,7 +171,7 @@ private:
     QTabBar* tabs_;
     QSplitter* splitter_;
     QScrollArea* left_;  ///< the panel of the scene
-    QTextBrowser* notes_;
+    TextView* notes_;
     QString shownNotes_;             ///< their source
     QPointer<QWidget> focusBefore_;  ///< what the start page has taken the focus from
     bool wasPlaying_ = false;        ///< when the start page hid the scene

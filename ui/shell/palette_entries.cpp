@@ -4,7 +4,7 @@
 #include <QLineEdit>
 #include <QScrollArea>
 #include <QTabBar>
-#include <QTextDocument>
+#include <QTextDocumentFragment>
 
 #include "engine/scene/preset.hpp"
 #include "ui/panels/card.hpp"
@@ -21,10 +21,10 @@
 namespace extremal {
 namespace {
 
-QString plain(const QString& text) {
-    QTextDocument document;
-    document.setHtml(text);
-    return document.toPlainText();
+/// A label's text; no document is behind it that could load what the text names.
+QString plainTextOf(const QLabel& label) {
+    return label.textFormat() == Qt::PlainText ? label.text()
+                                               : QTextDocumentFragment::fromHtml(label.text()).toPlainText();
 }
 
 /// The fields of the panel of the scene, under the words beside them.
@@ -32,7 +32,7 @@ void addFields(QScrollArea& panel, std::vector<PaletteEntry>& entries) {
     for (const QLabel* label : panel.findChildren<QLabel*>()) {
         auto* const field = qobject_cast<ValueEdit*>(label->buddy());
         if (!field || !field->isVisibleTo(&panel)) continue;
-        entries.push_back({MainWindow::tr("Change %1").arg(plain(label->text())), {}, true, [&panel, field] {
+        entries.push_back({MainWindow::tr("Change %1").arg(plainTextOf(*label)), {}, true, [&panel, field] {
                                panel.ensureWidgetVisible(field);
                                field->setFocus(Qt::ShortcutFocusReason);
                                // The window is not the active one yet, and selects nothing by itself.

@@ -6,7 +6,6 @@
 #include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
-#include <QTextBrowser>
 #include <QVBoxLayout>
 
 #include "engine/core/problem.hpp"
@@ -16,7 +15,7 @@
 #include "engine/run/export.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/notices.hpp"
-#include "ui/shell/typeset.hpp"
+#include "ui/shell/text_view.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
@@ -26,7 +25,7 @@ PassportWindow::PassportWindow(Workspace& workspace, Notices& notices, QWidget* 
     setObjectName("passport");
     resize(860, 720);
     auto* layout = new QVBoxLayout(this);
-    text_ = new QTextBrowser(this);
+    text_ = new TextView(this);
     text_->setAccessibleName(tr("Passport of the scheme"));
     layout->addWidget(text_);
     auto* row = new QHBoxLayout;
@@ -80,7 +79,7 @@ void PassportWindow::show(const Document& page, bool isComplete) {
     isComplete_ = isComplete;
     setWindowTitle(tr("Passport: %1").arg(QString::fromStdString(page.title)));
     const int place = text_->verticalScrollBar()->value();
-    showPage(*text_, page, isComplete ? QString() : tr("\n*Orders and costs are being measured ...*\n"));
+    text_->showPage(page, isComplete ? QString() : tr("\n*Orders and costs are being measured ...*\n"));
     text_->verticalScrollBar()->setValue(place);
 }
 

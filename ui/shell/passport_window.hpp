@@ -9,13 +9,13 @@
 
 class QLabel;
 class QPushButton;
-class QTextBrowser;
 
 namespace extremal {
 
 struct Document;
 struct ResolvedScene;
 class Notices;
+class TextView;
 class Workspace;
 
 class PassportWindow : public QWidget {
@@ -37,7 +37,7 @@ private:
 
     Workspace& workspace_;
     Notices& notices_;
-    QTextBrowser* text_;
+    TextView* text_;
     QPushButton *savePage_, *saveProgram_;
     std::shared_ptr<const ResolvedScene> scene_;
     std::shared_ptr<const Document> page_;

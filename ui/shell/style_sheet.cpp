@@ -86,6 +86,7 @@ QSpinBox::down-arrow, QDoubleSpinBox::down-arrow {
 QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; color: @text; border: 1px solid @cardLine; border-radius: 6px;
     selection-background-color: @accent; selection-color: @onAccent; }
 QPlainTextEdit:focus, QTextEdit:focus { border-color: @accent; }
+QTextBrowser[fitted="true"] { background: transparent; border: none; border-radius: 0; }
 QPlainTextEdit[role="formula"] { font-size: @12px; }
 QLineEdit[room="name"] { min-width: @46px; max-width: @46px; }
 QWidget[room="value"] { min-width: @56px; max-width: @84px; }

@@ -1,13 +1,15 @@
 #include "ui/shell/typeset.hpp"
 
+#include <QFile>
 #include <QPointer>
+#include <QRegularExpression>
 #include <QScrollBar>
 #include <QTextBlock>
 #include <QTextBrowser>
 #include <QTextDocument>
 #include <QTextTable>
+#include <QUrl>
 
-#include "engine/passport/document.hpp"
 #include "ui/shell/formula_text.hpp"
 
 namespace extremal {
@@ -69,36 +71,50 @@ void typesetTable(QTextTable& table, const QPalette& palette) {
         }
 }
 
-void show(QTextBrowser& browser, const QString& markdown, void (*typeset)(QTextDocument&)) {
-    // Separate from the browser, which would lay out the text again after every change; without a history of
-    // them.
-    auto* page = new QTextDocument(&browser);
-    QTextDocument& document = *page;
-    document.setUndoRedoEnabled(false);
-    document.setDefaultFont(browser.font());
-    document.setMarkdown(markdown);
-    document.setDocumentMargin(18);
-    typeset(document);
+/// A page of the handbook: its pictures are in the program, and nothing else is loaded.
+class HandbookDocument : public QTextDocument {
+public:
+    using QTextDocument::QTextDocument;
+
+protected:
+    QVariant loadResource(int type, const QUrl& name) override {
+        static const QRegularExpression plainName(QStringLiteral("^[\\w-]+\\.svg$"));
+        if (type != QTextDocument::ImageResource || !plainName.match(name.toString()).hasMatch()) return {};
+        QFile file(":/handbook/" + name.toString());
+        return file.open(QIODevice::ReadOnly) ? QVariant(file.readAll()) : QVariant();
+    }
+};
+
+}  // namespace
+
+void showTypeset(QTextBrowser& browser, QTextDocument* document) {
     const QPalette palette = browser.palette();
-    for (QTextBlock block = document.begin(); block.isValid(); block = block.next())
+    QTextCursor whole(document);
+    whole.beginEditBlock();
+    for (QTextBlock block = document->begin(); block.isValid(); block = block.next())
         QTextCursor(block).setBlockFormat(formatOf(block));
-    for (QTextFrame* frame : document.rootFrame()->childFrames())
+    for (QTextFrame* frame : document->rootFrame()->childFrames())
         if (auto* table = qobject_cast<QTextTable*>(frame)) typesetTable(*table, palette);
+    whole.endEditBlock();
     const QPointer<QTextDocument> last = browser.document();
     // The marks of a search are cursors of the last document: the browser would ask it for their places when
     // it is given others.
     browser.setExtraSelections({});
-    browser.setDocument(page);
+    browser.setDocument(document);
     delete last;  // where the browser has not
     browser.verticalScrollBar()->setValue(0);
 }
 
-}  // namespace
-
-void showMarkdown(QTextBrowser& browser, const QString& markdown) { show(browser, markdown, formatFormulas); }
-
-void showPage(QTextBrowser& browser, const Document& page, const QString& ending) {
-    show(browser, QString::fromStdString(written(page, PageFormat::markdown)) + ending, formatPage);
+void showMarkdown(QTextBrowser& browser, const QString& markdown) {
+    // Separate from the browser, which would lay out the text again after every change; without a history of
+    // them.
+    auto* document = new HandbookDocument(&browser);
+    document->setUndoRedoEnabled(false);
+    document->setDefaultFont(browser.font());
+    document->setMarkdown(markdown);
+    document->setDocumentMargin(18);
+    formatFormulas(*document);
+    showTypeset(browser, document);
 }
 
 }  // namespace extremal

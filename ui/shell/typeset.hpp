@@ -5,15 +5,15 @@
 #include <QString>
 
 class QTextBrowser;
+class QTextDocument;
 
 namespace extremal {
 
-struct Document;
-
-/// Shows the text in the colours of the browser's palette.
+/// Shows a page of the handbook, in the colours of the browser's palette. Its pictures are those of the
+/// handbook; nothing else is loaded.
 void showMarkdown(QTextBrowser& browser, const QString& markdown);
 
-/// The same of a page of the engine, whose formulas are typeset; `ending`: Markdown that follows.
-void showPage(QTextBrowser& browser, const Document& page, const QString& ending = {});
+/// Shows a document that has been read, and takes it; the one before is deleted.
+void showTypeset(QTextBrowser& browser, QTextDocument* document);
 
 }  // namespace extremal

@@ -76,6 +76,7 @@ void MainWindow::makeActions() {
         QMessageBox::about(this, tr("About Extremal"), aboutText(compare_->stage()->drawingBackend()));
     });
     QDesktopServices::setUrlHandler(QStringLiteral("handbook"), this, "openHandbook");
+    QDesktopServices::setUrlHandler(QStringLiteral("preset"), this, "openPreset");
     // All others are of the scene.
     actions_->keepWithoutScene({"gallery", "newLagrangian", "open", "pasteScene", "quit", "palette", "theme",
                                 "larger", "smaller", "fullScreen", "ownSchemes", "help", "searchHelp",
@@ -111,6 +112,8 @@ void MainWindow::addLessonActions() {
 void MainWindow::openHandbook(const QUrl& url) {
     showHelp(url.hasFragment() ? url.path() + '#' + url.fragment() : url.path());
 }
+
+void MainWindow::openPreset(const QUrl& url) { open("preset:" + url.path()); }
 
 void MainWindow::showHelp(const QString& page) {
     if (!help_) {

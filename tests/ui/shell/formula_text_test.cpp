@@ -9,6 +9,7 @@
 #include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
 #include "ui/shell/formula_text.hpp"
+#include "ui/shell/text_view.hpp"
 #include "ui/shell/typeset.hpp"
 
 namespace extremal::formula_text_test {
@@ -63,8 +64,8 @@ private slots:
             {Document::Paragraph{"The unknowns Y_1, …, Y_{m−1} and φ_a."},
              Document::Formulas{{{"Q_i = q_0 + Σ_a φ_a(c_i) Y_a", ""}}},
              Document::Table{{"column", "x_t^2"}, {{"a", "b_i"}}}, Document::Listing{{"A[1,1] = x_0"}}}};
-        QTextBrowser browser;
-        showPage(browser, page);
+        TextView browser;
+        browser.showPage(page);
         const QString text = browser.toPlainText();
         for (const char* part :
              {"The unknowns Y1, …, Ym−1 and φa.", "Qi = q0 + Σa φa(ci) Ya", "xt2", "bi", "A[1,1] = x_0"})
