@@ -1,8 +1,6 @@
 #include "engine/passport/document.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <string_view>
 
 #include "engine/core/markup.hpp"
@@ -11,111 +9,23 @@
 namespace extremal {
 namespace {
 
-/// Characters that mean something in Markdown; "_" between letters is a subscript and stays one.
-std::string inMarkdown(std::string_view text) {
-    static constexpr std::array<Replacement, 6> special = {
-        {{"\\", "\\\\"}, {"*", "\\*"}, {"_", "\\_"}, {"|", "\\|"}, {"<", "\\<"}, {"`", "\\`"}}};
-    return replaced(text, special);
-}
-
-/// Letters that LaTeX has no input for are written as their numbers: U+2713.
-std::string withoutUnknown(std::string_view text) {
-    std::string out;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-        unsigned point = lead < 0x80 ? lead : lead & (0xffu >> (length + 1));
-        for (std::size_t k = 1; k < length && i + k < text.size(); ++k)
-            point = point << 6 | (static_cast<unsigned char>(text[i + k]) & 0x3fu);
-        if (point < 0x180) {
-            out += text.substr(i, length);
-        } else {
-            char number[16];
-            std::snprintf(number, sizeof number, "U+%04X", point);
-            out += number;
-        }
-        i += length;
-    }
-    return out;
-}
-
-std::string lettersInLatex(std::string_view text) {
-    static constexpr Replacement special[] = {{"\\", "\\textbackslash{}"},
-                                              {"{", "\\{"},
-                                              {"}", "\\}"},
-                                              {"_", "\\_"},
-                                              {"^", "\\textasciicircum{}"},
-                                              {"#", "\\#"},
-                                              {"%", "\\%"},
-                                              {"&", "\\&"},
-                                              {"$", "\\$"},
-                                              {"~", "\\textasciitilde{}"},
-                                              {"…", "\\dots{}"},
-                                              {"−", "$-$"},
-                                              {"×", "$\\times$"},
-                                              {"·", "$\\cdot$"},
-                                              {"≤", "$\\le$"},
-                                              {"′", "$'$"},
-                                              {"″", "$''$"},
-                                              {"⁻¹", "$^{-1}$"},
-                                              {"⁻", "$^{-}$"},
-                                              {"½", "$\\tfrac12$"},
-                                              {"∂", "$\\partial$"},
-                                              {"≥", "$\\ge$"},
-                                              {"∞", "$\\infty$"},
-                                              {"≈", "$\\approx$"},
-                                              {"→", "$\\to$"},
-                                              {"–", "--"},
-                                              {"’", "'"},
-                                              {"“", "``"},
-                                              {"”", "''"},
-                                              {"η", "$\\eta$"},
-                                              {"κ", "$\\kappa$"},
-                                              {"ν", "$\\nu$"},
-                                              {"χ", "$\\chi$"},
-                                              {"Δ", "$\\Delta$"},
-                                              {"⁴", "$^4$"},
-                                              {"²", "$^2$"},
-                                              {"³", "$^3$"},
-                                              {"Σ", "$\\Sigma$"},
-                                              {"√", "$\\sqrt{}$"},
-                                              {"α", "$\\alpha$"},
-                                              {"β", "$\\beta$"},
-                                              {"γ", "$\\gamma$"},
-                                              {"δ", "$\\delta$"},
-                                              {"ε", "$\\varepsilon$"},
-                                              {"θ", "$\\theta$"},
-                                              {"λ", "$\\lambda$"},
-                                              {"μ", "$\\mu$"},
-                                              {"ξ", "$\\xi$"},
-                                              {"π", "$\\pi$"},
-                                              {"ρ", "$\\rho$"},
-                                              {"σ", "$\\sigma$"},
-                                              {"τ", "$\\tau$"},
-                                              {"φ", "$\\varphi$"},
-                                              {"ψ", "$\\psi$"},
-                                              {"ω", "$\\omega$"},
-                                              {"Ω", "$\\Omega$"},
-                                              {"ħ", "$\\hbar$"},
-                                              {"₀", "$_0$"},
-                                              {"₁", "$_1$"},
-                                              {"₂", "$_2$"},
-                                              {"₃", "$_3$"},
-                                              {"₄", "$_4$"},
-                                              {"ℓ", "$\\ell$"},
-                                              {"ℒ", "$\\mathcal{L}$"}};
-    return withoutUnknown(replaced(text, special));
+/// An index or exponent: letters, digits and signs as in a formula, and anything else as a text in it.
+std::string scriptInLatex(const std::string& text) {
+    static constexpr Replacement minus[] = {{"−", "-"}};
+    const std::string plain = replaced(text, minus);
+    constexpr std::string_view known =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 +-*/=,.:()";
+    return plain.find_first_not_of(known) == std::string::npos ? plain : "\\text{" + latexText(text) + "}";
 }
 
 /// "a_t^2" is set as in formulas.
 std::string inLatex(std::string_view text) {
-    static constexpr Replacement minus[] = {{"−", "-"}};
     std::string out;
     for (const FormulaPart& part : formulaParts(text, false)) {
         if (part.script == Script::none)
-            out += lettersInLatex(part.text);
+            out += latexText(part.text);
         else
-            out += (part.script == Script::lowered ? "$_{" : "$^{") + replaced(part.text, minus) + "}$";
+            out += (part.script == Script::lowered ? "$_{" : "$^{") + scriptInLatex(part.text) + "}$";
     }
     return out;
 }
@@ -153,20 +63,20 @@ th { font-weight: 600; color: var(--muted); font-size: 13px; }
 
 class Markdown {
 public:
-    static std::string begin(const std::string& title) { return "# " + inMarkdown(title) + "\n"; }
+    static std::string begin(const std::string& title) { return "# " + markdownText(title) + "\n"; }
     static std::string end() { return {}; }
-    std::string operator()(const Document::Heading& h) const { return "\n## " + inMarkdown(h.text) + "\n"; }
-    std::string operator()(const Document::Paragraph& p) const { return "\n" + inMarkdown(p.text) + "\n"; }
+    std::string operator()(const Document::Heading& h) const { return "\n## " + markdownText(h.text) + "\n"; }
+    std::string operator()(const Document::Paragraph& p) const { return "\n" + markdownText(p.text) + "\n"; }
     std::string operator()(const Document::Formulas& f) const {
         std::string text = "\n";
-        for (const WrittenFormula& line : f.lines) text += "    " + line.plain + "\n";
+        for (const WrittenFormula& line : f.lines) text += "    " + visibleLine(line.plain) + "\n";
         return text;
     }
     std::string operator()(const Document::Table& t) const {
         std::string text = "\n";
         const auto row = [&](const std::vector<std::string>& cells) {
             text += "|";
-            for (const std::string& cell : cells) text += " " + inMarkdown(cell) + " |";
+            for (const std::string& cell : cells) text += " " + markdownText(cell) + " |";
             text += "\n";
         };
         row(t.columns);
@@ -176,11 +86,7 @@ public:
         for (const auto& cells : t.rows) row(cells);
         return text;
     }
-    std::string operator()(const Document::Listing& l) const {
-        std::string text = "\n```\n";
-        for (const std::string& line : l.lines) text += line + "\n";
-        return text + "```\n";
-    }
+    std::string operator()(const Document::Listing& l) const { return "\n" + markdownListing(l.lines); }
 };
 
 class Html {
@@ -252,9 +158,7 @@ public:
         return text + "\\hline\n\\end{longtable}\n";
     }
     std::string operator()(const Document::Listing& l) const {
-        std::string text = "\n{\\footnotesize\n\\begin{verbatim}\n";
-        for (const std::string& line : l.lines) text += line + "\n";
-        return text + "\\end{verbatim}\n}\n";
+        return "\n{\\footnotesize\n" + latexListing(l.lines) + "}\n";
     }
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/action/table.hpp"
+#include "engine/core/markup.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/typed/source_code.hpp"
@@ -31,7 +32,7 @@ class Writer {
 public:
     explicit Writer(Language language) : isPython_(language == Language::python) {}
 
-    void comment(const std::string& line) { text += (isPython_ ? "# " : "// ") + line + "\n"; }
+    void comment(const std::string& line) { text += (isPython_ ? "# " : "// ") + commentText(line) + "\n"; }
     void scalar(const std::string& name, double x) {
         text += isPython_ ? name + " = " + number(x) + "\n"
                           : "constexpr double " + name + " = " + number(x) + ";\n";
@@ -151,7 +152,8 @@ std::string indented(const std::vector<std::string>& lines) {
 /// What the program is, how it is called, and what it includes.
 void writeHead(const std::string& label, const std::string& title, const std::string& lagrangian, Writer& w,
                bool isPython) {
-    if (isPython) w.text = "#!/usr/bin/env python3\n";
+    // Without a declaration of its own Python would take one from what follows: "Decoding: the pendulum".
+    if (isPython) w.text = "#!/usr/bin/env python3\n# -*- coding: utf-8 -*-\n";
     w.comment(label + " on " + title);
     w.comment("");
     w.comment("L = " + lagrangian);
@@ -182,8 +184,8 @@ void writeScene(const ResolvedScene& scene, const ResolvedScheme& scheme, const 
     w.vector("parts", vectorOf(parts.data(), static_cast<int>(parts.size())));
     std::string columns = "t";
     for (const Quantity& q : stateColumns(*scene.system)) columns += "," + q.name;
-    w.text += isPython ? "columns = '" + columns + "'.split(',')\n"
-                       : "const char* const columns = \"" + columns + "\";\n";
+    w.text += isPython ? "columns = " + pythonString(columns) + ".split(',')\n"
+                       : "const char* const columns = " + cppString(columns) + ";\n";
     w.text += "\n";
 }
 

@@ -50,7 +50,7 @@ void readEvents(Reader& reader, const Value& document, const System* system, Sce
         event.action =
             static_cast<EventSpec::Action>(wordOf(reader, object, "action", pointer, format::actions));
         if (const Value* label = object.find("label"))
-            event.label = reader.line(*label, pointer + "/label").value_or("");
+            event.label = reader.label(*label, pointer + "/label").value_or("");
         const Value* expression = object.find("expression");
         const std::string at = value.isString() ? pointer : pointer + "/expression";
         if (!expression) {

@@ -292,19 +292,8 @@ std::optional<SchemeSpec> readScheme(Reader& reader, const Value& value, const s
     const std::size_t errorsBefore = reader.errors.size();
     reader.checkKeys(value, pointer, format::scheme);
     SchemeSpec spec;
-    if (const Value* label = value.find("label")) {
-        const std::string place = childPointer(pointer, "label");
-        if (const auto text = reader.line(*label, place)) {
-            spec.label = *text;
-            if (text->find_first_not_of(' ') == std::string::npos)
-                reader.error(place, "is empty", "omit it for the default");
-            else if (std::string_view("=+-@").find(text->front()) != std::string_view::npos)
-                reader.error(place,
-                             "begins with " + text->substr(0, 1) +
-                                 ", which a spreadsheet takes for a formula: " + describeValue(*label),
-                             "begin with a letter");
-        }
-    }
+    if (const Value* label = value.find("label"))
+        spec.label = reader.label(*label, childPointer(pointer, "label")).value_or("");
     const auto readFlag = [&](const char* key, bool& target) {
         if (const Value* flag = value.find(key))
             target = reader.flag(*flag, childPointer(pointer, key)).value_or(target);

@@ -145,6 +145,26 @@ std::optional<std::string> Reader::line(const Value& value, const std::string& p
     return result;
 }
 
+std::optional<std::string> Reader::label(const Value& value, const std::string& pointer) {
+    const auto text = line(value, pointer);
+    if (!text) return {};
+    if (text->find_first_not_of(' ') == std::string::npos) {
+        error(pointer, "is empty", "omit it for the default");
+        return {};
+    }
+    // Spreadsheets skip spaces, and take the wide forms of East Asian scripts for the same.
+    const std::string_view shown = std::string_view(*text).substr(text->find_first_not_of(' '));
+    for (const std::string_view sign : {"=", "+", "-", "@", "＝", "＋", "－", "＠"})
+        if (shown.starts_with(sign)) {
+            error(pointer,
+                  "begins with " + std::string(sign) +
+                      ", which a spreadsheet takes for a formula: " + describeValue(value),
+                  "begin with a letter");
+            return {};
+        }
+    return text;
+}
+
 bool Reader::isObject(const Value& value, const std::string& pointer) {
     if (value.isObject()) return true;
     error(pointer, "must be an object {...}, got " + describeValue(value));

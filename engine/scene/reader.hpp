@@ -46,6 +46,8 @@ public:
     std::optional<std::string> text(const Value& value, const std::string& pointer);
     /// A text of one line: no control characters, at most 200 characters.
     std::optional<std::string> line(const Value& value, const std::string& pointer);
+    /// A line that is a cell of CSV files: not empty, and not what a spreadsheet takes for a formula.
+    std::optional<std::string> label(const Value& value, const std::string& pointer);
     bool isObject(const Value& value, const std::string& pointer);
     bool isArray(const Value& value, const std::string& pointer, const std::string& what);
 

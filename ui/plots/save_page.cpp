@@ -7,7 +7,10 @@
 #include <QPdfWriter>
 #include <QSaveFile>
 #include <QSvgGenerator>
+
 #include <cmath>
+
+#include "engine/core/markup.hpp"
 
 namespace extremal {
 namespace {
@@ -65,13 +68,20 @@ QByteArray svgBytes(QSize size, const QString& title, const DrawPage& draw) {
         generator.setResolution(96);
         generator.setSize(size);
         generator.setViewBox(QRect(QPoint(0, 0), size));
-        generator.setTitle(title);
+        generator.setTitle(QStringLiteral("-"));  // Qt writes it as it is: ours comes later, escaped
         generator.setDescription(QStringLiteral("made by Extremal"));
         FigurePainter painter(generator, true);
         draw(painter, QRectF(QPointF(0, 0), QSizeF(size)));
     }
-    // Readers without the font shall not fall back to one with serifs.
     QByteArray bytes = buffer.data();
+    bytes.replace("<title>-</title>",
+                  "<title>" + QByteArray::fromStdString(markupText(title.toStdString())) + "</title>");
+    // What Qt draws it escapes, but for the characters that XML does not have.
+    for (char& c : bytes)
+        if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t' && c != '\r') c = ' ';
+    for (const char* noncharacter : {"\xef\xbf\xbe", "\xef\xbf\xbf"})
+        bytes.replace(noncharacter, "\xef\xbf\xbd");
+    // Readers without the font shall not fall back to one with serifs.
     return bytes.replace("font-family=\"Inter\"", "font-family=\"Inter, Helvetica, Arial, sans-serif\"");
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/core/markup.hpp"
 #include "engine/core/text.hpp"
 #include "engine/figure/svg.hpp"
 #include "engine/run/export.hpp"
@@ -18,13 +19,14 @@ namespace {
 
 constexpr QSize figureSize(720, 440);
 
-QString escaped(const std::string& text) { return QString::fromStdString(text).toHtmlEscaped(); }
+QString escaped(const std::string& text) { return QString::fromStdString(markupText(text)); }
+QString escaped(const QString& text) { return escaped(text.toStdString()); }
 
 QString embedded(const QByteArray& bytes, const char* kind, long width, const QString& what) {
+    // All at once, as a title may have "%2" in it.
     return QStringLiteral("<img alt=\"%1\" width=\"%2\" src=\"data:image/%3;base64,%4\">")
-        .arg(what.toHtmlEscaped())
-        .arg(width)
-        .arg(QLatin1String(kind), QString::fromLatin1(bytes.toBase64()));
+        .arg(escaped(what), QString::number(width), QLatin1String(kind),
+             QString::fromLatin1(bytes.toBase64()));
 }
 
 QString embedded(const QImage& image, const QString& what) {
@@ -40,10 +42,10 @@ QString embedded(const Figure& figure) {
                     QString::fromStdString(figure.title));
 }
 
-/// Notes with their formulas: what stands between the tags of the body.
+/// Notes with their formulas: what stands between the tags of the body. Tags in the notes are text.
 QString notesHtml(const std::string& notes) {
     ForeignDocument document;
-    document.read(QString::fromStdString(notes));
+    document.read(QString::fromStdString(visibleText(notes)));
     document.keepOutsideLinks();
     const QString html = document.toHtml();
     const qsizetype from = html.indexOf('>', html.indexOf(QLatin1String("<body"))) + 1;
@@ -59,7 +61,7 @@ QString schemeRow(const SchemeResult& result) {
     return QStringLiteral(
                "<tr><td>%1</td><td>%2</td><td>%3</td><td class=n>%4</td><td class=n>%5</td>"
                "<td class=n>%6</td><td class=n>%7</td><td class=n>%8</td><td>%9</td></tr>\n")
-        .arg(escaped(s.label), schemeText(result.spec).toHtmlEscaped(), stepText(result.spec).toHtmlEscaped(),
+        .arg(escaped(s.label), escaped(schemeText(result.spec)), escaped(stepText(result.spec)),
              QString::number(s.steps), shortTime(s.cpuSeconds), shortNumber(s.maxError),
              order + " / " + measured, shortNumber(s.energyDrift), outcome);
 }
@@ -112,9 +114,9 @@ QString reportPage(const ExportParts& parts) {
     if (!parts.stage.isNull())
         html += "<figure>" + embedded(parts.stage, "Stage") + "<figcaption>Stage</figcaption></figure>\n";
     for (const Figure& figure : parts.figures)
-        html += "<figure>" + embedded(figure) + "<figcaption>" +
-                QString::fromStdString(figure.summary).toHtmlEscaped() + "</figcaption></figure>\n";
-    return html + "<h2>The same again</h2>\n<pre>" + commandsFor(parts).toHtmlEscaped() +
+        html += "<figure>" + embedded(figure) + "<figcaption>" + escaped(figure.summary) +
+                "</figcaption></figure>\n";
+    return html + "<h2>The same again</h2>\n<pre>" + escaped(commandsFor(parts)) +
            "</pre>\n<p class=m>In the folder of scene.json.</p>\n</body></html>\n";
 }
 
