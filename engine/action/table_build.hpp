@@ -2,12 +2,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "engine/action/table.hpp"
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/work.hpp"
 
 namespace extremal::detail {
 
@@ -56,17 +58,104 @@ struct Probe {
     }
 };
 
+/// Whether the functions are those of cells, most of which vanish at most points: normal equations then cost
+/// a thousandth of an orthogonal factorisation, and B-splines are independent enough for them.
+template <class T>
+bool hasCells(const Space<T>& space) {
+    return space.equalCells > 1 || space.cells.size() > 2;
+}
+
+/// sum_i weight_i A(i, a) B(i, b) over the points, without the zeros.
+template <class T>
+typename Table<T>::Matrix integrals(const typename Table<T>::Vector& weight,
+                                    const typename Table<T>::Matrix& A, const typename Table<T>::Matrix& B) {
+    typename Table<T>::Matrix sum = Table<T>::Matrix::Zero(A.cols(), B.cols());
+    for (Eigen::Index i = 0; i < A.rows(); ++i)
+        for (Eigen::Index a = 0; a < A.cols(); ++a) {
+            if (A(i, a) == T(0)) continue;
+            const T factor = weight(i) * A(i, a);
+            int products = 1;
+            for (Eigen::Index b = 0; b < B.cols(); ++b) {
+                if (B(i, b) == T(0)) continue;
+                sum(a, b) += factor * B(i, b);
+                ++products;
+            }
+            work::spend(work::quadruple * products + static_cast<double>(B.cols()));
+        }
+    return sum;
+}
+
+/// z of samples.value z = 1 by normal equations. Their error is the square of the condition of the basis
+/// times round-off; two corrections by the defect take it away.
+template <class T>
+typename Table<T>::Vector oneByNormalEquations(const Samples<T>& samples, const Probe<T>& probe) {
+    using Vector = typename Table<T>::Vector;
+    const typename Table<T>::Matrix& value = samples.value;
+    const dense::Lu<T> normal(integrals<T>(probe.weight, value, value));
+    Vector z = Vector::Zero(value.cols());
+    for (int pass = 0; pass < 3; ++pass) {
+        const Vector defect = Vector::Ones(value.rows()) - Vector(dense::product<T>(value, z));
+        z += normal.solve(integrals<T>(probe.weight, value, defect));
+    }
+    return z;
+}
+
 /// Coefficients of the function 1, by least squares.
 template <class T>
-typename Table<T>::Vector coefficientsOfOne(const Samples<T>& samples) {
+typename Table<T>::Vector coefficientsOfOne(const Space<T>& space, const Samples<T>& samples,
+                                            const Probe<T>& probe) {
     using Vector = typename Table<T>::Vector;
     const Vector ones = Vector::Ones(samples.value.rows());
-    Vector z = dense::leastSquares<T>(samples.value, ones);
-    const Vector defect = samples.value * z - ones;
+    const Vector z = hasCells(space) ? oneByNormalEquations(samples, probe)
+                                     : Vector(dense::leastSquares<T>(samples.value, ones));
+    const Vector defect = Vector(dense::product<T>(samples.value, z)) - ones;
     if (static_cast<double>(defect.norm()) > 1e-8)
         throw InvalidScene("/space", "does not contain the constants, so the curve cannot start at rest",
                            "add the constant function");
     return z;
+}
+
+/// The slopes of functions, all but the last as Q R with orthonormal columns of Q, and Q^T of the last.
+template <class T>
+struct SlopeFactors {
+    typename Table<T>::Matrix R, last;
+};
+
+template <class T>
+SlopeFactors<T> slopesByRotations(const Samples<T>& samples, const Probe<T>& probe,
+                                  const typename Table<T>::Matrix& change) {
+    using Matrix = typename Table<T>::Matrix;
+    const Eigen::Index interior = change.cols() - 1;
+    const Matrix slopes =
+        probe.weight.cwiseSqrt().asDiagonal() * dense::product<T>(samples.derivative, change);
+    const auto [Q, R] = dense::qr<T>(slopes.leftCols(interior));
+    return {R, dense::product<T>(Q.leftCols(interior).transpose(), slopes.col(interior))};
+}
+
+/// Cholesky's factor of int phi_a' phi_b'; as B-splines of degree s have a condition of about s 2^s, it is
+/// known to 1e-17 at degree 24, and what is missing to orthonormality is below round-off.
+template <class T>
+SlopeFactors<T> slopesByCells(const Samples<T>& samples, const Probe<T>& probe,
+                              const typename Table<T>::Matrix& change) {
+    using std::sqrt;
+    using Matrix = typename Table<T>::Matrix;
+    const Eigen::Index interior = change.cols() - 1;
+    const Matrix raw = integrals<T>(probe.weight, samples.derivative, samples.derivative);
+    const Matrix K = dense::product<T>(change.transpose(), dense::product<T>(raw, change));
+    Matrix R = Matrix::Zero(interior, interior), last = Matrix::Zero(interior, 1);
+    for (Eigen::Index k = 0; k < interior; ++k) {
+        const auto above = [&](Eigen::Index j) {
+            T sum(0);
+            for (Eigen::Index l = 0; l < k; ++l) sum += R(l, k) * (j < interior ? R(l, j) : last(l, 0));
+            return sum;
+        };
+        const T square = K(k, k) - above(k);
+        R(k, k) = square > 0 ? T(sqrt(square)) : T(0);
+        if (R(k, k) == 0) break;
+        for (Eigen::Index j = k + 1; j < interior; ++j) R(k, j) = (K(k, j) - above(j)) / R(k, k);
+        last(k, 0) = (K(k, interior) - above(interior)) / R(k, k);
+    }
+    return {R, last};
 }
 
 /// The change to functions Y_a whose traces are trivial (see table.hpp). The interior ones are orthonormal in
@@ -91,25 +180,29 @@ typename Table<T>::Matrix changeOfBasis(const Space<T>& space, const Samples<T>&
     change.col(m - 1) = (traces.col(1) * gram(0, 0) - traces.col(0) * gram(0, 1)) / determinant;
     if (m == 1) return change;
     change.leftCols(m - 1) = dense::qr<T>(traces).Q.rightCols(m - 1);
-    const Matrix slopes =
-        probe.weight.cwiseSqrt().asDiagonal() * dense::product<T>(samples.derivative, change);
-    const auto [Q, R] = dense::qr<T>(slopes.leftCols(m - 1));
-    const auto pivots = R.diagonal().cwiseAbs();
+    const SlopeFactors<T> slopes =
+        hasCells(space) ? slopesByCells(samples, probe, change) : slopesByRotations(samples, probe, change);
+    const auto pivots = slopes.R.diagonal().cwiseAbs();
     if (!(pivots.minCoeff() > pivots.maxCoeff() * T(1e-12)))
         throw InvalidScene("/space", "has functions that are not independent",
                            "leave out those that follow from others");
-    const dense::Lu<T> upper(R);
-    const Matrix along = upper.solve(dense::product<T>(Q.leftCols(m - 1).transpose(), slopes.col(m - 1)));
-    change.col(m - 1) -= dense::product<T>(change.leftCols(m - 1), along);
+    const dense::Lu<T> upper(slopes.R);
+    change.col(m - 1) -= dense::product<T>(change.leftCols(m - 1), upper.solve(slopes.last));
     change.leftCols(m - 1) =
         dense::product<T>(change.leftCols(m - 1), upper.solve(Matrix::Identity(m - 1, m - 1)));
     return change;
 }
 
-/// Smallest k for which the rule is not exact; at most degree + 1, as more does not matter.
+/// Smallest k for which the rule is not exact; at most degree + 1, as more does not matter. The limit is far
+/// above the round-off of double precision.
 template <class T>
 int consistencyOf(const Table<T>& t) {
-    const std::vector<double> defect = consistencyDefects(t, t.space.degree + 1);
+    Table<double> narrow;
+    narrow.node = t.node.template cast<double>();
+    narrow.weight = t.weight.template cast<double>();
+    narrow.value = t.value.template cast<double>();
+    narrow.derivative = t.derivative.template cast<double>();
+    const std::vector<double> defect = consistencyDefects(narrow, t.space.degree + 1);
     return static_cast<int>(std::find_if(defect.begin(), defect.end(), [](double d) { return d > 1e-9; }) -
                             defect.begin());
 }
@@ -160,6 +253,31 @@ void checkRank(const Table<T>& t, const Samples<T>& samples) {
         "use at least " + std::to_string(enough) + " nodes, spread over the step");
 }
 
+/// A polynomial of degree s on one of n cells, continued over a whole step, amplifies round-off by up to
+/// (4 n)^s / 2: beyond 1e16 the starting values would have no digit of the solution.
+template <class T>
+bool continuesUsefully(const Space<T>& space) {
+    double shortest = 1.0 / space.equalCells;
+    if (!space.cells.empty()) shortest = 1 - static_cast<double>(space.cells[space.cells.size() - 2]);
+    return space.continues && (!hasCells(space) || std::pow(4 / shortest, space.degree) / 2 < 1e16);
+}
+
+/// Continues the curve: matches it at points of the next step, relative to the value at its start.
+template <class T>
+typename Table<T>::Matrix extrapolated(const Space<T>& space, const Samples<T>& samples,
+                                       const Probe<T>& probe, const typename Table<T>::Matrix& change) {
+    using Matrix = typename Table<T>::Matrix;
+    const Eigen::Index m = change.cols();
+    std::vector<T> beyond;
+    for (const T& c : probe.point) beyond.push_back(T(1) + c);
+    Matrix next = dense::product<T>(Samples<T>(space, beyond).value, change);
+    next.col(m - 1).array() -= T(1);  // the new step starts at q_1 = q_0 + Y_{m-1}
+    const Matrix own = dense::product<T>(samples.value, change);
+    if (!hasCells(space)) return dense::leastSquares<T>(own, next);
+    // The functions have orthonormal slopes: normal equations lose the square of some thousands.
+    return dense::solve<T>(integrals<T>(probe.weight, own, own), integrals<T>(probe.weight, own, next));
+}
+
 template <class T>
 Table<T> buildTable(const Space<T>& space, const Rule<T>& rule, bool mustTellApart = true) {
     using Matrix = typename Table<T>::Matrix;
@@ -176,7 +294,7 @@ Table<T> buildTable(const Space<T>& space, const Rule<T>& rule, bool mustTellApa
         t.lift = Vector::Unit(m + 1, 0);
         t.change = Matrix::Identity(m + 1, m + 1).rightCols(m);
     } else {
-        t.lift = coefficientsOfOne(samples);
+        t.lift = coefficientsOfOne(space, samples, probe);
         t.change = changeOfBasis(space, samples, probe);
     }
     const Samples<T> at(space, t.rule.c);
@@ -189,13 +307,7 @@ Table<T> buildTable(const Space<T>& space, const Rule<T>& rule, bool mustTellApa
     t.testValue.col(m - 1) = Vector::Ones(t.nodes()) - t.value.col(m - 1);
     t.testDerivative.col(m - 1) = -t.derivative.col(m - 1);
 
-    if (!space.continues) return t;
-    // Continue the curve: match it at points of the next step, relative to the value at its start.
-    std::vector<T> beyond;
-    for (const T& c : probe.point) beyond.push_back(T(1) + c);
-    Matrix next = dense::product<T>(Samples<T>(space, beyond).value, t.change);
-    next.col(m - 1).array() -= T(1);  // the new step starts at q_1 = q_0 + Y_{m-1}
-    t.extrapolation = dense::leastSquares<T>(dense::product<T>(samples.value, t.change), next);
+    if (continuesUsefully(space)) t.extrapolation = extrapolated(space, samples, probe, t.change);
     return t;
 }
 
@@ -210,6 +322,7 @@ std::vector<double> consistencyDefects(const Table<T>& t, int most) {
                               lower = Table<T>::Vector::Zero(t.nodes());
     auto dP = lower, dLower = lower;
     std::vector<double> defects;
+    work::spend((std::is_same_v<T, double> ? 1 : work::quadruple) * 4.0 * most * t.unknowns() * t.nodes());
     for (int k = 0; k < most; ++k) {
         double worst = 0;
         for (int a = 0; a < t.unknowns() - 1; ++a) {

@@ -5,7 +5,10 @@
 namespace extremal::dense {
 
 Eigen::VectorXd rankPivots(Given<double> A) {
-    return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(A).matrixQR().diagonal().cwiseAbs();
+    return Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(counted<double>(A, static_cast<double>(A.cols())))
+        .matrixQR()
+        .diagonal()
+        .cwiseAbs();
 }
 
 template class Lu<double>;

@@ -2,16 +2,19 @@
 #include <Eigen/SVD>
 
 #include "engine/core/dense.hpp"
+#include "engine/core/work.hpp"
 
 namespace extremal::dense {
 
 template <class T>
 SymmetricEigen<T> symmetricEigen(Given<T> A) {
+    work::spend(10 * static_cast<double>(A.size() * A.rows()));
     const Eigen::SelfAdjointEigenSolver<Matrix<T>> solver(A);
     return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
 Eigen::VectorXd singularValues(Given<double> A) {
+    work::spend(20 * static_cast<double>(A.size() * A.rows()));
     return Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>(A).singularValues();
 }
 
