@@ -185,7 +185,7 @@ private:
     T correction();
     T massAt(int k) const;
     CorrectionSize<T> measured() const;
-    bool retreat();
+    bool retreat(const T& t);
     bool shortenIntoDomain(const T& t);
     Attempt iterate(const T& t, StartingValue start, const std::stop_token& stop);
     Attempt newton(const T& t, StartingValue start, const std::stop_token& stop);

@@ -164,13 +164,19 @@ CorrectionSize<T> GalerkinStep<T, D>::measured() const {
     });
 }
 
-/// Takes half of the last correction back, where it has left the domain of L.
+/// Takes half of the last correction back, as often as it is needed, until the residual is finite: no Newton
+/// step leads out of the domain of L, such as beyond the speed of light or into a wall.
 template <class T, int D>
-bool GalerkinStep<T, D>::retreat() {
-    delta_ /= T(2);
-    Y_ += delta_;
-    placeNodes();
-    return delta_.allFinite();
+bool GalerkinStep<T, D>::retreat(const T& t) {
+    for (int halvings = 0; halvings < mostRetreats && delta_.allFinite(); ++halvings) {
+        delta_ /= T(2);
+        Y_ += delta_;
+        placeNodes();
+        evaluateGradients(t);
+        residual();
+        if (R_.allFinite()) return true;
+    }
+    return false;
 }
 
 /// Newton's method from the starting value in Y. At its end the forces at hand are those of the solution.
@@ -181,25 +187,21 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::iterate(const T& t, Sta
     const auto limits = NewtonLimits<T>::condensedStep(tolerance_, start == StartingValue::fallback);
     NewtonPolicy<T> policy(limits);
     bool needsJacobian = true;
-    int retreats = 0;
     placeNodes();
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop.stop_requested()) return Attempt::stopped;
         evaluateGradients(t);
         residual();
         if (iteration > 0 && !R_.allFinite()) {
-            // No Newton step leads out of the domain of L, such as beyond the speed of light or into a wall.
-            if (++retreats > mostRetreats || !retreat()) return Attempt::notFinite;
+            if (!retreat(t)) return Attempt::notFinite;
+            // A correction that was cut short says nothing of how the next ones should shrink.
+            policy = NewtonPolicy<T>(limits);
             needsJacobian = true;
-            continue;
         }
         if (needsJacobian) {
             if (!assembleJacobian(t)) return Attempt::singular;
             policy.jacobianIsNew();
             needsJacobian = false;
-            // Corrections that were cut short say nothing of how the next ones should shrink.
-            if (retreats > 0) policy = NewtonPolicy<T>(limits);
-            retreats = 0;
         }
         const T size = correction();
         ++report_.cost.iterations;

@@ -61,23 +61,27 @@ void ElementStep::findMasses(double t, double h) {
     for (int k = 0; k < d; ++k) masses_(k) = hessian_((d + k) * (2 * d + 1));
 }
 
+/// Takes half of the last correction back until S is finite: no Newton step leads out of the domain of L.
+bool ElementStep::retreat(double t, double h, StepReport& report) {
+    for (int halvings = 0; halvings < mostRetreats; ++halvings) {
+        residual_ /= 2;
+        Y_ += residual_;
+        if (evaluate(t, h, report)) return true;
+    }
+    return false;
+}
+
 Outcome ElementStep::newton(double t, double h, const std::stop_token& stop, StepReport& report) {
     using Verdict = NewtonPolicy<double>::Verdict;
     const int d = dimension(), n = unknowns(), m = table_.unknowns();
     const auto limits = NewtonLimits<double>::elementStep(tolerance_);
     NewtonPolicy<double> policy(limits);
-    int retreats = 0;
     for (int iteration = 0; iteration < policy_.maxIterations; ++iteration) {
         if (stop.stop_requested()) return Outcome::stopped;
         if (!evaluate(t, h, report)) {
-            // No Newton step leads out of the domain of L: half of the last correction is taken back.
-            if (iteration == 0 || ++retreats > mostRetreats) return Outcome::notFinite;
-            residual_ /= 2;
-            Y_ += residual_;
-            continue;
+            if (iteration == 0 || !retreat(t, h, report)) return Outcome::notFinite;
+            policy = NewtonPolicy<double>(limits);  // the last correction was cut short
         }
-        if (retreats > 0) policy = NewtonPolicy<double>(limits);
-        retreats = 0;
         const auto& H = derivatives_.hessian;
         for (int j = 0; j < n; ++j) {
             double* const column = lu_.column(j);

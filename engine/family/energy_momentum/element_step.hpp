@@ -66,6 +66,7 @@ private:
     Outcome newton(double t, double h, const std::stop_token& stop, StepReport& report);
     bool startAfresh(double t, double h);
     void findMasses(double t, double h);
+    bool retreat(double t, double h, StepReport& report);
     void followStep();
 
     Mechanics<double> mechanics_;
