@@ -8,6 +8,7 @@
 #include "engine/core/text.hpp"
 #include "engine/run/event_files.hpp"
 #include "engine/run/export.hpp"
+#include "engine/run/missing.hpp"
 #include "engine/scene/json.hpp"
 
 namespace extremal::app {
@@ -23,8 +24,26 @@ std::string duration(double seconds) {
     return seconds < 1 ? formatNumber(seconds * 1e3, 3) + " ms" : formatNumber(seconds, 3) + " s";
 }
 
-std::string order(const Summary& s) {
+/// A number that the scene may have asked for in vain.
+class Wanted {
+public:
+    Wanted(const Comparison& comparison, const SchemeResult& scheme)
+        : missing_(missingFrom(comparison, scheme)) {}
+    bool lacks(std::string_view observable) const {
+        return std::any_of(missing_.begin(), missing_.end(),
+                           [&](const Missing& m) { return m.observable == observable; });
+    }
+    std::string text(double value, std::string_view observable) const {
+        return !std::isfinite(value) && lacks(observable) ? "not known" : number(value);
+    }
+
+private:
+    std::vector<Missing> missing_;
+};
+
+std::string order(const Summary& s, const Wanted& wanted) {
     const std::string claimed = s.orderClaimed > 0 ? std::to_string(s.orderClaimed) : "";
+    if (wanted.lacks("order")) return "not known" + (claimed.empty() ? "" : " of " + claimed);
     if (!std::isfinite(s.orderMeasured)) return claimed;
     return claimed.empty() ? number(s.orderMeasured) : number(s.orderMeasured) + " of " + claimed;
 }
@@ -36,10 +55,12 @@ std::string summaryTable(const Comparison& comparison) {
                           "max error", "final error", "order", "events", "solver"});
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
+        const Wanted wanted(comparison, *scheme);
         table.rows.push_back({s.label, name(s.status), std::to_string(s.steps), duration(s.cpuSeconds),
-                              std::to_string(s.cost.evaluations), number(s.maxEnergyError),
-                              number(s.maxMomentumError), number(s.maxError), number(s.finalError), order(s),
-                              eventsText(*scheme), s.about});
+                              std::to_string(s.cost.evaluations), wanted.text(s.maxEnergyError, "energy"),
+                              wanted.text(s.maxMomentumError, "momentum"), wanted.text(s.maxError, "error"),
+                              wanted.text(s.finalError, "error"), order(s, wanted), eventsText(*scheme),
+                              s.about});
     }
     // A column that no scheme fills says nothing.
     for (std::size_t c = table.rows[0].size(); c-- > 0;) {

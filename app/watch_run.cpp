@@ -6,6 +6,8 @@
 #include "app/progress.hpp"
 #include "app/report.hpp"
 #include "engine/core/text.hpp"
+#include "engine/observe/catalog.hpp"
+#include "engine/run/missing.hpp"
 
 namespace extremal::app {
 
@@ -32,8 +34,21 @@ bool waitFor(Run& run, InterruptWatch& watch, const CommonOptions& options) {
     return isInterrupted;
 }
 
+namespace {
+
+/// By the warnings of the scene, or of the reference that all schemes share.
+bool isSaidAlready(const Missing& missing, const Comparison& comparison) {
+    const ObservableEntry* entry = findObservable(missing.observable);
+    if (!entry) return false;
+    return !entry->variations.isEmpty() || entry->needsWayBack ||
+           (entry->needsReference && !comparison.reference.problems.empty());
+}
+
+}  // namespace
+
 void printFailures(const Comparison& comparison, const std::string& scene) {
-    printProblems(scene, comparison.reference.problems, "warning: ");
+    printProblems(scene, comparison.reference.problems,
+                  "warning: there is no reference, so errors are unknown: ");
     for (const auto& scheme : comparison.schemes) {
         const Summary& s = scheme->summary;
         if (s.status == RunStatus::failed)
@@ -42,6 +57,10 @@ void printFailures(const Comparison& comparison, const std::string& scene) {
                          s.advice);
         else if (!s.caution.empty())
             printProblem(s.label, "warning: " + s.caution);
+        if (s.status != RunStatus::done) continue;
+        for (const Missing& m : missingFrom(comparison, *scheme))
+            if (!isSaidAlready(m, comparison))
+                printProblem(s.label, "warning: " + m.observable + " is not known: " + m.reason);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "engine/core/text.hpp"
 #include "engine/run/event_files.hpp"
 #include "engine/run/file_batch.hpp"
+#include "engine/run/missing.hpp"
 #include "engine/run/starts_files.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
@@ -363,6 +364,12 @@ Value summaryValue(const Comparison& comparison) {
         for (const Summary::Extreme& e : scheme->summary.extremes)
             extremes.set(e.column, knownNumber(e.value));
         row.set("extremes", extremes);
+        if (const std::vector<Missing> missing = missingFrom(comparison, *scheme); !missing.empty()) {
+            Value reasons{Value::Object{}};
+            for (const Missing& m : missing) reasons.set(m.observable, m.reason);
+            row.set("missing", reasons);
+        }
+        if (!scheme->summary.caution.empty()) row.set("caution", scheme->summary.caution);
         if (const FoundEvents* found = scheme->products.find<FoundEvents>())
             row.set("events", eventsValue(*found));
     }
@@ -371,6 +378,8 @@ Value summaryValue(const Comparison& comparison) {
     Value reference{Value::Object{}};
     reference.set("type", comparison.reference.type);
     reference.set("estimated_error", knownNumber(comparison.reference.estimatedError));
+    if (!comparison.reference.problems.empty())
+        reference.set("problem", comparison.reference.problems.front().message);
     Value summary{Value::Object{}};
     summary.set("extremal", 1);
     summary.set("title", comparison.scene.title);

@@ -23,15 +23,27 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/// The step that a solution could not take.
+struct StepFailure {
+    Outcome outcome = Outcome::converged;  ///< of no step
+    double t = 0;                          ///< where it began
+};
+
 /// Takes an integrator as far as it is asked, and answers from its dense output. Going back in time starts
 /// anew.
 class SteppedSolution {
 public:
     using Make = std::function<std::unique_ptr<Integrator>()>;
 
-    /// `counts`: what happens in its steps; null: they are not counted.
-    SteppedSolution(Make make, State initial, double end, std::shared_ptr<StepCounts> counts)
-        : make_(std::move(make)), initial_(std::move(initial)), end_(end), counts_(std::move(counts)) {
+    /// `counts`: what happens in its steps; null: they are not counted. `failure`: where it says that it
+    /// ended early; null: nowhere.
+    SteppedSolution(Make make, State initial, double end, std::shared_ptr<StepCounts> counts,
+                    std::shared_ptr<StepFailure> failure)
+        : make_(std::move(make)),
+          initial_(std::move(initial)),
+          end_(end),
+          counts_(std::move(counts)),
+          failure_(std::move(failure)) {
         rewind();
     }
     void operator()(double t, std::span<double> x) {
@@ -43,6 +55,7 @@ public:
             const StepReport report =
                 integrator_->advance(state_, isFixed ? clock_.at(state_.node + 1) : std::max(end_, t));
             hasFailed_ = report.outcome != Outcome::converged;
+            if (hasFailed_ && failure_) *failure_ = {report.outcome, state_.t};
             count({1, report.event != StepEvent::none});
         }
         if (hasFailed_)
@@ -105,15 +118,17 @@ private:
     double before_ = 0;
     bool hasFailed_ = false;
     std::shared_ptr<StepCounts> counts_;
+    std::shared_ptr<StepFailure> failure_;
     StepCounts own_ = {};        ///< of this solution alone
     std::optional<Place> read_;  ///< from a checkpoint, until a time is asked for
 };
 
 /// `end`: where error-controlled codes land, unless they are asked beyond it.
 std::function<ExactSolution()> stepped(SteppedSolution::Make make, const State& initial, double end,
-                                       const std::shared_ptr<StepCounts>& counts = nullptr) {
-    return [make = std::move(make), initial, end, counts]() -> ExactSolution {
-        const auto solution = std::make_shared<SteppedSolution>(make, initial, end, counts);
+                                       const std::shared_ptr<StepCounts>& counts = nullptr,
+                                       const std::shared_ptr<StepFailure>& failure = nullptr) {
+    return [make = std::move(make), initial, end, counts, failure]() -> ExactSolution {
+        const auto solution = std::make_shared<SteppedSolution>(make, initial, end, counts, failure);
         ExactSolution along = [solution](double t, std::span<double> x) { (*solution)(t, x); };
         along.setCheckpoint([solution](Archive& archive) { solution->checkpoint(archive); });
         return along;
@@ -144,12 +159,21 @@ double distance(const ExactSolution& a, const ExactSolution& b, double step, boo
     return worst;
 }
 
+/// None, and why.
+Reference withoutReference(const std::string& reason) {
+    Reference none;
+    none.info.problems = {
+        {"/reference", reason, "an earlier end, or a scheme that you trust as {\"type\": \"scheme\", ...}"}};
+    return none;
+}
+
 /// Steps of a plan in halves, until two solutions agree.
 Reference refined(const ReferencePlan& plan, const Scene& scene, const System& system, const State& initial,
                   const std::stop_token& stop) {
     constexpr double maxSteps = 2e6;
     const double length = scene.end.value - scene.start.value;
     const Family* const family = familyFor(system);
+    const auto failure = std::make_shared<StepFailure>();
     auto solution = [&](double step) {
         return stepped(
             [make = plan.make, step, stop] {
@@ -157,7 +181,7 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
                 integrator->setStop(stop);
                 return integrator;
             },
-            initial, scene.end.value);
+            initial, scene.end.value, nullptr, failure);
     };
     if (plan.step > 0) {
         Reference known;
@@ -188,7 +212,12 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
         if (error <= 2e-13 * std::max(measure.scale, 1.0) || error > last / 4) break;
         last = error;
     }
-    if (stop.stop_requested() || !std::isfinite(best.info.estimatedError)) return {};
+    if (stop.stop_requested()) return {};
+    if (!std::isfinite(best.info.estimatedError))
+        return withoutReference(plan.description + (failure->outcome == Outcome::converged
+                                                        ? " has no finite solution"
+                                                        : " ends at t = " + formatNumber(failure->t, 6) +
+                                                              ", " + std::string(name(failure->outcome))));
     // Two runs that agree to round-off may err to the same side, and by more than they differ: 1.8 times as
     // much near a collision, 3.3 times where they agree to the last bits (engine.run.reference).
     constexpr double safety = 3, roundOff = 2e-14;
@@ -233,7 +262,10 @@ Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, co
         const ReferenceMesh mesh = family.referenceMesh(scene.model, step, refinement);
         return mesh.elements * (length / mesh.step);
     };
-    if (costOf(1) > mostElementSteps) return {};
+    if (costOf(1) > mostElementSteps)
+        return withoutReference("to compute one would take " + formatNumber(costOf(1), 2) +
+                                " updates of elements, and at most " + formatNumber(mostElementSteps, 2) +
+                                " are made");
     Reference reference;
     try {
         MeshSolution coarse = solutionOf(0);
@@ -242,7 +274,10 @@ Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, co
             const double error = distance(fine.on(resolved.system), coarse.on(resolved.system), step, true,
                                           scene, *resolved.system, resolved.initial, stop) /
                                  gain;
-            if (stop.stop_requested() || !std::isfinite(error)) return {};
+            if (stop.stop_requested()) return {};
+            if (!std::isfinite(error))
+                return withoutReference(family.referenceMesh(scene.model, step, refinement).description +
+                                        " does not reach the end of the run");
             if (refinement > 1 && error > reference.info.estimatedError) break;
             reference.info = {"computed", error,
                               family.referenceMesh(scene.model, step, refinement).description};
@@ -251,7 +286,7 @@ Reference computedOnMesh(const ResolvedScene& resolved, const Family& family, co
             if (error < 1e-13 * std::max(measure.scale, 1.0) || costOf(refinement + 1) > cheap) break;
         }
     } catch (const InvalidScene&) {
-        return {};  // values at the nodes of the scene alone
+        return withoutReference("the initial data are known at the nodes of the scene alone");
     }
     reference.make = [fine = reference.onMesh, system = resolved.system] { return fine.on(system); };
     return reference;
@@ -269,10 +304,12 @@ Reference computed(const Scene& scene, const System& system, const State& initia
         if (best.make && w * (scene.end.value - scene.start.value) > 2 * mostSteps) break;
         Reference next = refined(plan, scene, system, initial, stop);
         if (stop.stop_requested()) return {};
-        if (next.make && !(best.make && best.info.estimatedError <= next.info.estimatedError))
+        if (!best.make || (next.make && next.info.estimatedError < best.info.estimatedError))
             best = std::move(next);
         if (best.make && best.info.estimatedError <= goodEnough * scale) break;
     }
+    if (!best.make && best.info.problems.empty())
+        return withoutReference("no scheme is trusted to compute one for this system");
     return best;
 }
 

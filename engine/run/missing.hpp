@@ -1,0 +1,23 @@
+/// What a run was asked for and could not have, and why: nothing that was asked for vanishes without a word.
+///
+/// An observable is missing where it has no value at any row, or, of those that only fill the summary, where
+/// that stays empty. What has no error by its nature (the energy of a system that depends on time) is not
+/// missing. Of runs that ended early the values up to there count.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/run/comparison.hpp"
+
+namespace extremal {
+
+struct Missing {
+    std::string observable;  ///< its id: "error"
+    std::string reason;      ///< a clause for people
+};
+
+/// In the order of the scene's `observe`; of a scheme that is not computed yet, nothing.
+std::vector<Missing> missingFrom(const Comparison& comparison, const SchemeResult& scheme);
+
+}  // namespace extremal
