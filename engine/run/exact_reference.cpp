@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "engine/family/family.hpp"
+#include "engine/run/wave_mesh_error.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/premise.hpp"
 
 namespace extremal {
 namespace {
@@ -84,6 +86,13 @@ double errorOfExact(const ResolvedScene& resolved, const std::stop_token& stop) 
     const System& system = *resolved.system;
     const State& initial = resolved.initial;
     double error = roundOffPart(system, initial, scene.end.value - scene.start.value);
+    const ExactPremise premise = premiseOf(scene, system, initial);
+    error = std::max(error, premise.error);
+    if (isWave(system)) {
+        // Cut off at a wall, a wave function converges so slowly that the next mesh is no better.
+        const double mesh = meshErrorOf(scene, system, initial, stop);
+        error = std::max(error, premise.isViolated ? std::min(2.0, 3 * mesh) : mesh);
+    }
     // Initial data of other kinds are typed as formulas, and wave functions depend on theirs isometrically.
     if (!system.exactFrom && (isMechanical(system) || isBody(system)))
         error =

@@ -16,6 +16,7 @@
 #include "engine/run/shared_solution.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/companion.hpp"
+#include "engine/scene/premise.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -353,7 +354,13 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (kind == Kind::none) return {};
     if (kind == Kind::scheme) return fromScheme(resolved, stop);
     if (kind == Kind::file) return readReference(scene.reference.path, system);
+    const Family* const onMeshes = system.at ? familyOnMeshes(system) : nullptr;
     if (exactSolution(scene, system, initial)) {
+        if (kind == Kind::automatic && onMeshes && isComputedInstead(scene, system) &&
+            premiseOf(scene, system, initial).isViolated)
+            if (Reference better = computedOnMesh(resolved, *onMeshes, stop);
+                better.make || stop.stop_requested())
+                return better;
         Reference reference;
         reference.info = {"exact", errorOfExact(resolved, stop), "exact solution"};
         reference.make = [scene, system, initial] { return exactSolution(scene, system, initial); };
@@ -362,8 +369,7 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (kind == Kind::exact)
         throw InvalidScene("/reference", "no exact solution is known from these initial data",
                            "use \"auto\"");
-    if (const Family* const family = familyOnMeshes(system); family && system.at)
-        return computedOnMesh(resolved, *family, stop);
+    if (onMeshes) return computedOnMesh(resolved, *onMeshes, stop);
     return computed(scene, system, initial, stop);
 }
 

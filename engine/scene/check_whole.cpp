@@ -9,6 +9,7 @@
 #include "engine/scene/cost.hpp"
 #include "engine/scene/local_errors.hpp"
 #include "engine/scene/pointer.hpp"
+#include "engine/scene/premise.hpp"
 #include "engine/scene/read_parts.hpp"
 #include "engine/scene/two_positions.hpp"
 
@@ -292,17 +293,45 @@ void checkCaution(Reader& reader, const ResolvedScene& scene) {
     if (!caution.empty()) reader.warning("/initial", "is " + caution, "raise /model/modes");
 }
 
+bool measuresErrors(const Scene& scene) {
+    return std::any_of(scene.observe.begin(), scene.observe.end(), [](const std::string& id) {
+        const ObservableEntry* entry = findObservable(id);
+        return entry && entry->needsReference;
+    });
+}
+
+/// A typed exact solution must solve its equation, whatever it serves for. Where one that solves it does not
+/// meet the boundary, the distance from it is not the error of a scheme.
+void checkPremise(Reader& reader, const ResolvedScene& resolved) {
+    const Scene& scene = resolved.scene;
+    const System& system = *resolved.system;
+    using Kind = ReferenceSpec::Kind;
+    if (const std::string fault = residualFault(scene, system, resolved.initial); !fault.empty())
+        return reader.error("/initial/exact", fault,
+                            "for a start alone take u and u_t; else compare the formula with the wave speed, "
+                            "material, coefficient and potential of the model");
+    const Kind kind = scene.reference.kind;
+    if ((kind != Kind::exact && kind != Kind::automatic) || !measuresErrors(scene)) return;
+    const ExactPremise premise = premiseOf(scene, system, resolved.initial);
+    if (!premise.isViolated) return;
+    const std::string text = "exact solution: " + premise.text;
+    if (kind == Kind::automatic && isComputedInstead(scene, system))
+        reader.warning("/reference", text + ": a computed reference is used");
+    else if (isWave(system))
+        reader.warning("/initial/psi", text + ": no number of modes resolves it",
+                       "a narrower packet, or one further inside");
+    else
+        reader.warning("/reference", text + ": its estimated error contains that",
+                       isBackwards(scene) ? "a larger domain" : "take auto");
+}
+
 /// Exact solutions go either way in time; others are computed forwards.
 void checkReference(Reader& reader, const ResolvedScene& resolved) {
     const Scene& scene = resolved.scene;
     using Kind = ReferenceSpec::Kind;
     const Kind kind = scene.reference.kind;
-    const bool isWanted = std::any_of(scene.observe.begin(), scene.observe.end(), [](const std::string& id) {
-        const ObservableEntry* entry = findObservable(id);
-        return entry && entry->needsReference;
-    });
-    const bool needsForwards =
-        isBackwards(scene) && isWanted && kind != Kind::exact && kind != Kind::none && kind != Kind::file;
+    const bool needsForwards = isBackwards(scene) && measuresErrors(scene) && kind != Kind::exact &&
+                               kind != Kind::none && kind != Kind::file;
     if (kind != Kind::exact && !needsForwards) return;
     if (kind != Kind::scheme && kind != Kind::companion &&
         exactSolution(scene, *resolved.system, resolved.initial))
@@ -339,6 +368,7 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
         checkScheme(reader, resolved, scheme, "/reference/scheme");
     if (!resolved.system || !reader.errors.empty()) return;
     checkReference(reader, resolved);
+    checkPremise(reader, resolved);
     checkStarts(reader, resolved);
 }
 

@@ -7,6 +7,7 @@
 #include "engine/figure/build.hpp"
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/scene/bind.hpp"
+#include "engine/scene/premise.hpp"
 
 namespace extremal::recipes {
 namespace {
@@ -60,7 +61,7 @@ void addExact(Figure& figure, const FigureContext& context, double t) {
     const Scene& scene = context.comparison.scene;
     const State start = initialState(scene, *context.system);
     const ExactSolution exact = exactSolution(scene, *context.system, start);
-    if (!exact) return;
+    if (!exact || premiseOf(scene, *context.system, start).isViolated) return;
     Series s;
     s.label = "exact solution";
     s.style = 7;

@@ -43,11 +43,14 @@ struct Named {
     At (*make)(const std::vector<double>& keys, const FieldProblem& problem);
 };
 
-double lorentz(double v) { return 1 / std::sqrt(1 - v * v); }
+/// sqrt(1 - a^2) where a is near 1 as well.
+double complement(double a) { return std::sqrt((1 - a) * (1 + a)); }
+/// 1/sqrt(1 - v^2/c^2), v near c as well.
+double lorentz(double v, double c) { return c / std::sqrt((c - v) * (c + v)); }
 double sech(double x) { return 1 / std::cosh(x); }
 
 At kinkOf(const std::vector<double>& keys, const FieldProblem& problem, double sign) {
-    const double c = problem.speed(), v = keys[0] / c, x0 = keys[1], gamma = lorentz(v);
+    const double c = problem.speed(), v = keys[0] / c, x0 = keys[1], gamma = lorentz(keys[0], c);
     if (problem.potential.kind() == Kind::phi4)
         return [=](double x, double t, double* u, double* u_t) {
             const double scale = sign * gamma / std::numbers::sqrt2, g = scale * ((x - x0) / c - v * t),
@@ -68,21 +71,32 @@ void fourAtan(double a, double b, double a_t, double b_t, double* u, double* u_t
     *u_t = 4 * (a_t * b - a * b_t) / (a * a + b * b);
 }
 
+/// sinh x and cosh x over e^scale, which do not overflow far out.
+struct Hyperbolic {
+    double sinh, cosh;
+    Hyperbolic(double x, double scale) {
+        const double y = std::abs(x), high = std::exp(y - scale) / 2, low = std::exp(-y - scale) / 2;
+        sinh = std::copysign(-std::expm1(-2 * y) * high, x);
+        cosh = high + low;
+    }
+};
+
 At collision(const std::vector<double>& keys, const FieldProblem& problem, bool isKinkKink) {
-    const double c = problem.speed(), v = keys[0] / c, gamma = lorentz(v);
+    const double c = problem.speed(), v = keys[0] / c, gamma = lorentz(keys[0], c);
     const double middle = problem.mesh.left() + problem.mesh.length() / 2;
     return [=](double x, double t, double* u, double* u_t) {
         const double g = gamma * (x - middle) / c, s = gamma * v * t;
+        const double scale = std::max(std::abs(g), std::abs(s));
+        const Hyperbolic G(g, scale), S(s, scale);
         if (isKinkKink)
-            fourAtan(v * std::sinh(g), std::cosh(s), 0, gamma * v * std::sinh(s), u, u_t);
+            fourAtan(v * G.sinh, S.cosh, 0, gamma * v * S.sinh, u, u_t);
         else
-            fourAtan(std::sinh(s), v * std::cosh(g), gamma * v * std::cosh(s), 0, u, u_t);
+            fourAtan(S.sinh, v * G.cosh, gamma * v * S.cosh, 0, u, u_t);
     };
 }
 
 At breather(const std::vector<double>& keys, const FieldProblem& problem) {
-    const double c = problem.speed(), omega = keys[0], phase = keys[1], x0 = keys[2],
-                 k = std::sqrt(1 - omega * omega);
+    const double c = problem.speed(), omega = keys[0], phase = keys[1], x0 = keys[2], k = complement(omega);
     return [=](double x, double t, double* u, double* u_t) {
         const double angle = omega * t + phase;
         fourAtan(k * std::sin(angle), omega * std::cosh(k * (x - x0) / c), k * omega * std::cos(angle), 0, u,
@@ -283,6 +297,7 @@ FieldProfile fromExact(const Settings& initial, const FieldProblem& problem) {
     const auto f = typedFunction(*initial.find("exact"), "/exact", problem, true);
     FieldProfile profile;
     profile.isExact = profile.givesLevels = true;
+    profile.formula = f;
     profile.at = [f](double x, double t, double* u, double* v) {
         const double place[2] = {x, t};
         double gradient[2];

@@ -19,6 +19,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@
 
 namespace extremal {
 
+namespace typed {
+class TypedFunction;
+}
+
 struct FieldProfile {
     /// u and u_t at (x, t). Where the profile is not exact t is that of the start. Empty: values alone.
     std::function<void(double x, double t, double* u, double* v)> at;
@@ -37,6 +42,8 @@ struct FieldProfile {
     /// Given at all times by the user: schemes of two levels start from both of their first levels.
     bool givesLevels = false;
     std::vector<double> u, v;  ///< at the nodes, where values are given
+    /// Of an exact solution that is typed: u in (x, t), for its residual.
+    std::shared_ptr<const typed::TypedFunction> formula = {};
 };
 
 /// The keys of /initial of a field.

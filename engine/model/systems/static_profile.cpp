@@ -2,9 +2,11 @@
 /// x, which a scheme gives knot by knot. State columns: u at the knot, and of the element that ends there the
 /// derivative C of its energy by its end and its energy; the energy of the whole (static_problem.hpp).
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <random>
 #include <tuple>
 #include <utility>
 
@@ -22,6 +24,42 @@ std::optional<std::pair<double, double>> domainOf(const Settings& settings) {
     const Value* const domain = settings.find("domain");
     if (!domain || !domain->isArray() || domain->asArray().size() != 2) return {};
     return std::pair(domain->asArray()[0].asNumber(), domain->asArray()[1].asNumber());
+}
+
+/// A profile that is called exact must make the energy stationary: k u_xx = W_u at 400 places, but for what
+/// round-off explains, and have the values at the ends that are held.
+void checkExact(const StaticProblem& problem, const typed::TypedFunction& exact) {
+    constexpr int places = 400;
+    constexpr double most = 1e-10;
+    std::mt19937 random(1905);
+    for (int i = 0; i < places; ++i) {
+        const double x = problem.left + problem.length() * static_cast<double>(random()) / 4294967295.0;
+        double u = 0, W = 0, u_x = 0, u_xx = 0;
+        exact.evaluate(&x, &u, &u_x, &u_xx);
+        const std::array<double, 2> at{u, x};
+        std::array<double, 2> gradient{};
+        std::array<double, 3> hessian{};
+        problem.W->evaluate(at.data(), &W, gradient.data(), hessian.data());
+        const double elastic = problem.stiffness * u_xx, sum = gradient[0] - elastic,
+                     size = std::abs(gradient[0]) + std::abs(elastic),
+                     explained = 1e-14 * (std::abs(u) * std::abs(hessian[0]) + size);
+        if (std::isfinite(sum) && std::abs(sum) - explained > most * size)
+            throw InvalidScene("/exact",
+                               "does not make the energy stationary: at x = " + formatNumber(x, 4) +
+                                   " k u_xx = " + formatNumber(elastic, 4) +
+                                   ", W_u = " + formatNumber(gradient[0], 4),
+                               "compare the formula with stiffness and energy, or leave it out");
+    }
+    if (!problem.isHeld) return;
+    for (const bool isRight : {false, true}) {
+        const double x = isRight ? problem.right : problem.left, u = exact(&x),
+                     given = isRight ? problem.uRight : problem.uLeft;
+        if (!(std::abs(u - given) <= 1e-6 * std::max(std::abs(problem.uLeft), std::abs(problem.uRight))))
+            throw InvalidScene("/exact",
+                               "is " + formatNumber(u, 6) + " at x = " + formatNumber(x, 6) +
+                                   ", where the value " + formatNumber(given, 6) + " is held",
+                               "the same value in /model/ends");
+    }
 }
 
 System makeStaticProfile(const Settings& settings) {
@@ -71,6 +109,7 @@ System makeStaticProfile(const Settings& settings) {
         const auto u = std::make_shared<const typed::TypedFunction>(
             exact->asString(), "/exact", std::vector<std::string>{"x"},
             std::vector<std::pair<std::string, double>>{});
+        checkExact(problem, *u);
         s.exact = [u](const State&) -> ExactSolution {
             return [u](double x, std::span<double> values) {
                 std::fill(values.begin(), values.end(), 0.0);

@@ -50,7 +50,8 @@ std::vector<Complex> product(const Context& context, const std::vector<Factor>& 
     return fromNodes(context, values);
 }
 
-std::vector<Complex> expressions(const Context& context, const Value& psi) {
+/// re and im in the variables of the grid.
+std::vector<Function> expressionsOf(const Context& context, const Value& psi) {
     std::vector<Function> parts;
     for (const char* key : {"re", "im"}) {
         const Value* text = psi.find(key);
@@ -68,6 +69,11 @@ std::vector<Complex> expressions(const Context& context, const Value& psi) {
         }
     }
     parametersOf(psi, context.pointer, {}, {"re", "im"}, context.constants);
+    return parts;
+}
+
+std::vector<Complex> expressions(const Context& context, const Value& psi) {
+    const std::vector<Function> parts = expressionsOf(context, psi);
     std::vector<Complex> values;
     for (const double y : context.hamiltonian->y())
         for (const double x : context.hamiltonian->x())
@@ -154,40 +160,53 @@ std::vector<Complex> eigenstate(const Context& context, const Value& psi) {
     return fineState(context.hamiltonian, static_cast<int>(n), context.pointer);
 }
 
-std::vector<Complex> packet(const Context& context, const Value& psi, const std::string& name) {
+/// Keys of a packet: reads those of the axes one after the other, those of y with _y at their end; as many
+/// values for each.
+std::vector<double> axisKeys(const Context& context, const Value& psi, const std::vector<Domain>& axes,
+                             const std::function<std::vector<Parameter>(const Domain&, bool isY)>& keysOf) {
+    std::vector<Parameter> all;
+    for (const Domain& axis : axes)
+        for (Parameter p : keysOf(axis, &axis != &axes.front())) {
+            if (&axis != &axes.front()) p.key += "_y";
+            all.push_back(std::move(p));
+        }
+    return parametersOf(psi, context.pointer, all, {"packet"}, context.constants);
+}
+
+std::vector<Domain> axesOf(const Hamiltonian& h) {
+    return h.dimension() == 2 ? std::vector{h.grid().x, h.grid().y} : std::vector{h.grid().x};
+}
+
+double middleOf(const Domain& axis) { return axis.left + axis.length / 2; }
+
+/// One factor for each axis.
+std::vector<Factor> gaussians(const Context& context, const Value& psi) {
     const Hamiltonian& h = *context.hamiltonian;
-    const std::vector<Domain> axes =
-        h.dimension() == 2 ? std::vector{h.grid().x, h.grid().y} : std::vector{h.grid().x};
-    // The keys of the axes one after the other, those of y with _y at their end; as many values for each.
-    const auto read = [&](const std::function<std::vector<Parameter>(const Domain&, bool isY)>& keysOf) {
-        std::vector<Parameter> all;
-        for (const Domain& axis : axes)
-            for (Parameter p : keysOf(axis, &axis != &axes.front())) {
-                if (&axis != &axes.front()) p.key += "_y";
-                all.push_back(std::move(p));
-            }
-        return parametersOf(psi, context.pointer, all, {"packet"}, context.constants);
-    };
-    const auto middleOf = [](const Domain& axis) { return axis.left + axis.length / 2; };
+    const std::vector<Domain> axes = axesOf(h);
+    const auto p = axisKeys(context, psi, axes, [&](const Domain& axis, bool) -> std::vector<Parameter> {
+        return {{"centre", middleOf(axis)}, {"width", axis.length / 20, false, true}, {"wave_number", 0}};
+    });
     std::vector<Factor> factors;
-    if (name == "gaussian") {
-        const auto p = read([&](const Domain& axis, bool) -> std::vector<Parameter> {
-            return {{"centre", middleOf(axis)}, {"width", axis.length / 20, false, true}, {"wave_number", 0}};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        factors.push_back([centre = p[3 * i], width = p[3 * i + 1], k = p[3 * i + 2], L = axes[i].length,
+                           period = h.isPeriodic() ? axes[i].length : 0](double x) {
+            const double d = x - centre - period * std::round((x - centre) / L);
+            return std::exp(-d * d / (4 * width * width)) * std::polar(1.0, k * (centre + d));
         });
-        for (std::size_t i = 0; i < axes.size(); ++i)
-            factors.push_back([centre = p[3 * i], width = p[3 * i + 1], k = p[3 * i + 2], L = axes[i].length,
-                               period = h.isPeriodic() ? axes[i].length : 0](double x) {
-                const double d = x - centre - period * std::round((x - centre) / L);
-                return std::exp(-d * d / (4 * width * width)) * std::polar(1.0, k * (centre + d));
-            });
-        return product(context, factors);
-    }
+    return factors;
+}
+
+std::vector<Complex> packet(const Context& context, const Value& psi, const std::string& name) {
+    if (name == "gaussian") return product(context, gaussians(context, psi));
+    const Hamiltonian& h = *context.hamiltonian;
+    const std::vector<Domain> axes = axesOf(h);
+    std::vector<Factor> factors;
     if (!h.isPeriodic() && (name == "periodic-gaussian" || name == "plane-wave"))
         throw InvalidScene(context.pointer + "/packet",
                            name + " needs a periodic domain: it does not vanish at the ends",
                            "gaussian or eigenstate, re and im in x, or the boundary periodic");
     if (name == "periodic-gaussian") {
-        const auto p = read([&](const Domain& axis, bool) -> std::vector<Parameter> {
+        const auto p = axisKeys(context, psi, axes, [&](const Domain& axis, bool) -> std::vector<Parameter> {
             return {{"kappa", 20, false, true}, {"centre", middleOf(axis)}, {"wave_number", 0}};
         });
         for (std::size_t i = 0; i < axes.size(); ++i)
@@ -198,7 +217,7 @@ std::vector<Complex> packet(const Context& context, const Value& psi, const std:
         return product(context, factors);
     }
     if (name == "plane-wave") {
-        const auto k = read([](const Domain&, bool isY) -> std::vector<Parameter> {
+        const auto k = axisKeys(context, psi, axes, [](const Domain&, bool isY) -> std::vector<Parameter> {
             return {{"wave_number", 0, !isY}};
         });
         std::vector<int> numbers;
@@ -299,6 +318,22 @@ std::vector<Complex> makePacket(const Value& psi, const std::string& pointer, bo
     if (isNormalised)
         for (Complex& v : c) v /= norm;
     return c;
+}
+
+std::vector<Complex> valuesAt(const Value& psi, const std::string& pointer,
+                              const std::shared_ptr<const Hamiltonian>& hamiltonian,
+                              const Constants& constants, const std::vector<double>& places) {
+    const Context context{pointer, hamiltonian, constants};
+    std::vector<Complex> values;
+    if (const Value* const name = psi.find("packet")) {
+        if (!name->isString() || name->asString() != "gaussian") return {};
+        const Factor f = gaussians(context, psi).front();
+        for (const double x : places) values.push_back(f(x));
+    } else if (psi.find("re") || psi.find("im")) {
+        const std::vector<Function> parts = expressionsOf(context, psi);
+        for (const double x : places) values.emplace_back(parts[0].value(x, 0, 0), parts[1].value(x, 0, 0));
+    }
+    return values;
 }
 
 }  // namespace extremal::wave

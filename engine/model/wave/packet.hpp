@@ -30,4 +30,9 @@ std::vector<Complex> makePacket(const Value& psi, const std::string& pointer, bo
                                 const std::shared_ptr<const Hamiltonian>& hamiltonian,
                                 const Constants& constants);
 
+/// psi before it is scaled, at any places of an interval, where it is a Gaussian or typed; else empty.
+std::vector<Complex> valuesAt(const Value& psi, const std::string& pointer,
+                              const std::shared_ptr<const Hamiltonian>& hamiltonian,
+                              const Constants& constants, const std::vector<double>& places);
+
 }  // namespace extremal::wave

@@ -1,0 +1,185 @@
+#include "engine/run/wave_mesh_error.hpp"
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "engine/core/problem.hpp"
+#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/packet.hpp"
+
+namespace extremal {
+namespace {
+
+using Shared = std::shared_ptr<const Hamiltonian>;
+using Coefficients = std::vector<Complex>;
+
+constexpr int samples = 101;  ///< of a run
+
+/// Coefficients on a finer mesh of the same domain that are the same function.
+class Embedding {
+public:
+    Embedding(const Hamiltonian& from, const Hamiltonian& to) : size_(static_cast<std::size_t>(to.size())) {
+        if (from.isPeriodic()) {
+            const Fourier &low = from.fourier(), &high = to.fourier();
+            for (int i = 0; i < from.size(); ++i)
+                place_.push_back(high.placeOf(low.number(i), low.numberY(i)));
+            return;
+        }
+        // By the Chebyshev series of each polynomial, at the nodes of the finer mesh.
+        const int n = from.size();
+        matrix_.resize(to.size(), n);
+        Coefficients unit(static_cast<std::size_t>(n)), values(size_), c(size_);
+        for (int j = 0; j < n; ++j) {
+            std::fill(unit.begin(), unit.end(), 0);
+            unit[static_cast<std::size_t>(j)] = 1;
+            std::vector<double> series;
+            for (int k = 0; k <= n + 1; ++k)
+                series.push_back(from.dirichletBasis().chebyshevCoefficient(unit.data(), k).real());
+            for (std::size_t i = 0; i < size_; ++i) {
+                const double y = 2 * (to.x()[i] - to.domain().left) / to.domain().length - 1;
+                values[i] = seriesAt(series, std::clamp(y, -1.0, 1.0));
+            }
+            to.toCoefficients(values.data(), c.data());
+            for (std::size_t i = 0; i < size_; ++i) matrix_(static_cast<Eigen::Index>(i), j) = c[i].real();
+        }
+    }
+    Coefficients operator()(const Complex* c) const {
+        Coefficients all(size_);
+        for (std::size_t i = 0; i < place_.size(); ++i) all[static_cast<std::size_t>(place_[i])] = c[i];
+        if (place_.empty())
+            Eigen::Map<Eigen::VectorXcd>(all.data(), matrix_.rows()) =
+                matrix_ * Eigen::Map<const Eigen::VectorXcd>(c, matrix_.cols());
+        return all;
+    }
+
+private:
+    /// sum a_k T_k(y), by Clenshaw's recurrence.
+    static double seriesAt(const std::vector<double>& a, double y) {
+        double one = 0, two = 0;
+        for (std::size_t k = a.size(); k-- > 1;) {
+            const double next = a[k] + 2 * y * one - two;
+            two = one;
+            one = next;
+        }
+        return a[0] + y * one - two;
+    }
+    std::size_t size_;
+    std::vector<int> place_;
+    Eigen::MatrixXd matrix_;
+};
+
+double distance(const Coefficients& a, const Coefficients& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::norm(a[i] - b[i]);
+    return std::sqrt(sum);
+}
+
+/// The wave function of the scene on another mesh; empty where it is known on its own mesh alone.
+Coefficients startOn(const Shared& h, const Scene& scene) {
+    const Settings& given = scene.initial.given;
+    const Value* const psi = given.find("psi");
+    if (!psi || psi->find("values")) return {};
+    // A state of a mesh is the function to be followed; that of another one may differ by a phase.
+    if (const Value* const name = psi->find("packet");
+        name && name->isString() && name->asString() == "eigenstate")
+        return {};
+    try {
+        return wave::makePacket(*psi, "/psi", given.flag("normalise"), h,
+                                {{"hbar", h->hbar()}, {"m", h->mass()}});
+    } catch (const InvalidScene&) {
+        return {};
+    }
+}
+
+State stateOf(double t, const Coefficients& c) {
+    const double* const numbers = reinterpret_cast<const double*>(c.data());
+    return {t, 0, {numbers, numbers + 2 * c.size()}, {}};
+}
+
+class MeshError {
+public:
+    MeshError(const Scene& scene, Shared h, const State& initial, const std::stop_token& stop)
+        : scene_(scene), h_(std::move(h)), initial_(initial), stop_(stop) {}
+
+    /// The largest distance of the motions on two meshes, the coarse one first.
+    double between(const Shared& coarse, const State& low, const Shared& fine, const State& high) const {
+        const Embedding embed(*coarse, *fine);
+        const ExactSolution a = exactWave(coarse, low), b = exactWave(fine, high);
+        std::vector<double> x(low.x.size());
+        Coefficients y(static_cast<std::size_t>(fine->size()));
+        double most = 0;
+        for (int k = 0; k < samples && !stop_.stop_requested(); ++k) {
+            a(time(k), x);
+            b(time(k), {reinterpret_cast<double*>(y.data()), 2 * y.size()});
+            most = std::max(most, distance(embed(coefficients(x.data())), y));
+        }
+        return most;
+    }
+    double againstFiner(const Shared& fine) const {
+        Coefficients start = startOn(fine, scene_);
+        if (start.empty()) start = Embedding(*h_, *fine)(coefficients(initial_.x.data()));
+        return between(h_, initial_, fine, stateOf(initial_.t, start));
+    }
+    double againstCoarser(const Shared& coarse) const {
+        const Coefficients start = startOn(coarse, scene_);
+        return start.empty() ? 0 : between(coarse, stateOf(initial_.t, start), h_, initial_);
+    }
+    /// By the trapezoidal rule over the run.
+    double boundBy(const Shared& fine) const {
+        const Embedding embed(*h_, *fine);
+        const ExactSolution motion = exactWave(h_, initial_);
+        const auto n = static_cast<std::size_t>(h_->size()), m = static_cast<std::size_t>(fine->size());
+        Coefficients low(n), high(m), workLow(n), workHigh(m);
+        std::vector<double> x(initial_.x.size());
+        const Coefficients start = startOn(fine, scene_);
+        double error = start.empty() ? 0 : distance(embed(coefficients(initial_.x.data())), start);
+        const double step = std::abs(scene_.end.value - scene_.start.value) / (samples - 1);
+        for (int k = 0; k < samples && !stop_.stop_requested(); ++k) {
+            motion(time(k), x);
+            h_->apply(h_->potential().data(), coefficients(x.data()), low.data(), workLow.data());
+            fine->apply(fine->potential().data(), embed(coefficients(x.data())).data(), high.data(),
+                        workHigh.data());
+            const double defect = distance(embed(low.data()), high) / h_->hbar();
+            error += defect * step * (k == 0 || k == samples - 1 ? 0.5 : 1);
+        }
+        return error;
+    }
+
+private:
+    double time(int k) const {
+        return scene_.start.value + (scene_.end.value - scene_.start.value) * k / (samples - 1);
+    }
+    const Scene& scene_;
+    Shared h_;
+    const State& initial_;
+    const std::stop_token& stop_;
+};
+
+}  // namespace
+
+double meshErrorOf(const Scene& scene, const System& system, const State& initial,
+                   const std::stop_token& stop) {
+    const Shared& h = system.hamiltonian();
+    const MeshError error(scene, h, initial, stop);
+    const wave::Grid& grid = h->grid();
+    const int ny = grid.ny > 1 ? 2 * grid.ny : 1;
+    // Two unit vectors are not further apart than 2.
+    const double norm = std::sqrt(squaredNorm(coefficients(initial.x.data()), h->size()));
+    // At the nodes of the coarse mesh, where schemes are compared, it may be a little larger than as a
+    // function.
+    constexpr double atNodes = 1.2;
+    double found = 0;
+    if (2 * grid.nx * ny <= Eigenstates::denseLimit)
+        found = error.againstFiner(h->withModes(2 * grid.nx, ny));
+    else if (h->isSplit())
+        found = error.boundBy(h->withModes(2 * grid.nx, ny));
+    else
+        found = error.againstCoarser(h->withModes(grid.nx / 2));
+    return std::min(atNodes * found, 2 * norm);
+}
+
+}  // namespace extremal
