@@ -12,11 +12,12 @@
 namespace extremal {
 namespace {
 
-ExactPremise ofField(const Scene& scene, const FieldProblem& problem, const State& initial) {
+ExactPremise ofField(const Scene& scene, const System& system, const State& initial) {
     ExactPremise premise;
-    const FieldProfile profile = fieldProfile(scene.initial.given, problem, initial.t);
-    if (!profile.isExact) return premise;
-    const EndViolation ends = endViolationOf(profile, problem, scene.start.value, scene.end.value);
+    const ExactSolution exact = exactSolution(scene, system, initial);
+    if (!exact.atPlaces()) return premise;
+    const EndViolation ends =
+        endViolationOf(exact.atPlaces(), system.fieldProblem(), scene.start.value, scene.end.value);
     premise.error = ends.error;
     premise.isViolated = ends.matters();
     if (premise.isViolated)
@@ -52,7 +53,7 @@ ExactPremise ofWave(const Scene& scene, const std::shared_ptr<const Hamiltonian>
 }  // namespace
 
 ExactPremise premiseOf(const Scene& scene, const System& system, const State& initial) {
-    if (isField(system)) return ofField(scene, system.fieldProblem(), initial);
+    if (isField(system)) return ofField(scene, system, initial);
     if (isWave(system)) return ofWave(scene, system.hamiltonian());
     return {};
 }
@@ -63,7 +64,7 @@ bool isComputedInstead(const Scene& scene, const System& system) {
 
 std::string residualFault(const Scene& scene, const System& system, const State& initial) {
     constexpr double most = 1e-10;
-    if (!isField(system)) return {};
+    if (!isField(system) || !scene.initial.given.find("exact")) return {};
     const FieldProblem& problem = system.fieldProblem();
     const FieldProfile profile = fieldProfile(scene.initial.given, problem, initial.t);
     const FieldResidual r = residualOf(profile, problem, scene.start.value, scene.end.value);

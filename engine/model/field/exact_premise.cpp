@@ -72,15 +72,18 @@ struct Coefficient {
 };
 
 /// The largest |u| on the domain over the run.
-double sizeOf(const FieldProfile& profile, const FieldProblem& problem, double start, double end) {
-    constexpr int times = 16, places = 128;
-    double most = 0, u = 0, v = 0;
-    for (int i = 0; i <= times; ++i)
-        for (int k = 0; k <= places; ++k) {
-            profile.at(problem.mesh.left() + problem.mesh.length() * k / places,
-                       start + (end - start) * i / times, &u, &v);
-            if (std::isfinite(u)) most = std::max(most, std::abs(u));
-        }
+double sizeOf(const ExactSolution::AtPlaces& exact, const FieldProblem& problem, double start, double end) {
+    constexpr int times = 16, cells = 128;
+    std::array<double, cells + 1> places{};
+    std::array<double, 2 * places.size()> values{};
+    for (int k = 0; k <= cells; ++k)
+        places[static_cast<std::size_t>(k)] = problem.mesh.left() + problem.mesh.length() * k / cells;
+    double most = 0;
+    for (int i = 0; i <= times; ++i) {
+        exact(start + (end - start) * i / times, places, values.data());
+        for (std::size_t k = 0; k < places.size(); ++k)
+            if (std::isfinite(values[k])) most = std::max(most, std::abs(values[k]));
+    }
     return most;
 }
 
@@ -116,20 +119,20 @@ FieldResidual residualOf(const FieldProfile& profile, const FieldProblem& proble
     return worst;
 }
 
-EndViolation endViolationOf(const FieldProfile& profile, const FieldProblem& problem, double start,
+EndViolation endViolationOf(const ExactSolution::AtPlaces& exact, const FieldProblem& problem, double start,
                             double end) {
     constexpr int samples = 1000;
     EndViolation found;
-    if (!profile.at || end == start) return found;
-    found.size = sizeOf(profile, problem, start, end);
+    if (!exact || end == start) return found;
+    found.size = sizeOf(exact, problem, start, end);
     const double left = problem.mesh.left(), right = left + problem.mesh.length();
     double a = 1;
     if (problem.coefficient) a = std::max(problem.coefficient(left), problem.coefficient(right));
     const double speed = problem.speed() * std::sqrt(a);
     const auto value = [&](double x, double t) {
-        double u = 0, v = 0;
-        profile.at(x, t, &u, &v);
-        return u;
+        std::array<double, 2> u{};  // u, u_t
+        exact(t, {&x, 1}, u.data());
+        return u[0];
     };
     // One-sided, of order 4, within the domain.
     const auto slope = [&](double x, double t, double h) {

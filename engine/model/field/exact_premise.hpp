@@ -17,7 +17,7 @@
 
 namespace extremal {
 
-/// Where a typed solution leaves the equation most; ratio 0 where it is given by name.
+/// Where a typed solution leaves the equation most; ratio 0 where it is not typed.
 struct FieldResidual {
     double ratio = 0;
     double x = 0, t = 0;
@@ -35,7 +35,7 @@ struct EndViolation {
     /// More than 1e-6 of the size.
     bool matters() const { return largest > 1e-6 * size; }
 };
-EndViolation endViolationOf(const FieldProfile& profile, const FieldProblem& problem, double start,
+EndViolation endViolationOf(const ExactSolution::AtPlaces& exact, const FieldProblem& problem, double start,
                             double end);
 
 }  // namespace extremal

@@ -3,12 +3,14 @@
 #include <QTest>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "engine/model/wave/hamiltonian.hpp"
 #include "engine/run/reference.hpp"
+#include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/premise.hpp"
 #include "tests/tools/test.hpp"
@@ -72,6 +74,9 @@ private slots:
         row("pulse that leaves", wave + "'boundary':'dirichlet'}", "{'exact':'exp(-20*(x-t-2)^2)'}", 3,
             "does not hold at x = 4 (1 from t = 1.8 on)");
         row("plane wave", wave + "'boundary':'periodic'}", "{'profile':'plane-wave'}", 30, "");
+        row("elastic bar, d'Alembert's solution in its own words",
+            "{'type':'elastic-bar','cells':20,'grading':'uniform'}", "{'displacement':'0.01*sin(pi*X)'}", 5,
+            "");
         row("d'Alembert's solution", wave + "'boundary':'dirichlet'}", "{'u':'exp(-20*(x-2)^2)'}", 30, "");
     }
     void endsThatAreViolatedAreSaid() {
@@ -86,6 +91,34 @@ private slots:
         QCOMPARE(premise.isViolated, !expected.isEmpty());
         const std::string all = warningsOf(read);
         QCOMPARE(all.find("a computed reference is used") != std::string::npos, premise.isViolated);
+    }
+    void whoAsksForItIsToldItsBound() {
+        const ReadScene read = readField(sineGordon(), "{'profile':'kink','v':0.5,'x0':15}", 15, "exact");
+        const std::string all = warningsOf(read);
+        QVERIFY2(all.find("its estimated error contains that") != std::string::npos, all.c_str());
+        QCOMPARE(makeReference(*read.resolved, {}).info.type, "exact");
+    }
+    /// Far out exp(g) overflows, and 1 - v^2 has few digits near the speed of the wave.
+    void profilesHaveNoLimits() {
+        for (const char* name : {"kink-kink", "kink-antikink"}) {
+            const ReadScene read = readText(
+                "{'type':'field','potential':'sine-gordon','domain':[-1000,1000],"
+                "'cells':20,'boundary':'dirichlet'}",
+                std::string("{'profile':'") + name + "','v':0.5}", 10, "exact",
+                "{'step':0.05,'baseline':'method-of-lines-rk4'}");
+            QVERIFY2(read.errors.empty(), warningsOf(read).c_str());
+        }
+        const double v = 1 - 1e-13, x = 3e-7;
+        const ReadScene read = readField(
+            "{'type':'field','potential':'sine-gordon','domain':[-1,1],'cells':20,'boundary':'dirichlet'}",
+            "{'profile':'kink','v':" + QString::number(v, 'g', 17).toStdString() + "}", 10);
+        QVERIFY2(read.errors.empty(), warningsOf(read).c_str());
+        std::array<double, 2> u{};
+        exactSolution(read.scene, *read.resolved->system, read.resolved->initial)
+            .atPlaces()(0, {&x, 1}, u.data());
+        const long double wide = v, gamma = 1 / std::sqrt((1 - wide) * (1 + wide));
+        const long double truth = 4 * std::atan(std::exp(gamma * x));
+        QVERIFY(std::abs(u[0] - static_cast<double>(truth)) < 1e-14);
     }
     void theBoundIsThatOfTheError_data() {
         QTest::addColumn<QString>("start");
