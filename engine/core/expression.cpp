@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/core/stumpff.hpp"
+#include "engine/core/expression_signatures.hpp"
 #include "engine/core/text.hpp"
 
 namespace extremal {
@@ -17,36 +17,6 @@ bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 constexpr std::string_view velocityCall = "dot";
 
-struct Function {
-    const char* name;
-    double (*one)(double);
-    double (*two)(double, double);
-};
-constexpr Function functions[] = {
-    {"sin", [](double x) { return std::sin(x); }, nullptr},
-    {"cos", [](double x) { return std::cos(x); }, nullptr},
-    {"tan", [](double x) { return std::tan(x); }, nullptr},
-    {"asin", [](double x) { return std::asin(x); }, nullptr},
-    {"acos", [](double x) { return std::acos(x); }, nullptr},
-    {"atan", [](double x) { return std::atan(x); }, nullptr},
-    {"atan2", nullptr, [](double y, double x) { return std::atan2(y, x); }},
-    {"sinh", [](double x) { return std::sinh(x); }, nullptr},
-    {"cosh", [](double x) { return std::cosh(x); }, nullptr},
-    {"tanh", [](double x) { return std::tanh(x); }, nullptr},
-    {"exp", [](double x) { return std::exp(x); }, nullptr},
-    {"log", [](double x) { return std::log(x); }, nullptr},
-    {"sqrt", [](double x) { return std::sqrt(x); }, nullptr},
-    {"abs", [](double x) { return std::fabs(x); }, nullptr},
-    {"sign", [](double x) { return static_cast<double>((x > 0) - (x < 0)); }, nullptr},
-    {"stumpff", nullptr, [](double k, double x) { return stumpff(k, x); }},
-};
-
-const Function* findFunction(std::string_view name) {
-    for (const Function& f : functions)
-        if (name == f.name) return &f;
-    return nullptr;
-}
-
 /// Recursive descent over the grammar of the header; each rule returns the place of its node.
 class Parser {
 public:
@@ -55,7 +25,7 @@ public:
     Expression parse() {
         skipBlanks();
         if (at_ == text_.size()) throw ExpressionError("is empty", 0);
-        sum();
+        whole();
         if (at_ < text_.size()) throw unexpected("an operator");
         result_.text = std::string(text_);
         return std::move(result_);
@@ -64,13 +34,15 @@ public:
 private:
     /// Counts what is open, so that no text exhausts the stack.
     struct Nesting {
-        explicit Nesting(Parser& p) : parser(p) {
+        explicit Nesting(Parser& p) : parser(p), outside(p.depth_) { deepen(); }
+        ~Nesting() { parser.depth_ = outside; }
+        void deepen() const {
             if (++parser.depth_ > maxExpressionDepth)
                 throw ExpressionError("is nested deeper than " + std::to_string(maxExpressionDepth),
                                       parser.at_);
         }
-        ~Nesting() { --parser.depth_; }
         Parser& parser;
+        int outside;
     };
 
     char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
@@ -89,7 +61,8 @@ private:
         while (at_ + length < text_.size() &&
                (static_cast<unsigned char>(text_[at_ + length]) & 0xC0) == 0x80)
             ++length;
-        return {"has \"" + std::string(text_.substr(at_, length)) + "\" where " + wanted + " should be", at_};
+        return {"has \"" + std::string(text_.substr(at_, length)) + "\" where " + wanted + " should be", at_,
+                peek() == '=' ? "equality is written ==" : ""};
     }
     int add(Expression::Node node) {
         result_.nodes.push_back(std::move(node));
@@ -99,6 +72,44 @@ private:
         return add({kind, 0, {}, left, right, position});
     }
 
+    bool takeWord(std::string_view word) {
+        if (!text_.substr(at_).starts_with(word)) return false;
+        at_ += word.size();
+        skipBlanks();
+        return true;
+    }
+    int called(std::string_view function, std::size_t position, int left, int right = -1, int third = -1) {
+        const ExpressionFunction* const f = findFunction(function);
+        return add({Operator::call, 0, std::string(function), left, right, position, third, f, nullptr});
+    }
+    int whole() {
+        std::vector<int> parts{both()};
+        const std::size_t position = at_;
+        while (takeWord("||")) parts.push_back(both());
+        return folded("or", position, std::move(parts));
+    }
+    int both() {
+        std::vector<int> parts{comparison()};
+        const std::size_t position = at_;
+        while (takeWord("&&")) parts.push_back(comparison());
+        return folded("and", position, std::move(parts));
+    }
+    std::string_view takeComparison() {
+        for (const std::string_view each : {"<=", ">=", "==", "!=", "<", ">"})
+            if (takeWord(each)) return each;
+        return {};
+    }
+    int comparison() {
+        const int left = sum();
+        const std::size_t position = at_;
+        const std::string_view sign = takeComparison();
+        if (sign.empty()) return left;
+        const int right = sum();
+        if (const std::size_t second = at_; !takeComparison().empty())
+            throw ExpressionError("has a chain of comparisons", second, "write a < b && b < c");
+        if (sign.front() == '>') return called(sign == ">" ? "<" : "<=", position, right, left);
+        return called(sign, position, left, right);
+    }
     int sum() {
         int left = product();
         while (true) {
@@ -142,7 +153,7 @@ private:
         const std::size_t position = at_;
         if (take('(')) {
             const Nesting nesting(*this);
-            const int inner = sum();
+            const int inner = whole();
             closeBracket(position);
             return inner;
         }
@@ -174,31 +185,109 @@ private:
         const std::string name(text_.substr(position, at_ - position));
         skipBlanks();
         if (peek() == '(') return call(name, position);
-        if (findFunction(name))
+        if (isFunctionName(name) && !nameProblem(name).empty())
             throw ExpressionError("needs brackets after the function " + name, position,
                                   "write " + name + "(...)");
         if (name == "pi") return add({Operator::number, std::numbers::pi, name, -1, -1, position});
         return add({Operator::name, 0, name, -1, -1, position});
     }
     int call(const std::string& name, std::size_t position) {
-        const Function* function = findFunction(name);
+        const Signature* const signature = findSignature(name);
         const bool isVelocity = name == velocityCall;
-        if (!function && !isVelocity)
+        if (!signature && !isVelocity)
             throw ExpressionError("has no function \"" + name + "\"", position,
                                   suggestName(name, expressionFunctions()));
         const Nesting nesting(*this);
         const std::size_t bracket = at_;
         take('(');
-        const int first = sum();
-        int second = -1;
-        if (function && function->two) {
-            if (!take(',')) throw ExpressionError("needs two arguments for " + name, at_);
-            second = sum();
-        } else if (peek() == ',') {
-            throw ExpressionError("needs one argument for " + name, at_);
+        if (signature && signature->isTable) return table(name, position, bracket);
+        std::vector<int> arguments{whole()};
+        while (peek() == ',') {
+            if (isVelocity || static_cast<int>(arguments.size()) == signature->most) break;
+            if (signature && signature->isChain) nesting.deepen();
+            take(',');
+            arguments.push_back(whole());
         }
+        if (isVelocity) {
+            if (peek() == ',') throw ExpressionError("needs one argument for " + name, at_);
+            closeBracket(bracket);
+            return add({Operator::call, 0, name, arguments[0], -1, position, -1, nullptr, nullptr});
+        }
+        const int count = static_cast<int>(arguments.size());
+        const bool isTooFew = count < signature->least && (peek() == ')' || at_ == text_.size());
+        if (isTooFew || peek() == ',')
+            throw ExpressionError("needs " + signature->counted() + " for " + name, at_);
         closeBracket(bracket);
-        return add({Operator::call, 0, name, first, second, position});
+        if (signature->isChain) return chain(name, position, arguments);
+        if (signature->isFolded) return folded(signature->meaning, position, arguments);
+        if (signature->meaning == "^") return binary(Operator::power, arguments[0], arguments[1], position);
+        arguments.resize(3, -1);
+        return called(signature->meaning, position, arguments[0], arguments[1], arguments[2]);
+    }
+    /// piecewise(c1, a1, c2, a2, ..., b) = if(c1, a1, if(c2, a2, ... b)).
+    int chain(const std::string& name, std::size_t position, const std::vector<int>& arguments) {
+        if (arguments.size() % 2 == 0)
+            throw ExpressionError(
+                "has no last value for " + name, position,
+                "write " + name + "(condition, value, ..., value where none of them holds)");
+        int rest = arguments.back();
+        for (std::size_t k = arguments.size() - 1; k >= 2; k -= 2)
+            rest = called("if", position, arguments[k - 2], arguments[k - 1], rest);
+        return rest;
+    }
+    /// A function of two, of any number: the halves first, so that no tree gets deep.
+    int folded(std::string_view function, std::size_t position, std::vector<int> arguments) {
+        while (arguments.size() > 1) {
+            std::size_t kept = 0;
+            for (std::size_t k = 0; k + 1 < arguments.size(); k += 2)
+                arguments[kept++] = called(function, position, arguments[k], arguments[k + 1]);
+            if (arguments.size() % 2 == 1) arguments[kept++] = arguments.back();
+            arguments.resize(kept);
+        }
+        return arguments[0];
+    }
+    int table(const std::string& name, std::size_t position, std::size_t bracket) {
+        const int argument = whole();
+        std::vector<double> x, y;
+        while (peek() == ';') {
+            take(';');
+            if (peek() == ')') break;
+            const std::size_t place = at_;
+            x.push_back(entry(name));
+            if (x.size() > 1 && !(x.back() > x[x.size() - 2]))
+                throw ExpressionError("has points of " + name + " that are not in ascending order", place,
+                                      "each x greater than the one before it");
+            if (!take(',')) throw unexpected("the value of a point: \",\"");
+            y.push_back(entry(name));
+        }
+        if (x.size() < 2 && (peek() == ')' || peek() == ',' || at_ == text_.size()))
+            throw ExpressionError("needs at least two points for " + name, at_,
+                                  "write " + name + "(x; 0, 0; 1, 2), points x, y after semicolons");
+        closeBracket(bracket);
+        const auto kind = name == "spline" ? Interpolant::Kind::cubic : Interpolant::Kind::linear;
+        return add({Operator::call, 0, name, argument, -1, position, -1, nullptr,
+                    std::make_shared<const Interpolant>(kind, std::move(x), y)});
+    }
+    /// A number in a table: an expression without names, of which no node is kept.
+    double entry(const std::string& name) {
+        const std::size_t before = result_.nodes.size(), place = at_;
+        sum();
+        std::vector<double> values;
+        for (std::size_t n = before; n < result_.nodes.size(); ++n) {
+            const Expression::Node& node = result_.nodes[n];
+            if (node.kind == Operator::name || node.name == velocityCall)
+                throw ExpressionError(
+                    "has the name \"" + node.name + "\" in a point of " + name + ", which are numbers",
+                    node.position, "scale the whole: F*" + name + "(x/X; 0, 0; 1, 1)");
+            const auto operand = [&](int at) {
+                return at < 0 ? 0 : values[static_cast<std::size_t>(at) - before];
+            };
+            values.push_back(applyNode(node, operand(node.left), operand(node.right), operand(node.third)));
+        }
+        if (!std::isfinite(values.back()))
+            throw ExpressionError("has a point of " + name + " that is not finite", place);
+        result_.nodes.resize(before);
+        return values.back();
     }
 
     std::string_view text_;
@@ -207,7 +296,9 @@ private:
     Expression result_;
 };
 
-double applyNode(const Expression::Node& node, double a, double b) {
+}  // namespace
+
+double applyNode(const Expression::Node& node, double a, double b, double c) {
     switch (node.kind) {
         case Operator::negate:
             return -a;
@@ -222,19 +313,12 @@ double applyNode(const Expression::Node& node, double a, double b) {
         case Operator::power:
             return std::pow(a, b);
         case Operator::call:
-            return applyFunction(node.name, a, b);
+            return node.table ? node.table->at(a) : node.function->value(a, b, c);
         case Operator::number:
         case Operator::name:
             break;
     }
     return node.number;
-}
-
-}  // namespace
-
-double applyFunction(std::string_view name, double a, double b) {
-    const Function* function = findFunction(name);
-    return function->two ? function->two(a, b) : function->one(a);
 }
 
 std::string nameProblem(std::string_view name) {
@@ -245,7 +329,8 @@ std::string nameProblem(std::string_view name) {
     if (name.ends_with("_t")) return "must not end in _t, which makes the name of a velocity";
     if (name == "t") return "must not be t, which is time";
     if (name == "pi") return "must not be pi, which is a constant";
-    if (findFunction(name)) return "must not be the name of a function";
+    const Signature* const signature = findSignature(name);
+    if (signature && signature->isReserved) return "must not be the name of a function";
     return {};
 }
 
@@ -277,10 +362,14 @@ double evaluate(const Expression& expression,
     for (const Expression::Node& node : expression.nodes) {
         if (node.kind == Operator::name) {
             const std::optional<double> value = valueOf(node.name);
-            if (!value) throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position);
+            if (!value)
+                throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position,
+                                      isFunctionName(node.name)
+                                          ? "as a function it needs brackets: " + node.name + "(...)"
+                                          : "");
             values.push_back(*value);
         } else {
-            values.push_back(applyNode(node, operand(node.left), operand(node.right)));
+            values.push_back(applyNode(node, operand(node.left), operand(node.right), operand(node.third)));
         }
     }
     return values.back();
@@ -297,7 +386,11 @@ std::string withNameReplaced(std::string_view text, std::string_view from, std::
             continue;
         }
         const std::string_view word = text.substr(i, end - i);
-        result += word == from ? to : word;
+        std::size_t next = end;
+        while (next < text.size() && isBlank(text[next])) ++next;
+        const bool isCalled =
+            next < text.size() && text[next] == '(' && (isFunctionName(word) || word == velocityCall);
+        result += word == from && !isCalled ? to : word;
         i = end;
     }
     return result;
@@ -318,15 +411,6 @@ std::string caretLines(std::string_view text, std::size_t position, std::size_t 
         shown.begin(), shown.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
     const std::size_t column = codePoints(text.substr(from, position - from)) + (from > 0 ? 3 : 0);
     return std::string(indent) + shown + "\n" + std::string(indent) + std::string(column, ' ') + '^';
-}
-
-const std::vector<std::string>& expressionFunctions() {
-    static const std::vector<std::string> all = [] {
-        std::vector<std::string> names;
-        for (const Function& f : functions) names.emplace_back(f.name);
-        return names;
-    }();
-    return all;
 }
 
 }  // namespace extremal

@@ -23,7 +23,7 @@ Quad valueOf(const Expression& e) {
     std::vector<Quad> at;
     const auto operand = [&](int place) { return place < 0 ? Quad(0) : at[static_cast<std::size_t>(place)]; };
     for (const Expression::Node& node : e.nodes) {
-        const Quad a = operand(node.left), b = operand(node.right);
+        const Quad a = operand(node.left), b = operand(node.right), c = operand(node.third);
         switch (node.kind) {
             case Operator::number:
                 at.push_back(node.name == "pi" ? pi<Quad>() : Quad(node.name.c_str()));
@@ -49,9 +49,10 @@ Quad valueOf(const Expression& e) {
             case Operator::call:
                 at.push_back(node.name == "sqrt"  ? sqrt(a)
                              : node.name == "cos" ? cos(a)
-                             : node.name == "sin" ? sin(a)
-                                                  : Quad(applyFunction(node.name, static_cast<double>(a),
-                                                                       static_cast<double>(b))));
+                             : node.name == "sin"
+                                 ? sin(a)
+                                 : Quad(applyNode(node, static_cast<double>(a), static_cast<double>(b),
+                                                  static_cast<double>(c))));
                 break;
             case Operator::name:
                 throw ExpressionError("has an unknown name \"" + node.name + "\"", node.position);

@@ -1,5 +1,9 @@
 #include "engine/space/formulas.hpp"
 
+#include <boost/math/constants/constants.hpp>
+#include <boost/math/special_functions/asinh.hpp>
+#include <boost/math/special_functions/erf.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +13,13 @@
 namespace extremal {
 namespace {
 
-/// In the order of EvaluatedFormulas::call.
-const char* const calls[] = {"sin",  "cos", "tan", "asin", "acos", "atan", "sinh",  "cosh",
-                             "tanh", "exp", "log", "sqrt", "abs",  "sign", "atan2", "stumpff"};
+/// In the order of EvaluatedFormulas::call, then of laterCall.
+const char* const calls[] = {
+    "sin", "cos",  "tan",   "asin", "acos",  "atan",      "sinh",  "cosh",  "tanh",  "exp",
+    "log", "sqrt", "abs",   "sign", "atan2", "stumpff",   "asinh", "acosh", "atanh", "log10",
+    "erf", "erfc", "floor", "ceil", "round", "heaviside", "hypot", "mod",   "max",   "min",
+    "<",   "<=",   "==",    "!=",   "and",   "or",        "if"};
+constexpr int firstLater = 16;
 
 int numberOf(const std::string& name) {
     return static_cast<int>(std::find(std::begin(calls), std::end(calls), name) - std::begin(calls));
@@ -74,7 +82,8 @@ int EvaluatedFormulas<T>::append(const Expression& expression,
     std::vector<int> place;
     const auto operand = [&](int node) { return node < 0 ? -1 : place[static_cast<std::size_t>(node)]; };
     for (const Expression::Node& node : expression.nodes) {
-        Instruction made{node.kind, operand(node.left), operand(node.right), 0, T(0)};
+        Instruction made{node.kind, operand(node.left), operand(node.right), operand(node.third), 0,
+                         T(0),      node.table};
         if (node.kind == Operator::number) made.number = numberFrom<T>(node);
         if (node.kind == Operator::call) made.function = numberOf(node.name);
         if (node.kind == Operator::name && node.name != "tau") {
@@ -117,7 +126,8 @@ typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::power(const Dual& a, c
 }
 
 template <class T>
-typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::call(int function, const Dual& a, const Dual& b) {
+typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::call(int function, const Dual& a, const Dual& b,
+                                                               const Dual& c) {
     using std::abs;
     using std::acos;
     using std::asin;
@@ -173,11 +183,69 @@ typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::call(int function, con
             return {sign, T(0)};
         case 14:
             return {atan2(x, b.value), T((b.value * a.slope - x * b.slope) / (x * x + b.value * b.value))};
-        default: {
+        case 15: {
             // c_k(x) of b at the order a, which is a number.
             const T slope = (x * stumpff(T(x + 2), b.value) - stumpff(T(x + 1), b.value)) / 2;
             return {stumpff(x, b.value), T(slope * b.slope)};
         }
+        default:
+            return laterCall(function - firstLater, a, b, c);
+    }
+}
+
+template <class T>
+typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::laterCall(int function, const Dual& a,
+                                                                    const Dual& b, const Dual& c) {
+    const T &x = a.value, &y = b.value;
+    const auto truth = [&](bool isTrue) { return Dual{x != x ? x : y != y ? y : T(isTrue), T(0)}; };
+    const auto bell = [&] { return T(2 / sqrt(boost::math::constants::pi<T>()) * exp(T(-x * x)) * a.slope); };
+    switch (function) {
+        case 0:
+            return {boost::math::asinh(x), T(a.slope / sqrt(T(x * x + 1)))};
+        case 1:
+            return {log(T(x + sqrt(T(x - 1)) * sqrt(T(x + 1)))), T(a.slope / sqrt(T(x * x - 1)))};
+        case 2:
+            return {T(log(T((1 + x) / (1 - x))) / 2), T(a.slope / (1 - x * x))};
+        case 3:
+            return {T(log(x) / log(T(10))), T(a.slope / (x * log(T(10))))};
+        case 4:
+            return {boost::math::erf(x), bell()};
+        case 5:
+            return {boost::math::erfc(x), T(-bell())};
+        case 6:
+            return {floor(x), T(0)};
+        case 7:
+            return {ceil(x), T(0)};
+        case 8:
+            return {x < 0 ? T(-floor(T(-x + T(0.5)))) : T(floor(T(x + T(0.5)))), T(0)};
+        case 9:
+            return {x != x ? x : x > 0 ? T(1) : x < 0 ? T(0) : T(0.5), T(0)};
+        case 10: {
+            const T r = sqrt(T(x * x + y * y));
+            return {r, T((x * a.slope + y * b.slope) / r)};
+        }
+        case 11: {
+            const T whole = floor(T(x / y));
+            return {T(x - y * whole), T(a.slope - whole * b.slope)};
+        }
+        case 12:
+            return x < y || y != y ? b : a;
+        case 13:
+            return y < x || y != y ? b : a;
+        case 14:
+            return truth(x < y);
+        case 15:
+            return truth(x <= y);
+        case 16:
+            return truth(x == y);
+        case 17:
+            return truth(x != y);
+        case 18:
+            return truth(x != 0 && y != 0);
+        case 19:
+            return truth(x != 0 || y != 0);
+        default:
+            return x != x ? a : x != 0 ? b : c;
     }
 }
 
@@ -219,7 +287,10 @@ void EvaluatedFormulas<T>::operator()(const T& tau, std::span<T> value, std::spa
                 at.push_back(power(a, b));
                 break;
             case Operator::call:
-                at.push_back(call(code.function, a, b));
+                if (code.table)
+                    at.push_back({code.table->at(a.value), T(code.table->at(a.value, 1) * a.slope)});
+                else
+                    at.push_back(call(code.function, a, b, operand(code.third)));
                 break;
         }
     }

@@ -2,10 +2,11 @@
 ///
 /// Each is an expression (core/expression.hpp) in tau, in the length h of the step, and in names that stand
 /// for expressions in their turn. Numbers are read from their text in the precision of the evaluation, so
-/// that 0.1 is exact in all of them. Derivatives by dual numbers (f, f') through the tree; abs' = sign and
-/// sign' = 0, also at 0.
+/// that 0.1 is exact in all of them; the points of tables are doubles. Derivatives by dual numbers (f, f')
+/// through the tree; abs' = sign and sign' = 0, also at 0, and a choice has the derivative of what is chosen.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,9 +42,10 @@ private:
     /// kind `name`: tau.
     struct Instruction {
         Operator kind;
-        int left, right;
+        int left, right, third;
         int function;
         T number;
+        std::shared_ptr<const Interpolant> table;
     };
     struct Dual {
         T value{}, slope{};
@@ -51,7 +53,8 @@ private:
     int append(const Expression& expression, const std::vector<std::pair<std::string, int>>& known,
                const std::optional<double>& step);
     static Dual power(const Dual& a, const Dual& b);
-    static Dual call(int function, const Dual& a, const Dual& b);
+    static Dual call(int function, const Dual& a, const Dual& b, const Dual& c);
+    static Dual laterCall(int function, const Dual& a, const Dual& b, const Dual& c);
 
     std::vector<Instruction> code_;
     std::vector<int> results_;

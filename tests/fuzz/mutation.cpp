@@ -193,6 +193,16 @@ std::string mutated(std::string_view text, Random& random) {
     return changed;
 }
 
+/// A function with as many arguments as it takes, most of the time.
+template <class Part>
+std::string call(Random& random, const Part& part) {
+    const std::string& function = random.of(expressionFunctions());
+    std::string arguments;
+    for (const char c : random.oneIn(10) ? std::string("@") : argumentsOf(function))
+        arguments += c == '@' ? part() : std::string(1, c);
+    return function + "(" + arguments + ")";
+}
+
 std::string formula(Random& random, const std::vector<std::string>& names, int depth) {
     if (depth <= 0 || random.oneIn(5)) {
         if (random.oneIn(3)) return std::to_string(random.below(1000)) + (random.oneIn(2) ? "" : "e-2");
@@ -200,7 +210,11 @@ std::string formula(Random& random, const std::vector<std::string>& names, int d
         return random.of(names);
     }
     const auto part = [&] { return formula(random, names, depth - 1); };
-    switch (random.below(8)) {
+    switch (random.below(9)) {
+        case 8: {
+            static const std::vector<std::string> signs = {"<", "<=", ">", ">=", "==", "!=", "&&", "||"};
+            return "(" + part() + random.of(signs) + part() + ")";
+        }
         case 0:
             return "(" + part() + ")";
         case 1:
@@ -210,7 +224,7 @@ std::string formula(Random& random, const std::vector<std::string>& names, int d
         case 3:
             return part() + "/" + part();
         case 4:
-            return random.of(expressionFunctions()) + "(" + part() + ")";
+            return call(random, part);
         case 5:
             return part() + "^" + part();
         case 6:

@@ -49,6 +49,21 @@ QString ruleTitle(const std::string& id) {
 
 namespace {
 
+/// At the separators outside of brackets: max(a, b) and table(x; 0, 0; 1, 2) have some inside.
+QStringList partsOf(const QString& text, char16_t separator) {
+    QStringList parts{QString()};
+    int depth = 0;
+    for (const QChar c : text) {
+        if (c == u'(') ++depth;
+        if (c == u')') --depth;
+        if (c == separator && depth <= 0)
+            parts << QString();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
 QString innerText(const SchemeSpec& spec) {
     if (spec.kind == SchemeSpec::Kind::baseline) {
         const BaselineEntry* entry = findBaseline(spec.baseline.type);
@@ -117,7 +132,7 @@ QString constantsText(const Value& value) {
 Value constantsFrom(const QString& text) {
     Value constants{Value::Object{}};
     if (text.trimmed().isEmpty()) return constants;
-    for (const QString& entry : text.split(',')) {
+    for (const QString& entry : partsOf(text, u',')) {
         const qsizetype at = entry.indexOf('=');
         const Value number = at < 0 ? Value() : numberOrExpression(entry.mid(at + 1));
         if (number.isNull()) return text.toStdString();  // the scene's own check says what is wrong with it
@@ -135,7 +150,7 @@ QString formulasText(const Value& value) {
 
 Value formulasFrom(const QString& text) {
     Value::Array entries;
-    for (const QString& entry : text.split(';'))
+    for (const QString& entry : partsOf(text, u';'))
         if (Value value = numberOrExpression(entry); !value.isNull()) entries.push_back(std::move(value));
     return entries;
 }
@@ -150,7 +165,7 @@ QString definitionsText(const Value& value) {
 
 Value definitionsFrom(const QString& text) {
     Value names{Value::Object{}};
-    for (const QString& entry : text.split(';')) {
+    for (const QString& entry : partsOf(text, u';')) {
         if (entry.trimmed().isEmpty()) continue;
         const qsizetype at = entry.indexOf('=');
         const Value value = at < 0 ? Value() : numberOrExpression(entry.mid(at + 1));
@@ -162,7 +177,7 @@ Value definitionsFrom(const QString& text) {
 
 Value numbersOrExpressions(const QString& text) {
     Value::Array entries;
-    for (const QString& entry : text.split(',')) entries.push_back(numberOrExpression(entry));
+    for (const QString& entry : partsOf(text, u',')) entries.push_back(numberOrExpression(entry));
     return entries;
 }
 

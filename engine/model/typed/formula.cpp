@@ -61,34 +61,17 @@ private:
         for (const std::string& c : formula_.coordinates) known.push_back(c + "_t");
         for (const auto& parameter : formula_.parameters) known.push_back(parameter.first);
         known.insert(known.end(), {"t", "pi"});
+        if (isFunctionName(here.name))
+            return {"has an unknown name \"" + here.name + "\"", here.position,
+                    "as a function it needs brackets: " + here.name + "(...)"};
         return {"has an unknown name \"" + here.name + "\"", here.position, suggestName(here.name, known)};
     }
 
     std::optional<double> valueOf(const Node& here, const std::vector<std::optional<double>>& values) const {
         const auto operand = [&](int n) { return n < 0 ? std::optional<double>(0) : values[place(n)]; };
-        const auto a = operand(here.left), b = operand(here.right);
-        if (!a || !b) return {};
-        switch (here.kind) {
-            case Operator::number:
-                return here.number;
-            case Operator::name:
-                return {};
-            case Operator::negate:
-                return -*a;
-            case Operator::add:
-                return *a + *b;
-            case Operator::subtract:
-                return *a - *b;
-            case Operator::multiply:
-                return *a * *b;
-            case Operator::divide:
-                return *a / *b;
-            case Operator::power:
-                return std::pow(*a, *b);
-            case Operator::call:
-                return applyFunction(here.name, *a, *b);
-        }
-        return {};
+        const auto a = operand(here.left), b = operand(here.right), c = operand(here.third);
+        if (!a || !b || !c || here.kind == Operator::name) return {};
+        return applyNode(here, *a, *b, *c);
     }
     void fold(std::size_t n) {
         if (result_.symbol[n] >= 0) return;
@@ -112,8 +95,8 @@ private:
                 values[n] = formula_.parameters[place(parameter)].second;
             else if (result_.symbol[n] < 0)
                 values[n] = valueOf(here, values);
-            hasParameter[n] =
-                parameter >= 0 || dependsOnParameter(here.left) || dependsOnParameter(here.right);
+            hasParameter[n] = parameter >= 0 || dependsOnParameter(here.left) ||
+                              dependsOnParameter(here.right) || dependsOnParameter(here.third);
             if (here.kind != Operator::power || !dependsOnParameter(here.right) || !values[place(here.right)])
                 continue;
             const std::size_t exponent = place(here.right);

@@ -13,9 +13,10 @@
 namespace extremal::typed {
 namespace {
 
-constexpr std::array<std::string_view, 15> names = {"sin",  "cos",   "tan",  "asin", "acos",
-                                                    "atan", "atan2", "sinh", "cosh", "tanh",
-                                                    "exp",  "log",   "abs",  "sign", "power"};
+constexpr std::array<std::string_view, 33> names = {
+    "sin",   "cos",       "tan",   "asin",  "acos",  "atan",  "atan2", "sinh", "cosh", "tanh",  "exp",
+    "log",   "abs",       "sign",  "power", "asinh", "acosh", "atanh", "erf",  "erfc", "floor", "ceil",
+    "round", "heaviside", "hypot", "max",   "min",   "<",     "<=",    "==",   "!=",   "if",    "table"};
 
 std::uint64_t mix(std::uint64_t h, std::uint64_t x) {
     h ^= x + 0x9e3779b97f4a7c15ULL + (h << 6) + (h >> 2);
@@ -28,7 +29,8 @@ bool isInteger(double x) { return x == std::trunc(x) && std::fabs(x) < 1e9; }
 
 bool isSame(const Graph::Node& a, const Graph::Node& b) {
     return a.kind == b.kind && bits(a.number) == bits(b.number) && a.symbol == b.symbol &&
-           (a.kind != Graph::Kind::call || a.function == b.function) && a.operands == b.operands;
+           (a.kind != Graph::Kind::call || a.function == b.function) && a.operands == b.operands &&
+           a.order == b.order && (a.table == b.table || (a.table && b.table && *a.table == *b.table));
 }
 
 }  // namespace
@@ -45,6 +47,7 @@ int Graph::intern(Node node) {
     std::uint64_t h = mix(static_cast<std::uint64_t>(node.kind) + 1, bits(node.number));
     h = mix(h, static_cast<std::uint64_t>(node.symbol + 2));
     if (node.kind == Kind::call) h = mix(h, static_cast<std::uint64_t>(node.function));
+    if (node.table) h = mix(mix(h, node.table->hash()), static_cast<std::uint64_t>(node.order));
     for (const Operand& o : node.operands) h = mix(mix(h, at(o.node).hash), bits(o.factor));
     node.hash = h;
     const auto [from, to] = known_.equal_range(h);
@@ -158,19 +161,36 @@ int Graph::product(const std::vector<Operand>& operands) {
     return coefficient == 1 ? whole : scaled(whole, coefficient);
 }
 
-int Graph::call(Function function, int a, int b) {
-    const bool isFolded = isNumber(a) && (b < 0 || isNumber(b));
+int Graph::call(Function function, int a, int b, int c) {
+    const bool isFolded = isNumber(a) && (b < 0 || isNumber(b)) && (c < 0 || isNumber(c));
     if (function == Function::power) {
         if (isNumber(b)) return product({{a, at(b).number}});
         if (isFolded) return number(std::pow(at(a).number, at(b).number));
     } else if (isFolded) {
-        return number(applyFunction(name(function), at(a).number, b < 0 ? 0 : at(b).number));
+        return number(findFunction(name(function))
+                          ->value(at(a).number, b < 0 ? 0 : at(b).number, c < 0 ? 0 : at(c).number));
+    } else if (function == Function::choose && b == c) {
+        return b;
+    } else if (function == Function::choose && isNumber(a) && !std::isnan(at(a).number)) {
+        return at(a).number != 0 ? b : c;
     }
     Node node;
     node.kind = Kind::call;
     node.function = function;
+    for (const int operand : {a, b, c})
+        if (operand >= 0) node.operands.push_back({operand, 1});
+    return intern(std::move(node));
+}
+
+int Graph::lookUp(std::shared_ptr<const Interpolant> table, int order, int a) {
+    if (order > table->degree()) return number(0);
+    if (isNumber(a)) return number(table->at(at(a).number, order));
+    Node node;
+    node.kind = Kind::call;
+    node.function = Function::table;
     node.operands.push_back({a, 1});
-    if (b >= 0) node.operands.push_back({b, 1});
+    node.table = std::move(table);
+    node.order = order;
     return intern(std::move(node));
 }
 
@@ -205,7 +225,11 @@ std::vector<int> Graph::adopt(const Graph& from, const std::vector<int>& roots,
                 made = product(operands);
                 break;
             case Kind::call:
-                made = call(node.function, operands[0].node, operands.size() > 1 ? operands[1].node : -1);
+                if (node.table)
+                    made = lookUp(node.table, node.order, operands[0].node);
+                else
+                    made = call(node.function, operands[0].node, operands.size() > 1 ? operands[1].node : -1,
+                                operands.size() > 2 ? operands[2].node : -1);
                 break;
         }
     }

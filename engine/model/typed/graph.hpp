@@ -2,7 +2,7 @@
 ///
 ///     sum     = number + sum_k factor_k operand_k
 ///     product = prod_k operand_k ^ factor_k          (no number in it: c x is a sum of one term)
-///     call    = function(operand_0 [, operand_1])
+///     call    = function(operand_0 [, operand_1 [, operand_2]])
 ///
 /// Of a sum inside a sum or to an integer power the number is positive, or without one the first factor:
 /// c (a - b) and -c (b - a) are the same. Every node is made through the functions below, which bring it into
@@ -14,10 +14,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
+
+#include "engine/core/interpolant.hpp"
 
 namespace extremal::typed {
 
@@ -36,9 +39,28 @@ enum class Function : std::uint8_t {
     log,
     abs,
     sign,
-    power
+    power,
+    asinh,
+    acosh,
+    atanh,
+    erf,
+    erfc,
+    floor,
+    ceil,
+    round,
+    heaviside,
+    hypot,
+    max,
+    min,
+    less,
+    lessOrEqual,
+    equal,
+    notEqual,
+    choose,
+    table
 };
-/// As it is spelled in expressions; "power" is pow(a, b) with an exponent that is no number.
+/// As it is named in an Expression; "power" is pow(a, b) with an exponent that is no number; "if" is choose,
+/// which is b where a is not 0, else c; "table" is a derivative of the interpolant of its node.
 std::string_view name(Function function);
 std::optional<Function> functionNamed(std::string_view name);
 
@@ -57,13 +79,16 @@ public:
         Function function = Function::sin;
         std::vector<Operand> operands;
         std::uint64_t hash = 0;
+        std::shared_ptr<const Interpolant> table;  ///< of the function `table`
+        int order = 0;                             ///< of its derivative
     };
 
     int number(double value);
     int symbol(int index);
     int sum(double constant, const std::vector<Operand>& operands);
     int product(const std::vector<Operand>& operands);
-    int call(Function function, int a, int b = -1);
+    int call(Function function, int a, int b = -1, int c = -1);
+    int lookUp(std::shared_ptr<const Interpolant> table, int order, int a);
     int scaled(int node, double factor) { return sum(0, {{node, factor}}); }
 
     const Node& at(int node) const { return nodes_[static_cast<std::size_t>(node)]; }

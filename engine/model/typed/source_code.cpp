@@ -9,8 +9,13 @@ namespace {
 
 class Lines {
 public:
-    Lines(const Formula& formula, Language language)
-        : formula_(formula), isPython_(language == Language::python) {}
+    Lines(const Formula& formula, const Code& code, Language language)
+        : formula_(formula), code_(code), isPython_(language == Language::python) {
+        for (const Code::Item& each : code.items())
+            hasBranches_ =
+                hasBranches_ || (each.kind == Code::Kind::instruction && each.code.op == Op::choose);
+    }
+    bool hasBranches() const { return hasBranches_; }
 
     std::string item(const Code::Item& item) const {
         switch (item.kind) {
@@ -39,16 +44,71 @@ private:
             return "k_" + formula_.parameters[static_cast<std::size_t>(s - formula_.firstParameter())].first;
         return (s < d ? "q[" : "v[") + std::to_string(s < d ? s : s - d) + "]";
     }
-    std::string call(std::uint32_t function, const std::string& arguments) const {
-        const auto f = static_cast<Function>(function);
-        const std::string in = "(" + arguments + ")";
-        if (f == Function::sign)
-            return isPython_ ? "float(np.sign" + in + ")"
-                             : "((" + arguments + " > 0) - (" + arguments + " < 0))";
-        if (f == Function::abs) return isPython_ ? "abs" + in : "std::fabs" + in;
-        const std::string name(f == Function::power ? "pow" : typed::name(f));
-        return (isPython_ ? "math." : "std::") + name + in;
+    /// Functions that are not one call in both languages; @ and # are the arguments. Where an argument is not
+    /// a number, comparisons are false in a program, and not a number in an expression.
+    struct Written {
+        Function function;
+        const char *cpp, *python;
+    };
+    static constexpr Written written[] = {
+        {Function::sign, "double((@ > 0) - (@ < 0))", "float(np.sign(@))"},
+        {Function::abs, "std::fabs(@)", "abs(@)"},
+        {Function::floor, "std::floor(@)", "np.floor(@)"},
+        {Function::ceil, "std::ceil(@)", "np.ceil(@)"},
+        {Function::round, "std::round(@)", "np.copysign(np.floor(abs(@) + 0.5), @)"},
+        {Function::heaviside, "0.5 * (1 + (@ > 0) - (@ < 0))", "float(0.5 + 0.5 * np.sign(@))"},
+        {Function::max, "(@ < # ? # : @)", "(# if @ < # else @)"},
+        {Function::min, "(# < @ ? # : @)", "(# if # < @ else @)"},
+        {Function::less, "double(@ < #)", "float(@ < #)"},
+        {Function::lessOrEqual, "double(@ <= #)", "float(@ <= #)"},
+        {Function::equal, "double(@ == #)", "float(@ == #)"},
+        {Function::notEqual, "double(@ != #)", "float(@ != #)"},
+    };
+    static std::string filled(std::string_view form, const std::string& a, const std::string& b) {
+        std::string text;
+        for (const char c : form) text += c == '@' ? a : c == '#' ? b : std::string(1, c);
+        return text;
     }
+    std::string call(std::uint32_t function, const std::string& a, const std::string& b = {}) const {
+        const auto f = static_cast<Function>(function);
+        for (const Written& each : written)
+            if (each.function == f) return filled(isPython_ ? each.python : each.cpp, a, b);
+        const std::string name(f == Function::power ? "pow" : typed::name(f));
+        return (isPython_ ? pythonModule(f) + pythonName(name) : "std::" + name) + "(" + a +
+               (b.empty() ? "" : ", " + b) + ")";
+    }
+    /// The module math throws outside of a function's domain, where a branch that is not taken may be.
+    std::string pythonModule(Function f) const {
+        return hasBranches_ && f != Function::erf && f != Function::erfc ? "np." : "math.";
+    }
+    std::string pythonName(const std::string& name) const {
+        if (!hasBranches_) return name;
+        if (name == "atan2") return "arctan2";
+        if (name == "pow") return "power";
+        return name.starts_with("a") ? "arc" + name.substr(1) : name;
+    }
+    /// The pieces one in another, so that the line needs nothing outside of it.
+    std::string lookUp(const LookUp& look, const std::string& x) const {
+        std::string text, end;
+        const Interpolant& table = *look.table;
+        for (std::size_t k = 0; k < table.pieces(); ++k) {
+            const std::string s = "(" + x + " - " + inBrackets(table.base(k)) + ")";
+            std::string piece;
+            for (int j = table.degree(); j >= look.order; --j) {
+                double factor = table.coefficient(k, j);
+                for (int i = 0; i < look.order; ++i) factor *= j - i;
+                piece =
+                    piece.empty() ? number(factor) : "(" + piece + ") * " + s + " + " + inBrackets(factor);
+            }
+            if (k + 1 == table.pieces()) return text + piece + end;
+            const std::string bound = inBrackets(table.abscissae()[k]);
+            text += isPython_ ? "(" + piece + " if " + x + " < " + bound + " else "
+                              : "(" + x + " < " + bound + " ? " + piece + " : ";
+            end += ")";
+        }
+        return text;
+    }
+    static std::string inBrackets(double x) { return x < 0 ? "(" + number(x) + ")" : number(x); }
     std::string instruction(const Instruction& i) const {
         const std::string a = value(i.a), b = value(i.b), c = value(i.c);
         switch (i.op) {
@@ -67,20 +127,26 @@ private:
             case Op::negate:
                 return "-" + a;
             case Op::reciprocal:
-                return "1.0 / " + a;
+                return "1.0 / " + (isPython_ && hasBranches_ ? "np.float64(" + a + ")" : a);
             case Op::sqrt:
-                return (isPython_ ? "math.sqrt(" : "std::sqrt(") + a + ")";
+                return (!isPython_ ? "std::sqrt(" : hasBranches_ ? "np.sqrt(" : "math.sqrt(") + a + ")";
             case Op::call:
             case Op::sinCos:
                 return call(i.c, a);
             case Op::call2:
-                return call(i.c, a + ", " + b);
+                return call(i.c, a, b);
+            case Op::choose:
+                return isPython_ ? "(" + b + " if " + a + " != 0.0 else " + c + ")"
+                                 : "(" + a + " != 0.0 ? " + b + " : " + c + ")";
+            case Op::lookUp:
+                return lookUp(code_.tables()[i.c], a);
         }
         return {};
     }
 
     const Formula& formula_;
-    bool isPython_;
+    const Code& code_;
+    bool isPython_, hasBranches_ = false;
 };
 
 }  // namespace
@@ -91,10 +157,12 @@ std::vector<std::string> derivativeLines(const Formula& formula, Language langua
     std::vector<std::uint32_t> gradient, hessian;
     for (const int node : symbolic->gradient) gradient.push_back(code.value(node));
     for (const int node : symbolic->hessian) hessian.push_back(code.value(node));
-    const Lines text(formula, language);
+    const Lines text(formula, code, language);
     const bool isPython = language == Language::python;
     const std::string end = isPython ? "" : ";";
     std::vector<std::string> lines;
+    // A branch that is not taken may be infinite or not a number, and says nothing about it.
+    if (isPython && text.hasBranches()) lines.emplace_back("np.seterr(all='ignore')");
     const auto& items = code.items();
     for (std::size_t i = 0; i < items.size(); ++i)
         lines.push_back((isPython ? "" : "const double ") + Lines::value(static_cast<std::uint32_t>(i)) +

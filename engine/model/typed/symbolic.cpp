@@ -8,8 +8,10 @@
 #include <list>
 #include <map>
 #include <mutex>
+#include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -19,16 +21,76 @@ namespace extremal::typed {
 
 DECLARE_FUNCTION_1P(magnitude)
 DECLARE_FUNCTION_1P(signum)
+DECLARE_FUNCTION_1P(errorFunction)
+DECLARE_FUNCTION_1P(complementaryErrorFunction)
+DECLARE_FUNCTION_1P(floorOf)
+DECLARE_FUNCTION_1P(ceilOf)
+DECLARE_FUNCTION_1P(rounded)
+DECLARE_FUNCTION_1P(heavisideOf)
+DECLARE_FUNCTION_2P(hypotenuse)
+DECLARE_FUNCTION_2P(isLess)
+DECLARE_FUNCTION_2P(isLessOrEqual)
+DECLARE_FUNCTION_2P(isEqualTo)
+DECLARE_FUNCTION_2P(isNotEqualTo)
+DECLARE_FUNCTION_2P(greaterOf)
+DECLARE_FUNCTION_2P(smallerOf)
+DECLARE_FUNCTION_3P(choice)
+/// A derivative of a table: of x, with the number of the table, the order and the degree of its pieces.
+DECLARE_FUNCTION_4P(lookedUp)
 
 namespace {
 
 GiNaC::ex magnitudeDerivative(const GiNaC::ex& x, unsigned) { return signum(x); }
-GiNaC::ex signumDerivative(const GiNaC::ex&, unsigned) { return 0; }
+GiNaC::ex flat(const GiNaC::ex&, unsigned) { return 0; }
+GiNaC::ex flatInBoth(const GiNaC::ex&, const GiNaC::ex&, unsigned) { return 0; }
+GiNaC::ex errorFunctionDerivative(const GiNaC::ex& x, unsigned) {
+    return 2 / GiNaC::sqrt(GiNaC::Pi) * GiNaC::exp(-x * x);
+}
+GiNaC::ex complementaryErrorFunctionDerivative(const GiNaC::ex& x, unsigned) {
+    return -errorFunctionDerivative(x, 0);
+}
+GiNaC::ex hypotenuseDerivative(const GiNaC::ex& a, const GiNaC::ex& b, unsigned which) {
+    return (which == 0 ? a : b) / hypotenuse(a, b);
+}
+/// That of the branch: chosen, and not a sum of products with 0, as the other one need not be finite.
+GiNaC::ex chosen(const GiNaC::ex& condition, const GiNaC::ex& a, const GiNaC::ex& b) {
+    return a.is_equal(b) ? a : choice(condition, a, b);
+}
+GiNaC::ex choiceDerivative(const GiNaC::ex& c, const GiNaC::ex& a, const GiNaC::ex& b,
+                           const GiNaC::symbol& s) {
+    return chosen(c, a.diff(s), b.diff(s));
+}
+GiNaC::ex greaterDerivative(const GiNaC::ex& a, const GiNaC::ex& b, const GiNaC::symbol& s) {
+    return chosen(isLess(a, b), b.diff(s), a.diff(s));
+}
+GiNaC::ex smallerDerivative(const GiNaC::ex& a, const GiNaC::ex& b, const GiNaC::symbol& s) {
+    return chosen(isLess(b, a), b.diff(s), a.diff(s));
+}
+GiNaC::ex lookedUpDerivative(const GiNaC::ex& x, const GiNaC::ex& table, const GiNaC::ex& order,
+                             const GiNaC::ex& degree, const GiNaC::symbol& s) {
+    if (order.is_equal(degree)) return 0;
+    return lookedUp(x, table, order + 1, degree) * x.diff(s);
+}
 
 }  // namespace
 
 REGISTER_FUNCTION(magnitude, derivative_func(magnitudeDerivative))
-REGISTER_FUNCTION(signum, derivative_func(signumDerivative))
+REGISTER_FUNCTION(signum, derivative_func(flat))
+REGISTER_FUNCTION(errorFunction, derivative_func(errorFunctionDerivative))
+REGISTER_FUNCTION(complementaryErrorFunction, derivative_func(complementaryErrorFunctionDerivative))
+REGISTER_FUNCTION(floorOf, derivative_func(flat))
+REGISTER_FUNCTION(ceilOf, derivative_func(flat))
+REGISTER_FUNCTION(rounded, derivative_func(flat))
+REGISTER_FUNCTION(heavisideOf, derivative_func(flat))
+REGISTER_FUNCTION(hypotenuse, derivative_func(hypotenuseDerivative))
+REGISTER_FUNCTION(isLess, derivative_func(flatInBoth))
+REGISTER_FUNCTION(isLessOrEqual, derivative_func(flatInBoth))
+REGISTER_FUNCTION(isEqualTo, derivative_func(flatInBoth))
+REGISTER_FUNCTION(isNotEqualTo, derivative_func(flatInBoth))
+REGISTER_FUNCTION(greaterOf, expl_derivative_func(greaterDerivative))
+REGISTER_FUNCTION(smallerOf, expl_derivative_func(smallerDerivative))
+REGISTER_FUNCTION(choice, expl_derivative_func(choiceDerivative))
+REGISTER_FUNCTION(lookedUp, expl_derivative_func(lookedUpDerivative))
 
 namespace {
 
@@ -36,6 +98,26 @@ using GiNaC::ex;
 using GiNaC::ex_to;
 using GiNaC::exvector;
 using GiNaC::is_a;
+
+/// The functions that GiNaC lacks, and their names in a graph.
+constexpr std::pair<std::string_view, Function> ownFunctions[] = {
+    {"magnitude", Function::abs},
+    {"signum", Function::sign},
+    {"errorFunction", Function::erf},
+    {"complementaryErrorFunction", Function::erfc},
+    {"floorOf", Function::floor},
+    {"ceilOf", Function::ceil},
+    {"rounded", Function::round},
+    {"heavisideOf", Function::heaviside},
+    {"hypotenuse", Function::hypot},
+    {"isLess", Function::less},
+    {"isLessOrEqual", Function::lessOrEqual},
+    {"isEqualTo", Function::equal},
+    {"isNotEqualTo", Function::notEqual},
+    {"greaterOf", Function::max},
+    {"smallerOf", Function::min},
+    {"choice", Function::choose},
+};
 
 /// Formulas larger than this are opaque to GiNaC where they are operands: a derivative then refers to them
 /// instead of repeating them, as in automatic differentiation, and no product of many factors explodes.
@@ -270,21 +352,51 @@ private:
             throw ExpressionError("has stumpff(...) of something that moves", here.position,
                                   "it stands in numbers, and in the functions of a space");
         const ex x = opaque(build(here.left));
-        if (here.name == "sin") return GiNaC::sin(x);
-        if (here.name == "cos") return GiNaC::cos(x);
-        if (here.name == "tan") return GiNaC::tan(x);
-        if (here.name == "asin") return GiNaC::asin(x);
-        if (here.name == "acos") return GiNaC::acos(x);
-        if (here.name == "atan") return GiNaC::atan(x);
-        if (here.name == "atan2") return GiNaC::atan2(x, opaque(build(here.right)));
-        if (here.name == "sinh") return GiNaC::sinh(x);
-        if (here.name == "cosh") return GiNaC::cosh(x);
-        if (here.name == "tanh") return GiNaC::tanh(x);
-        if (here.name == "exp") return GiNaC::exp(x);
-        if (here.name == "log") return GiNaC::log(x);
-        if (here.name == "sqrt") return powerOf(x, ex(1) / 2);
-        if (here.name == "abs") return magnitude(x);
+        if (here.table) {
+            tables_.push_back(here.table);
+            return lookedUp(x, ex(static_cast<int>(tables_.size()) - 1), ex(0), ex(here.table->degree()));
+        }
+        if (here.third >= 0) return choice(x, opaque(build(here.right)), opaque(build(here.third)));
+        return here.right >= 0 ? callOfTwo(here.name, x, opaque(build(here.right))) : callOfOne(here.name, x);
+    }
+    ex callOfOne(std::string_view name, const ex& x) {
+        if (name == "sin") return GiNaC::sin(x);
+        if (name == "cos") return GiNaC::cos(x);
+        if (name == "tan") return GiNaC::tan(x);
+        if (name == "asin") return GiNaC::asin(x);
+        if (name == "acos") return GiNaC::acos(x);
+        if (name == "atan") return GiNaC::atan(x);
+        if (name == "sinh") return GiNaC::sinh(x);
+        if (name == "cosh") return GiNaC::cosh(x);
+        if (name == "tanh") return GiNaC::tanh(x);
+        if (name == "asinh") return GiNaC::asinh(x);
+        if (name == "acosh") return GiNaC::acosh(x);
+        if (name == "atanh") return GiNaC::atanh(x);
+        if (name == "exp") return GiNaC::exp(x);
+        if (name == "log") return GiNaC::log(x);
+        if (name == "log10") return GiNaC::log(x) * numeric(std::numbers::log10e);
+        if (name == "sqrt") return powerOf(x, ex(1) / 2);
+        if (name == "abs") return magnitude(x);
+        if (name == "erf") return errorFunction(x);
+        if (name == "erfc") return complementaryErrorFunction(x);
+        if (name == "floor") return floorOf(x);
+        if (name == "ceil") return ceilOf(x);
+        if (name == "round") return rounded(x);
+        if (name == "heaviside") return heavisideOf(x);
         return signum(x);
+    }
+    ex callOfTwo(std::string_view name, const ex& a, const ex& b) {
+        if (name == "atan2") return GiNaC::atan2(a, b);
+        if (name == "hypot") return hypotenuse(a, b);
+        if (name == "mod") return a - b * floorOf(productOf({a, powerOf(b, -1)}));
+        if (name == "max") return greaterOf(a, b);
+        if (name == "min") return smallerOf(a, b);
+        if (name == "<") return isLess(a, b);
+        if (name == "<=") return isLessOrEqual(a, b);
+        if (name == "==") return isEqualTo(a, b);
+        if (name == "!=") return isNotEqualTo(a, b);
+        if (name == "and") return choice(a, isNotEqualTo(b, 0), 0);
+        return choice(a, 1, isNotEqualTo(b, 0));
     }
 
     // From GiNaC to the graph.
@@ -316,10 +428,15 @@ private:
         if (isSumOrProduct) return is_a<GiNaC::add>(e) ? graph.sum(0, operands) : graph.product(operands);
         if (is_a<GiNaC::power>(e)) return graph.call(Function::power, operands[0].node, operands[1].node);
         const std::string called = ex_to<GiNaC::function>(e).get_name();
-        const std::string known = called == "magnitude" ? "abs" : called == "signum" ? "sign" : called;
-        const auto function = functionNamed(known);
+        if (called == "lookedUp")
+            return graph.lookUp(tables_[static_cast<std::size_t>(ex_to<GiNaC::numeric>(e.op(1)).to_int())],
+                                ex_to<GiNaC::numeric>(e.op(2)).to_int(), operands[0].node);
+        std::optional<Function> function = functionNamed(called);
+        for (const auto& [own, meant] : ownFunctions)
+            if (own == called) function = meant;
         if (!function) throw std::runtime_error("no meaning for " + called);
-        return graph.call(*function, operands[0].node, operands.size() > 1 ? operands[1].node : -1);
+        return graph.call(*function, operands[0].node, operands.size() > 1 ? operands[1].node : -1,
+                          operands.size() > 2 ? operands[2].node : -1);
     }
 
     const Formula& formula_;
@@ -328,6 +445,7 @@ private:
     std::chrono::steady_clock::time_point deadline_;
     long ticks_ = 0;
     exvector symbols_, parts_;
+    std::vector<std::shared_ptr<const Interpolant>> tables_;
     std::map<double, ex> numbers_;
     std::map<std::pair<int, int>, ex> derivatives_;
     std::unordered_map<ex, int, HashEx, SameEx> flat_;

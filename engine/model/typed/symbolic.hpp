@@ -3,7 +3,8 @@
 /// From the formula come L, its gradient and Hessian in (q, v), and the Euler-Lagrange equations
 ///     sum_j (L_vi,vj a_j + L_vi,qj v_j) + L_vi,t - L_qi = 0,
 /// flattened to one graph with parameters left as symbols: moving a parameter differentiates nothing anew.
-/// abs' = sign and sign' = 0, also at 0.
+/// abs' = sign and sign' = 0, also at 0; floor, comparisons and the like have the derivative 0, and a choice
+/// between formulas that of the one that is chosen.
 ///
 /// Errors: ExpressionError; more than `maxSeconds` or too much memory is one. GiNaC knows no threads: calls
 /// take turns. What was found for the last formulas is remembered, errors included.

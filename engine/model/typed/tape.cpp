@@ -22,6 +22,7 @@ int operandCount(Op op) {
         case Op::sqrt:
         case Op::sinCos:
         case Op::call:
+        case Op::lookUp:
             return 1;
         case Op::add:
         case Op::subtract:
@@ -31,6 +32,7 @@ int operandCount(Op op) {
         case Op::multiplyAdd:
         case Op::multiplySubtract:
         case Op::subtractProduct:
+        case Op::choose:
             return 3;
     }
     return 0;
@@ -135,6 +137,7 @@ Tape Tape::of(const Graph& graph, std::span<const int> roots, int inputs) {
 
     Tape tape;
     tape.inputs_ = static_cast<std::size_t>(inputs);
+    tape.tables_ = code.tables();
     std::vector<std::uint32_t> place(code.items().size(), none);
     for (std::size_t i = 0; i < code.items().size(); ++i) {
         const Code::Item& item = code.items()[i];

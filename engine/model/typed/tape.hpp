@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,12 +27,20 @@ enum class Op : std::uint8_t {
     sqrt,              ///< a^(1/2)
     sinCos,            ///< sin a, and cos a in register c
     call,              ///< the function number c of a
-    call2              ///< the function number c of a and b
+    call2,             ///< the function number c of a and b
+    choose,            ///< b where a is not 0, else c
+    lookUp             ///< the table number c at a
 };
 
 struct Instruction {
     Op op;
     std::uint32_t to, a, b, c;
+};
+
+/// A derivative of a table.
+struct LookUp {
+    std::shared_ptr<const Interpolant> table;
+    int order = 0;
 };
 
 class Tape {
@@ -46,6 +55,7 @@ public:
     std::size_t inputs() const { return inputs_; }
     std::span<const double> constants() const { return constants_; }
     std::span<const Instruction> code() const { return code_; }
+    std::span<const LookUp> tables() const { return tables_; }
 
     /// `r` has registers() entries and the inputs in front; afterwards output(i, r) is root i.
     void run(double* r) const;
@@ -58,6 +68,7 @@ private:
     std::size_t inputs_ = 0, registers_ = 0;
     std::vector<double> constants_;
     std::vector<Instruction> code_;
+    std::vector<LookUp> tables_;
     std::vector<std::uint32_t> outputs_;
 };
 

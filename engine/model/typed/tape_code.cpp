@@ -1,6 +1,7 @@
 #include "engine/model/typed/tape_code.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -33,18 +34,25 @@ std::uint32_t Code::value(int node) {
         case Graph::Kind::product:
             made = product(here);
             break;
-        case Graph::Kind::call: {
-            const std::uint32_t a = value(here.operands[0].node);
-            const auto function = static_cast<std::uint32_t>(here.function);
-            if (here.operands.size() > 1)
-                made = make(Op::call2, a, value(here.operands[1].node), function);
-            else
-                made = make(Op::call, a, 0, function);
+        case Graph::Kind::call:
+            made = call(here);
             break;
-        }
     }
     known_.emplace(node, made);
     return made;
+}
+
+std::uint32_t Code::call(const Graph::Node& node) {
+    std::array<std::uint32_t, 3> operands{};
+    for (std::size_t k = 0; k < node.operands.size(); ++k) operands[k] = value(node.operands[k].node);
+    const auto function = static_cast<std::uint32_t>(node.function);
+    if (node.function == Function::choose) return make(Op::choose, operands[0], operands[1], operands[2]);
+    if (node.operands.size() > 1) return make(Op::call2, operands[0], operands[1], function);
+    if (!node.table) return make(Op::call, operands[0], 0, function);
+    std::size_t k = 0;
+    while (k < tables_.size() && !(tables_[k].table == node.table && tables_[k].order == node.order)) ++k;
+    if (k == tables_.size()) tables_.push_back({node.table, node.order});
+    return make(Op::lookUp, operands[0], 0, static_cast<std::uint32_t>(k));
 }
 
 std::uint32_t Code::constant(double number) {

@@ -25,6 +25,7 @@ public:
     /// The value of a node; what it needs is made before it.
     std::uint32_t value(int node);
     const std::vector<Item>& items() const { return items_; }
+    const std::vector<LookUp>& tables() const { return tables_; }
 
 private:
     std::uint32_t constant(double number);
@@ -36,7 +37,10 @@ private:
     std::uint32_t whole(std::uint32_t base, long exponent);
 
     const Graph& graph_;
+    std::uint32_t call(const Graph::Node& node);
+
     std::vector<Item> items_;
+    std::vector<LookUp> tables_;
     std::map<int, std::uint32_t> known_;
     std::map<int, std::uint32_t> inputs_;
     std::map<std::uint64_t, std::uint32_t> constants_;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "engine/core/lanes.hpp"
 #include "engine/core/lanes_trigonometry.hpp"
@@ -38,9 +39,26 @@ inline double callOne(Function function, double a) {
         case Function::abs:
             return std::fabs(a);
         case Function::sign:
-            return static_cast<double>((a > 0) - (a < 0));
-        case Function::atan2:
-        case Function::power:
+            return a > 0 ? 1 : a < 0 ? -1 : a;
+        case Function::asinh:
+            return std::asinh(a);
+        case Function::acosh:
+            return std::acosh(a);
+        case Function::atanh:
+            return std::atanh(a);
+        case Function::erf:
+            return std::erf(a);
+        case Function::erfc:
+            return std::erfc(a);
+        case Function::floor:
+            return std::floor(a);
+        case Function::ceil:
+            return std::ceil(a);
+        case Function::round:
+            return std::round(a);
+        case Function::heaviside:
+            return a > 0 ? 1 : a < 0 ? 0 : 0.5 + a;
+        default:
             break;
     }
     return a;
@@ -51,13 +69,47 @@ inline Lanes callOne(Function function, const Lanes& a) {
     return a.map([function](double v) { return callOne(function, v); });
 }
 
+/// Not a number where an operand is not: neither true nor false.
+inline double truth(bool isTrue, double a, double b) {
+    return std::isnan(a) || std::isnan(b) ? std::numeric_limits<double>::quiet_NaN() : isTrue;
+}
 inline double callTwo(Function function, double a, double b) {
-    return function == Function::atan2 ? std::atan2(a, b) : std::pow(a, b);
+    switch (function) {
+        case Function::atan2:
+            return std::atan2(a, b);
+        case Function::hypot:
+            return std::hypot(a, b);
+        case Function::max:
+            return a < b || std::isnan(b) ? b : a;
+        case Function::min:
+            return b < a || std::isnan(b) ? b : a;
+        case Function::less:
+            return truth(a < b, a, b);
+        case Function::lessOrEqual:
+            return truth(a <= b, a, b);
+        case Function::equal:
+            return truth(a == b, a, b);
+        case Function::notEqual:
+            return truth(a != b, a, b);
+        default:
+            return std::pow(a, b);
+    }
 }
 inline Lanes callTwo(Function function, const Lanes& a, const Lanes& b) {
     Lanes r;
     for (std::size_t i = 0; i < Lanes::size; ++i) r.lane[i] = callTwo(function, a.lane[i], b.lane[i]);
     return r;
+}
+
+inline double choose(double a, double b, double c) { return std::isnan(a) ? a : a != 0 ? b : c; }
+inline Lanes choose(const Lanes& a, const Lanes& b, const Lanes& c) {
+    Lanes r;
+    for (std::size_t i = 0; i < Lanes::size; ++i) r.lane[i] = choose(a.lane[i], b.lane[i], c.lane[i]);
+    return r;
+}
+inline double lookUp(const LookUp& table, double a) { return table.table->at(a, table.order); }
+inline Lanes lookUp(const LookUp& table, const Lanes& a) {
+    return a.map([&](double v) { return lookUp(table, v); });
 }
 
 template <class T>
@@ -107,6 +159,12 @@ void run(const Tape& tape, T* r) {
                 break;
             case Op::call2:
                 r[i.to] = callTwo(static_cast<Function>(i.c), r[i.a], r[i.b]);
+                break;
+            case Op::choose:
+                r[i.to] = choose(r[i.a], r[i.b], r[i.c]);
+                break;
+            case Op::lookUp:
+                r[i.to] = lookUp(tape.tables()[i.c], r[i.a]);
                 break;
         }
     }

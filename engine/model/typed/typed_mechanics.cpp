@@ -388,6 +388,9 @@ private:
     /// L_v = (m_i v_i) with constant m_i, seen in the formulas themselves.
     bool findMasses() {
         if (!model_->isDiagonal) return false;
+        // Derivatives of steps are 0: round(x_t)*x has a force with velocities in it, and no momentum.
+        const std::vector<int> forces(n_.gradient.begin(), n_.gradient.begin() + d_);
+        if (n_.graph.dependsOn(forces, [&](int s) { return isVelocity(s); })) return false;
         std::vector<double> masses;
         for (int i = 0; i < d_; ++i) {
             const int mass = n_.second(d_ + i, d_ + i);

@@ -148,13 +148,51 @@ private:
         if (exponent == "4") return base + "⁴";
         return base + "^" + (exponent.size() == 1 ? exponent : "(" + exponent + ")");
     }
+    static bool isComparison(Function f) {
+        return f == Function::less || f == Function::lessOrEqual || f == Function::equal ||
+               f == Function::notEqual;
+    }
+    std::string relation(const Graph::Node& n) {
+        const auto sign = [&]() -> std::string {
+            if (n.function == Function::equal) return " = ";
+            if (n.function == Function::notEqual) return " ≠ ";
+            if (n.function == Function::lessOrEqual) return " ≤ ";
+            return isRich_ ? " &lt; " : " < ";
+        };
+        return sum(n.operands[0].node) + sign() + sum(n.operands[1].node);
+    }
+    std::string comparison(const Graph::Node& n, const std::string& exponent) {
+        const std::string text = "(" + relation(n) + ")";
+        return exponent.empty() ? text : raised(text, exponent);
+    }
+    /// An argument, where a comparison needs no brackets.
+    std::string whole(int node, bool isOfChoice) {
+        const Graph::Node& n = graph_.at(node);
+        const bool isBare = isOfChoice && n.kind == Graph::Kind::call && isComparison(n.function);
+        return isBare ? relation(n) : sum(node);
+    }
+    /// With a prime for each derivative.
+    static std::string lookUpName(const Graph::Node& n) {
+        static constexpr std::array<const char*, 4> primes = {"", "′", "″", "‴"};
+        return std::string(n.table->kind() == Interpolant::Kind::cubic ? "spline" : "table") +
+               primes[static_cast<std::size_t>(n.order)];
+    }
     std::string callText(const Graph::Node& n, const std::string& exponent) {
         const std::string first = sum(n.operands[0].node);
         if (n.function == Function::abs) return "|" + first + "|";
         if (n.function == Function::power) return raised(atom(n.operands[0].node), sum(n.operands[1].node));
+        if (isComparison(n.function)) return comparison(n, exponent);
         std::string function(name(n.function));
+        if (n.table) function = lookUpName(n);
         if (!exponent.empty()) function = raised(function, exponent);
-        if (n.operands.size() > 1) return function + "(" + first + ", " + sum(n.operands[1].node) + ")";
+        if (n.operands.size() > 1) {
+            std::string arguments = first;
+            for (std::size_t k = 1; k < n.operands.size(); ++k)
+                arguments += ", " + whole(n.operands[k].node, n.function == Function::choose);
+            if (n.function == Function::choose)
+                arguments.replace(0, first.size(), whole(n.operands[0].node, true));
+            return function + "(" + arguments + ")";
+        }
         return graph_.at(n.operands[0].node).kind == Graph::Kind::symbol ? function + " " + first
                                                                          : function + "(" + first + ")";
     }

@@ -68,6 +68,23 @@ private slots:
               "1/(1 + x^2)^2.5",
               "x_t^4",
               "dot(x)*y*t",
+              "asinh(x*y)",
+              "acosh(x + y)",
+              "atanh(x*y/2)",
+              "log10(x + y)",
+              "ln(x*y)*pow(y, 3)",
+              "erf(x*y) + erfc(x - y)",
+              "hypot(x, y, x_t)",
+              "floor(x + y + 0.4)*x^2 + ceil(x*y)*y^2 + round(x_t)*x + heaviside(y - x)*x*y",
+              "mod(x^2 + y, 1.5)*y",
+              "max(x^2, y) + min(x*y, y^3, 7)",
+              "if(x < y, x*y^2, log(-x))",
+              "if(x > y && y > 0 || x == 5, log(-x), sin(x*y))",
+              "piecewise(x > 1, log(-x), y >= 5, log(-y), x^2*y)",
+              "(x <= y)*x^3*y",
+              "max(if(x < y, x*y, 7), y^2)^2",
+              "table(x*y; 0, 1; 0.5, 3; 2, -1)*y",
+              "spline(x + y; 0, 1; 1, 3; 3, -1; 4, 2)*x + spline(-x*y; 0, 0; 1, 1)",
               "t^2*x",
               "((x + y)*(x - y) + 1)^3/7",
               "x^(n + 1)",
@@ -143,6 +160,39 @@ private slots:
         QCOMPARE(jetAt(s, 0, {0}, {0}).gradient[0], 1.0);
         QCOMPARE(jetAt(s, 0, {0}, {0}).hessian[0], 0.0);
     }
+    /// A product with 0 would make a NaN of the branch that is not taken.
+    void branchesThatAreNotTakenDoNotMatter() {
+        const System s = typedSystem({"x"}, {{"k", 2}}, "x_t^2/2 - if(x > 0, k*x*log(x), x^2)");
+        const Jet2 j = jetAt(s, 0, {-0.5}, {1});
+        QCOMPARE(j.value, 0.5 - 0.25);
+        QCOMPARE(j.gradient[0], 1.0);
+        QCOMPARE(j.hessian[0], -2.0);
+        QCOMPARE(jetAt(s, 0, {0.5}, {1}).gradient[0], -2 * (std::log(0.5) + 1));
+        // Of max and min the first argument counts where both are equal.
+        const System kinks = typedSystem({"x"}, {}, "x_t^2/2 + max(2*x, 3*x) + min(5*x, 7*x)");
+        QCOMPARE(jetAt(kinks, 0, {0}, {0}).gradient[0], 2.0 + 5.0);
+        QCOMPARE(jetAt(kinks, 0, {1}, {0}).gradient[0], 3.0 + 5.0);
+        QCOMPARE(jetAt(kinks, 0, {-1}, {0}).gradient[0], 2.0 + 7.0);
+    }
+    /// Parameters and coordinates that have such names mean what they meant before there were the functions.
+    void namesOfFunctionsMayBeParametersAndCoordinates() {
+        const System s = typedSystem({"max", "floor"}, {{"step", 3}, {"if", 5}},
+                                     "max_t^2/2 + floor_t^2/2 - step*max^2 - if*floor + max(max, floor)");
+        const Jet2 j = jetAt(s, 0, {2, 1}, {1, 1});
+        QCOMPARE(j.value, 1 - 12 - 5 + 2.0);
+        QCOMPARE(j.gradient[0], -12.0 + 1);
+        QCOMPARE(j.gradient[1], -5.0);
+        QCOMPARE(problemOf("x_t^2 - floor*x").hint,
+                 std::string("as a function it needs brackets: floor(...)"));
+    }
+    void equationsHaveBranchesAndTables() {
+        typed::Formula formula{{"x"}, {{"k", 2}}, "x_t^2/2 - if(x <= k, max(x, k), table(t; 0, 1; 1, 2)*x)"};
+        QCOMPARE(typed::equationLines(formula, typed::TextForm::plain).front(),
+                 std::string("x″ + if(x ≤ k, if(x < k, 0, 1), table t) = 0"));
+        formula.text = "x_t^2/2 - spline(x; 0, 0; 1, 1) - (x < k)*x";
+        QCOMPARE(typed::equationLines(formula, typed::TextForm::rich).front(),
+                 std::string("<i>x</i>″ + (<i>x</i> &lt; <i>k</i>) + spline′ <i>x</i> = 0"));
+    }
     void separableLagrangiansAreRecognised() {
         const auto isSeparable = [](const char* L) {
             return typedSystem({"x", "y"}, {{"m", 2}}, L).mechanics().isSeparable;
@@ -155,6 +205,8 @@ private slots:
         QVERIFY(!isSeparable("x_t^2 + (1 + x^2)*y_t^2"));
         QVERIFY(!isSeparable("x_t^2 + y_t^2 + x_t*y_t"));
         QVERIFY(!isSeparable("t*x_t^2 + x_t^2 + y_t^2"));
+        QVERIFY(!isSeparable("x_t^2 + y_t^2 + x*sign(y_t)"));
+        QVERIFY(!isSeparable("x_t^2 + y_t^2 + if(x_t > 1, x, y)"));
         const System s = typedSystem({"x", "y"}, {{"m", 2}}, "m*x_t^2/2 + 3*y_t^2 - sin(x*y)*t");
         QCOMPARE(s.mechanics().masses[0], 2.0);
         QCOMPARE(s.mechanics().masses[1], 6.0);
@@ -272,6 +324,17 @@ private slots:
                                       << "has a bracket that is not closed" << 8 << "";
         QTest::newRow("constant pole") << "x_t^2 + x/(2 - 2)"
                                        << "divides by zero" << 9 << "";
+        QTest::newRow("arguments") << "x_t^2 + if(x, 1)"
+                                   << "needs three arguments for if" << 15 << "";
+        QTest::newRow("empty table") << "x_t^2 + table(x)"
+                                     << "needs at least two points for table" << 15
+                                     << "write table(x; 0, 0; 1, 2), points x, y after semicolons";
+        QTest::newRow("table with a name") << "x_t^2 + table(x; 0, 0; k, 1)"
+                                           << "has the name \"k\" in a point of table, which are numbers"
+                                           << 23 << "scale the whole: F*table(x/X; 0, 0; 1, 1)";
+        QTest::newRow("unsorted table") << "x_t^2 + spline(x; 1, 0; 0, 1)"
+                                        << "has points of spline that are not in ascending order" << 24
+                                        << "each x greater than the one before it";
         QTest::newRow("infinite constant") << "x_t^2 + 9^9^9^9*x"
                                            << "is not finite here: inf" << 11 << "";
     }
@@ -336,6 +399,12 @@ private slots:
             900, [](int i) { return QString("(x_t+%1)").arg(i); }, "*");
         QTest::newRow("sum") << join(
             4900, [](int) { return QString("x"); }, "+");
+        QTest::newRow("maxima") << nest("x", "max(%1, x^2)", 190);
+        QTest::newRow("choices") << nest("x", "if(%1 > 1, x*%1, 3)", 8);
+        QTest::newRow("chain of conditions") << join(
+                                                    900, [](int i) { return QString("x > %1").arg(i); }, "&&")
+                                                        .replace("x_t^2 +", "x_t^2 + x*(") +
+                                                    ")";
         QTest::newRow("quotients") << nest("x", "(1/(x+%1))", 190);
     }
     /// Whatever the formula, its derivatives are found or refused: without the limit of time, this test would
