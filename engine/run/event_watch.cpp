@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/run/crossing.hpp"
 #include "engine/run/inside_step.hpp"
 
 namespace extremal {
@@ -32,43 +31,43 @@ std::optional<double> EventWatch::look(const Integrator& integrator, const State
     const auto timeAt = [&](double tau) {
         return tau == 1 ? after.t : before.t + tau * (after.t - before.t);
     };
-    found_.clear();
+    met_.clear();
+    samples_.begin(integrator, after.x.size());
     for (std::size_t e = 0; e < functions_.size(); ++e) {
         const double first = last_[e], last = valueAt(e, after.t, after.x.data());
+        const double noise = roundingOf(functions_[e].parts());
         last_[e] = last;
-        const bool isUpwards = passesUpwards(first, last), isDownwards = passesDownwards(first, last);
         const auto wanted = found.all[e].spec.direction;
-        if (!(isUpwards && wanted != EventSpec::Direction::down) &&
-            !(isDownwards && wanted != EventSpec::Direction::up))
-            continue;
-        const double tau = crossingOf(last, [&](double part) {
-            integrator.denseOutput(part, at_.x);
-            return valueAt(e, timeAt(part), at_.x.data());
-        });
-        found_.push_back({tau, e, isUpwards});
+        const auto value = [&](double tau) { return valueAt(e, timeAt(tau), samples_.at(tau)); };
+        for (const Crossing& crossing : finder_.find(first, last, samples_.places(), value, noise))
+            if (wanted != (crossing.isUpwards ? EventSpec::Direction::down : EventSpec::Direction::up))
+                met_.push_back({crossing.tau, e, crossing.isUpwards});
     }
-    std::stable_sort(found_.begin(), found_.end(),
-                     [](const Crossing& a, const Crossing& b) { return a.tau < b.tau; });
-    for (const Crossing& crossing : found_) {
-        FoundEvents::Event& event = found.all[crossing.event];
-        const double t = timeAt(crossing.tau);
-        if (++event.count == 1) event.first = t;
-        event.last = t;
-        const bool hasRoom = found.rows.rows() < FoundEvents::mostRows;
-        if (event.spec.action != EventSpec::Action::count && hasRoom) {
-            integrator.denseOutput(crossing.tau, at_.x);
-            auto& columns = found.rows.columns;
-            appendState(found.rows, t, at_.x, width_);
-            columns[width_ + 1].values.push_back(static_cast<double>(crossing.event));
-            columns[width_ + 2].values.push_back(crossing.isUpwards ? 1 : -1);
-        } else if (event.spec.action != EventSpec::Action::count) {
-            found.isCut = true;
-        }
-        if (event.spec.action != EventSpec::Action::stop) continue;
-        found.stoppedBy = static_cast<int>(crossing.event);
-        return crossing.tau;
+    std::stable_sort(met_.begin(), met_.end(), [](const Met& a, const Met& b) { return a.tau < b.tau; });
+    for (const Met& met : met_) {
+        record(integrator, timeAt(met.tau), met);
+        if (found.all[met.event].spec.action != EventSpec::Action::stop) continue;
+        found.stoppedBy = static_cast<int>(met.event);
+        return met.tau;
     }
     return {};
+}
+
+void EventWatch::record(const Integrator& integrator, double t, const Met& met) {
+    FoundEvents& found = result_.products.make<FoundEvents>();
+    FoundEvents::Event& event = found.all[met.event];
+    if (++event.count == 1) event.first = t;
+    event.last = t;
+    if (event.spec.action == EventSpec::Action::count) return;
+    if (found.rows.rows() >= FoundEvents::mostRows) {
+        found.isCut = true;
+        return;
+    }
+    integrator.denseOutput(met.tau, at_.x);
+    auto& columns = found.rows.columns;
+    appendState(found.rows, t, at_.x, width_);
+    columns[width_ + 1].values.push_back(static_cast<double>(met.event));
+    columns[width_ + 2].values.push_back(met.isUpwards ? 1 : -1);
 }
 
 }  // namespace extremal

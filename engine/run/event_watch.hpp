@@ -1,5 +1,4 @@
-/// Looks for the events of a scene in every step: their signs at the nodes, their places on the dense output
-/// (run/crossing.hpp). Two zeros of one expression within a step are not seen.
+/// Looks for the events of a scene in every step, on its dense output (run/crossing.hpp).
 ///
 /// Events that a step has in common are in the order of their times; one that stops the run ends the motion
 /// there, and what comes later in the step has not happened.
@@ -11,6 +10,7 @@
 #include "engine/integrator/integrator.hpp"
 #include "engine/run/found_events.hpp"
 #include "engine/run/comparison.hpp"
+#include "engine/run/crossing.hpp"
 #include "engine/scene/event_names.hpp"
 
 namespace extremal {
@@ -26,18 +26,21 @@ public:
     void checkpoint(Archive& archive) { archive(last_, at_.x); }
 
 private:
-    struct Crossing {
+    struct Met {
         double tau;
         std::size_t event;
         bool isUpwards;
     };
+    void record(const Integrator& integrator, double t, const Met& met);
     double valueAt(std::size_t event, double t, const double* x) const { return functions_[event](t, x); }
 
     SchemeResult& result_;
     std::size_t width_;
     std::vector<EventFunction> functions_;
     std::vector<double> last_;  ///< values at the last node
-    std::vector<Crossing> found_;
+    StepSamples samples_;
+    CrossingFinder finder_;
+    std::vector<Met> met_;
     State at_;
 };
 

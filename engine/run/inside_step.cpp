@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/run/crossing.hpp"
 #include "engine/view/axes.hpp"
 #include "engine/view/plane.hpp"
 
@@ -139,16 +138,17 @@ void InsideStep::keep(const State& at, const StepReport& report) {
 }
 
 void InsideStep::cross(const Integrator& integrator, const State& before, const State& after) {
+    samples_.begin(integrator, after.x.size());
+    const double noise = roundingOf(after.x);
     for (const Section& section : sections_) {
-        const double first = before.x[section.column], last = after.x[section.column];
         Trajectory& events = result_.products.make<Sections>().all[section.index].events;
-        if (!passesUpwards(first, last) || events.rows() >= mostPoints) continue;
-        const double tau = crossingOf(last, [&](double part) {
-            integrator.denseOutput(part, at_.x);
-            return at_.x[section.column];
-        });
-        integrator.denseOutput(tau, at_.x);
-        appendState(events, before.t + tau * (after.t - before.t), at_.x, width_);
+        const auto value = [&](double tau) { return samples_.at(tau)[section.column]; };
+        for (const Crossing& crossing : finder_.find(before.x[section.column], after.x[section.column],
+                                                     samples_.places(), value, noise)) {
+            if (!crossing.isUpwards || events.rows() >= mostPoints) continue;
+            integrator.denseOutput(crossing.tau, at_.x);
+            appendState(events, before.t + crossing.tau * (after.t - before.t), at_.x, width_);
+        }
     }
 }
 

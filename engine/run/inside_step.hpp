@@ -11,6 +11,7 @@
 #include "engine/integrator/integrator.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/run/comparison.hpp"
+#include "engine/run/crossing.hpp"
 
 namespace extremal {
 
@@ -52,6 +53,8 @@ private:
     std::vector<std::pair<double, double>> parts_;  ///< of the time axis that views show
     std::size_t width_ = 0;
     std::vector<Section> sections_;
+    StepSamples samples_;
+    CrossingFinder finder_;
     State at_;
     std::vector<double> errorValues_;
 };

@@ -127,14 +127,15 @@ private:
         }
     }
     void cross(const Stretch& stretch) {
-        const double first = stretch.before.x[at_], last = stretch.state.x[at_];
-        if (!passesUpwards(first, last) || !hasRoom()) return;
-        const double tau = crossingOf(last, [&](double part) {
-            stretch.integrator.denseOutput(part, inside_.x);
-            return inside_.x[at_];
-        });
-        stretch.integrator.denseOutput(tau, inside_.x);
-        keep(stretch.before.t + tau * (stretch.state.t - stretch.before.t), inside_.x);
+        samples_.begin(stretch.integrator, stretch.state.x.size());
+        const double noise = roundingOf(stretch.state.x);
+        const auto value = [&](double tau) { return samples_.at(tau)[at_]; };
+        for (const Crossing& crossing :
+             finder_.find(stretch.before.x[at_], stretch.state.x[at_], samples_.places(), value, noise)) {
+            if (!crossing.isUpwards || !hasRoom()) continue;
+            stretch.integrator.denseOutput(crossing.tau, inside_.x);
+            keep(stretch.before.t + crossing.tau * (stretch.state.t - stretch.before.t), inside_.x);
+        }
     }
     void keep(double t, const std::vector<double>& x) { appendState(orbit_.points, t, x, x.size()); }
     bool hasRoom() {
@@ -151,6 +152,8 @@ private:
     bool isSection_ = false;
     int pointsPerStep_ = 1;
     State inside_;
+    StepSamples samples_;
+    CrossingFinder finder_;
 };
 
 /// All motions together keep what a plot can show.
