@@ -98,9 +98,19 @@ private:
     int line_ = 0;
 };
 
-constexpr const char* whatIsWanted = "a CSV with t and the state columns";
+constexpr const char* whatIsWanted = "a CSV with t and columns of the state";
+constexpr const char* howItIsWritten = "commas between cells, and numbers with a decimal point: 0.5,1.25";
+constexpr auto nowhere = static_cast<std::size_t>(-1);
 
-/// Where the columns of a row are: t, then the state.
+/// Spreadsheets of many countries write semicolons, so that numbers may have decimal commas.
+void checkSeparator(const std::string& header, const std::vector<std::string_view>& cells,
+                    const ReferenceReader& reader) {
+    for (const auto& [separator, word] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}})
+        if (header.find(separator) != header.npos && cells.size() == 1)
+            reader.fail(std::string(" has ") + word + " between its cells", howItIsWritten);
+}
+
+/// Where the columns of a row are: t, then the state, of which some may be nowhere.
 std::vector<std::size_t> columnsOf(const std::vector<std::string_view>& header, const System& system,
                                    const ReferenceReader& reader) {
     std::vector<std::string> wanted{"t"};
@@ -108,9 +118,12 @@ std::vector<std::size_t> columnsOf(const std::vector<std::string_view>& header, 
     std::vector<std::size_t> columns;
     for (const std::string& name : wanted) {
         const auto it = std::find(header.begin(), header.end(), name);
-        if (it == header.end()) reader.fail(" has no column \"" + name + "\"", whatIsWanted);
-        columns.push_back(static_cast<std::size_t>(it - header.begin()));
+        columns.push_back(it == header.end() ? nowhere : static_cast<std::size_t>(it - header.begin()));
     }
+    if (columns[0] == nowhere) reader.fail(" has no column \"t\"", whatIsWanted);
+    if (std::all_of(columns.begin() + 1, columns.end(), [](std::size_t c) { return c == nowhere; }))
+        reader.fail(" has no column of the state",
+                    "one or more of " + joinNames({wanted.begin() + 1, wanted.end()}));
     return columns;
 }
 
@@ -119,7 +132,7 @@ double numberIn(std::string_view cell, const ReferenceReader& reader) {
     const std::optional<double> value = parseNumber(cell);
     if (!value)
         reader.failHere("\"" + std::string(cell.substr(0, 40)) + "\" is no number",
-                        "a number, or an empty cell");
+                        cell.find(';') != cell.npos ? howItIsWritten : "a number, or an empty cell");
     return *value;
 }
 
@@ -131,6 +144,7 @@ Reference readReference(std::istream& in, const std::string& name, const System&
     if (!reader.next(line)) reader.fail(" cannot be read, or is empty", whatIsWanted);
     const std::string first = line.starts_with("\xef\xbb\xbf") ? line.substr(3) : line;
     const std::vector<std::string_view> header = cellsOf(first);
+    checkSeparator(first, header, reader);
     const std::vector<std::size_t> columns = columnsOf(header, system, reader);
     const auto rows = std::make_shared<ReferenceRows>(columns.size());
     std::vector<double> row(columns.size());
@@ -138,9 +152,11 @@ Reference readReference(std::istream& in, const std::string& name, const System&
         const std::vector<std::string_view> cells = cellsOf(line);
         if (cells.size() != header.size())
             reader.failHere("has " + std::to_string(cells.size()) + " cells, and the first line has " +
-                                std::to_string(header.size()),
-                            "one cell per column");
-        for (std::size_t k = 0; k < columns.size(); ++k) row[k] = numberIn(cells[columns[k]], reader);
+                                std::to_string(header.size()) +
+                                (cells.size() > header.size() ? ": a decimal comma, perhaps" : ""),
+                            cells.size() > header.size() ? howItIsWritten : "one cell per column");
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            row[k] = columns[k] == nowhere ? notKnown : numberIn(cells[columns[k]], reader);
         if (!std::isfinite(row[0])) reader.failHere("has no time", "a finite number in column t");
         rows->add(row);
         if (rows->isFull()) reader.failHere("is more than fits: at most 5e7 numbers are read", "fewer rows");

@@ -14,18 +14,18 @@
 namespace extremal::reference_file_test {
 namespace {
 
-Reference read(const std::string& rows) {
+Reference read(const std::string& rows, const std::string& header = "t,q.theta,p.theta") {
     static const ReadScene pendulum = readScene(findPreset("pendulum")->json);
-    std::istringstream in("t,q.theta,p.theta\n" + rows);
+    std::istringstream in(header + "\n" + rows);
     return readReference(in, "reference.csv", *pendulum.resolved->system);
 }
 
-std::string refusal(const std::string& rows) {
+std::string refusal(const std::string& rows, const std::string& header = "t,q.theta,p.theta") {
     try {
-        (void)read(rows);
+        (void)read(rows, header);
         return {};
     } catch (const InvalidScene& e) {
-        return e.problems().front().message;
+        return e.problems().front().message + " | " + e.problems().front().hint;
     }
 }
 
@@ -52,6 +52,29 @@ private slots:
             solution(t, x);
             QVERIFY(std::isnan(x[0]) && std::isnan(x[1]));
         }
+    }
+    /// What was measured has no momenta: the error of the positions is known, that of the momenta is not.
+    void columnsOfTheStateMayBeMissing() {
+        double x[2];
+        read("0,1\n0.5,2\n", "t,q.theta").make()(0.5, x);
+        QCOMPARE(x[0], 2.0);
+        QVERIFY(std::isnan(x[1]));
+        read("7,0,1\n8,0.5,2\n", "camera,t,p.theta").make()(0.5, x);
+        QCOMPARE(x[1], 2.0);
+        QVERIFY(std::isnan(x[0]));
+        QVERIFY(refusal("0,1\n", "t,theta").find("has no column of the state | one or more of q.theta") !=
+                std::string::npos);
+        QVERIFY(refusal("0,1\n", "time,q.theta").find("has no column \"t\"") != std::string::npos);
+    }
+    void separatorsAndDecimalCommasAreNamed() {
+        const std::string remedy = " | commas between cells, and numbers with a decimal point: 0.5,1.25";
+        QVERIFY(refusal("0;1;0\n", "t;q.theta;p.theta").find("has semicolons between its cells" + remedy) !=
+                std::string::npos);
+        QVERIFY(refusal("0\t1\t0\n", "t\tq.theta\tp.theta").find("has tabs between its cells" + remedy) !=
+                std::string::npos);
+        for (const char* row : {"0,0,1,5,0,25\n", "\"0,5\",1,0\n"})
+            QVERIFY2(refusal(row).find(": a decimal comma, perhaps" + remedy) != std::string::npos, row);
+        QVERIFY(refusal("0,1;5,0\n").find("\"1;5\" is no number" + remedy) != std::string::npos);
     }
     void wrongRowsAreNamed_data() {
         QTest::addColumn<QString>("rows");
