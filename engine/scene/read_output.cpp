@@ -22,6 +22,12 @@ bool isLacking(const System& system, const std::string& observable) {
     return entry && !isObservableOf(*entry, system);
 }
 
+/// Of a system that has it for some of its parameters, and loses it as they change.
+bool dependsOnSymmetry(const std::string& observable) {
+    const ObservableEntry* entry = findObservable(observable);
+    return entry && entry->item.needs == "a symmetry";
+}
+
 std::vector<std::string> availableObservables(const System& system) {
     std::vector<std::string> names;
     for (const std::string& id : idsOf(observableCatalog()))
@@ -136,7 +142,13 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
         const auto known = [&] {
             return system ? availableObservables(*system) : idsOf(observableCatalog());
         };
-        if (system && isLacking(*system, *name))
+        if (system && isLacking(*system, *name) && dependsOnSymmetry(*name) && isMechanical(*system)) {
+            reader.warning(pointer,
+                           *name + " is not defined for " + scene.model.type +
+                               " with these parameters: it has no symmetry; the columns are left out",
+                           "do not observe it");
+            scene.observe.push_back(*name);
+        } else if (system && isLacking(*system, *name))
             reader.error(pointer, *name + " is not defined for " + scene.model.type,
                          scene.model.type + " has " + joinNames(known()));
         else if (!findObservable(*name))

@@ -143,6 +143,15 @@ void ViewReader::readCurve(View& view, const ViewAxes& axes) const {
 bool ViewReader::applies(const View& view) const {
     const std::string missing = missingFor(view, *system);
     if (!missing.empty()) {
+        const ObservableEntry* observable = findObservable(findView(view.id)->observable);
+        if (observable && missing == observable->item.needs && missing == "a symmetry" &&
+            isMechanical(*system)) {
+            reader.warning(
+                pointer,
+                view.id + " stays empty: " + scene.model.type + " with these parameters has no symmetry",
+                "remove the view");
+            return true;
+        }
         reader.error(pointer, view.id + " is not defined for " + scene.model.type + "; remove the view",
                      "it needs " + missing + "; " + scene.model.type + " has " + joinNames(viewsOf(*system)));
         return false;
@@ -161,7 +170,7 @@ bool ViewReader::applies(const View& view) const {
 
 void ViewReader::warnIfNotObserved(const View& view) const {
     const std::string& observable = findView(view.id)->observable;
-    if (!observable.empty() && !isOneOf(scene.observe, observable))
+    if (!observable.empty() && !isOneOf(scene.observe, observable) && missingFor(view, *system).empty())
         reader.warning(pointer, view.id + " stays empty: " + observable + " is not observed",
                        "add it to /observe");
 }

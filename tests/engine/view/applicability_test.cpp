@@ -10,6 +10,7 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/codec.hpp"
+#include "engine/scene/json.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/preset.hpp"
 #include "engine/view/catalog.hpp"
@@ -97,6 +98,15 @@ private slots:
                 QVERIFY2(read.errors.empty(),
                          (view.item.id + (read.errors.empty() ? "" : ": " + read.errors[0].message)).c_str());
                 fitting.push_back(asked(view.item.id, entry.exampleStep));
+                continue;
+            }
+            if (missing == "a symmetry" && isMechanical(system)) {
+                QVERIFY(read.errors.empty());
+                const auto own = std::find_if(read.warnings.begin(), read.warnings.end(),
+                                              [](const Problem& p) { return p.pointer == "/views/0"; });
+                QVERIFY(own != read.warnings.end());
+                QCOMPARE(own->message, view.item.id + " stays empty: " + entry.item.id +
+                                           " with these parameters has no symmetry");
                 continue;
             }
             QCOMPARE(read.errors.size(), std::size_t(1));
@@ -206,6 +216,30 @@ private slots:
             QVERIFY(read.errors[0].hint.find("energy") != std::string::npos);
         }
         QVERIFY(kepler("[]", R"({"step": 0.1, "scheme": "midpoint"})", R"(["multiplier"])").errors.empty());
+    }
+    /// A symmetry is lost with a parameter, and the scene goes on without its momentum.
+    void aMomentumWithoutASymmetryIsAWarning() {
+        for (const char* force : {"0", "0.3"}) {
+            const ReadScene read = readScene(
+                std::string(R"~({"extremal": 1, "model": {"type": "lagrangian", "coordinates": ["x", "y"],
+                "parameters": {"F": 0}, "lagrangian": "x_t^2/2 + y_t^2/2 - x^4 - F*sin(3*y + x)"},
+                "initial": {"q": [1, 0], "v": [0, 1]}, "time": {"end": 1},
+                "schemes": [{"label": "s", "scheme": "midpoint", "step": 0.1}],
+                "observe": ["energy", "momentum"], "views": ["momentum", "energy"]})~"),
+                {{"/model/parameters/F", parseJson(force)}});
+            QVERIFY2(read.errors.empty(), read.errors.empty() ? "" : read.errors[0].message.c_str());
+            const bool isLost = std::string(force) != "0";
+            QStringList pointers;
+            for (const Problem& p : read.warnings) pointers << QString::fromStdString(p.pointer);
+            QCOMPARE(pointers.contains("/observe/1") && pointers.contains("/views/0"), isLost);
+            QCOMPARE(read.scene.observe.size(), std::size_t(2));
+            const Comparison comparison = run(read.scene);
+            const Trajectory& rows = comparison.schemes[0]->trajectory;
+            QCOMPARE(rows.find("momentum_error") == nullptr, isLost);
+            QVERIFY(rows.find("energy_error"));
+            const Figure figure = makeFigure(comparison, read.scene.views[0], read.resolved->system.get());
+            QCOMPARE(figure.message == "This model has no conserved momentum", isLost);
+        }
     }
     void aViewOfWhatIsNotObservedIsAWarning() {
         const ReadScene read = kepler(R"(["momentum"])");
