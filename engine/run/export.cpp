@@ -1,5 +1,6 @@
 #include "engine/run/export.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 
 #include "engine/core/known_value.hpp"
 #include "engine/core/text.hpp"
+#include "engine/model/wave/levels.hpp"
 #include "engine/run/event_files.hpp"
 #include "engine/run/file_batch.hpp"
 #include "engine/run/missing.hpp"
@@ -216,6 +218,30 @@ std::string elementsCsv(const ElementClocks& clocks) {
     return text;
 }
 
+std::shared_ptr<const System> systemOf(const Comparison& comparison, const SchemeResult& scheme) {
+    return scheme.scheme && scheme.scheme->ownSystem ? scheme.scheme->ownSystem : comparison.system;
+}
+
+/// The lowest energies of a wave function, where a view of the scene draws them; else there are none.
+std::vector<double> levelsOf(const Comparison& comparison, const SchemeResult& scheme) {
+    const auto system = systemOf(comparison, scheme);
+    const auto& views = comparison.scene.views;
+    const bool isDrawn =
+        std::any_of(views.begin(), views.end(), [](const View& view) { return view.id == "levels"; });
+    if (!isDrawn || !system || !isWave(*system) || !levelsProblem(*system->hamiltonian()).empty()) return {};
+    return lowestLevels(system->hamiltonian());
+}
+
+std::string levelsCsv(const std::vector<double>& levels) {
+    std::string text = "level,energy\n";
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        text += std::to_string(k);
+        addNumber(text, levels[k]);
+        text += '\n';
+    }
+    return text;
+}
+
 /// A file of a folder, and what writes it into a batch that has it open.
 struct ExportFile {
     std::string name;
@@ -224,8 +250,7 @@ struct ExportFile {
 
 /// The products of a scheme, each by its suffix: "<slug>.field.csv", ...
 void addProducts(std::vector<ExportFile>& files, const std::string& slug, const SchemeResult& scheme,
-                 const std::shared_ptr<const System>& ofScene) {
-    const auto system = scheme.scheme && scheme.scheme->ownSystem ? scheme.scheme->ownSystem : ofScene;
+                 const std::shared_ptr<const System>& system) {
     if (const FieldFrames* frames = scheme.products.find<FieldFrames>();
         frames && !frames->all.empty() && system) {
         files.push_back({slug + ".field.csv", [frames, system](FileBatch& batch) {
@@ -293,7 +318,12 @@ std::vector<ExportFile> filesOf(const Comparison& comparison) {
                              writeRows(scheme.trajectory,
                                        [&](const std::string& block) { batch.append(block); });
                          }});
-        addProducts(files, csv[i].substr(0, csv[i].size() - 4), scheme, comparison.system);
+        const std::string slug = csv[i].substr(0, csv[i].size() - 4);
+        addProducts(files, slug, scheme, systemOf(comparison, scheme));
+        if (std::vector<double> levels = levelsOf(comparison, scheme); !levels.empty())
+            files.push_back({slug + ".levels.csv", [levels = std::move(levels)](FileBatch& batch) {
+                                 batch.append(levelsCsv(levels));
+                             }});
     }
     for (const auto& [name, set] : startFiles(comparison)) {
         files.push_back({name + ".csv", [set = set](FileBatch& batch) { batch.append(startsCsv(*set)); }});
@@ -372,6 +402,8 @@ Value summaryValue(const Comparison& comparison) {
         if (!scheme->summary.caution.empty()) row.set("caution", scheme->summary.caution);
         if (const FoundEvents* found = scheme->products.find<FoundEvents>())
             row.set("events", eventsValue(*found));
+        if (const std::vector<double> levels = levelsOf(comparison, *scheme); !levels.empty())
+            row.set("levels", Value::Array(levels.begin(), levels.end()));
     }
     for (const ExportFile& file : filesOf(comparison)) files.emplace_back(file.name);
     for (const char* file : {"summary.csv", "summary.json"}) files.emplace_back(file);

@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "engine/figure/build.hpp"
-#include "engine/model/wave/eigen.hpp"
+#include "engine/model/wave/levels.hpp"
 
 namespace extremal::recipes {
 namespace {
-
-constexpr std::size_t mostLevels = 40;
 
 Series potentialOf(const Hamiltonian& h) {
     Series s;
@@ -46,20 +44,13 @@ Figure makeLevels(const FigureContext& context) {
     const auto h = context.system && isWave(*context.system) ? context.system->hamiltonian() : nullptr;
     if (!h) {
         if (context.system) figure.message = "The model is no wave function";
-    } else if (h->dimension() == 2) {
-        figure.message = "Levels are drawn over one dimension";
-    } else if (h->isTimeDependent()) {
-        figure.message = "A potential that depends on time has no levels";
-    } else if (h->size() > Eigenstates::denseLimit) {
-        figure.message = "Levels are computed up to " + std::to_string(Eigenstates::denseLimit) + " modes";
+    } else if (const std::string problem = levelsProblem(*h); !problem.empty()) {
+        figure.message = problem;
     } else {
-        const auto& energies = Eigenstates::of(h)->energies();
+        const std::vector<double> energies = lowestLevels(h);
+        const std::size_t count = energies.size();
         const auto& V = h->potential();
         const auto [low, high] = std::minmax_element(V.begin(), V.end());
-        // The wells and a little more, at least eight levels.
-        std::size_t count = 0;
-        while (count < std::min(mostLevels, energies.size() / 2) && (count < 8 || energies[count] < *high))
-            ++count;
         figure.add(potentialOf(*h));
         for (std::size_t k = 0; k < count; ++k) figure.add(levelOf(*h, k, energies[k]));
         const double top =
