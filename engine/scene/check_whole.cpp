@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "engine/core/contained.hpp"
+#include "engine/core/duration.hpp"
 #include "engine/core/text.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
@@ -111,13 +112,6 @@ bool checkDiscretization(Reader& reader, const SchemeSpec& scheme, const Propert
     return true;
 }
 
-std::string durationText(double seconds) {
-    if (seconds < 120) return formatNumber(std::round(seconds)) + " s";
-    if (seconds < 7200) return formatNumber(std::round(seconds / 60)) + " min";
-    if (seconds < 172800) return formatNumber(std::round(seconds / 3600)) + " h";
-    return formatNumber(seconds / 86400, 2) + " days";
-}
-
 SchemeCase caseOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
     return {*systemOf(scene, scheme), initialOf(scene, scheme), scheme.discretization,
             scheme.spec.step.value,   scheme.isComposed(),      scheme.spec.allowsUnstable,
@@ -128,8 +122,13 @@ SchemeCase caseOf(const ResolvedScene& scene, const ResolvedScheme& scheme) {
 /// unless its family says so.
 void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
-    constexpr double longest = 60;
+    constexpr double longest = longWithoutWarning;
     if (!scheme.spec.isEnabled) return;
+    // A baseline that knows how much its step has to do has said so without a trial, which may take long.
+    const bool isSaid = std::any_of(reader.warnings.begin(), reader.warnings.end(), [&](const Problem& p) {
+        return p.topic == "duration" && p.pointer == pointer;
+    });
+    if (isSaid) return;
     if (!scheme.isAdaptive()) {
         const Family* const family = scheme.family ? scheme.family : familyFor(*scene.system);
         const double slowestStep =
