@@ -4,6 +4,7 @@
 #include "app/load.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
+#include "engine/core/switching.hpp"
 #include "engine/family/kept.hpp"
 #include "engine/model/typed/typed_model.hpp"
 #include "engine/model/typed/typeset.hpp"
@@ -21,6 +22,29 @@ Value equationsValue(const Scene& scene) {
         for (std::string& line : typed::equationLines(typed::formulaOf(scene.model), typed::TextForm::plain))
             lines.emplace_back(std::move(line));
     return lines;
+}
+
+/// Where a typed Lagrangian has kinks and jumps: the functions that change sign there.
+std::vector<SwitchingFunction> switchesOf(const Scene& scene) {
+    if (scene.model.type != "lagrangian") return {};
+    return switchingFunctions(parseExpression(typed::formulaOf(scene.model).text));
+}
+Value switchesValue(const Scene& scene) {
+    Value::Array all;
+    for (const SwitchingFunction& s : switchesOf(scene)) {
+        Value each;
+        each.set("zero", s.function.text);
+        each.set("kind", s.mayJump ? "jump" : "kink");
+        all.push_back(std::move(each));
+    }
+    return all;
+}
+std::string switchesText(const Scene& scene) {
+    std::string text;
+    for (const SwitchingFunction& s : switchesOf(scene))
+        text += (text.empty() ? "not smooth where " : ", ") + s.function.text + " = 0" +
+                (s.mayJump ? " (jump)" : " (kink)");
+    return text.empty() ? text : text + "\n";
 }
 
 /// The symmetries of the system, and which discretizations of the scene keep their momenta.
@@ -67,6 +91,7 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
         document.set("warnings", problemsValue(read.warnings));
         if (isValid) {
             document.set("equations", equationsValue(read.scene));
+            document.set("switches", switchesValue(read.scene));
             document.set("symmetries", symmetriesValue(*read.resolved));
         }
         return print(writeJson(document), code);
@@ -75,6 +100,7 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
     std::string text = sceneName(scene) + ": valid\n";
     if (const System& system = *read.resolved->system; isMechanical(system))
         text += "symmetries: " + symmetryText(system) + "\n";
+    text += switchesText(read.scene);
     return print(text, code);
 }
 
