@@ -17,7 +17,7 @@ constexpr std::size_t fewestParts = 4;
 constexpr double smooth = 0.05;
 /// Of the range: where |g| is larger than this everywhere, no zero can be hidden.
 constexpr double farAway = 3;
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double roundOff = std::numeric_limits<double>::epsilon();
 
 bool passesUpwards(double first, double last) { return first < 0 && last >= 0; }
 bool passesDownwards(double first, double last) { return first > 0 && last <= 0; }
@@ -101,7 +101,7 @@ bool isZero(const Function& g, double tau, const Sample& a, const Sample& b) {
                 if (const double value = std::abs(g(at)); value < least) least = value;
         return least;
     };
-    const double close = nearest(std::max(4 * epsilon, 1e-8 * width));
+    const double close = nearest(std::max(4 * roundOff, 1e-8 * width));
     if (!(close < std::numeric_limits<double>::infinity())) return false;
     if (close == 0) return true;
     if (close > nearest(width / 128) / 2) return false;
@@ -134,7 +134,7 @@ std::optional<double> zeroBetween(const Function& g, const Sample& a, const Samp
 double roundingOf(std::span<const double> values) {
     double largest = 0;
     for (const double value : values) largest = std::max(largest, std::abs(value));
-    return 64 * epsilon * largest;
+    return 64 * roundOff * largest;
 }
 
 void StepSamples::begin(const Integrator& integrator, std::size_t size) {
