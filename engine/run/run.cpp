@@ -176,8 +176,16 @@ bool Run::isPreparing() const { return impl_->isPreparing; }
 
 double Run::fraction() const {
     double sum = 0;
-    for (const auto& task : impl_->tasks) sum += task->latest()->fraction;
-    double schemes = impl_->tasks.empty() ? 1 : sum / static_cast<double>(impl_->tasks.size());
+    int computed = 0;  // what is known from before is no work of this run
+    for (const auto& task : impl_->tasks) {
+        if (task->isKnown()) continue;
+        const auto latest = task->latest();
+        const RunStatus status = latest->summary.status;
+        const bool isOver = status != RunStatus::waiting && status != RunStatus::running;
+        sum += isOver ? 1 : latest->fraction;  // a scheme that has failed has no work left
+        ++computed;
+    }
+    double schemes = computed == 0 ? 1 : sum / computed;
     if (impl_->starts.tasks() > 0) schemes = 0.5 * schemes + 0.5 * impl_->starts.fraction();
     return impl_->maps.tasks() > 0 ? 0.3 * schemes + 0.7 * impl_->maps.fraction() : schemes;
 }

@@ -47,7 +47,8 @@ public:
     bool isFinished() const;
     /// What there is so far, at most some 30 ms old while running; cheap, callable from any thread.
     Comparison latest() const;
-    double fraction() const;   ///< of the whole work, 0..1
+    /// Of the work of this run, 0..1: schemes that are known are not part of it, those that failed are over.
+    double fraction() const;
     bool isPreparing() const;  ///< the reference is computed; no scheme has begun
 
     /// Of a run that is over: whether there are checkpoints to go on from; the first reason why one could not

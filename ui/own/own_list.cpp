@@ -13,6 +13,7 @@
 #include "engine/scene/json.hpp"
 #include "ui/panels/card.hpp"
 #include "ui/shell/notices.hpp"
+#include "ui/shell/save_dialog.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -218,11 +219,10 @@ void OwnList::importDialog() {
 }
 
 void OwnList::exportDialog() {
-    QString file = QFileDialog::getSaveFileName(
-        this, tr("Export the scheme"), QString::fromStdString(slug(current().toStdString())) + ".json",
-        tr("Schemes (*.json)"));
+    const QString file =
+        askForSave(this, tr("Export the scheme"),
+                   QString::fromStdString(slug(current().toStdString())) + ".json", tr("Schemes (*.json)"));
     if (file.isEmpty()) return;
-    if (QFileInfo(file).suffix().isEmpty()) file += ".json";
     exportTo(file);
 }
 

@@ -40,6 +40,8 @@ QString explainCost(const Summary& s) {
 
 QString explainError(const Summary& s, const ReferenceInfo& reference) {
     if (reference.type == "none") return say("There is no reference, so the error is not known.");
+    const bool isOver = s.status == RunStatus::done || s.status == RunStatus::failed;
+    if (isOver && s.steps == 0) return say("No step was taken: there is nothing to measure.");
     QString text = say("Largest distance from the reference over all nodes of the run.\nReference: %1.")
                        .arg(QString::fromStdString(reference.description));
     text += '\n' + trustIn(s.maxError, reference);

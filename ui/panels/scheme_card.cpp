@@ -255,20 +255,37 @@ void SchemeCard::showSpec() {
     showRefusal();
 }
 
+namespace {
+
+/// The same discretization with the same step, under whatever name and colour.
+bool isSameScheme(SchemeSpec a, const SchemeSpec& b) {
+    a.label = b.label;
+    a.style = b.style;
+    a.isEnabled = b.isEnabled;
+    a.allowsUnstable = b.allowsUnstable;
+    return a == b;
+}
+
+}  // namespace
+
 void SchemeCard::showResult(const SchemeResult* result, bool isStale, const ReferenceInfo& reference) {
     static const Summary nothing;
-    const Summary& summary = result ? result->summary : nothing;
+    // Numbers of another step or discretization do not stand beside this one.
+    const bool isOfThis = result && (!isStale || isSameScheme(result->spec, spec()));
+    const Summary& summary = isOfThis ? result->summary : nothing;
     const bool isRunning =
-        result && (summary.status == RunStatus::running || summary.status == RunStatus::waiting);
+        isOfThis && (summary.status == RunStatus::running || summary.status == RunStatus::waiting);
     figures_->setVisible(result != nullptr);
     progress_->setVisible(isRunning && !isStale);
     if (result) progress_->setValue(static_cast<int>(1000 * result->fraction));
-    if (result && !summary.about.empty())
+    if (isOfThis && !summary.about.empty())
         parts_->setText(schemeText(result->spec) + QStringLiteral(" · ") +
                         QString::fromStdString(summary.about));
     cost_.value->setText(summary.cpuSeconds > 0 ? shortTime(summary.cpuSeconds) : QStringLiteral("–"));
-    // What a run that was stopped has measured so far is no property of the scheme.
-    const bool isMeasured = summary.status == RunStatus::done || summary.status == RunStatus::failed;
+    // What a run that was stopped has measured so far is no property of the scheme, and one that took no step
+    // has only the start.
+    const bool isMeasured =
+        (summary.status == RunStatus::done || summary.status == RunStatus::failed) && summary.steps > 0;
     error_.value->setText(isMeasured ? shortNumber(summary.maxError) : QStringLiteral("–"));
     const bool hasOrder = isMeasured && summary.orderClaimed > 0;
     QString order = hasOrder ? QString::number(summary.orderClaimed) : QStringLiteral("–");
@@ -287,7 +304,7 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale, const Refe
         figure->caption->setToolTip(text);
     }
     showFailure(summary);
-    const std::string events = result ? eventsText(*result) : std::string();
+    const std::string events = isOfThis ? eventsText(*result) : std::string();
     events_->setVisible(!events.empty());
     events_->setText(QString::fromStdString(events));
 }

@@ -3,12 +3,12 @@
 #include <QClipboard>
 #include <QCoreApplication>
 #include <QEvent>
-#include <QFileDialog>
 #include <QSaveFile>
 #include <QVBoxLayout>
 
 #include "ui/plots/plot_impl.hpp"
 #include "ui/plots/plot_renderer.hpp"
+#include "ui/shell/save_dialog.hpp"
 
 namespace extremal {
 namespace {
@@ -193,9 +193,8 @@ bool PlotWidget::save(const QString& path, double scale, QString* error) {
 }
 
 void PlotWidget::saveDialog() {
-    const QString path =
-        QFileDialog::getSaveFileName(this, tr("Save plot"), QString::fromStdString(figure().view) + ".png",
-                                     tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg);;Data (*.csv)"));
+    const QString path = askForSave(this, tr("Save plot"), QString::fromStdString(figure().view) + ".png",
+                                    tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg);;Data (*.csv)"));
     QString error;
     if (!path.isEmpty() && !save(path, 2, &error)) emit saveFailed(tr("%1: %2").arg(path, error));
 }

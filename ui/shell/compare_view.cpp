@@ -84,7 +84,10 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
     });
     connect(&run_, &RunControl::resultsChanged, this, &CompareView::refresh);
     connect(&run_, &RunControl::stateChanged, this, [this] {
-        for (const auto& s : slots_) s->plot->setStale(run_.isStale());
+        for (const auto& s : slots_) {
+            s->plot->setStale(run_.isStale());
+            if (!s->shown) s->plot->setFigure(figureToCome(s->view, run_.state()));
+        }
     });
     connect(&playback_, &Playback::timeChanged, this, [this](double t) {
         if (!preview_->isShown()) stage_->setTime(t);
@@ -205,7 +208,7 @@ CompareView::Slot& CompareView::makeSlot(const View& view) {
     auto* plot = new PlotWidget(*theme_);
     card->body()->addWidget(plot, 1);
     Slot& slot = *slots_.emplace_back(new Slot{nextNumber_++, view, card, plot});
-    const Figure coming = figureToCome(view);
+    const Figure coming = figureToCome(view, run_.state());
     card->setTitle(QString::fromStdString(coming.title));
     plot->setFigure(coming);
     QMenu* menu = card->menu();

@@ -62,8 +62,9 @@ QString schemeRow(const SchemeResult& result) {
                "<tr><td>%1</td><td>%2</td><td>%3</td><td class=n>%4</td><td class=n>%5</td>"
                "<td class=n>%6</td><td class=n>%7</td><td class=n>%8</td><td>%9</td></tr>\n")
         .arg(escaped(s.label), escaped(schemeText(result.spec)), escaped(stepText(result.spec)),
-             QString::number(s.steps), shortTime(s.cpuSeconds), shortNumber(s.maxError),
-             order + " / " + measured, shortNumber(s.energyDrift), outcome);
+             QString::number(s.steps), shortTime(s.cpuSeconds),
+             s.steps > 0 ? shortNumber(s.maxError) : QStringLiteral("–"), order + " / " + measured,
+             shortNumber(s.energyDrift), outcome);
 }
 
 }  // namespace

@@ -18,11 +18,15 @@ FigureSet makeFigures(const FigureJob& job) {
     return made;
 }
 
-Figure figureToCome(const View& view) {
+Figure figureToCome(const View& view, RunControl::State state) {
     Figure figure;  // of no view yet: what is asked of the plot waits for the real one
     if (const ViewEntry* entry = findView(view.id)) figure.title = entry->item.title;
     figure.axes = AxisStyle::none;
-    figure.message = QCoreApplication::translate("extremal", "Computing ...").toStdString();
+    const char* words = "Computing ...";
+    if (state == RunControl::State::offered) words = "Waiting for Run";
+    if (state == RunControl::State::stopped) words = "Stopped before there was anything to draw";
+    if (state == RunControl::State::idle) words = "Not computed";
+    figure.message = QCoreApplication::translate("extremal", words).toStdString();
     return figure;
 }
 

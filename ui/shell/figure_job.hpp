@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/figure/figure.hpp"
+#include "ui/shell/run_control.hpp"
 #include "ui/stage/stage_player.hpp"
 
 namespace extremal {
@@ -25,8 +26,8 @@ struct FigureSet {
 
 FigureSet makeFigures(const FigureJob& job);
 
-/// What stands in the place of a figure before there is one: its title, and that it is computed.
-Figure figureToCome(const View& view);
+/// What stands in the place of a figure before there is one: its title, and whether it is computed or waits.
+Figure figureToCome(const View& view, RunControl::State state);
 
 /// Whether two comparisons give the same figures.
 bool isSameData(const Comparison& a, const Comparison& b);

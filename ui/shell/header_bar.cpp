@@ -132,7 +132,7 @@ void HeaderBar::showChoice() {
     if (const auto results = run_.results()) {
         for (const auto& s : results->schemes) {
             const Summary& m = s->summary;
-            if (m.status == RunStatus::done && std::isfinite(m.maxError))
+            if (m.status == RunStatus::done && m.steps > 0 && std::isfinite(m.maxError))
                 all.push_back({s->spec, m.cpuSeconds, m.maxError});
         }
         for (const SweptScheme& swept : sweep_.known())

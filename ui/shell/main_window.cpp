@@ -256,6 +256,7 @@ void MainWindow::connectState() {
     connect(workspace_, &Workspace::agreedToRead, this, [this](const QString& name) { open(name, true); });
     connect(notices_, &Notices::logRequested, this, &MainWindow::showLog);
     connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);
+    connect(run_, &RunControl::progressed, this, &MainWindow::showStatus);
     connect(playback_, &Playback::timeChanged, this, &MainWindow::showValues);
     connect(compare_, &CompareView::figuresChanged, this, &MainWindow::showValues);
     connect(run_, &RunControl::resultsChanged, this, [this] {
@@ -384,7 +385,8 @@ void MainWindow::showStatus() {
     }
     switch (run_->state()) {
         case RunControl::State::running:
-            parts << tr("running, %1 %").arg(std::lround(100 * run_->fraction()));
+            parts << (run_->isPreparing() ? tr("computing the reference")
+                                          : tr("running, %1 %").arg(std::lround(100 * run_->fraction())));
             break;
         case RunControl::State::offered:
             parts << tr("waiting for Run: this takes a while");

@@ -1,7 +1,5 @@
 #include "ui/shell/passport_window.hpp"
 
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QPointer>
 #include <QPushButton>
@@ -15,6 +13,7 @@
 #include "engine/run/export.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/notices.hpp"
+#include "ui/shell/save_dialog.hpp"
 #include "ui/shell/text_view.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -107,12 +106,9 @@ bool PassportWindow::saveAs(const QString& path) {
 
 void PassportWindow::saveDialog(const QString& title, const QString& kinds, const QString& ending) {
     if (!page_) return;
-    QString kind;
-    QString path = QFileDialog::getSaveFileName(
-        this, title, QString::fromStdString(slug(page_->title)) + "." + ending, kinds, &kind);
-    if (path.isEmpty()) return;
-    if (QFileInfo(path).suffix().isEmpty()) path += kind.section("*", 1, 1).section(")", 0, 0);
-    saveAs(path);
+    const QString path =
+        askForSave(this, title, QString::fromStdString(slug(page_->title)) + "." + ending, kinds);
+    if (!path.isEmpty()) saveAs(path);
 }
 
 }  // namespace extremal

@@ -306,6 +306,11 @@ void RunControl::poll() {
         if (stopping_.empty()) pollTimer_.stop();
         return;
     }
+    if (const long percent = isPreparing() ? -1 : std::lround(100 * run_->fraction());
+        percent != shownPercent_) {
+        shownPercent_ = percent;
+        emit progressed();
+    }
     auto next = std::make_shared<Comparison>(run_->latest());
     const bool isNew = next->isFinished || hasNewSamples(*next, runScene_, store_);
     if (next->isFinished) {

@@ -49,7 +49,8 @@ public:
     std::shared_ptr<const Comparison> results() const { return results_; }
     /// The results belong to an earlier version of the scene.
     bool isStale() const { return isStale_; }
-    double fraction() const;
+    double fraction() const;                                          ///< of the work of the present run
+    bool isPreparing() const { return run_ && run_->isPreparing(); }  ///< the reference is computed
 
     void start();  ///< computes everything, also what is known
     void stop();
@@ -60,7 +61,8 @@ public:
 signals:
     void resultsChanged();
     void stateChanged();
-    void finished();  ///< a run came to its end, all results are there
+    void progressed();  ///< fraction() has come to another per cent
+    void finished();    ///< a run came to its end, all results are there
 
 private:
     void sceneChanged();
@@ -84,6 +86,7 @@ private:
     std::shared_ptr<const Comparison> results_;
     std::optional<Scene> lastScene_;
     bool isStale_ = false;
+    long shownPercent_ = -1;
     CostModel cost_;
     QTimer debounce_, pollTimer_;
 };

@@ -34,6 +34,7 @@
 #include "ui/shell/plot_edits.hpp"
 #include "ui/shell/race_window.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/save_dialog.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/start_page.hpp"
 #include "ui/shell/starting.hpp"
@@ -427,7 +428,7 @@ void MainWindow::save(bool asksName) {
         return;
     }
     const QString path =
-        QFileDialog::getSaveFileName(this, tr("Save scene"), workspace_->fileName(), tr("Scenes (*.json)"));
+        askForSave(this, tr("Save scene"), workspace_->fileName(), tr("Scenes (*.json)"));
     if (!path.isEmpty()) workspace_->saveAs(path);
 }
 

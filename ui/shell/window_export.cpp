@@ -22,6 +22,7 @@
 #include "ui/shell/notices.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/save_dialog.hpp"
 #include "ui/shell/size_dialog.hpp"
 #include "ui/shell/workspace.hpp"
 #include "ui/stage/stage_widget.hpp"
@@ -100,9 +101,9 @@ bool MainWindow::tellOfExport(const QString& problem, const QString& file, const
 
 void MainWindow::exportReport() {
     if (!run_->results()) return;
-    const QString path = QFileDialog::getSaveFileName(
-        this, tr("Save a page for browsers"), QFileInfo(workspace_->fileName()).completeBaseName() + ".html",
-        tr("Pages (*.html)"));
+    const QString path =
+        askForSave(this, tr("Save a page for browsers"),
+                   QFileInfo(workspace_->fileName()).completeBaseName() + ".html", tr("Pages (*.html)"));
     if (path.isEmpty()) return;
     notices_->post({Notice::Kind::information, "export", tr("Writing %1 ...").arg(path), {}, {}});
     runInBackground(
@@ -146,9 +147,9 @@ void MainWindow::exportSized() {
     connect(dialog, &QDialog::accepted, this, [this, dialog, plot = QPointer(plot)] {
         if (!plot) return;
         const PrintSize size = dialog->chosen();
-        const QString path = QFileDialog::getSaveFileName(
-            this, tr("Save plot"), QString::fromStdString(plot->figure().view) + ".png",
-            tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg)"));
+        const QString path =
+            askForSave(this, tr("Save plot"), QString::fromStdString(plot->figure().view) + ".png",
+                       tr("Picture (*.png);;PDF (*.pdf);;SVG (*.svg)"));
         if (path.isEmpty()) return;
         const QString problem =
             saveFigure(path, plot->figure(), size.pixels(), Theme::light(), size.dotsPerInch / 96.0, {});

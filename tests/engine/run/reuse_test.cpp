@@ -78,6 +78,32 @@ private slots:
         QCOMPARE(second.schemes[1]->summary.maxError, anew.schemes[1]->summary.maxError);
         QCOMPARE(second.reference.description, anew.reference.description);
     }
+    /// What is known is no work of the run, and a scheme that has failed has none left.
+    void progressIsThatOfTheWorkOfTheRun() {
+        Scene scene = preset();
+        const Comparison first = run(scene);
+        QVERIFY(scene.schemes.size() >= 2);
+        RunOptions options;
+        options.known.assign(scene.schemes.size(), nullptr);
+        for (std::size_t i = 1; i < first.schemes.size(); ++i) options.known[i] = first.schemes[i];
+        Run other(scene, options);
+        QCOMPARE(other.fraction(), 0.0);
+        other.start();
+        other.wait();
+        QCOMPARE(other.fraction(), 1.0);
+        options.known[0] = first.schemes[0];
+        QCOMPARE(Run(scene, options).fraction(), 1.0);
+
+        // Far beyond what the iteration can solve.
+        Scene lost =
+            readScene(findPreset("kepler")->json, {{"/schemes/0/step", 5.0}, {"/time/end", 100.0}}).scene;
+        lost.schemes.resize(1);
+        Run failing(lost);
+        failing.start();
+        failing.wait();
+        QVERIFY(failing.latest().schemes[0]->summary.status == RunStatus::failed);
+        QCOMPARE(failing.fraction(), 1.0);
+    }
 };
 
 EXTREMAL_TEST(ReuseTest)

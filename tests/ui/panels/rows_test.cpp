@@ -160,6 +160,37 @@ private slots:
         window.actions().find("stop")->trigger();
         QCOMPARE(window.workspace().selectedScheme(), -1);
     }
+    /// The numbers of the last run belong to its step.
+    void noOldNumberStandsBesideANewStep() {
+        Window window;
+        const auto number = [&](int index, const char* name) {
+            return window.card(index)->findChild<QLabel*>(name)->text();
+        };
+        const QString other = number(1, "error");
+        QVERIFY(number(0, "error") != "–" && number(0, "cost") != "–");
+        QVERIFY(window.workspace().edit({{"/schemes/0/step", Value(0.02)}}, "step"));
+        for (const char* name : {"cost", "error", "order", "steps"}) QCOMPARE(number(0, name), QString("–"));
+        QCOMPARE(number(1, "error"), other);
+        QVERIFY(waitForResults(window));
+        QVERIFY(number(0, "error") != "–");
+        // Another rule, the same step.
+        QVERIFY(window.workspace().edit({{"/schemes/1/quadrature/nodes", Value(3)}}, "nodes"));
+        QCOMPARE(number(1, "error"), QString("–"));
+        window.workspace().undo();
+        QCOMPARE(number(1, "error"), other);
+        // Another name and colour change no number.
+        QVERIFY(window.workspace().edit({{"/schemes/1/label", Value("another name")}}, "name"));
+        QCOMPARE(number(1, "error"), other);
+    }
+    void aSchemeThatTookNoStepHasNoError() {
+        Window window;
+        QVERIFY(window.workspace().edit({{"/schemes/0/step", Value(100.0)}}, "step"));  // the run ends at 10
+        QVERIFY(waitForResults(window));
+        QCOMPARE(window.runControl().results()->schemes[0]->summary.steps, 0LL);
+        for (const char* name : {"error", "order", "steps"})
+            QCOMPARE(window.card(0)->findChild<QLabel*>(name)->text(), QString("–"));
+        QVERIFY(window.card(0)->findChild<QLabel*>("error")->toolTip().contains("No step was taken"));
+    }
 };
 
 EXTREMAL_TEST(RowsTest)

@@ -5,7 +5,11 @@
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
 #include "tests/tools/test.hpp"
+#include "tests/ui/window.hpp"
+#include "ui/plots/plot_widget.hpp"
+#include "ui/shell/figure_job.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/workspace.hpp"
 
 namespace extremal::run_control_test {
 namespace {
@@ -49,6 +53,40 @@ private slots:
         for (const SchemeSpec& spec : small.schemes) steps += 1.25 / spec.step.value;
         QVERIFY(std::abs(model.predict(small) - 1e-4 * steps) < 1e-9);
         QVERIFY(std::abs(model.predict(large) - 256 * 1e-4 * steps) < 1e-7);
+    }
+    /// A plot without data says what it waits for.
+    void whatIsNotComputedIsNotCalledComputing() {
+        const View energy{"energy", "", ""};
+        QCOMPARE(figureToCome(energy, RunControl::State::running).message, std::string("Computing ..."));
+        QCOMPARE(figureToCome(energy, RunControl::State::scheduled).message, std::string("Computing ..."));
+        QCOMPARE(figureToCome(energy, RunControl::State::offered).message, std::string("Waiting for Run"));
+        QVERIFY(figureToCome(energy, RunControl::State::stopped).message.starts_with("Stopped"));
+        MainWindow window(Theme::light(), false);
+        window.show();
+        QVERIFY(window.open("preset:pendulum"));
+        QVERIFY(waitForResults(window));
+        QVERIFY(window.workspace().edit({{"/time/end", Value(1e7)}}, "end"));
+        QTRY_VERIFY(window.runControl().state() == RunControl::State::offered);
+        QVERIFY(window.workspace().edit({{"/views/-", Value("step")}}, "plot"));
+        QTRY_VERIFY(window.runControl().state() == RunControl::State::offered);
+        const auto plots = window.compareView().plots();
+        const auto isWaiting = [](const PlotWidget* p) { return p->figure().message == "Waiting for Run"; };
+        QVERIFY(std::none_of(plots.begin(), plots.end(),
+                             [](const PlotWidget* p) { return p->figure().message == "Computing ..."; }));
+        QVERIFY(std::any_of(plots.begin(), plots.end(), isWaiting) || window.compareView().isCurrent());
+    }
+    /// A scene that waits for the key from the beginning.
+    void aSceneThatTakesLongSaysThatItWaits() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        Value document = window.workspace().document();
+        QVERIFY(window.open("preset:pendulum"));
+        document = window.workspace().document();
+        document.find("time")->set("end", 1e7);
+        QVERIFY(window.workspace().adopt(document));
+        QTRY_VERIFY(window.runControl().state() == RunControl::State::offered);
+        for (const PlotWidget* plot : window.compareView().plots())
+            QCOMPARE(plot->figure().message, std::string("Waiting for Run"));
     }
 };
 
