@@ -377,37 +377,4 @@ double initialNorm(const Comparison& comparison, std::string_view prefix) {
     return 0;
 }
 
-namespace {
-
-struct Spread {
-    double mean, width;  ///< of the finite values
-};
-
-Spread spreadOf(std::span<const double> values) {
-    double sum = 0, least = std::numeric_limits<double>::infinity(), greatest = -least;
-    int n = 0;
-    for (const double v : values)
-        if (std::isfinite(v)) {
-            sum += v;
-            ++n;
-            least = std::min(least, v);
-            greatest = std::max(greatest, v);
-        }
-    return n > 0 ? Spread{sum / n, greatest - least} : Spread{0, 0};
-}
-
-}  // namespace
-
-bool isBounded(std::span<const double> values, double noise) {
-    const std::size_t half = values.size() / 2;
-    const double early = maxMagnitude(values.first(half)), late = maxMagnitude(values.subspan(half));
-    const bool isFinite = std::all_of(values.begin(), values.end(), [](double v) { return !std::isinf(v); });
-    if (!isFinite) return false;
-    if (late <= noise) return true;
-    if (late > 1.5 * early) return false;
-    // What has come to rest elsewhere is not bounded but lost: far from where it was, and hardly moving.
-    const Spread before = spreadOf(values.first(half)), after = spreadOf(values.subspan(half));
-    return std::abs(after.mean - before.mean) <= std::max(2 * after.width, noise);
-}
-
 }  // namespace extremal

@@ -77,10 +77,4 @@ double maxMagnitude(std::span<const double> values);
 /// the first scheme that has rows: the scale to which round-off is relative.
 double initialNorm(const Comparison& comparison, std::string_view prefix);
 
-/// A quantity that returns to where it was: its largest magnitude in the second half of the rows is at
-/// most 1.5 times that in the first half (a line gives 2, a random walk 1.41), and its mean has moved by at
-/// most twice what it still varies by (energy that was lost stays lost); or all of the second half is below
-/// `noise`. Values that are not numbers do not count; infinite ones are not bounded.
-bool isBounded(std::span<const double> values, double noise);
-
 }  // namespace extremal

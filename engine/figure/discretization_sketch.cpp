@@ -10,6 +10,7 @@
 #include "engine/family/table_properties.hpp"
 #include "engine/figure/step_functions.hpp"
 #include "engine/quadrature/tensor.hpp"
+#include "engine/figure/kkt_axes.hpp"
 #include "engine/run/kkt_pattern.hpp"
 #include "engine/space/typed.hpp"
 
@@ -103,7 +104,7 @@ void drawPattern(Figure& figure, const KktPattern& p) {
     };
     add(p.action, Tone::full);
     add(p.continuity, Tone::pale);
-    figure.x.range = figure.y.range = {-1.0, static_cast<double>(p.size)};
+    nameBlocks(figure, p);
     figure.subtitle = std::to_string(p.size) + " unknowns, bandwidth " + std::to_string(p.bandwidth);
 }
 

@@ -4,17 +4,10 @@
 #include <cmath>
 
 #include "engine/figure/build.hpp"
+#include "engine/figure/kkt_axes.hpp"
 
 namespace extremal::recipes {
 namespace {
-
-/// "z₂": digits as subscripts.
-std::string indexed(const char* letter, int k) {
-    std::string text = letter;
-    for (const char digit : std::to_string(k))
-        text += std::string("₀₁₂₃₄₅₆₇₈₉").substr(static_cast<std::size_t>(3 * (digit - '0')), 3);
-    return text;
-}
 
 /// Rows grow downwards, as in print.
 void addCells(Figure& figure, const SchemeResult& scheme, const KktPattern::Entries& entries, int size,
@@ -29,16 +22,6 @@ void addCells(Figure& figure, const SchemeResult& scheme, const KktPattern::Entr
         s.y.push_back(size - 1 - row);
     }
     figure.add(std::move(s));
-}
-
-void nameBlocks(Figure& figure, const KktPattern& p) {
-    for (const UnknownBlock& b : p.blocks) {
-        const std::string name = indexed(b.isMultiplier ? "p" : "z", b.index);
-        const double middle = b.offset + (b.size - 1) / 2.0;
-        figure.x.ticks.push_back({middle, name});
-        figure.y.ticks.push_back({p.size - 1 - middle, name});
-    }
-    figure.x.range = figure.y.range = {-1.0, static_cast<double>(p.size)};
 }
 
 std::string counted(int n, const char* one) { return std::to_string(n) + " " + one + (n == 1 ? "" : "s"); }

@@ -1,4 +1,4 @@
-/// |H(t) - H(0)| on a logarithmic axis; says how many schemes keep it bounded.
+/// |H(t) - H(0)| on a logarithmic axis; says how many schemes drift (engine/figure/trend.hpp).
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"
 
