@@ -1,34 +1,68 @@
 #include "app/interface.hpp"
 
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include <CLI/CLI.hpp>
+
+#include "app/option_table.hpp"
+#include "engine/core/text.hpp"
 
 namespace extremal::app {
 namespace {
 
 constexpr const char* sceneHelp = "a path, preset:NAME, or - for standard input";
 
-/// The options that every verb takes.
+/// A number from `least` to `most`; what is not finite is none of them.
+CLI::Validator numberIn(double least, double most) {
+    return {[=](std::string& text) {
+                const auto number = parseNumber(text);
+                if (number && std::isfinite(*number) && *number >= least && *number <= most)
+                    return std::string();
+                const bool isBounded = std::isfinite(least) && std::isfinite(most);
+                return "must be a finite number" +
+                       (isBounded ? " from " + formatNumber(least) + " to " + formatNumber(most) : "") +
+                       ", got \"" + text + "\"";
+            },
+            ""};
+}
+CLI::Validator finiteNumber() { return numberIn(-HUGE_VAL, HUGE_VAL); }
+
+/// The options that many verbs take, as far as this one does (option_table.hpp). Those of the program itself
+/// stand before a verb, which takes them or not.
 void addCommon(CLI::App& verb, CommonOptions& options) {
-    verb.add_option("--set", options.overrides,
-                    "change a value of the scene: --set '/schemes/*/step=0.1'; repeatable")
-        ->type_name("POINTER=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    verb.add_option("--add", options.added,
-                    "a scheme of your own, by its name in your catalogue or a file it was exported to; "
-                    "repeatable, before --set")
-        ->type_name("SCHEME")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    verb.add_flag("--json", options.isJson, "one JSON document on standard output");
-    verb.add_flag("--quiet", options.isQuiet, "errors only");
-    verb.add_flag("--trust", options.isTrusted, "read files that the scene names outside its own folder");
-    verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
-        ->type_name("N")
-        ->check(CLI::Range(1U, 1024U).description(""));
+    const bool isProgram = !verb.get_parent();
+    const auto isTaken = [&](const char* option) { return isProgram || takes(verb.get_name(), option); };
+    std::vector<CLI::Option*> added;
+    if (isTaken("--set"))
+        added.push_back(verb.add_option("--set", options.overrides,
+                                        "change a value of the scene: --set '/schemes/*/step=0.1'; "
+                                        "repeatable")
+                            ->type_name("POINTER=VALUE")
+                            ->expected(1)
+                            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+    if (isTaken("--add"))
+        added.push_back(
+            verb.add_option("--add", options.added,
+                            "a scheme of your own, by its name in your catalogue or a file it was "
+                            "exported to; repeatable, before --set")
+                ->type_name("SCHEME")
+                ->expected(1)
+                ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+    if (isTaken("--json"))
+        added.push_back(verb.add_flag("--json", options.isJson, "one JSON document on standard output"));
+    if (isTaken("--quiet")) added.push_back(verb.add_flag("--quiet", options.isQuiet, "errors only"));
+    if (isTaken("--trust"))
+        added.push_back(verb.add_flag("--trust", options.isTrusted,
+                                      "read files that the scene names outside its own folder"));
+    if (isTaken("--threads"))
+        added.push_back(
+            verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")
+                ->type_name("N")
+                ->check(CLI::Range(1U, 1024U).description("")));
+    if (isProgram)
+        for (CLI::Option* option : added) option->group("Options of verbs, before or behind the verb");
     verb.set_help_flag("--help,-h", "this text");
 }
 
@@ -48,14 +82,16 @@ void addSnapshot(CLI::App& app, Arguments& arguments) {
     verb.add_option("--size", snapshot.size, "pixels, sides 64 to 8192; 1200x800 by default")
         ->type_name("WxH");
     verb.add_option("--view", snapshot.view, "one view (extremal list views), or all")->type_name("NAME");
-    CLI::Option* time = verb.add_option("--time", snapshot.time, "the end by default")->type_name("T");
-    verb.add_option("--compare", snapshot.compareWith,
-                    "exit 1 if the picture differs, and write FILE.diff.png")
-        ->type_name("BASE.png");
+    CLI::Option* time =
+        verb.add_option("--time", snapshot.time, "the end by default")->type_name("T")->check(finiteNumber());
+    CLI::Option* compare = verb.add_option("--compare", snapshot.compareWith,
+                                           "exit 1 if the picture differs, and write FILE.diff.png")
+                               ->type_name("BASE.png");
     verb.add_option("--tolerance", snapshot.tolerance,
                     "percent of the pixels that may differ, of any tile 50 times as many")
         ->type_name("PERCENT")
-        ->check(CLI::Range(0.0, 100.0).description(""));
+        ->needs(compare)
+        ->check(numberIn(0, 100));
     addCommon(verb, arguments.common);
     verb.final_callback([&snapshot, time] { snapshot.hasTime = time->count() > 0; });
 }
@@ -80,6 +116,7 @@ void addStudy(CLI::App& app, Arguments& arguments) {
         ->type_name("NAME");
     verb.add_flag("--final", study.isFinal,
                   "the metric at the last node; its maximum over the run by default");
+    // What these say together, and whether it is possible, is checked by engine/study/request.hpp.
     verb.add_option("--steps", study.steps, "the steps to run with, separated by commas")
         ->delimiter(',')
         ->type_name("A,B,C");
@@ -236,7 +273,7 @@ std::unique_ptr<CLI::App> makeInterface(Arguments& arguments) {
     run.add_option("--checkpoint", arguments.run.checkpoint,
                    "seconds between checkpoints, 20 by default; 0: none")
         ->type_name("SECONDS")
-        ->check(CLI::Range(0.0, 1e6).description(""));
+        ->check(numberIn(0, 1e6));
     addCommon(run, arguments.common);
     addSnapshot(app, arguments);
     addPassport(app, arguments);

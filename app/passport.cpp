@@ -1,6 +1,10 @@
+#include <utility>
+#include <vector>
+
 #include "app/load.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
+#include "engine/core/text.hpp"
 #include "engine/passport/passport.hpp"
 #include "engine/passport/program.hpp"
 #include "engine/run/export.hpp"
@@ -9,12 +13,50 @@
 namespace extremal::app {
 namespace {
 
+/// What the ending of a file stands for; an ending that none of them has is an error.
+template <class Kind>
+Kind kindOf(const std::string& file, const std::vector<std::pair<std::string, Kind>>& endings,
+            const std::string& option) {
+    std::vector<std::string> names;
+    for (const auto& [ending, kind] : endings) {
+        if (file.ends_with(ending)) return kind;
+        names.push_back(ending);
+    }
+    throw InvalidScene("--out", "the ending of \"" + file + "\" is not that of a format",
+                       "one of " + joinNames(names) + ", or " + option);
+}
+
 PageFormat formatOf(const PassportRequest& request) {
     if (request.format == "html") return PageFormat::html;
     if (request.format == "tex") return PageFormat::latex;
-    if (request.format == "md") return PageFormat::markdown;
-    if (request.out.ends_with(".html")) return PageFormat::html;
-    return request.out.ends_with(".tex") ? PageFormat::latex : PageFormat::markdown;
+    if (request.format == "md" || request.out.empty()) return PageFormat::markdown;
+    return kindOf<PageFormat>(request.out,
+                              {{".md", PageFormat::markdown},
+                               {".html", PageFormat::html},
+                               {".htm", PageFormat::html},
+                               {".tex", PageFormat::latex}},
+                              "--format");
+}
+
+ProgramLanguage languageOf(const ProgramRequest& request) {
+    if (request.language == "python") return ProgramLanguage::python;
+    if (request.language == "cpp") return ProgramLanguage::cpp;
+    return kindOf<ProgramLanguage>(request.out,
+                                   {{".cpp", ProgramLanguage::cpp},
+                                    {".cc", ProgramLanguage::cpp},
+                                    {".cxx", ProgramLanguage::cpp},
+                                    {".py", ProgramLanguage::python}},
+                                   "--language");
+}
+
+/// Problems with arguments have their own place; others are of the scene.
+int tellUnusable(const InvalidScene& e, const std::string& scene) {
+    for (const Problem& p : e.problems())
+        if (p.pointer.starts_with("--"))
+            printProblem(p.pointer, p.message, p.hint);
+        else
+            printProblems(sceneName(scene), {p});
+    return unusable;
 }
 
 }  // namespace
@@ -23,9 +65,10 @@ int passportVerb(const std::string& scene, const PassportRequest& request, const
     const ReadScene read = loadScene(scene, options);
     if (!reportScene(scene, read, options)) return unusable;
     try {
+        const PageFormat format = formatOf(request);
         const std::size_t place = schemeNamed(*read.resolved, request.scheme);
         const Document page = passportOf(*read.resolved, place, {request.isMeasured, options.threads});
-        const std::string text = written(page, formatOf(request));
+        const std::string text = written(page, format);
         if (!request.out.empty()) writeFile(request.out, text);
         if (options.isJson) {
             Value document{Value::Object{}};
@@ -36,8 +79,7 @@ int passportVerb(const std::string& scene, const PassportRequest& request, const
         if (request.out.empty()) return print(text, done);
         return options.isQuiet ? done : print(page.title + ": " + request.out + "\n", done);
     } catch (const InvalidScene& e) {
-        printProblems(sceneName(scene), e.problems());
-        return unusable;
+        return tellUnusable(e, scene);
     } catch (const ExportError& e) {
         printProblem(e.path.string(), e.what());
         return unwritable;
@@ -45,16 +87,14 @@ int passportVerb(const std::string& scene, const PassportRequest& request, const
 }
 
 int programVerb(const std::string& scene, const ProgramRequest& request, const CommonOptions& options) {
-    const bool isPython =
-        request.language.empty() ? request.out.ends_with(".py") : request.language == "python";
     const ReadScene read = loadScene(scene, options);
     if (!reportScene(scene, read, options)) return unusable;
     const std::string* label = &request.scheme;
     try {
+        const ProgramLanguage language = languageOf(request);
         const std::size_t place = schemeNamed(*read.resolved, request.scheme);
         label = &read.resolved->schemes[place].spec.label;
-        writeFile(request.out, programOf(*read.resolved, place,
-                                         isPython ? ProgramLanguage::python : ProgramLanguage::cpp));
+        writeFile(request.out, programOf(*read.resolved, place, language));
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems())
             printProblem(p.pointer.empty() ? sceneName(scene) + ": " + *label : p.pointer, p.message, p.hint);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "app/verbs.hpp"
+#include "engine/core/markup.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/topics.hpp"
 
@@ -20,6 +21,7 @@ void printProblem(std::string_view where, std::string_view what, std::string_vie
     text.append(what.substr(0, lineEnd));
     if (!hint.empty()) text.append(" (").append(hint).append(")");
     text.append(what.substr(lineEnd)).append("\n");
+    text = visibleText(text);  // a key of a scene must not steer the terminal
     std::fwrite(text.data(), 1, text.size(), stderr);
 }
 

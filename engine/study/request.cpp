@@ -35,9 +35,21 @@ void refuseStrangers(const StudyEntry& entry, const StudyRequest& study) {
     refuse(!study.y.empty(), Over::numbers, "--y", "stability");
     refuse(study.findsLimits, Over::numbers, "--limit", "stability");
     refuse(study.isLong, Over::extremes, "--long", "extremes");
-    for (const auto& [isGiven, option] :
-         {std::pair{!study.steps.empty(), "--steps"}, {study.from != 0, "--from"}, {study.to != 0, "--to"}})
+    for (const auto& [isGiven, option] : {std::pair{!study.steps.empty(), "--steps"},
+                                          {study.from != 0, "--from"},
+                                          {study.to != 0, "--to"},
+                                          {study.points != 0, "--points"}})
         refuse(isGiven, Over::steps, option, "convergence");
+    const StudyRequest usual;
+    if (entry.over != Over::wantedError)
+        for (const auto& [isGiven, option] : {std::pair{study.metric != usual.metric, "--metric"},
+                                              {study.isFinal, "--final"},
+                                              {study.repeat != usual.repeat, "--repeat"}})
+            refuse(isGiven, Over::steps, option, "convergence");
+    if (entry.over == Over::extremes && !study.only.empty())
+        throw InvalidScene("--only", "is not an option of " + entry.item.id, "convergence has it");
+    if (!study.steps.empty() && (study.from != 0 || study.to != 0))
+        throw InvalidScene("--steps", "says what --from and --to say as well", "one or the other");
     if (entry.over == Over::wantedError && study.error == 0)
         throw InvalidScene("--error", "is required for " + entry.item.id, "for example --error 1e-6");
     if (entry.over == Over::numbers && study.x.empty())

@@ -1,0 +1,405 @@
+/// Every option of every verb is obeyed or refused: the test reads which there are from the program's own
+/// help, so that a new option is in it by itself, and which verb takes which from the table of the parser.
+#include <QDir>
+#include <QDirIterator>
+#include <QProcess>
+#include <QRegularExpression>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include "app/option_table.hpp"
+#include "engine/core/fingerprint.hpp"
+#include "tests/app/program.hpp"
+#include "tests/tools/test.hpp"
+
+namespace extremal::options_test {
+namespace {
+
+using app::optionTable;
+using app::VerbOptions;
+
+/// What a call leaves behind: exit code, words and files, without what the clock says.
+struct Outcome {
+    int code = -1;
+    QString out, err;
+    QMap<QString, QByteArray> files;
+    bool operator==(const Outcome& other) const {
+        return code == other.code && out == other.out && err == other.err && files == other.files;
+    }
+};
+
+/// Two calls, of which the second has the option, and what both need beforehand. Their outcomes differ.
+struct Sample {
+    QStringList without, with;
+    QList<QStringList> before = {};
+};
+
+const char* const sceneText = R"({"extremal": 1, "title": "two",
+    "model": {"type": "pendulum"}, "initial": {"q": [1]}, "time": {"end": 2},
+    "schemes": [{"label": "A", "scheme": "midpoint", "step": 0.1},
+                {"label": "B", "scheme": "galerkin-gauss-2", "step": 0.2}],
+    "observe": ["energy", "error"], "views": ["energy", "error"]})";
+
+QStringList words(const char* text) { return QString(text).split(' ', Qt::SkipEmptyParts); }
+
+QString text(std::string_view view) {
+    return QString::fromUtf8(view.data(), static_cast<qsizetype>(view.size()));
+}
+
+/// The verb and what it cannot do without, but for --out.
+QStringList callOf(const QString& verb) {
+    static const QMap<QString, QStringList> all{
+        {"", {}},
+        {"run", words("run s.json")},
+        {"snapshot", words("snapshot s.json")},
+        {"passport", words("passport s.json")},
+        {"program", words("program s.json")},
+        {"check", words("check s.json")},
+        {"study convergence", words("study convergence s.json --repeat 0")},
+        {"study work-precision", words("study work-precision s.json --repeat 0")},
+        {"study cheapest", words("study cheapest s.json --repeat 0")},
+        {"study stability", words("study stability s.json")},
+        {"study linear-stability", words("study linear-stability s.json")},
+        {"study extremes", words("study extremes --shard 1/1000")},
+        {"study merge", words("study merge one two")},
+        {"atlas", words("atlas --quick --systems harmonic-oscillator")},
+        {"wisdom", words("wisdom")},
+        {"list", words("list views")},
+        {"handbook", words("handbook tour")},
+        {"completion", words("completion bash")},
+        {"manual", words("manual")},
+    };
+    return all.value(verb, {"unknown verb"});
+}
+
+/// What else the verb needs where the option under test is not that.
+QStringList needsOf(const QString& verb) {
+    static const QMap<QString, QStringList> all{
+        {"run", words("--out d")},
+        {"snapshot", words("--view energy --out p.png")},
+        {"passport", words("--no-measure")},
+        {"program", words("--out p.cpp")},
+        {"study cheapest", words("--error 1e-2 --out d")},
+        {"study stability", words("--x /schemes/*/step=0.1:1:2 --out d")},
+        {"atlas", words("--out d")},
+        {"wisdom", words("--modes 8 --out w")},
+    };
+    return all.value(verb, verb.startsWith("study") ? words("--out d") : QStringList());
+}
+
+/// A pair of calls for an option. An error that names the option shows as well that it was read.
+Sample sampleOf(const QString& verb, const QString& option) {
+    const QStringList needs = needsOf(verb);
+    const auto added = [&](const QStringList& more, const QList<QStringList>& before = {}) {
+        return Sample{needs, needs + more, before};
+    };
+    const auto replaced = [&](const QString& from, const QString& to) {
+        if (!needs.contains(from)) return Sample{needs, needs + QStringList{option, to}};
+        QStringList other = needs;
+        other[other.indexOf(from)] = to;
+        return Sample{needs, other};
+    };
+    if (option == "--out") {
+        if (verb == "passport") return added(words("--out p.md"));
+        if (verb == "snapshot") return replaced("p.png", "q.png");
+        if (verb == "program") return replaced("p.cpp", "q.cpp");
+        return verb == "wisdom" ? replaced("w", "v") : replaced("d", "e");
+    }
+    if (option == "--measure") return {{"--measure"}, {"--no-measure"}};
+    if (option == "--error") return replaced("1e-2", "1e-3");
+    if (option == "--x") return replaced("/schemes/*/step=0.1:1:2", "/schemes/*/step=0.1:1:3");
+    if (option == "--modes") return added(words("--modes 16"));
+    if (option == "--points")
+        return {needs + words("--from 0.2 --to 0.05"), needs + words("--from 0.2 --to 0.05 --points 3")};
+    if (option == "--tolerance") {
+        const QStringList compared = needs + words("--compare b.png");
+        return {compared,
+                compared + words("--tolerance 5"),
+                {words("snapshot s.json --view energy --out b.png")}};
+    }
+    if (option == "--compare")
+        return added(words("--compare b.png"), {words("snapshot s.json --view energy --out b.png")});
+    if (option == "--set" && (verb == "check" || verb == "passport"))
+        return added(words("--set /nonsense/key=1"));
+    if (option == "--quiet" && verb == "passport")
+        return {needs + words("--out p.md"), needs + words("--out p.md --quiet")};
+    if (option == "--trust") return added({"--trust"}, {{"stranger"}});
+    if (option == "--resume") return added({"--resume"}, {{"log of another"}});
+    if (option == "--shard" && verb == "study extremes") return {needs, needs + words("--shard nonsense")};
+    if (option == "--size") return added(words("--size 640x480"));
+    static const QMap<QString, QStringList> simple{
+        {"--set", words("--set /time/end=1")},
+        {"--add", words("--add nobody")},
+        {"--json", words("--json")},
+        {"--quiet", words("--quiet")},
+        {"--threads", words("--threads 0")},
+        {"--checkpoint", words("--checkpoint nan")},
+        {"--view", words("--view error")},
+        {"--time", words("--time 1")},
+        {"--scheme", words("--scheme B")},
+        {"--format", words("--format tex")},
+        {"--language", words("--language python")},
+        {"--metric", words("--metric energy")},
+        {"--final", words("--final")},
+        {"--repeat", words("--repeat -1")},
+        {"--steps", words("--steps 0.2,0.1")},
+        {"--from", words("--from 0.2 --to 0.1")},
+        {"--to", words("--from 0.2 --to 0.1")},
+        {"--y", words("--y /model/l=1:2:2")},
+        {"--limit", words("--limit")},
+        {"--only", words("--only A")},
+        {"--shard", words("--shard 1/2")},
+        {"--plot", words("--no-plot")},
+        {"--systems", words("--systems nobody")},
+        {"--version", words("--version")},
+        {"--verbose", words("--verbose")},
+        // Their runs take minutes: tests/extremes and atlas_test.cpp.
+        {"--long", {}},
+        {"--quick", {}},
+    };
+    const auto found = simple.constFind(option);
+    if (found == simple.constEnd()) return {{"no sample"}, {"no sample"}};
+    if (found->isEmpty()) return {};
+    if (option == "--verbose") return {{"--version"}, {"--version", "--verbose"}};
+    return added(*found);
+}
+
+QByteArray withoutClock(QByteArray bytes, const QString& name) {
+    if (name.endsWith("summary.csv")) {
+        QByteArrayList lines = bytes.split('\n');
+        for (QByteArray& line : lines) {
+            QByteArrayList cells = line.split(',');
+            if (cells.size() > 10) cells[10].clear();
+            line = cells.join(',');
+        }
+        return lines.join('\n');
+    }
+    static const QRegularExpression clock(QStringLiteral("\"cpu_seconds\": [^,]*|[0-9.e+-]+ (µs|ms|s)\\b"));
+    if (name.endsWith(".json")) return QString::fromUtf8(bytes).remove(clock).toUtf8();
+    return bytes;
+}
+
+/// Names of options in a text of help: "--plot" of "--plot,--no-plot{false}".
+QStringList optionsIn(const QString& help) {
+    static const QRegularExpression line(QStringLiteral(R"(^ +(?:-\w,)?(--[\w-]+))"),
+                                         QRegularExpression::MultilineOption);
+    QStringList all;
+    const QString own = help.left(help.indexOf("Examples:"));
+    for (const QRegularExpressionMatch& match : line.globalMatch(own)) all << match.captured(1);
+    all.removeAll("--help");
+    return all;
+}
+
+/// The program in an empty folder of its own that has the scene, and what the sample needs beforehand.
+class Call {
+public:
+    explicit Call(const Sample& sample) {
+        write("s.json", sceneText);
+        for (const QStringList& before : sample.before) prepare(before);
+    }
+
+    Outcome outcome(const QStringList& arguments) {
+        Outcome result;
+        run(arguments, result);
+        for (QDirIterator all(folder_.path(), QDir::Files | QDir::Hidden, QDirIterator::Subdirectories);
+             all.hasNext();) {
+            const QString file = all.next(), name = QDir(folder_.path()).relativeFilePath(file);
+            // A log says what was asked for, obeyed or not.
+            if (!name.endsWith(".log")) result.files[name] = withoutClock(tests::contentOf(file), name);
+        }
+        return result;
+    }
+
+private:
+    void write(const QString& name, const QByteArray& bytes) {
+        QFile file(folder_.filePath(name));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        QCOMPARE(file.write(bytes), bytes.size());
+    }
+    void prepare(const QStringList& what) {
+        if (what == QStringList{"stranger"}) {
+            QVERIFY(outside_.isValid());
+            QFile file(outside_.filePath("o.csv"));
+            QVERIFY(file.open(QIODevice::WriteOnly));
+            file.write("t,q.theta,p.theta\n0,1,0\n2,0.5,-0.5\n");
+            const QByteArray reference = "\"reference\": {\"type\": \"file\", \"path\": \"" +
+                                         outside_.filePath("o.csv").toUtf8() + "\"}, ";
+            write("s.json", QByteArray(sceneText).replace("\"title\"", reference + "\"title\""));
+        } else if (what == QStringList{"log of another"}) {
+            // A head that no study of today writes, and a checkpoint that no version of the program does.
+            const std::string head = R"({ "extremal": 1, "study": "other" })";
+            const QByteArray log = QByteArray::fromStdString(head + ' ' + checksum(head) + '\n');
+            QVERIFY(QDir(folder_.path()).mkdir("d"));
+            for (const char* study : {"convergence", "work-precision", "cheapest", "stability",
+                                      "linear-stability", "extremes", "harmonic-oscillator.error"})
+                write(QString("d/%1.log").arg(study), log);
+            for (const char* slug : {"a", "b"}) write(QString("d/%1.checkpoint").arg(slug), "{}\n0\n");
+        } else {
+            Outcome ignored;
+            run(what, ignored);
+            QCOMPARE(ignored.code, 0);
+        }
+    }
+    void run(const QStringList& arguments, Outcome& result) {
+        QProcess process;
+        process.setWorkingDirectory(folder_.path());
+        QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+        for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"}) environment.remove(name);
+        process.setProcessEnvironment(environment);
+        process.start(QStringLiteral(EXTREMAL_BINARY), arguments);
+        QVERIFY(process.waitForFinished(tests::limit(60000)));
+        result.code = process.exitStatus() == QProcess::NormalExit ? process.exitCode() : -2;
+        result.out = QString::fromUtf8(withoutClock(process.readAllStandardOutput(), ".json"));
+        result.err = QString::fromUtf8(process.readAllStandardError());
+    }
+
+    QTemporaryDir folder_, outside_;
+};
+
+}  // namespace
+
+class OptionsTest : public QObject {
+    Q_OBJECT
+private slots:
+    /// The table has the verbs, studies and options of the program, and no others.
+    void theTableIsThatOfTheProgram() {
+        QMap<QString, QStringList> rows;
+        for (const VerbOptions& row : optionTable()) {
+            const QString verb = text(row.verb).section(' ', 0, 0);
+            for (const std::string_view option : row.options)
+                if (!rows[verb].contains(text(option))) rows[verb] << text(option);
+            rows[verb].sort();
+        }
+        QStringList verbs{""};
+        const QString help = tests::runProgram({"--help"}).out;
+        static const QRegularExpression verbLine(QStringLiteral("^  ([a-z]+) "),
+                                                 QRegularExpression::MultilineOption);
+        for (const auto& match :
+             verbLine.globalMatch(help.left(help.indexOf("Examples:")).mid(help.indexOf("VERB]"))))
+            verbs << match.captured(1);
+        verbs.removeDuplicates();
+        verbs.sort();
+        QCOMPARE(rows.keys(), verbs);
+        for (const QString& verb : verbs) {
+            QStringList options = optionsIn(verb.isEmpty() ? help : tests::runProgram({verb, "--help"}).out);
+            if (verb.isEmpty())  // those of verbs may stand before a verb
+                for (const QString& option : QStringList(options))
+                    if (!rows[verb].contains(option) && app::takes("run", option.toStdString()))
+                        options.removeAll(option);
+            options.sort();
+            QCOMPARE(options, rows[verb]);
+        }
+        QStringList studies;
+        for (const QString& line : tests::runProgram({"list", "studies"}).out.split('\n', Qt::SkipEmptyParts))
+            studies << "study " + line.section(' ', 0, 0);
+        for (const VerbOptions& row : optionTable())
+            if (row.verb.starts_with("study ") && row.verb != "study merge")
+                QCOMPARE(studies.removeAll(text(row.verb)), 1);
+        QCOMPARE(studies, QStringList());
+    }
+
+    void anOptionThatIsTakenChangesTheResult_data() {
+        QTest::addColumn<QString>("verb");
+        QTest::addColumn<QString>("option");
+        for (const VerbOptions& row : optionTable())
+            for (const std::string_view option : row.options)
+                QTest::newRow((std::string(row.verb) + " " + std::string(option)).c_str())
+                    << text(row.verb) << text(option);
+    }
+    void anOptionThatIsTakenChangesTheResult() {
+        QFETCH(QString, verb);
+        QFETCH(QString, option);
+        Sample sample = sampleOf(verb, option);
+        QVERIFY2(sample.with != QStringList{"no sample"}, "a new option needs a sample in this test");
+        if (sample.with.isEmpty()) return;
+        if (verb == "study merge")
+            for (const char* part : {"1/2", "2/2"})
+                sample.before << words("study convergence s.json --no-plot --repeat 0 --shard") +
+                                     QStringList{part, "--out", *part == '1' ? "one" : "two"};
+        const Outcome without = Call(sample).outcome(callOf(verb) + sample.without);
+        const Outcome with = Call(sample).outcome(callOf(verb) + sample.with);
+        const int expected = option == "--trust" || verb.isEmpty() ? 2 : 0;
+        QVERIFY2(without.code == expected || option == "--verbose", qPrintable(without.err));
+        QVERIFY2(with.code == 0 || with.err.contains(option) || (option == "--trust" && with.code == 1),
+                 qPrintable(with.err));
+        QVERIFY(!(with == without));
+        if (with.code == 0) QVERIFY2(!with.err.contains("extremal: "), qPrintable(with.err));
+    }
+
+    void anOptionThatIsNotTakenIsRefused_data() {
+        QTest::addColumn<QString>("verb");
+        for (const VerbOptions& row : optionTable())
+            QTest::newRow(std::string(row.verb).c_str()) << text(row.verb);
+    }
+    void anOptionThatIsNotTakenIsRefused() {
+        QFETCH(QString, verb);
+        QStringList all, own;
+        for (const VerbOptions& row : optionTable())
+            for (const std::string_view option : row.options) {
+                if (!all.contains(text(option))) all << text(option);
+                if (row.verb == verb.toStdString()) own << text(option);
+            }
+        Call call({});
+        for (const QString& option : all) {
+            if (own.contains(option)) continue;
+            QStringList given = sampleOf("study convergence", option).with;
+            given = given.contains(option) ? given.mid(given.indexOf(option)) : QStringList{option};
+            if (option == "--from" || option == "--to") given = {option, "0.1"};
+            if (option == "--modes") given = {option, "8"};
+            const Outcome result = call.outcome(callOf(verb) + needsOf(verb) + given);
+            const QString said = option + ": " + QString::number(result.code) + " " + result.err;
+            QVERIFY2(result.code == 2, qPrintable(said));
+            QVERIFY2(result.err.contains(option), qPrintable(said));
+            QVERIFY2(result.files.keys() == QStringList{"s.json"}, qPrintable(said));
+        }
+        // Before the verb as well.
+        if (!own.contains("--set") && !verb.isEmpty())
+            QCOMPARE(call.outcome(words("--set /nonsense/key=1") + callOf(verb) + needsOf(verb)).code, 2);
+    }
+
+    void whatHasNoMeaningIsRefused_data() {
+        QTest::addColumn<QStringList>("arguments");
+        QTest::addColumn<QString>("said");
+        const auto row = [](const char* arguments, const char* said) {
+            QTest::newRow(arguments) << words(arguments) << QString(said);
+        };
+        row("study extremes nowhere.json --shard 1/1000 --out d", "takes no SCENE");
+        row("study extremes s.json --shard 1/1000 --out d", "takes no SCENE");
+        row("study merge --out d", "needs the folders of the shards");
+        row("study convergence s.json --steps 0.1 --from 0.2 --to 0.1 --out d", "--steps");
+        row("study convergence s.json --from 0.2 --out d", "--to");
+        row("study convergence s.json --points 3 --out d", "--points");
+        row("study convergence s.json --from nan --to 0.1 --out d", "--from");
+        row("study convergence s.json --steps 0.1,inf --out d", "--steps");
+        row("study cheapest s.json --error nan --out d", "--error");
+        row("run s.json --checkpoint nan --out d", "--checkpoint");
+        row("run s.json --checkpoint -1 --out d", "--checkpoint");
+        row("run s.json --checkpoint inf --out d", "--checkpoint");
+        row("snapshot s.json --out p.png --time nan", "--time");
+        row("snapshot s.json --out p.png --compare b.png --tolerance nan", "--tolerance");
+        row("snapshot s.json --out p.png --tolerance 1", "--compare");
+        row("snapshot s.json --out p.jpg", ".png, .pdf or .svg");
+        row("passport s.json --no-measure --out p.txt", "not that of a format");
+        row("passport s.json --no-measure --out p", "not that of a format");
+        row("program s.json --out p.f90", "not that of a format");
+        row("program s.json --out md", "not that of a format");
+        row("--version run s.json --out d", "--version");
+        row("--version s.json", "--version");
+        row("s.json list views", "a scene before list");
+        row("--trust s.json", "--trust: is not an option of the window");
+    }
+    void whatHasNoMeaningIsRefused() {
+        QFETCH(QStringList, arguments);
+        QFETCH(QString, said);
+        const Outcome result = Call({}).outcome(arguments);
+        QVERIFY2(result.code == 2, qPrintable(result.err));
+        QVERIFY2(result.err.contains(said), qPrintable(result.err));
+        QCOMPARE(result.files.keys(), QStringList{"s.json"});
+    }
+};
+
+EXTREMAL_TEST(OptionsTest)
+
+}  // namespace extremal::options_test
+
+#include "options_test.moc"
