@@ -87,8 +87,8 @@ int checkVerb(const std::string& scene, const CommonOptions& options) {
     if (options.isJson) {
         Value document{Value::Object{}};
         document.set("valid", isValid);
-        document.set("errors", problemsValue(read.errors));
-        document.set("warnings", problemsValue(read.warnings));
+        setProblems(document, "errors", read.errors);
+        setProblems(document, "warnings", read.warnings);
         if (isValid) {
             document.set("equations", equationsValue(read.scene));
             document.set("switches", switchesValue(read.scene));

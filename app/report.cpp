@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <set>
+#include <utility>
 
 #include "app/verbs.hpp"
 #include "engine/core/markup.hpp"
@@ -30,9 +31,11 @@ void printProblems(const std::string& file, const std::vector<Problem>& problems
     for (const Problem& p : problems) {
         std::string where = p.origin.empty() ? file : "--set " + p.origin;
         if (p.origin.empty() && !p.pointer.empty()) where += ":" + p.pointer;
-        if (!said.insert(where + '\n' + p.message).second) continue;
+        if (!said.insert(where + '\n' + p.message).second || said.size() > mostProblems) continue;
         printProblem(where, std::string(lead) + p.message, p.hint);
     }
+    if (said.size() > mostProblems)
+        printProblem(file, std::string(lead) + "and " + std::to_string(said.size() - mostProblems) + " more");
 }
 
 int print(std::string_view text, int code) {
@@ -64,9 +67,10 @@ std::string Table::text() const {
     return text;
 }
 
-Value problemsValue(const std::vector<Problem>& problems) {
+void setProblems(Value& document, const std::string& key, const std::vector<Problem>& problems) {
     Value::Array all;
     for (const Problem& p : problems) {
+        if (all.size() == mostProblems) break;
         Value problem{Value::Object{}};
         problem.set("pointer", p.pointer);
         problem.set("message", p.message);
@@ -74,7 +78,9 @@ Value problemsValue(const std::vector<Problem>& problems) {
         problem.set("handbook", handbookPlace(p));
         all.push_back(problem);
     }
-    return all;
+    document.set(key, std::move(all));
+    if (problems.size() > mostProblems)
+        document.set(key + "_left_out", static_cast<double>(problems.size() - mostProblems));
 }
 
 }  // namespace extremal::app

@@ -2,6 +2,7 @@
 /// documents on standard output.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,11 +12,15 @@
 
 namespace extremal::app {
 
+/// Most errors, and most warnings, that are listed at once.
+inline constexpr std::size_t mostProblems = 100;
+
 /// One line on standard error. `where` may be empty.
 void printProblem(std::string_view where, std::string_view what, std::string_view hint = {});
 
 /// Problems of a scene: FILE:POINTER, or --set POINTER for what an override did. The same words are said
-/// once. `lead` comes before the message ("warning: ").
+/// once. `lead` comes before the message ("warning: "). After mostProblems of them one line says how many
+/// more there are.
 void printProblems(const std::string& file, const std::vector<Problem>& problems, std::string_view lead = {});
 
 /// Writes to standard output. Returns `code`, or 3 after an error message if not all could be written.
@@ -28,6 +33,8 @@ struct Table {
     std::string text() const;
 };
 
-Value problemsValue(const std::vector<Problem>& problems);
+/// Sets `key` to the first mostProblems of them, and `key`_left_out to the number of the others, where there
+/// are more.
+void setProblems(Value& document, const std::string& key, const std::vector<Problem>& problems);
 
 }  // namespace extremal::app

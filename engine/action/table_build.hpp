@@ -282,6 +282,14 @@ template <class T>
 Table<T> buildTable(const Space<T>& space, const Rule<T>& rule, bool mustTellApart = true) {
     using Matrix = typename Table<T>::Matrix;
     using Vector = typename Table<T>::Vector;
+    // Beyond this a table takes gigabytes while it is made.
+    constexpr double mostEntries = 5e6;
+    if (static_cast<double>(rule.size()) * space.size > mostEntries)
+        throw InvalidScene("/quadrature",
+                           "has " + std::to_string(rule.size()) + " nodes for the " +
+                               std::to_string(space.size) +
+                               " functions of the space; the limit of their product is 5000000",
+                           "fewer nodes or panels");
     const int m = space.size - 1;
     Table<T> t;
     t.space = space;

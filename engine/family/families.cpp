@@ -3,11 +3,13 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "engine/core/dense.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/core/work.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/family/scheme.hpp"
@@ -43,27 +45,58 @@ std::string keyOf(const Settings& s) {
     return key;
 }
 
+double megabytes(const Properties&) { return 1e-3; }
+double megabytes(const Table<double>& t) {
+    const auto entries = 4 * t.value.size() + t.extrapolation.size() + t.change.size();
+    return 8e-6 * static_cast<double>(entries);
+}
+
 /// What was made for a space and a rule before. A result is a function of the settings alone, so it does not
-/// matter who asked first.
+/// matter who asked first; its work counts for everybody who asks.
 template <class V>
 class Memory {
 public:
+    explicit Memory(std::string of) : of_(std::move(of)) {}
+
     template <class Make>
     V get(const Settings& space, const Settings& quadrature, Make make) {
         const std::string key = keyOf(space) + "||" + keyOf(quadrature);
-        {
-            const std::lock_guard lock(mutex_);
-            if (const auto found = known_.find(key); found != known_.end()) return found->second;
+        std::optional<Known> known = recall(key);
+        if (!known) {
+            work::Measured measured;
+            V made = make();
+            known = Known{std::move(made), measured.spent()};
+            keep(key, *known);
         }
-        V made = make();
-        const std::lock_guard lock(mutex_);
-        if (known_.size() >= 256) known_.clear();
-        return known_.emplace(key, std::move(made)).first->second;
+        work::spendOnce(of_ + key, known->work);
+        return std::move(known->made);
     }
 
 private:
+    struct Known {
+        V made;
+        double work;
+    };
+
+    std::optional<Known> recall(const std::string& key) {
+        const std::lock_guard lock(mutex_);
+        const auto found = known_.find(key);
+        return found == known_.end() ? std::nullopt : std::optional(found->second);
+    }
+    void keep(const std::string& key, const Known& known) {
+        const std::lock_guard lock(mutex_);
+        size_ += megabytes(known.made);
+        if (known_.size() >= 256 || size_ > 256) {
+            known_.clear();
+            size_ = megabytes(known.made);
+        }
+        known_.emplace(key, known);
+    }
+
+    std::string of_;
     std::mutex mutex_;
-    std::map<std::string, V> known_;
+    std::map<std::string, Known> known_;
+    double size_ = 0;  ///< of all that is known, in megabytes
 };
 
 /// The family of a space that the reader has found in the catalogue.
@@ -141,7 +174,7 @@ const std::vector<CatalogItem>& spaceCatalog() {
 }
 
 Properties describe(const Discretization& discretization) {
-    static Memory<Properties> known;
+    static Memory<Properties> known("properties");
     const auto& [space, quadrature, solver] = discretization;
     if (isTensorRule(quadrature) && !knownFamily(space).takesTensorRules) {
         Properties p;
@@ -235,7 +268,7 @@ bool hasTable(const Discretization& discretization) {
 }
 
 Table<double> tableOf(const Settings& space, const Settings& quadrature) {
-    static Memory<Table<double>> known;
+    static Memory<Table<double>> known("table");
     return known.get(space, quadrature, [&] { return knownFamily(space).table(space, quadrature); });
 }
 

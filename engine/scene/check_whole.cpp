@@ -4,6 +4,7 @@
 #include "engine/core/contained.hpp"
 #include "engine/core/duration.hpp"
 #include "engine/core/text.hpp"
+#include "engine/core/work.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/companion.hpp"
@@ -135,6 +136,7 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
             family && family->slowestStep ? family->slowestStep(caseOf(scene, scheme)) : 5e-3;
         if (timeSpan(scene.scene).length() / scheme.spec.step.value * slowestStep < longest) return;
     }
+    work::spend(1e7);  // some milliseconds
     const double seconds = predictSeconds(scene, scheme);
     if (seconds > longest)
         reader.warning(pointer,
@@ -202,6 +204,8 @@ void checkWayBack(Reader& reader, const Scene& scene, const ResolvedScheme& sche
 /// The makers know best what they cannot do.
 void tryToMake(Reader& reader, const ResolvedScene& scene, const ResolvedScheme& scheme,
                const std::string& pointer) {
+    // What integrators set up is in proportion to the state, but for tables, which are counted themselves.
+    work::spend(1e3 * static_cast<double>(initialOf(scene, scheme).x.size()));
     try {
         const double step = signedStep(scene.scene, scheme.spec.step.value);
         contained("", [&] {
@@ -260,6 +264,7 @@ void checkCompanions(Reader& reader, const ResolvedScene& scene, const std::vect
     for (std::size_t i = 0; i < scene.schemes.size(); ++i) {
         if (!scene.schemes[i].spec.isEnabled) continue;
         ++enabled;
+        const work::Part part(childPointer("/schemes", places[i]));
         checkCompanion(reader, scene, scene.schemes[i], childPointer("/schemes", places[i]), lacking);
     }
     const bool isRefused = lacking.size() >= enabled;
@@ -353,6 +358,7 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
     if (resolved.system) checkCaution(reader, resolved);
     for (std::size_t i = 0; i < resolved.schemes.size() && resolved.system; ++i) {
         if (!resolved.schemes[i].properties.refusal.empty()) continue;
+        const work::Part part(childPointer("/schemes", places[i]));
         try {
             contained("", [&] { resolveSystem(resolved.schemes[i], scene); });
         } catch (const InvalidScene& e) {
@@ -360,8 +366,10 @@ void checkWhole(Reader& reader, ResolvedScene& resolved, const std::vector<std::
                 reader.error(childPointer("/schemes", places[i]) + "/space", p.message, p.hint);
         }
     }
-    for (std::size_t i = 0; i < resolved.schemes.size(); ++i)
+    for (std::size_t i = 0; i < resolved.schemes.size(); ++i) {
+        const work::Part part(childPointer("/schemes", places[i]));
         checkScheme(reader, resolved, resolved.schemes[i], childPointer("/schemes", places[i]));
+    }
     if (resolved.system && reader.errors.empty()) checkCompanions(reader, resolved, places);
     for (const ResolvedScheme& scheme : resolved.reference)
         checkScheme(reader, resolved, scheme, "/reference/scheme");

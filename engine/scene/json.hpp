@@ -14,6 +14,8 @@ namespace extremal {
 
 /// Deepest nesting of arrays and objects that is read.
 inline constexpr int maxJsonDepth = 200;
+/// Most values that are read from one text, objects and arrays among them.
+inline constexpr int mostJsonValues = 2'000'000;
 
 /// Throws InvalidScene: for bad syntax the message ends in "line L, column C"; for a duplicate key, a number
 /// out of range or too many levels the pointer says where.

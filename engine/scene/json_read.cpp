@@ -84,11 +84,14 @@ private:
             appendToken(p, level.value.isArray() ? std::to_string(level.value.asArray().size()) : level.key);
         return p;
     }
-    bool fail(std::string where, std::string message, std::string hint = {}) {
-        problem_ = Problem{std::move(where), std::move(message), std::move(hint)};
+    bool fail(std::string where, std::string message, std::string hint = {}, std::string topic = {}) {
+        problem_ = Problem{std::move(where), std::move(message), std::move(hint), {}, {}, std::move(topic)};
         return false;
     }
     bool add(Value value) {
+        if (++count_ > mostJsonValues)
+            return fail("", "has more than " + formatCount(mostJsonValues) + " values",
+                        "a scene has some hundred", "strangers");
         if (levels_.empty()) {
             root_ = std::move(value);
         } else if (Level& level = levels_.back(); level.value.isArray()) {
@@ -112,6 +115,7 @@ private:
     }
 
     std::string_view text_;
+    std::size_t count_ = 0;
     std::vector<Level> levels_;
     Value root_;
     std::optional<Problem> problem_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/core/text.hpp"
+#include "engine/scene/codec.hpp"
 #include "engine/scene/format.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
@@ -109,7 +110,9 @@ std::optional<LessonStep> readStep(Reader& reader, const Value& step, const std:
 std::vector<LessonStep> readLessonSteps(Reader& reader, const Value& document, const Scene& scene) {
     std::vector<LessonStep> steps;
     const Value* all = document.find("steps");
-    if (!all || !reader.isArray(*all, "/steps", "steps of a lesson")) return steps;
+    if (!all || !reader.isArray(*all, "/steps", "steps of a lesson") ||
+        !reader.hasAtMost(*all, "/steps", "steps", mostEntries))
+        return steps;
     for (std::size_t i = 0; i < all->asArray().size(); ++i)
         if (auto step = readStep(reader, all->asArray()[i], childPointer("/steps", i), scene))
             steps.push_back(std::move(*step));

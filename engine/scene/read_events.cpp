@@ -30,7 +30,9 @@ int wordOf(Reader& reader, const Value& object, const std::string& key, const st
 
 void readEvents(Reader& reader, const Value& document, const System* system, Scene& scene) {
     const Value* events = document.find("events");
-    if (!events || !reader.isArray(*events, "/events", "events")) return;
+    if (!events || !reader.isArray(*events, "/events", "events") ||
+        !reader.hasAtMost(*events, "/events", "events", mostEntries))
+        return;
     if (events->asArray().size() > mostEvents)
         return reader.error("/events", "has " + std::to_string(events->asArray().size()) +
                                            " events, the limit is " + std::to_string(mostEvents));

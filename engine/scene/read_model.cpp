@@ -1,4 +1,7 @@
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <utility>
 
 #include "engine/core/text.hpp"
 #include "engine/scene/pointer.hpp"
@@ -19,11 +22,11 @@ public:
         for (const FieldInfo& field : fields) {
             const Value* value = model.find(field.key);
             if (!value) value = &field.fallback;
-            if (isNumeric(field))
-                parameters_.push_back({field.key, childPointer("/model", field.key), value});
+            if (isNumeric(field)) add(field.key, childPointer("/model", field.key), value);
             if (field.type != FieldType::constants || !value->isObject()) continue;
+            if (value->asObject().size() > mostParameters) continue;  // reported where it is read
             for (const auto& [name, number] : value->asObject())
-                parameters_.push_back({name, childPointer(childPointer("/model", field.key), name), &number});
+                add(name, childPointer(childPointer("/model", field.key), name), &number);
         }
     }
 
@@ -32,19 +35,27 @@ public:
     }
 
 private:
+    static constexpr std::size_t longestChain = 200;  ///< each of its links is a call within a call
+
     struct Parameter {
         std::string name, pointer;
         const Value* value;
     };
 
     std::optional<double> valueOf(std::string_view name) {
-        const auto parameter = std::find_if(parameters_.begin(), parameters_.end(),
-                                            [&](const Parameter& p) { return p.name == name; });
-        if (parameter == parameters_.end()) return {};
+        const auto found = places_.find(name);
+        if (found == places_.end()) return {};
+        const Parameter* const parameter = &parameters_[found->second];
         if (const auto known = reader_.parameters.find(name); known != reader_.parameters.end())
             return known->second;
         if (const auto open = std::find(open_.begin(), open_.end(), name); open != open_.end()) {
             reportCycle({open, open_.end()}, parameter->pointer);
+            return {};
+        }
+        if (open_.size() >= longestChain) {
+            reader_.error(parameter->pointer,
+                          "depends on a chain of more than " + std::to_string(longestChain) + " parameters",
+                          "give one of them a number");
             return {};
         }
         open_.emplace_back(name);
@@ -70,6 +81,10 @@ private:
             return {};
         }
     }
+    void add(const std::string& name, std::string pointer, const Value* value) {
+        if (places_.emplace(name, parameters_.size()).second)
+            parameters_.push_back({name, std::move(pointer), value});
+    }
     void reportCycle(std::vector<std::string> names, const std::string& pointer) {
         names.push_back(names.front());
         std::string chain;
@@ -79,6 +94,7 @@ private:
 
     Reader& reader_;
     std::vector<Parameter> parameters_;
+    std::map<std::string, std::size_t, std::less<>> places_;  ///< by name
     std::vector<std::string> open_;
 };
 

@@ -133,7 +133,9 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
             if (!system || !isLacking(*system, id)) scene.observe.emplace_back(id);
         return;
     }
-    if (!reader.isArray(*observe, "/observe", "names")) return;
+    if (!reader.isArray(*observe, "/observe", "names") ||
+        !reader.hasAtMost(*observe, "/observe", "names", mostEntries))
+        return;
     for (std::size_t i = 0; i < observe->asArray().size(); ++i) {
         const std::string pointer = childPointer("/observe", i);
         const auto name = reader.text(observe->asArray()[i], pointer);

@@ -4,6 +4,7 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/core/work.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/family/scheme.hpp"
 #include "engine/quadrature/tensor.hpp"
@@ -353,9 +354,11 @@ std::vector<std::size_t> readSchemes(Reader& reader, const Value& document, Scen
     if (schemes->asArray().empty())
         reader.error("/schemes", "must have at least one scheme",
                      "for example { \"scheme\": \"midpoint\", \"step\": 0.1 }");
+    if (!reader.hasAtMost(*schemes, "/schemes", "schemes", mostSchemes)) return places;
     std::map<std::string, std::size_t> firstUse;
     for (std::size_t i = 0; i < schemes->asArray().size(); ++i) {
         const std::string pointer = childPointer("/schemes", i);
+        const work::Part part(pointer);
         const Value& value = schemes->asArray()[i];
         if (const Value* label = value.find("label");
             label && label->isString() && !label->asString().empty()) {

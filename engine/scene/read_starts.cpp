@@ -11,7 +11,8 @@ namespace extremal {
 namespace {
 
 void readPoints(Reader& reader, const Value& points, const std::string& at, ViewStarts& starts) {
-    if (!reader.isArray(points, at, "points [x, y]")) return;
+    if (!reader.isArray(points, at, "points [x, y]") || !reader.hasAtMost(points, at, "points", mostEntries))
+        return;
     if (points.asArray().size() > ViewStarts::most)
         return reader.error(at, "has " + std::to_string(points.asArray().size()) + " points, the limit is " +
                                     std::to_string(ViewStarts::most));

@@ -210,7 +210,9 @@ void readViews(Reader& reader, const Value& document, const System* system, Scen
         }
         return;
     }
-    if (!reader.isArray(*views, "/views", "names")) return;
+    if (!reader.isArray(*views, "/views", "names") ||
+        !reader.hasAtMost(*views, "/views", "views", mostEntries))
+        return;
     const auto known = idsOf(viewCatalog());
     for (std::size_t i = 0; i < views->asArray().size(); ++i) {
         const std::string pointer = childPointer("/views", i);

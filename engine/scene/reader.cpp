@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/text.hpp"
+#include "engine/core/work.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
 
@@ -38,9 +39,6 @@ namespace {
 /// The value of a text where its variables (if it has any) are 1; a mistake in it is recorded.
 std::optional<double> valueOfText(Reader& reader, const std::string& text, const std::string& pointer,
                                   const std::vector<std::string>& variables) {
-    std::vector<std::string> known{"pi"};
-    known.insert(known.end(), variables.begin(), variables.end());
-    for (const auto& [name, value] : reader.parameters) known.push_back(name);
     bool dependsOnWrong = false;
     try {
         const Expression expression = parseExpression(text);
@@ -55,9 +53,15 @@ std::optional<double> valueOfText(Reader& reader, const std::string& text, const
     } catch (const ExpressionError& e) {
         std::string hint = e.hint;
         const std::string message = e.what();
-        if (const auto quote = message.find("unknown name \""); quote != std::string::npos)
-            hint =
-                suggestName(std::string_view(message).substr(quote + 14, message.size() - quote - 15), known);
+        if (const auto quote = message.find("unknown name \""); quote != std::string::npos) {
+            std::vector<std::string> known{"pi"};
+            known.insert(known.end(), variables.begin(), variables.end());
+            for (const auto& [name, value] : reader.parameters) known.push_back(name);
+            const std::string_view unknown =
+                std::string_view(message).substr(quote + 14, message.size() - quote - 15);
+            work::spend(10.0 * static_cast<double>(known.size() * (1 + unknown.size())));
+            hint = suggestName(unknown, known);
+        }
         reader.error(pointer, "the expression " + message + "\n" + caretLines(text, e.position), hint);
     }
     return {};
@@ -177,11 +181,25 @@ bool Reader::isArray(const Value& value, const std::string& pointer, const std::
     return false;
 }
 
+bool Reader::hasAtMost(const Value& value, const std::string& pointer, const std::string& what,
+                       std::size_t most) {
+    const std::size_t size = value.isArray() ? value.asArray().size() : value.asObject().size();
+    if (size <= most) return true;
+    error(pointer, "has " + std::to_string(size) + " " + what + ", the limit is " + std::to_string(most),
+          "fewer " + what, "strangers");
+    return false;
+}
+
 void Reader::checkKeys(const Value& object, const std::string& pointer,
                        const std::vector<std::string>& known) {
-    for (const auto& [key, value] : object.asObject())
-        if (std::find(known.begin(), known.end(), key) == known.end())
-            error(childPointer(pointer, key), "unknown key " + describeValue(key), suggestName(key, known));
+    constexpr std::size_t mostNamed = 100;
+    std::size_t unknown = 0;
+    for (const auto& [key, value] : object.asObject()) {
+        if (std::find(known.begin(), known.end(), key) != known.end() || ++unknown > mostNamed) continue;
+        error(childPointer(pointer, key), "unknown key " + describeValue(key), suggestName(key, known));
+    }
+    if (unknown > mostNamed)
+        error(pointer, "has " + std::to_string(unknown - mostNamed) + " more unknown keys");
 }
 
 void Reader::unknownName(const std::string& pointer, std::string_view kind, std::string_view name,

@@ -3,6 +3,7 @@
 /// found.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <map>
 #include <optional>
@@ -50,8 +51,10 @@ public:
     std::optional<std::string> label(const Value& value, const std::string& pointer);
     bool isObject(const Value& value, const std::string& pointer);
     bool isArray(const Value& value, const std::string& pointer, const std::string& what);
+    /// Whether an array or an object has no more than so many entries.
+    bool hasAtMost(const Value& value, const std::string& pointer, const std::string& what, std::size_t most);
 
-    /// An error for every key of the object that is not known.
+    /// An error for every key of the object that is not known, up to a hundred.
     void checkKeys(const Value& object, const std::string& pointer, const std::vector<std::string>& known);
     /// An error that names the nearest of the known names.
     void unknownName(const std::string& pointer, std::string_view kind, std::string_view name,

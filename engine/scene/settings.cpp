@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/core/text.hpp"
+#include "engine/scene/codec.hpp"
 #include "engine/scene/json.hpp"
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/read_formulas.hpp"
@@ -46,17 +47,19 @@ bool readNames(Reader& reader, const Value& value, const std::string& pointer, c
 /// Numbers by name; what the user wrote is kept as a whole where any of them is an expression.
 bool readConstants(Reader& reader, const Value& value, const std::string& pointer, const FieldInfo& field,
                    Settings& settings) {
-    if (!reader.isObject(value, pointer)) return false;
-    Value numbers{Value::Object{}};
+    if (!reader.isObject(value, pointer) ||
+        !reader.hasAtMost(value, pointer, field.title.empty() ? "entries" : field.title, mostParameters))
+        return false;
+    Value::Object numbers;  // names are different: those of a JSON object are
     bool isSound = true, hasExpression = false;
     for (const auto& [name, member] : value.asObject()) {
         const auto number = reader.number(member, childPointer(pointer, name), {});
         isSound = isSound && number;
         hasExpression = hasExpression || member.isString();
-        if (number) numbers.set(name, number->value);
+        if (number) numbers.emplace_back(name, number->value);
     }
     if (!isSound) return false;
-    settings.keys.emplace_back(field.key, numbers);
+    settings.keys.emplace_back(field.key, std::move(numbers));
     if (hasExpression) settings.expressions.emplace_back(field.key, value);
     return true;
 }

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "engine/core/stumpff.hpp"
+#include "engine/core/work.hpp"
 #include "engine/space/long_numbers.hpp"
 
 namespace extremal {
@@ -251,6 +253,9 @@ typename EvaluatedFormulas<T>::Dual EvaluatedFormulas<T>::laterCall(int function
 
 template <class T>
 void EvaluatedFormulas<T>::operator()(const T& tau, std::span<T> value, std::span<T> derivative) const {
+    // Functions such as sin take longer than products, and numbers less.
+    work::spend(4 * static_cast<double>(code_.size()) *
+                (std::is_same_v<T, Quad> ? work::quadruple : work::hundredDigits));
     std::vector<Dual> at;
     at.reserve(code_.size());
     const Dual none;

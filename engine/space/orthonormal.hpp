@@ -5,16 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "engine/core/work.hpp"
+#include "engine/space/long_numbers.hpp"
 
 namespace extremal {
 
 template <class T>
 using LongVector = std::vector<T>;
 
+/// Counts as many operations (core/work.hpp).
+template <class T>
+void spendOn(std::size_t operations) {
+    work::spend(static_cast<double>(operations) *
+                (std::is_same_v<T, Quad> ? work::quadruple : work::hundredDigits));
+}
+
 template <class T>
 T dot(const LongVector<T>& a, const LongVector<T>& b) {
+    spendOn<T>(a.size());
     T sum(0);
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
     return sum;
@@ -22,6 +34,7 @@ T dot(const LongVector<T>& a, const LongVector<T>& b) {
 /// a += factor b.
 template <class T>
 void addTo(LongVector<T>& a, const T& factor, const LongVector<T>& b) {
+    spendOn<T>(a.size());
     for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
 }
 template <class T>

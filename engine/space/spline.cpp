@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/core/work.hpp"
 #include "engine/space/quadruple.hpp"
 
 namespace extremal {
@@ -64,6 +65,8 @@ Space<T> bSplines(Knots<T> knots) {
     space.hasKinks = degree == 1 && cells > 1;
     space.evaluate = [degree, cells, knot = std::move(knots)](const T& tau, std::span<T> value,
                                                               std::span<T> derivative) {
+        // Cox and de Boor's triangle, and two quotients per function.
+        work::spend((std::is_same_v<T, double> ? 1 : work::quadruple) * 3 * (degree + 1) * (degree + 4));
         int span = degree;
         while (span < degree + cells - 1 && tau >= knot(span + 1)) ++span;
         const Local<T> local(tau, span, knot);

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double inSpace = 1e-20;  ///< distance of a function that is in the space
 constexpr std::size_t mostFunctions = 32;
-constexpr int chebyshevNodes = 36;  ///< of a panel that 12 Gauss nodes integrate to 1e-24
+constexpr std::size_t mostKnots = 63;  ///< as many as equal cells have
+constexpr int chebyshevNodes = 36;     ///< of a panel that 12 Gauss nodes integrate to 1e-24
 
 std::string pointerOf(std::size_t function) { return "/space/functions/" + std::to_string(function); }
 
@@ -366,7 +367,13 @@ namespace {
 /// As exact as the numbers in the functions: a kink is at 0.3, and not at the double nearest to it.
 std::vector<__float128> exactCells(const Settings& space) {
     std::vector<__float128> cells{0};
-    if (const Value* knots = space.find("knots"); knots && knots->isArray())
+    const Value* const knots = space.find("knots");
+    if (knots && knots->isArray() && knots->asArray().size() > mostKnots)
+        throw InvalidScene(
+            "/space/knots",
+            "are " + std::to_string(knots->asArray().size()) + ", the limit is " + std::to_string(mostKnots),
+            "more cells than that are better taken as more steps");
+    if (knots && knots->isArray())
         for (const Value& knot : knots->asArray()) {
             const __float128 exact = exactValue(
                 parseExpression(knot.isNumber() ? formatNumber(knot.asNumber()) : knot.asString()));

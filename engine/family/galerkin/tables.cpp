@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/problem.hpp"
+#include "engine/core/work.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/space/typed.hpp"
@@ -39,6 +40,7 @@ struct Products {
         std::vector<__float128> value(n), slope(n);
         for (std::size_t i = 0; i < rule.c.size(); ++i) {
             space.evaluateQuadruple(rule.c[i], value, slope);
+            work::spend(4 * work::quadruple * static_cast<double>(n * n));
             for (std::size_t a = 1; a < n; ++a)
                 for (std::size_t b = 1; b <= a; ++b) {
                     energy[a * n + b] += Quad(rule.b[i]) * Quad(slope[a]) * Quad(slope[b]);
