@@ -3,7 +3,7 @@
 
 #include "engine/baseline/partitioned.hpp"
 #include "engine/baseline/wave_splitting.hpp"
-#include "engine/integrator/stability.hpp"
+#include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {
 
@@ -37,9 +37,8 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
         if (isWave(system)) return true;
         return isMechanical(system) && (!isNystrom || system.mechanics().isSeparable);
     };
-    // At z = pi these products come near -1 and leave the unit circle in intervals as short as 0.001.
-    e.stabilityLimit = firstInstability([&](double z) { return halfTrace(splitting.stages, z); }, 0.0005);
     // Fractions are printed to 15 digits.
+    e.stabilityLimit = firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals());
     e.tableau = [splitting](const Settings&) { return tableauOf(splitting.stages, 1e-15); };
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         if (isWave(system)) return makeWaveSplitting(system, options.step, splitting);

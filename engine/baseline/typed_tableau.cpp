@@ -11,6 +11,7 @@
 #include "engine/core/memo_cache.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
+#include "engine/integrator/oscillator_step.hpp"
 #include "engine/integrator/stability.hpp"
 #include "engine/space/formulas.hpp"
 #include "engine/tableau/order_conditions.hpp"
@@ -149,7 +150,9 @@ TypedTableau examined(Tableau table) {
     if (claims.isSymplectic && t.isPlain()) claims.conserves.push_back("quadratic invariants");
     constexpr double noGrowth = 1e-12;
     made.stabilityLimit =
-        firstInstability([&](double z) { return growth(t, z) <= 1 + noGrowth ? 0.0 : 2.0; });
+        claims.isSymplectic
+            ? firstEdge(OscillatorStep(made.tableau).intervals())
+            : firstInstability([&](double z) { return growth(t, z) <= 1 + noGrowth ? 0.0 : 2.0; });
     return made;
 }
 

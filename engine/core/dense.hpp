@@ -62,6 +62,9 @@ struct SymmetricEigen {
 template <class T>
 SymmetricEigen<T> symmetricEigen(Given<T> A);
 
+/// Of a square matrix that need not be symmetric, in no order.
+Eigen::VectorXcd eigenvalues(Given<double> A);
+
 /// Magnitudes of the diagonal of R in a QR with column pivoting, descending: the last is near zero where the
 /// columns depend.
 Eigen::VectorXd rankPivots(Given<double> A);

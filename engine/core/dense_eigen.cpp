@@ -13,6 +13,10 @@ SymmetricEigen<T> symmetricEigen(Given<T> A) {
     return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
+Eigen::VectorXcd eigenvalues(Given<double> A) {
+    return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+}
+
 Eigen::VectorXd singularValues(Given<double> A) {
     work::spend(20 * static_cast<double>(A.size() * A.rows()));
     return Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>(A).singularValues();

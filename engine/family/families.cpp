@@ -313,19 +313,52 @@ double highestFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stif
     return eigenvalue > 0 && std::isfinite(eigenvalue) ? std::sqrt(eigenvalue) : 0;
 }
 
-double highestFrequency(const System& system, const State& state) {
-    if (system.frequency) return system.frequency(state.t, state.x.data());
-    if (!isMechanical(system)) return 0;
+namespace {
+
+/// The Hessian of L in (q, v) at a state; empty where it is not finite, or the system has no coordinates.
+Eigen::MatrixXd hessianAt(const System& system, const State& state) {
+    if (!isMechanical(system)) return {};
     const int d = system.dimension();
     const auto& m = system.mechanics();
     Eigen::VectorXd v(d), gradient(2 * d);
     Eigen::MatrixXd H(2 * d, 2 * d);
     const double* q = state.x.data();
     double value = 0;
-    if (!m.velocity(m.model.get(), state.t, q, q + d, v.data())) return 0;
+    if (!m.velocity(m.model.get(), state.t, q, q + d, v.data())) return {};
     m.jet(m.model.get(), state.t, q, v.data(), &value, gradient.data(), H.data());
-    if (!H.allFinite()) return 0;
+    return H.allFinite() ? H : Eigen::MatrixXd();
+}
+
+}  // namespace
+
+double highestFrequency(const System& system, const State& state) {
+    if (system.frequency) return system.frequency(state.t, state.x.data());
+    const Eigen::MatrixXd H = hessianAt(system, state);
+    if (H.size() == 0) return 0;
+    const Eigen::Index d = H.rows() / 2;
     return highestFrequency(H.bottomRightCorner(d, d), -H.topLeftCorner(d, d));
+}
+
+std::vector<double> linearFrequencies(const System& system, const State& state) {
+    constexpr Eigen::Index most = 200;
+    const auto highest = [](double w) { return w > 0 ? std::vector{w} : std::vector<double>{}; };
+    if (system.frequency) return highest(system.frequency(state.t, state.x.data()));
+    const Eigen::MatrixXd H = hessianAt(system, state);
+    if (H.size() == 0) return {};
+    const Eigen::Index d = H.rows() / 2;
+    const Eigen::MatrixXd mass = H.bottomRightCorner(d, d), stiffness = -H.topLeftCorner(d, d),
+                          mixed = H.topRightCorner(d, d);
+    const bool isGyroscopic =
+        (mixed - mixed.transpose()).cwiseAbs().maxCoeff() > 1e-12 * H.cwiseAbs().maxCoeff();
+    if (d > most || isGyroscopic) return highest(highestFrequency(mass, stiffness));
+    const auto masses = dense::symmetricEigen<double>(mass);
+    if (!(masses.values(0) > 1e-13 * masses.values(d - 1))) return highest(highestFrequency(mass, stiffness));
+    const Eigen::MatrixXd scale = masses.vectors * masses.values.cwiseSqrt().cwiseInverse().asDiagonal();
+    const auto squares = dense::symmetricEigen<double>(scale.transpose() * stiffness * scale).values;
+    std::vector<double> all;
+    for (Eigen::Index i = 0; i < d; ++i)
+        if (squares(i) > 1e-14 * squares.cwiseAbs().maxCoeff()) all.push_back(std::sqrt(squares(i)));
+    return all;
 }
 
 }  // namespace extremal

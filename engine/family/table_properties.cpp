@@ -7,7 +7,6 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/rule_choices.hpp"
-#include "engine/integrator/stability.hpp"
 
 namespace extremal {
 namespace {
@@ -42,6 +41,16 @@ private:
 
 }  // namespace
 
+/// The function of the start is 1 - phi_{m-1}, which is the last test function.
+OscillatorAction oscillatorAction(const Table<double>& t) {
+    const Eigen::Index m = t.unknowns();
+    Eigen::MatrixXd value(t.nodes(), m + 1), slope(t.nodes(), m + 1);
+    value << t.testValue.col(m - 1), t.value;
+    slope << t.testDerivative.col(m - 1), t.derivative;
+    return {slope.transpose() * t.weight.asDiagonal() * slope,
+            value.transpose() * t.weight.asDiagonal() * value};
+}
+
 int OrderBounds::order() const { return std::min({ofSpace, ofRule, ofEquations}); }
 
 std::string OrderBounds::shortfall() const {
@@ -66,7 +75,7 @@ std::string cautionOf(const Table<double>& table) {
            formatNumber(least, 3) + "): the step is solvable, but its action has no minimum";
 }
 
-Properties describeTable(const std::function<Table<double>()>& make) {
+Properties describeTable(const std::function<Table<double>()>& make, const std::function<double()>& limit) {
     Properties p;
     p.claims.isSymplectic = true;
     p.claims.conserves = {"momentum"};
@@ -76,7 +85,7 @@ Properties describeTable(const std::function<Table<double>()>& make) {
         p.claims.isSymmetric = table.rule.isSymmetric && table.space.isSymmetric;
         p.claims.order = bounds.order();
         p.curveOrder = std::min({table.space.degree + 1, table.consistency + 1, p.claims.order});
-        p.stabilityLimit = firstInstability(HalfTrace(table));
+        p.stabilityLimit = limit ? limit() : firstEdge(OscillatorStep(oscillatorAction(table)).intervals());
         p.shortfall = bounds.shortfall();
         p.caution = cautionOf(table);
         if (table.consistency == 0) {

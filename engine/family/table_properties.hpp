@@ -7,12 +7,15 @@
 
 #include "engine/action/table.hpp"
 #include "engine/family/discretization.hpp"
+#include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {
 
 /// `table` makes it, and throws InvalidScene where it cannot. The order is measured for every discretization
 /// of the handbook's table of orders.
-Properties describeTable(const std::function<Table<double>()>& table);
+/// `limit`: the first unstable h w of the table; empty: by its entries in double precision.
+Properties describeTable(const std::function<Table<double>()>& table,
+                         const std::function<double()>& limit = {});
 
 /// The order on smooth motions:
 ///     min( 2 degree, degree of the rule + 1, 2 consistency ),
@@ -30,6 +33,10 @@ OrderBounds orderBounds(const Table<double>& table);
 /// Half the trace of the map of a step of length 1 on the harmonic oscillator with frequency z: beyond +-1 it
 /// is unstable.
 double halfTrace(const Table<double>& table, double z);
+
+/// What the table makes of the action of a step on the harmonic oscillator: the source of everything that is
+/// said of its linear stability.
+OscillatorAction oscillatorAction(const Table<double>& table);
 
 /// What is doubtful in a rule or what it makes of the kinetic energy ("has a negative weight ..."); may be
 /// empty.

@@ -12,6 +12,7 @@
 #include "engine/quadrature/tensor.hpp"
 #include "engine/figure/kkt_axes.hpp"
 #include "engine/run/kkt_pattern.hpp"
+#include "engine/scene/scheme_stability.hpp"
 #include "engine/space/typed.hpp"
 
 namespace extremal {
@@ -67,14 +68,15 @@ void drawFunctions(Figure& figure, const Table<double>& table, bool areSlopes) {
                          true});
 }
 
-void drawAmplification(Figure& figure, const Table<double>& table, double limit) {
+/// Intervals of instability may be narrower than a pixel: the subtitle lists them.
+void drawAmplification(Figure& figure, const Table<double>& table,
+                       const std::vector<UnstableInterval>& intervals) {
+    const double limit = firstEdge(intervals);
     const double end = std::isfinite(limit) && limit > 0 ? std::clamp(1.6 * limit, 2.0, 40.0) : 12.0;
     Series trace;
     trace.label = "half the trace of a step";
-    bool isBeyond = false;
     for (int i = 0; i <= 2 * curvePoints; ++i) {
         const double z = end * i / (2 * curvePoints), half = halfTrace(table, z);
-        isBeyond = isBeyond || std::abs(half) > 1 + 1e-9;
         trace.x.push_back(z);
         trace.y.push_back(std::abs(half) <= 3 ? half : std::numeric_limits<double>::quiet_NaN());
     }
@@ -82,7 +84,8 @@ void drawAmplification(Figure& figure, const Table<double>& table, double limit)
     for (const double bound : {-1.0, 1.0}) figure.add(Guide{{0, end}, {bound, bound}, true});
     figure.add(std::move(trace));
     fitHeight(figure, 1);
-    figure.subtitle = isBeyond ? "unstable where it leaves the lines" : "stable as far as is drawn";
+    figure.subtitle =
+        intervals.empty() ? "stable for every step" : "unstable: h ω " + intervalsText(intervals);
 }
 
 void drawPattern(Figure& figure, const KktPattern& p) {
@@ -115,10 +118,13 @@ void tellFacts(DiscretizationSketch& sketch, const ResolvedScheme& scheme, const
     std::vector<std::string>& facts = sketch.facts;
     if (!p.knownAs.empty()) facts.push_back(p.knownAs);
     facts.emplace_back(scheme.claims.isSymmetric ? "symmetric" : "not symmetric");
-    if (std::isinf(p.stabilityLimit))
-        facts.emplace_back("no limit of h ω");
-    else if (p.stabilityLimit > 0)
-        facts.push_back("stable for h ω below " + small(p.stabilityLimit));
+    if (const auto stability = stabilityOf(scheme)) {
+        const double limit = firstEdge(stability->intervals);
+        if (std::isinf(limit))
+            facts.emplace_back("no limit of h ω");
+        else if (limit > 0)
+            facts.push_back("stable for h ω below " + small(limit));
+    }
     if (table) {
         for (std::string& fact : stepFacts(*table, space)) facts.push_back(std::move(fact));
         std::string defects = "D(k)";
@@ -158,7 +164,7 @@ DiscretizationSketch sketchOf(const ReadScene& read) {
     sketch.functions.subtitle = "dots at nodes, strokes: weights";
     drawFunctions(sketch.functions, table, false);
     drawFunctions(sketch.slopes, table, true);
-    drawAmplification(sketch.amplification, table, scheme.properties.stabilityLimit);
+    drawAmplification(sketch.amplification, table, OscillatorStep(oscillatorAction(table)).intervals());
     drawPattern(sketch.pattern,
                 kktPattern(*systemOf(scene, scheme), {space, plain->quadrature, plain->solver},
                            initialOf(scene, scheme), h));

@@ -9,6 +9,7 @@
 #include "engine/passport/scene_formula.hpp"
 #include "engine/passport/scheme_tableau.hpp"
 #include "engine/passport/tableau_page.hpp"
+#include "engine/scene/scheme_stability.hpp"
 
 namespace extremal {
 namespace {
@@ -80,18 +81,21 @@ void addAction(const ResolvedScheme& scheme, Document& page) {
 void addStability(const ResolvedScheme& scheme, const Tableau* tableau, Document& page) {
     page.blocks.emplace_back(Document::Heading{"Stability"});
     if (tableau) addStabilityFunction(*tableau, page);
-    const double limit = scheme.isAdaptive() ? 0 : scheme.stabilityLimit();
-    if (std::isinf(limit))
-        page.blocks.emplace_back(
-            Document::Paragraph{"On the harmonic oscillator it is stable for every step."});
-    else if (limit > 0)
-        page.blocks.emplace_back(
-            Document::Paragraph{"On the harmonic oscillator of frequency ω it is stable for h ω "
-                                "up to " +
-                                formatNumber(limit, 6) + "."});
-    else
-        page.blocks.emplace_back(Document::Paragraph{
-            "The largest stable step on the harmonic oscillator is not one number here."});
+    const auto stability = stabilityOf(scheme);
+    const auto say = [&](std::string text) {
+        page.blocks.emplace_back(Document::Paragraph{std::move(text)});
+    };
+    if (!stability) return say("The largest stable step on the harmonic oscillator is not one number here.");
+    const std::vector<UnstableInterval>& intervals = stability->intervals;
+    if (intervals.empty()) return say("On the harmonic oscillator it is stable for every step.");
+    const double limit = firstEdge(intervals);
+    if (!(limit > 0)) return say("On the harmonic oscillator it is unstable for every short step.");
+    say("On the harmonic oscillator of frequency ω it is stable for h ω up to " + formatNumber(limit, 8) +
+        ".");
+    if (!intervals.front().isBounded()) return;
+    say("It is unstable for h ω from " + intervalsText(intervals) +
+        ". A bounded interval is a resonance: it matters where the growth per step times the number of steps "
+        "exceeds 1.");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/judge.hpp"
+#include "engine/scene/scheme_stability.hpp"
 
 namespace extremal {
 namespace {
@@ -62,6 +63,23 @@ std::string adviceOutsideDomain(const ResolvedScheme& scheme, double step, doubl
                                   : shorterStep(scheme, system, state, step, longest));
 }
 
+/// Where h w = z is unstable, why, and a step below that interval; else empty.
+std::string instabilityAdvice(const ResolvedScheme& scheme, const System& system, const State& initial,
+                              double step, double z) {
+    const auto stability = stabilityOf(scheme);
+    const UnstableInterval* const interval = stability ? stability->at(z) : nullptr;
+    if (!interval || !(interval->low > 0)) return {};
+    const std::string where = interval->isBounded()
+                                  ? " is unstable, as all between " + formatNumber(interval->low, 6) +
+                                        " and " + formatNumber(interval->high, 6)
+                                  : " is beyond its stability limit " + formatNumber(interval->low, 3);
+    // Rounded to two digits it must still be below the edge.
+    const double edge = interval->low * std::abs(step) / z,
+                 unit = std::pow(10.0, std::floor(std::log10(edge)) - 1);
+    return "h ω = " + formatNumber(z, interval->isBounded() ? 6 : 2) + where + ". " +
+           shorterStep(scheme, system, initial, step, std::floor(edge / unit) * unit);
+}
+
 }  // namespace
 
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
@@ -77,10 +95,10 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
         return "The scheme " + scheme.properties.caution + ".";
     // A state that has blown up says nothing of frequencies: the start counts as well.
     const double w = std::max(highestFrequency(system, initial), highestFrequency(system, state));
-    const double limit = scheme.stabilityLimit(), length = std::abs(step);
-    if (w > 0 && std::isfinite(limit) && limit > 0 && length * w > limit)
-        return "h ω = " + formatNumber(length * w, 2) + " is beyond its stability limit " +
-               formatNumber(limit, 3) + ". " + shorterStep(scheme, system, initial, step, limit / w);
+    const double length = std::abs(step);
+    if (const std::string unstable = instabilityAdvice(scheme, system, initial, step, length * w);
+        !unstable.empty())
+        return unstable;
     if (undefinedAt) return adviceOutsideDomain(scheme, step, w, system, initial, state, *undefinedAt);
     if (outcome == Outcome::lost)
         return "The run has left the motion: its energy grows beyond all bounds, or the equations of the "

@@ -4,6 +4,7 @@
 #include "engine/core/contained.hpp"
 #include "engine/core/duration.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/frequency.hpp"
 #include "engine/core/work.hpp"
 #include "engine/observe/catalog.hpp"
 #include "engine/scene/bind.hpp"
@@ -13,6 +14,7 @@
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/premise.hpp"
 #include "engine/scene/read_parts.hpp"
+#include "engine/scene/scheme_stability.hpp"
 #include "engine/scene/two_positions.hpp"
 
 namespace extremal {
@@ -58,19 +60,17 @@ void checkRows(Reader& reader, const Scene& scene) {
                      scene.every ? "a larger interval, or fewer schemes" : "fewer schemes");
 }
 
-void checkStability(Reader& reader, const SchemeCase& scheme, const Family* family, double stabilityLimit,
-                    const std::string& pointer) {
-    if (!(stabilityLimit > 0) || std::isinf(stabilityLimit)) return;
-    const double frequency = family && family->frequency
-                                 ? family->frequency(scheme.discretization, scheme.system, scheme.initial)
-                                 : highestFrequency(scheme.system, scheme.initial);
-    const double h = scheme.step, limit = stabilityLimit / frequency;
-    if (!(frequency > 0) || !(h > limit)) return;
-    reader.warning(pointer + "/step",
-                   formatNumber(h) + " is beyond the linear stability limit " + formatNumber(limit, 3) +
-                       ": step times frequency may be at most " + formatNumber(stabilityLimit, 3) +
-                       ", and the highest frequency at the start is " + formatNumber(frequency, 3),
-                   "a smaller step, or another scheme", {}, "stability-limit");
+/// At all frequencies that are known: those of the linearisation at the start, unless the family has another
+/// notion of the highest.
+void checkStability(const SchemeCase& at, const ResolvedScheme& scheme, Findings& findings) {
+    const auto stability = stabilityOf(scheme);
+    if (!stability || stability->intervals.empty()) return;
+    std::vector<double> frequencies;
+    if (scheme.family && scheme.family->frequency)
+        frequencies = {scheme.family->frequency(at.discretization, at.system, at.initial)};
+    else
+        frequencies = linearFrequencies(at.system, at.initial);
+    checkLinearStability(at, frequencies, *stability, findings);
 }
 
 /// A rule with fewer nodes than it would have by itself, which costs the discretization its order.
@@ -154,7 +154,7 @@ void checkStep(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
     if (scheme.baseline && scheme.baseline->check)
         scheme.baseline->check(at, findings);
     else if (isMechanical(*scene.system) || (scheme.family && scheme.family->frequency))
-        checkStability(reader, at, scheme.family, scheme.stabilityLimit(), pointer);
+        checkStability(at, scheme, findings);
     if (!scheme.properties.caution.empty()) findings.warning("", scheme.properties.caution);
     if (scheme.family && scheme.family->check) scheme.family->check(at, findings);
     reader.add(pointer, findings);

@@ -7,7 +7,7 @@
 #include "engine/family/scheme.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/scene/bind.hpp"
-#include "engine/scene/composed_stability.hpp"
+#include "engine/scene/scheme_stability.hpp"
 
 namespace extremal {
 namespace {
@@ -25,9 +25,8 @@ void refuseBaseline(const BaselineEntry& entry, const System& system) {
 }  // namespace
 
 double ResolvedScheme::stabilityLimit() const {
-    if (isComposed()) return composedStabilityLimit(*this);
-    if (family) return properties.stabilityLimit;
-    return baseline->stabilityLimitOf ? baseline->stabilityLimitOf(spec.baseline) : baseline->stabilityLimit;
+    const auto known = stabilityOf(*this);
+    return known ? firstEdge(known->intervals) : 0;
 }
 
 bool ResolvedScheme::fits(const System& system) const {

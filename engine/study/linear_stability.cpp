@@ -10,6 +10,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/resolve.hpp"
+#include "engine/scene/scheme_stability.hpp"
 #include "engine/study/one_step.hpp"
 
 namespace extremal {
@@ -50,6 +51,7 @@ public:
     }
 
     const ResolvedScheme& resolved() const { return scene_.schemes.front(); }
+    bool isOscillator() const { return !isWave(*systemOf(scene_, resolved())); }
 
 private:
     bool step(State& state) { return step_->take(state); }
@@ -161,6 +163,18 @@ void findLimit(TestEquation& equation, LinearStability& result, const std::stop_
     }
 }
 
+/// By the coefficients of the scheme, where they say: between two neighbouring numbers.
+bool takeKnownLimit(const ResolvedScheme& scheme, LinearStability& result) {
+    const auto stability = stabilityOf(scheme);
+    if (!stability || !stability->growthWithin) return false;
+    const double limit = firstEdge(stability->intervals);
+    result.hasLimit = std::isfinite(limit);
+    if (!result.hasLimit) return true;
+    result.low = limit;
+    result.high = std::nextafter(limit, HUGE_VAL);
+    return true;
+}
+
 LinearRegion regionOf(const ResolvedScheme& scheme, const std::stop_token& stop) {
     try {
         return linearRegion(scheme, stop);
@@ -180,7 +194,8 @@ LinearStability linearStability(const Scene& scene, std::size_t scheme, const st
         TestEquation equation = testEquation(scene, scheme, *resolve(scene).system);
         for (int i = 1; i <= parts && !stop.stop_requested(); ++i)
             result.points.push_back(equation.at(4 * std::numbers::pi * i / parts));
-        findLimit(equation, result, stop);
+        if (!equation.isOscillator() || !takeKnownLimit(equation.resolved(), result))
+            findLimit(equation, result, stop);
         result.region = regionOf(equation.resolved(), stop);
     } catch (const InvalidScene& e) {
         result.points.clear();

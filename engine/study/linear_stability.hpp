@@ -12,9 +12,11 @@
 ///     phase error     (arg r - z)/z of the physical eigenvalue, arg continued beyond pi
 ///
 /// Of schemes with an error control it is the step of the formula, whatever the error. A step is stable where
-/// max |r| <= 1 + 10^-6. The limit is the first z from which it is not: looked for in steps of 0.01 up to z =
-/// 20 and by 5 % up to 10^4, then bisected to round-off. Narrow intervals of instability between may be
-/// missed.
+/// max |r| <= 1 + 10^-6. The limit is the first z from which it is not. Of tables and symplectic Runge-Kutta
+/// methods with coordinates it is the first edge of their intervals of instability, which follow from the
+/// coefficients (engine/integrator/oscillator_step.hpp). Of all others it is looked for in steps of 0.01 up
+/// to z = 20 and by 5 % up to 10^4, then bisected to round-off; narrow intervals of instability between may
+/// be missed.
 #pragma once
 
 #include <limits>
@@ -35,7 +37,7 @@ struct LinearStability {
     };
     std::vector<Point> points;             ///< up to z = 4 pi
     bool hasLimit = false;                 ///< else it is stable as far as was looked
-    double low = unknown, high = unknown;  ///< stable at low, not at high; low 0: not even at z = 0.01
+    double low = unknown, high = unknown;  ///< stable at low, not at high; low 0: not even for small z
     std::string reason;                    ///< why there is nothing, where the scheme has no linear step
     LinearRegion region;                   ///< over complex z
 

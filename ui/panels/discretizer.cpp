@@ -13,6 +13,7 @@
 #include <memory>
 #include <utility>
 
+#include "engine/family/stability_check.hpp"
 #include "ui/panels/format.hpp"
 #include "ui/panels/sideways_area.hpp"
 #include "ui/shell/background.hpp"
@@ -70,6 +71,9 @@ QString DiscretizerCell::textAbout(const Properties& known) const {
     else if (known.stabilityLimit > 0)
         text += "<br>" + tr("stable on the harmonic oscillator for h ω below %1")
                              .arg(shortNumber(known.stabilityLimit, 3));
+    if (std::isfinite(known.stabilityLimit) && known.stabilityLimit > 0 && hasTable(choice_.discretization))
+        if (const auto& intervals = tableStability(choice_.discretization)->intervals; intervals.size() > 1)
+            text += "<br>" + tr("unstable for h ω %1").arg(QString::fromStdString(intervalsText(intervals)));
     return text;
 }
 

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "engine/core/dense.hpp"
-#include "engine/integrator/stability.hpp"
+#include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {
 
@@ -69,11 +69,22 @@ double halfTrace(const TimeTable& time, double z) {
     return (q + p) / 2;
 }
 
-double timeLimit(const TimeTable& time) {
-    if (time.degree() > 1) return firstInstability([&](double z) { return halfTrace(time, z); });
-    double theta = 0;
-    for (int q = 0; q < time.points(); ++q) theta += time.weight(q) * time.value(q, 0) * time.value(q, 1);
-    return theta < 0.25 - 1e-14 ? 2 / std::sqrt(1 - 4 * theta) : std::numeric_limits<double>::infinity();
+std::vector<UnstableInterval> timeIntervals(const TimeTable& time) {
+    const int n = time.degree() + 1;
+    OscillatorAction action{Eigen::MatrixXd(n, n), Eigen::MatrixXd::Zero(n, n)};
+    for (int l = 0; l < n; ++l)
+        for (int m = 0; m < n; ++m) {
+            action.stiffness(l, m) = time.mass(l, m);
+            for (int q = 0; q < time.points(); ++q)
+                action.mass(l, m) += time.weight(q) * time.value(q, l) * time.value(q, m);
+        }
+    return OscillatorStep(action).intervals();
+}
+
+double timeLimit(const TimeTable& time, double steps) {
+    for (const UnstableInterval& interval : timeIntervals(time))
+        if (interval.growth * steps > 1) return interval.low;
+    return std::numeric_limits<double>::infinity();
 }
 
 }  // namespace extremal

@@ -5,7 +5,11 @@
 /// oscillator of frequency sqrt(Lambda) has the half trace cos(W h).
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "engine/family/field/discretization.hpp"
+#include "engine/integrator/oscillator_step.hpp"
 
 namespace extremal {
 
@@ -15,8 +19,13 @@ double spatialEigenvalue(int degree, const Rule<double>& rule, double kdx);
 /// Half the trace of one step's map on the oscillator of frequency z / h.
 double halfTrace(const TimeTable& time, double z);
 
-/// Largest z = step * frequency for which the map is stable: 2 / sqrt(1 - 4 theta) of degree 1, theta = sum_b
-/// v_b tau_b (1 - tau_b). Infinity: all.
-double timeLimit(const TimeTable& time);
+/// Intervals of z = step * frequency for which the map is unstable; degree 1 has the one edge
+/// 2 / sqrt(1 - 4 theta), theta = sum_b v_b tau_b (1 - tau_b), if theta < 1/4.
+std::vector<UnstableInterval> timeIntervals(const TimeTable& time);
+
+/// Largest z up to which nothing grows by more than e in so many steps. Infinity: no such z. A mesh has waves
+/// of all frequencies up to its highest, so that an interval that matters is a limit. Without a number of
+/// steps every interval matters.
+double timeLimit(const TimeTable& time, double steps = std::numeric_limits<double>::infinity());
 
 }  // namespace extremal

@@ -241,7 +241,8 @@ void checkTent(const SchemeCase& scheme, Findings& findings) {
                              "there, or \"allow_unstable\": true"
                            : "another rule in space, midpoint in time and degree 1 there, or "
                              "\"allow_unstable\": true");
-    checkFieldStep(*spatialForm(d, problemFor(scheme.system, d)), timeLimit(timeTable(d)), scheme,
+    const double steps = std::abs(scheme.end - scheme.initial.t) / scheme.step;
+    checkFieldStep(*spatialForm(d, problemFor(scheme.system, d)), timeLimit(timeTable(d), steps), scheme,
                    describe(d).knownAs, findings);
 }
 

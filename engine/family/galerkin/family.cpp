@@ -10,12 +10,14 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/family.hpp"
+#include "engine/family/frequency.hpp"
 #include "engine/family/galerkin/fitted_order.hpp"
 #include "engine/family/galerkin/split.hpp"
 #include "engine/family/galerkin/tables.hpp"
 #include "engine/family/galerkin/written.hpp"
 #include "engine/family/rule_choices.hpp"
 #include "engine/family/scheme.hpp"
+#include "engine/family/stability_check.hpp"
 #include "engine/family/table_of.hpp"
 #include "engine/family/table_properties.hpp"
 #include "engine/integrator/condensed.hpp"
@@ -109,7 +111,8 @@ Properties describeGalerkin(const Discretization& discretization) {
     } else if (isTyped && dependsOnStep(space)) {
         p = describeFitted(space, quadrature);
     } else {
-        p = describeTable([&] { return tableOf(space, quadrature); });
+        p = describeTable([&] { return tableOf(space, quadrature); },
+                          [&] { return firstEdge(tableStability(discretization)->intervals); });
         if (isTyped && p.refusal.empty() && p.claims.order < 1) {
             p.refusal = "it would have order 0: curves of constant speed are not in the space";
             p.hint = "add \"tau\"";
@@ -131,15 +134,22 @@ void checkGalerkin(const SchemeCase& scheme, Findings& findings) {
     if (galerkin::isSplit(scheme.discretization)) return galerkin::checkSplit(scheme, findings);
     const auto& [space, quadrature, solver] = scheme.discretization;
     if (!dependsOnStep(space)) return;
-    const double frequency = highestFrequency(scheme.system, scheme.initial);
     const Table<double> table = tableOf(withStep(space, scheme.step), quadrature);
-    const double trace = std::abs(halfTrace(table, frequency * scheme.step));
-    if (trace > 1 + 1e-9)
+    const LinearStabilityFacts stability = factsOf(OscillatorStep(oscillatorAction(table)));
+    const auto steps = std::abs(scheme.end - scheme.initial.t) / scheme.step;
+    for (const double w : linearFrequencies(scheme.system, scheme.initial)) {
+        const double growth = stability.growth(w * scheme.step);
+        if (!(growth * steps > 1)) continue;
+        const std::string size = std::isfinite(growth)
+                                     ? "each step magnifies it by e^" + formatNumber(growth, 2) +
+                                           ", this run by e^" + formatNumber(growth * steps, 2)
+                                     : "it grows without bound";
         findings.warning("/step",
-                         "makes the space and the rule unstable at the highest frequency at the start, " +
-                             formatNumber(frequency, 3) + ": half the trace of a step is " +
-                             formatNumber(trace, 4),
+                         "makes the space and the rule unstable at the frequency " + formatNumber(w, 6) +
+                             " of the motion near the start: " + size,
                          "another step", {}, "stability-limit");
+        return;
+    }
 }
 
 ReferencePlan trusted(const System& system, const State&, double) {

@@ -252,7 +252,7 @@ double halfTraceOf(const Table<double>& kinetic, const std::vector<const Table<d
 /// Of the space of one coordinate, or of the only one; frequencyOf(r): of part r at the start, 0 where it
 /// does not oscillate.
 void warnOfBand(const Split& split, const std::vector<std::vector<Table<double>>>& tables, std::size_t space,
-                double step, const std::string& whose, Findings& findings,
+                const SchemeCase& scheme, const std::string& whose, Findings& findings,
                 const std::function<double(std::size_t)>& frequencyOf) {
     std::vector<const Table<double>*> parts;
     std::vector<double> z;
@@ -261,16 +261,21 @@ void warnOfBand(const Split& split, const std::vector<std::vector<Table<double>>
         const double w = frequencyOf(r);
         if (!(w > 0)) continue;
         parts.push_back(&tables[r][space]);
-        z.push_back(w * step);
+        z.push_back(w * scheme.step);
         frequencies +=
             (frequencies.empty() ? "" : ", ") + formatNumber(z.back(), 3) + " of " + split.parts[r].name;
     }
     const double trace = halfTraceOf(tables[split.kineticPart(space)][space], parts, z);
-    if (std::abs(trace) > 1 + 1e-9)
+    // Half a trace of double precision says nothing of growth below 1e-7.
+    if (!(std::abs(trace) > 1 + 1e-13)) return;
+    const double growth = std::acosh(std::abs(trace));
+    const double steps = std::abs(scheme.end - scheme.initial.t) / scheme.step;
+    if (growth * steps > 1)
         findings.warning("/step",
                          "is in a band of instability" + whose + ": with step times frequency " +
                              frequencies + ", half the trace of a step is " + formatNumber(trace, 4) +
-                             ", beyond 1",
+                             ", beyond 1: growth " + formatNumber(growth, 2) + " a step, e^" +
+                             formatNumber(growth * steps, 2) + " in this run",
                          "another step; degree 1 with the midpoint rule for the fast terms has no bands", {},
                          "rule-per-term");
 }
@@ -406,7 +411,7 @@ void checkSplit(const SchemeCase& scheme, Findings& findings) {
     const Eigen::MatrixXd mass = H.bottomRightCorner(d, d);
     const auto tables = partTables(split, scheme.step);
     if (split.spaces.size() == 1) {
-        warnOfBand(split, tables, 0, scheme.step, "", findings, [&](std::size_t r) {
+        warnOfBand(split, tables, 0, scheme, "", findings, [&](std::size_t r) {
             const Eigen::MatrixXd K = stiffnessOf(split.parts[r], scheme.initial, d);
             return K.size() > 0 ? highestFrequency(mass, K) : 0;
         });
@@ -415,7 +420,7 @@ void checkSplit(const SchemeCase& scheme, Findings& findings) {
     // Each coordinate for itself, the others at rest.
     for (Eigen::Index k = 0; k < d; ++k) {
         const std::string& name = scheme.system.coordinates[static_cast<std::size_t>(k)].name;
-        warnOfBand(split, tables, static_cast<std::size_t>(k), scheme.step, " of " + name, findings,
+        warnOfBand(split, tables, static_cast<std::size_t>(k), scheme, " of " + name, findings,
                    [&](std::size_t r) {
                        const Eigen::MatrixXd K = stiffnessOf(split.parts[r], scheme.initial, d);
                        return K.size() > 0 && K(k, k) > 0 ? std::sqrt(K(k, k) / mass(k, k)) : 0;

@@ -1,6 +1,7 @@
 /// What one step makes of the linear test equation: linear-stability.csv, linear-stability-limits.csv,
-/// linear-stability-region.csv.
+/// linear-stability-intervals.csv, linear-stability-region.csv.
 #include "engine/core/known_value.hpp"
+#include "engine/scene/scheme_stability.hpp"
 #include "engine/study/catalog.hpp"
 
 namespace extremal {
@@ -21,6 +22,22 @@ StudyTable linearLimits(const LinearStudy& study, bool isForPeople) {
         if (isForPeople && isKnown && !r.hasLimit) limit = "none";
         table.rows.push_back(
             {labelOf(study, row), limit, knownNumber(r.low), knownNumber(r.high), knownText(r.reason)});
+    }
+    return table;
+}
+
+/// Every interval of instability on the harmonic oscillator, of schemes whose coefficients tell them; no end:
+/// all longer steps are unstable.
+StudyTable intervalsOf(const LinearStudy& study) {
+    StudyTable table{"linear-stability-intervals", {"label", "from", "to", "growth_per_step"}, {}};
+    for (const LinearStudy::Row& row : study.rows()) {
+        const ResolvedScheme& scheme = study.scene().schemes[row.scheme];
+        if (!row.isKnown || !row.result.reason.empty() || !isMechanical(*systemOf(study.scene(), scheme)))
+            continue;
+        const auto stability = stabilityOf(scheme);
+        if (!stability) continue;
+        for (const UnstableInterval& i : stability->intervals)
+            table.rows.push_back({labelOf(study, row), i.low, knownNumber(i.high), knownNumber(i.growth)});
     }
     return table;
 }
@@ -48,7 +65,7 @@ std::vector<StudyTable> tablesOf(const StudyEntry& study, const LinearStudy& lin
         for (const LinearStability::Point& p : row.result.points)
             points.rows.push_back({labelOf(linear, row), p.z, knownNumber(p.amplification),
                                    knownNumber(p.phaseError), p.isStable()});
-    return {std::move(points), linearLimits(linear, false), regionsOf(linear)};
+    return {std::move(points), linearLimits(linear, false), intervalsOf(linear), regionsOf(linear)};
 }
 
 StudyTable summaryOf(const StudyEntry&, const LinearStudy& linear) {
