@@ -21,12 +21,12 @@ constexpr std::array<std::pair<const char*, const char*>, 37> greek = {
      {"Rho", "Ρ"}}};
 
 /// A name as a letter or word, and an index below it.
-struct Name {
+struct SplitName {
     std::string base, index;
 };
 
-Name split(const std::string& name) {
-    Name result;
+SplitName splitName(const std::string& name) {
+    SplitName result;
     const auto underscore = name.find('_');
     std::size_t end = underscore;
     if (end == std::string::npos) {
@@ -127,7 +127,7 @@ private:
     }
     std::string italic(const std::string& text) const { return isRich_ ? "<i>" + text + "</i>" : text; }
     std::string named(const std::string& name, int primes) const {
-        const Name parts = split(name);
+        const SplitName parts = splitName(name);
         std::string text = italic(parts.base);
         if (!parts.index.empty())
             text += isRich_ ? "<sub>" + parts.index + "</sub>" : plainIndex(parts.index);
@@ -265,7 +265,7 @@ private:
 }  // namespace
 
 std::string symbolOf(const std::string& name) {
-    const Name parts = split(name);
+    const SplitName parts = splitName(name);
     return parts.base + plainIndex(parts.index);
 }
 
