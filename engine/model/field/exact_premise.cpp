@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <vector>
 
 #include "engine/model/typed/typed_function.hpp"
 
@@ -71,21 +73,87 @@ struct Coefficient {
     }
 };
 
-/// The largest |u| on the domain over the run.
-double sizeOf(const ExactSolution::AtPlaces& exact, const FieldProblem& problem, double start, double end) {
+/// The largest |u| and |u_t| on the domain over the run.
+std::array<double, 2> sizesOf(const ExactSolution::AtPlaces& exact, const FieldProblem& problem, double start,
+                              double end) {
     constexpr int times = 16, cells = 128;
     std::array<double, cells + 1> places{};
     std::array<double, 2 * places.size()> values{};
     for (int k = 0; k <= cells; ++k)
         places[static_cast<std::size_t>(k)] = problem.mesh.left() + problem.mesh.length() * k / cells;
-    double most = 0;
+    std::array<double, 2> most{};
     for (int i = 0; i <= times; ++i) {
         exact(start + (end - start) * i / times, places, values.data());
-        for (std::size_t k = 0; k < places.size(); ++k)
-            if (std::isfinite(values[k])) most = std::max(most, std::abs(values[k]));
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (double& size = most[k / places.size()]; std::isfinite(values[k]))
+                size = std::max(size, std::abs(values[k]));
     }
     return most;
 }
+
+/// g at both ends, time after time.
+class Ends {
+public:
+    Ends(const ExactSolution::AtPlaces& exact, const FieldProblem& problem, double start, double end)
+        : exact_(exact),
+          boundary_(problem.mesh.boundary),
+          places_{problem.mesh.left(), problem.mesh.left() + problem.mesh.length()},
+          h_(1e-4 * problem.mesh.length()) {
+        double a = 1;
+        if (problem.coefficient)
+            a = std::max(problem.coefficient(places_[0]), problem.coefficient(places_[1]));
+        speed_ = problem.speed() * std::sqrt(a);
+        const auto [size, rate] = sizesOf(exact, problem, start, end);
+        size_ = size;
+        // That of a wave's argument x - c t included.
+        const double reach = std::max(std::abs(start), std::abs(end)) +
+                             std::max(std::abs(places_[0]), std::abs(places_[1])) / speed_;
+        roundOff_ = std::numeric_limits<double>::epsilon() * (size + rate * reach);
+        atStart_ = {value(places_[0], start), value(places_[1], start)};
+    }
+    double size() const { return size_; }
+    double speed() const { return speed_; }
+    double place(std::size_t i) const { return places_[i]; }
+
+    /// At a time one step after the last one that was asked for.
+    std::array<double, 2> violationAt(double t, double step) {
+        const std::array<double, 2> u{value(places_[0], t), value(places_[1], t)};
+        if (boundary_ == Boundary::dirichlet) return {u[0] - atStart_[0], u[1] - atStart_[1]};
+        const std::array<double, 2> slopes{slope(places_[0], t, h_), slope(places_[1], t, -h_)};
+        if (boundary_ == Boundary::neumann) {
+            for (std::size_t i = 0; i < 2; ++i)
+                integral_[i] += speed_ * beyond(slopes[i], noiseOfSlope()) * step;
+            return integral_;
+        }
+        integral_[0] += speed_ * beyond(slopes[1] - slopes[0], 2 * noiseOfSlope()) / 2 * step;
+        const double g = std::abs(beyond(u[1] - u[0], 2 * roundOff_)) / 2 + std::abs(integral_[0]);
+        return {g, g};
+    }
+
+private:
+    double value(double x, double t) const {
+        std::array<double, 2> u{};  // u, u_t
+        exact_(t, {&x, 1}, u.data());
+        return u[0];
+    }
+    /// One-sided, of order 4, within the domain.
+    double slope(double x, double t, double d) const {
+        return (-25 * value(x, t) + 48 * value(x + d, t) - 36 * value(x + 2 * d, t) +
+                16 * value(x + 3 * d, t) - 3 * value(x + 4 * d, t)) /
+               (12 * d);
+    }
+    /// Its weights add up to 128/12.
+    double noiseOfSlope() const { return 11 * roundOff_ / h_; }
+    /// What round-off explains counts as 0.
+    static double beyond(double number, double noise) {
+        return std::copysign(std::max(0.0, std::abs(number) - noise), number);
+    }
+
+    const ExactSolution::AtPlaces& exact_;
+    Boundary boundary_;
+    std::array<double, 2> places_, atStart_{}, integral_{};
+    double h_, speed_ = 1, size_ = 0, roundOff_ = 0;
+};
 
 }  // namespace
 
@@ -124,48 +192,20 @@ EndViolation endViolationOf(const ExactSolution::AtPlaces& exact, const FieldPro
     constexpr int samples = 1000;
     EndViolation found;
     if (!exact || end == start) return found;
-    found.size = sizeOf(exact, problem, start, end);
-    const double left = problem.mesh.left(), right = left + problem.mesh.length();
-    double a = 1;
-    if (problem.coefficient) a = std::max(problem.coefficient(left), problem.coefficient(right));
-    const double speed = problem.speed() * std::sqrt(a);
-    const auto value = [&](double x, double t) {
-        std::array<double, 2> u{};  // u, u_t
-        exact(t, {&x, 1}, u.data());
-        return u[0];
-    };
-    // One-sided, of order 4, within the domain.
-    const auto slope = [&](double x, double t, double h) {
-        return (-25 * value(x, t) + 48 * value(x + h, t) - 36 * value(x + 2 * h, t) +
-                16 * value(x + 3 * h, t) - 3 * value(x + 4 * h, t)) /
-               (12 * h);
-    };
-    const double h = 1e-4 * problem.mesh.length(), step = std::abs(end - start) / samples;
+    Ends ends(exact, problem, start, end);
+    const double step = std::abs(end - start) / samples;
     std::array<EndWave, 2> waves;
-    std::array<double, 2> integral{};
     for (int k = 0; k <= samples; ++k) {
         const double t = start + (end - start) * k / samples;
-        const std::array<double, 2> u{value(left, t), value(right, t)};
-        std::array<double, 2> g{};
-        if (problem.mesh.boundary == Boundary::dirichlet) {
-            g = {u[0] - value(left, start), u[1] - value(right, start)};
-        } else {
-            const std::array<double, 2> u_x{slope(left, t, h), slope(right, t, -h)};
-            if (problem.mesh.boundary == Boundary::neumann) {
-                for (std::size_t i = 0; i < 2; ++i) g[i] = integral[i] += speed * u_x[i] * step;
-            } else {
-                integral[0] += speed * (u_x[1] - u_x[0]) / 2 * step;
-                g[0] = std::abs(u[1] - u[0]) / 2 + std::abs(integral[0]);
-                g[1] = g[0];
-            }
-        }
+        const std::array<double, 2> g = ends.violationAt(t, step);
         for (std::size_t i = 0; i < 2; ++i) waves[i].add(t, std::isfinite(g[i]) ? g[i] : 0);
     }
     const std::size_t worse = waves[1].largest > waves[0].largest ? 1 : 0;
+    found.size = ends.size();
     found.largest = waves[worse].largest;
-    found.place = worse == 1 ? right : left;
+    found.place = ends.place(worse);
     found.from = waves[worse].from();
-    found.error = errorOf(waves, problem.mesh.length() / speed, speed, step);
+    found.error = errorOf(waves, problem.mesh.length() / ends.speed(), ends.speed(), step);
     return found;
 }
 

@@ -43,10 +43,14 @@ struct Named {
     At (*make)(const std::vector<double>& keys, const FieldProblem& problem);
 };
 
-/// sqrt(1 - a^2) where a is near 1 as well.
-double complement(double a) { return std::sqrt((1 - a) * (1 + a)); }
-/// 1/sqrt(1 - v^2/c^2), v near c as well.
-double lorentz(double v, double c) { return c / std::sqrt((c - v) * (c + v)); }
+/// sqrt(1 - a^2). The square loses digits where a is near 1.
+double complement(double a) {
+    return std::abs(a) < 0.995 ? std::sqrt(1 - a * a) : std::sqrt((1 - a) * (1 + a));
+}
+/// 1/sqrt(1 - v^2/c^2), with the difference c - v where v is near c.
+double lorentz(double v, double c) {
+    return std::abs(v) < 0.995 * c ? 1 / complement(v / c) : c / std::sqrt((c - v) * (c + v));
+}
 double sech(double x) { return 1 / std::cosh(x); }
 
 At kinkOf(const std::vector<double>& keys, const FieldProblem& problem, double sign) {
@@ -71,11 +75,17 @@ void fourAtan(double a, double b, double a_t, double b_t, double* u, double* u_t
     *u_t = 4 * (a_t * b - a * b_t) / (a * a + b * b);
 }
 
-/// sinh x and cosh x over e^scale, which do not overflow far out.
+/// sinh x and cosh x over a common factor, so that they do not overflow far out.
 struct Hyperbolic {
     double sinh, cosh;
-    Hyperbolic(double x, double scale) {
-        const double y = std::abs(x), high = std::exp(y - scale) / 2, low = std::exp(-y - scale) / 2;
+    Hyperbolic(double x, double largest) {
+        constexpr double far = 300;
+        if (largest < far) {
+            sinh = std::sinh(x);
+            cosh = std::cosh(x);
+            return;
+        }
+        const double y = std::abs(x), high = std::exp(y - largest) / 2, low = std::exp(-y - largest) / 2;
         sinh = std::copysign(-std::expm1(-2 * y) * high, x);
         cosh = high + low;
     }
@@ -86,8 +96,8 @@ At collision(const std::vector<double>& keys, const FieldProblem& problem, bool 
     const double middle = problem.mesh.left() + problem.mesh.length() / 2;
     return [=](double x, double t, double* u, double* u_t) {
         const double g = gamma * (x - middle) / c, s = gamma * v * t;
-        const double scale = std::max(std::abs(g), std::abs(s));
-        const Hyperbolic G(g, scale), S(s, scale);
+        const double largest = std::max(std::abs(g), std::abs(s));
+        const Hyperbolic G(g, largest), S(s, largest);
         if (isKinkKink)
             fourAtan(v * G.sinh, S.cosh, 0, gamma * v * S.sinh, u, u_t);
         else
