@@ -41,7 +41,7 @@ struct StepTrace {
 };
 
 StepTrace traceOf(const ResolvedScheme& scheme) {
-    constexpr int fewStages = 6, mostStages = 40;
+    constexpr int fewStages = 6, mostStages = 20;
     const bool hasOne = scheme.family ? scheme.family->tableau != nullptr : bool(scheme.baseline->tableau);
     if (!hasOne) return {};
     try {
@@ -72,7 +72,8 @@ std::string contradiction(const Intervals& intervals, const StepTrace& step) {
     };
     const auto at = [](double z) { return QString::number(z, 'g', 12).toStdString(); };
     double below = 0;
-    for (const UnstableInterval& i : intervals) {
+    for (std::size_t n = 0; n < intervals.size(); ++n) {
+        const UnstableInterval& i = intervals[n];
         const double width = (i.isBounded() ? i.high : i.low + 1) - i.low;
         for (const double part : {1e-3, 0.1, 0.5, 0.9, 0.999})
             if (isSeen(i, part) && !isUnstable(i.low + part * width))
@@ -82,11 +83,13 @@ std::string contradiction(const Intervals& intervals, const StepTrace& step) {
                 return "unstable at " + at(z);
         const double inside = std::min(margin, 0.01 * width / i.low);
         const bool isSeenBeside = isSeen(i, inside * i.low / width);
-        if (i.low > 0 &&
-            (isUnstable(i.low * (1 - margin)) || (isSeenBeside && !isUnstable(i.low * (1 + inside)))))
+        if (i.low > 0 && (isUnstable(i.low * (1 - std::min(margin, 0.1 * (i.low - below) / i.low))) ||
+                          (isSeenBeside && !isUnstable(i.low * (1 + inside)))))
             return "no edge at " + at(i.low);
         if (!i.isBounded()) return {};
-        if ((isSeenBeside && !isUnstable(i.high * (1 - inside))) || isUnstable(i.high * (1 + margin)))
+        const double next = n + 1 < intervals.size() ? intervals[n + 1].low : HUGE_VAL;
+        if ((isSeenBeside && !isUnstable(i.high * (1 - inside))) ||
+            isUnstable(i.high + std::min(margin * i.high, 0.1 * (next - i.high))))
             return "no edge at " + at(i.high);
         below = i.high;
     }

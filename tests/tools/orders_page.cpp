@@ -68,7 +68,8 @@ momentum equation, integrated through the nodes of the rule. Dense rows, plots o
 Kepler's equation), and a pendulum from θ = 1, p = 0.7 (against Gauss collocation of degree 14 with 480 steps), both up to T = 3. The error is the largest at
 twelve times, of q and p each; that of the dense output is the largest at five points inside each of twelve steps. The order is the least-squares slope over
 the four finest step sizes whose errors exceed 1e-28. The linear oscillator is not used: many discretizations have a higher order on it than
-in general. *stable to h ω*: the largest stable step times frequency on the oscillator.
+in general. *stable to h ω*: the step times frequency up to which every step is stable on the oscillator; from degree 4 on a narrow
+[resonance](quadratures.md#how-large-a-step-may-be) begins there, and longer steps are stable again.
 )";
 
 }  // namespace

@@ -92,8 +92,9 @@ std::string parametersPage() {
            "## Spaces\n" +
            keysOf(spaceCatalog()) + "\n## Quadratures\n" + keysOf(quadratureCatalog()) +
            "\n## Claims of the discretizations\n\nPolynomials of each degree with each rule and its default "
-           "number of nodes: the order, and the largest stable step times frequency on the harmonic "
-           "oscillator (∞: every step). A dash marks a discretization that is refused; the discretizer "
+           "number of nodes: the order, and the step times frequency up to which every step is stable on the "
+           "harmonic oscillator (∞: without end). A dash marks a discretization that is refused; the "
+           "discretizer "
            "shows the reason. The orders are [measured](orders.md).\n" +
            pairsTable();
 }
