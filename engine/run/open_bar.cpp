@@ -1,8 +1,11 @@
 #include "engine/run/open_bar.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine/core/text.hpp"
+#include "engine/run/error_floor.hpp"
 #include "engine/scene/companion.hpp"
 
 namespace extremal {
@@ -35,6 +38,106 @@ void judgeBar(SchemeResult& result, const System& system, const State& initial) 
         result.summary.caution =
             "the error bar is open from t = " + formatNumber(t[r], 3) +
             " on: the difference from the companion is above 0.05 of the size of the state";
+        return;
+    }
+}
+
+namespace {
+
+/// Whether the rate x' jumps on the straight line between two rows. Along the half with the larger change of
+/// the rate, the change halves with the length where the rate is smooth, and stays where it jumps.
+class Jumps {
+public:
+    Jumps(const System& system, std::size_t width)
+        : system_(system), from_(width), to_(width), middle_(width), x_(width) {}
+
+    bool isBetween(double t0, const std::vector<double>& x0, double t1, const std::vector<double>& x1) {
+        constexpr int pieces = 4;
+        for (int k = 0; k < pieces; ++k)
+            if (isIn(t0, x0, t1, x1, double(k) / pieces, double(k + 1) / pieces)) return true;
+        return false;
+    }
+
+private:
+    bool rateAt(double t0, const std::vector<double>& x0, double t1, const std::vector<double>& x1, double s,
+                std::vector<double>& rate) {
+        for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = x0[i] + s * (x1[i] - x0[i]);
+        return rateOf(system_, t0 + s * (t1 - t0), x_.data(), rate.data());
+    }
+    static double sizeOf(const std::vector<double>& a) {
+        double size = 0;
+        for (const double v : a) size = std::max(size, std::abs(v));
+        return size;
+    }
+    static double distance(const std::vector<double>& a, const std::vector<double>& b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+        return std::sqrt(sum);
+    }
+    bool isIn(double t0, const std::vector<double>& x0, double t1, const std::vector<double>& x1, double a,
+              double b) {
+        constexpr int halvings = 26, few = 10;
+        if (!rateAt(t0, x0, t1, x1, a, from_) || !rateAt(t0, x0, t1, x1, b, to_)) return false;
+        const double size = std::max(sizeOf(from_), sizeOf(to_)), whole = distance(from_, to_);
+        if (!(whole > 1e-9 * size)) return false;
+        double change = whole;
+        for (int i = 1; i <= halvings; ++i) {
+            const double middle = (a + b) / 2;
+            if (!rateAt(t0, x0, t1, x1, middle, middle_)) return false;
+            const double left = distance(from_, middle_), right = distance(middle_, to_);
+            change = std::max(left, right);
+            (left > right ? b : a) = middle;
+            (left > right ? to_ : from_) = middle_;
+            if (i == few && change < 0.02 * whole) return false;
+        }
+        // A line between distant rows may pass through a pole, beside which the motion is smooth.
+        return change > 1e-3 * whole && std::max(sizeOf(from_), sizeOf(to_)) < 4 * size;
+    }
+
+    const System& system_;
+    std::vector<double> from_, to_, middle_, x_;
+};
+
+}  // namespace
+
+void judgeAgreement(SchemeResult& result, const System& system, const State& initial,
+                    const ExactSolution& second, double factor, const std::stop_token& stop) {
+    constexpr double most = 0.5;
+    const Trajectory& rows = result.trajectory;
+    const Column* const error = rows.find("error");
+    const std::size_t width = initial.x.size();
+    if (!error || rows.columns.size() <= width) return;
+    const ErrorMeasure measure = errorMeasure(system, initial);
+    if (!measure.evaluate) return;
+    Summary& summary = result.summary;
+    // Of the scheme and of a companion with twice its steps.
+    const double floor = roundOffFloor(std::max(measure.scale, largestEntry(initial)), 3 * summary.steps);
+    std::vector<double> x(width), other(width), values(measure.columns.size());
+    const std::vector<double>& t = rows.columns.front().values;
+    double largest = floor;
+    Jumps jumps(system, width);
+    std::vector<double> before(width);
+    for (std::size_t r = 0; r < t.size() && !stop.stop_requested(); ++r) {
+        if (summary.opensAt <= t[r]) return;
+        x.swap(before);
+        for (std::size_t i = 0; i < width; ++i) x[i] = rows.columns[1 + i].values[r];
+        if (r > 0 && jumps.isBetween(t[r - 1], before, t[r], x)) {
+            summary.opensAt = t[r];
+            summary.caution = "the error bar is open from t = " + formatNumber(t[r], 3) +
+                              " on: the forces jump there, and what a step over a jump errs by depends on "
+                              "where it falls in the step, for the companion as well";
+            return;
+        }
+        second(t[r], other);
+        measure.evaluate(x.data(), other.data(), values.data());
+        const double own = error->values[r], its = factor * values[0];
+        largest = std::max({largest, own, its});
+        if (std::abs(own - its) <= most * largest) continue;
+        if (!std::isfinite(own) || !std::isfinite(its)) continue;
+        summary.opensAt = t[r];
+        summary.caution = "the error bar is open from t = " + formatNumber(t[r], 3) +
+                          " on: two companions disagree, one says " + formatNumber(own, 2) +
+                          " and the other " + formatNumber(its, 2);
         return;
     }
 }

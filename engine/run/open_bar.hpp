@@ -1,8 +1,14 @@
 /// From when on the difference from a companion is no estimate of the error any more: it is above 0.05 of the
 /// size of the state, of systems with coordinates the rms of |q| over the rows; from the start where steps do
-/// not resolve the fastest motion (scene/companion.hpp), or many of the companion's steps failed.
+/// not resolve the fastest motion (scene/companion.hpp), or many of the companion's steps failed. It opens as
+/// well where a second companion disagrees: at the first row where the two differences from the scheme are
+/// apart by more than half of the largest that either had so far, and by more than round-off explains. Where
+/// steps are too long for the order that is claimed, each companion errs in its own way. And it opens at the
+/// first row behind a jump of the forces, such as that of |x| at 0: the error of a step over it depends on
+/// where in the step it falls, and two companions may agree by accident.
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 #include "engine/run/comparison.hpp"
@@ -17,5 +23,10 @@ void judgeBar(SchemeResult& result, const System& system, const State& initial);
 /// 2 % of the companion's steps had events (no root of the energy equation, ...): its own error may then be
 /// the larger one.
 void judgeCompanion(SchemeResult& result, const Reference& reference, const std::string& reason);
+
+/// Opens it where the second companion disagrees. `second`: its solution; `factor`: of its difference, as its
+/// own error is a known part of the scheme's.
+void judgeAgreement(SchemeResult& result, const System& system, const State& initial,
+                    const ExactSolution& second, double factor, const std::stop_token& stop);
 
 }  // namespace extremal

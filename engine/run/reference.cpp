@@ -373,22 +373,41 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     return computed(scene, system, initial, stop);
 }
 
-Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme& scheme,
-                             const std::stop_token& stop) {
-    const System& system = *systemOf(resolved, scheme);
-    const double step = scheme.spec.step.value;
-    const State start = schemeStart(resolved, scheme, step);
-    Reference reference;
-    reference.info = companionInfo();
-    reference.counts = std::make_shared<StepCounts>();
-    reference.make = stepped(
-        [companion = companionOf(scheme, system), system, step, start, stop] {
-            auto integrator = companion.make(system, step, start);
+namespace {
+
+/// A companion, with its own step, from where the scheme starts.
+std::function<ExactSolution()> runOf(const ResolvedScheme& companion, const ResolvedScene& resolved,
+                                     const ResolvedScheme& scheme, const std::stop_token& stop,
+                                     const std::shared_ptr<StepCounts>& counts) {
+    const State start = schemeStart(resolved, scheme, scheme.spec.step.value);
+    return stepped(
+        [companion, system = *systemOf(resolved, scheme), start, stop] {
+            auto integrator = companion.make(system, companion.spec.step.value, start);
             integrator->setStop(stop);
             return integrator;
         },
-        start, resolved.scene.end.value, reference.counts);
+        start, resolved.scene.end.value, counts);
+}
+
+}  // namespace
+
+Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme& scheme,
+                             const std::stop_token& stop) {
+    Reference reference;
+    reference.info = companionInfo();
+    reference.counts = std::make_shared<StepCounts>();
+    reference.make =
+        runOf(companionOf(scheme, *systemOf(resolved, scheme)), resolved, scheme, stop, reference.counts);
     return reference;
+}
+
+SecondCompanion secondCompanion(const ResolvedScene& resolved, const ResolvedScheme& scheme,
+                                const std::stop_token& stop) {
+    const auto second = secondCompanionOf(scheme, companionOf(scheme, *systemOf(resolved, scheme)));
+    if (!second) return {};
+    const double part = second->spec.step.value / scheme.spec.step.value;
+    const int order = scheme.claims.order;
+    return {runOf(*second, resolved, scheme, stop, nullptr), order > 0 ? 1 / (1 - std::pow(part, order)) : 1};
 }
 
 Reference referenceFor(const Reference& reference, const ResolvedScene& resolved,

@@ -60,9 +60,18 @@ Reference referenceFor(const Reference& reference, const ResolvedScene& resolved
 /// stopped. Throws InvalidScene for a file that cannot be used.
 Reference makeReference(const ResolvedScene& resolved, const std::stop_token& stop);
 
-/// The run of the scheme's companion, over the same steps.
+/// The run of the scheme's companion, over the same nodes.
 Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme& scheme,
                              const std::stop_token& stop);
+
+/// The run of its second companion; empty where there is none. `factor`: what the difference from it is
+/// multiplied by to estimate the error, as its own is a known part of that of the scheme.
+struct SecondCompanion {
+    std::function<ExactSolution()> make;
+    double factor = 1;
+};
+SecondCompanion secondCompanion(const ResolvedScene& resolved, const ResolvedScheme& scheme,
+                                const std::stop_token& stop);
 
 /// Makes all solutions of a computed reference readers of one, at the nodes of the scene's schemes, where
 /// memory allows.

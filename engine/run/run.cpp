@@ -96,7 +96,10 @@ struct Run::Impl {
     void work(const std::stop_token& stop) {
         Reference ref;
         if (scene.reference.kind == ReferenceSpec::Kind::companion) {
-            if (needsReference()) ref.info = companionInfo();
+            if (needsReference()) {
+                ref.info = companionInfo();
+                ref.info.description = "each scheme by a better run of its own kind";
+            }
         } else if (needsSchemes && needsReference()) {
             isPreparing = true;
             try {

@@ -141,7 +141,15 @@ void SchemeRun::compute(const Reference& ofScene, ExactActions* exact, const std
             result.trajectory.nodes = thinned(result.trajectory.nodes, static_cast<std::size_t>(m));
         }
     }
-    if (hasCompanion) judgeCompanion(result, reference, withoutBar);
+    if (hasCompanion) {
+        judgeCompanion(result, reference, withoutBar);
+        if (reference.make && !p.stopped) {
+            publish(result);
+            if (const SecondCompanion second = secondCompanion(resolved_, scheme_, stop); second.make)
+                judgeAgreement(result, system, schemeStart(resolved_, scheme_, step), second.make(),
+                               second.factor, stop);
+        }
+    }
     if (wantsWayBack(scene_.observe) && !p.stopped && result.summary.status == RunStatus::done &&
         scheme_.isFixed()) {
         publish(result);

@@ -50,6 +50,12 @@ SchemeSpec ofFamily(const ResolvedScheme& scheme) {
     return spec;
 }
 
+SchemeSpec halved(const ResolvedScheme& scheme) {
+    SchemeSpec spec = scheme.spec;
+    spec.step.value /= 2;
+    return spec;
+}
+
 SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
     SchemeSpec spec = scheme.spec;
     const int order = scheme.claims.order;
@@ -62,10 +68,10 @@ SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
         raise(*stages, scheme.baseline->item, "stages");
         return spec;
     }
+    if (scheme.claims.isSymmetric && order > 2) return halved(scheme);
     std::string hint;
     const Claims own = claimsOf(*scheme.baseline, spec.baseline, &system);
-    Settings composition{"yoshida", {{"order", static_cast<double>(order + 2)}}, {}};
-    if (scheme.isComposed()) composition.type = spec.composition.type;
+    const Settings composition{"yoshida", {{"order", static_cast<double>(order + 2)}}, {}};
     if (compositionRefusal(composition, own, hint).empty()) {
         spec.composition = composition;
         return spec;
@@ -73,7 +79,6 @@ SchemeSpec ofBaseline(const ResolvedScheme& scheme, const System& system) {
     if (!isMechanical(system)) refuse(spec.baseline.type + " is not symmetric, and cannot be composed");
     const int stages = std::max(2, order);
     spec.baseline = {"gauss-collocation", {{"stages", static_cast<double>(stages)}}, {}};
-    spec.composition = {};
     return spec;
 }
 
@@ -83,12 +88,23 @@ ResolvedScheme companionOf(const ResolvedScheme& scheme, const System& system) {
     const int inSpace = scheme.baseline ? scheme.baseline->orderInSpace : scheme.properties.orderInSpace;
     if (inSpace > 0 || isField(system))
         refuse("its error in space is that of the mesh, which both would share");
-    const SchemeSpec spec = scheme.family ? ofFamily(scheme) : ofBaseline(scheme, system);
+    const SchemeSpec spec = scheme.isComposed() ? halved(scheme)
+                            : scheme.family     ? ofFamily(scheme)
+                                                : ofBaseline(scheme, system);
     ResolvedScheme companion = resolve(spec, &system);
     companion.spec.label = "companion of " + scheme.spec.label;
     if (!companion.properties.refusal.empty()) refuse(companion.properties.refusal);
     if (!companion.fits(system)) refuse("the higher degree does not fit " + system.id);
     return companion;
+}
+
+std::optional<ResolvedScheme> secondCompanionOf(const ResolvedScheme& scheme, const ResolvedScheme& first) {
+    if (!scheme.isFixed()) return {};
+    ResolvedScheme second = scheme;
+    const bool isHalved = first.spec.step.value < scheme.spec.step.value;
+    second.spec.step.value /= isHalved ? 3 : 2;
+    second.spec.label = "second companion of " + scheme.spec.label;
+    return second;
 }
 
 double unresolvedTurn(const ResolvedScheme& scheme, const System& system, const State& initial) {
