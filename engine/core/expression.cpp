@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "engine/core/expression_signatures.hpp"
@@ -313,7 +314,9 @@ double applyNode(const Expression::Node& node, double a, double b, double c) {
         case Operator::power:
             return std::pow(a, b);
         case Operator::call:
-            return node.table ? node.table->at(a) : node.function->value(a, b, c);
+            if (node.table) return node.table->at(a);
+            // dot(x) has no value of its own.
+            return node.function ? node.function->value(a, b, c) : std::numeric_limits<double>::quiet_NaN();
         case Operator::number:
         case Operator::name:
             break;

@@ -86,7 +86,15 @@ std::vector<SwitchingFunction> switchingFunctions(const Expression& expression) 
     };
     for (const Expression::Node& node : expression.nodes) {
         if (node.kind != Operator::call) continue;
-        const auto difference = [&] { return writer.write(node.left) + " - " + writer.operand(node.right); };
+        const auto isZero = [&](int n) {
+            const Expression::Node& side = expression.nodes[static_cast<std::size_t>(n)];
+            return side.kind == Operator::number && side.number == 0;
+        };
+        const auto difference = [&] {
+            if (isZero(node.right)) return writer.write(node.left);
+            if (isZero(node.left)) return writer.write(node.right);
+            return writer.write(node.left) + " - " + writer.operand(node.right);
+        };
         if (node.name == "abs")
             add(writer.write(node.left), false);
         else if (isIn(node.name, {"sign", "heaviside"}))

@@ -385,6 +385,12 @@ private:
         if (name == "heaviside") return heavisideOf(x);
         return signum(x);
     }
+    /// Whether it is 1 or 0 whatever its arguments.
+    static bool isTruth(const ex& e) {
+        if (!is_a<GiNaC::function>(e)) return false;
+        const std::string name = ex_to<GiNaC::function>(e).get_name();
+        return name == "isLess" || name == "isLessOrEqual" || name == "isEqualTo" || name == "isNotEqualTo";
+    }
     ex callOfTwo(std::string_view name, const ex& a, const ex& b) {
         if (name == "atan2") return GiNaC::atan2(a, b);
         if (name == "hypot") return hypotenuse(a, b);
@@ -395,8 +401,8 @@ private:
         if (name == "<=") return isLessOrEqual(a, b);
         if (name == "==") return isEqualTo(a, b);
         if (name == "!=") return isNotEqualTo(a, b);
-        if (name == "and") return choice(a, isNotEqualTo(b, 0), 0);
-        return choice(a, 1, isNotEqualTo(b, 0));
+        const ex truth = isTruth(b) ? b : ex(isNotEqualTo(b, 0));
+        return name == "and" ? choice(a, truth, 0) : choice(a, 1, truth);
     }
 
     // From GiNaC to the graph.

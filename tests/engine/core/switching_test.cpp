@@ -30,6 +30,7 @@ private slots:
         QCOMPARE(listed("x^2 + sin(x)/log(x)"), QString());
         QCOMPARE(listed("abs(x - 1) + abs(x - 1)*2 + sign(x)"), QString("x - 1 kink; x jump"));
         QCOMPARE(listed("abs(x) + heaviside(x)"), QString("x jump"));
+        QCOMPARE(listed("abs(x) + if(0 < x, 1, 2) + max(k*x, 0)"), QString("x jump; k*x kink"));
         QCOMPARE(listed("max(x, k, 3)"), QString("x - k kink; max(x, k) - 3 kink"));
         QCOMPARE(listed("if(x > 1 && k*x <= 3, x, -x)"), QString("1 - x jump; k*x - 3 jump"));
         QCOMPARE(listed("floor(2*x) + round(x) + mod(x, k + 1)"),
