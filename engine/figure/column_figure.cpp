@@ -1,34 +1,6 @@
 #include "engine/figure/column_figure.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace extremal {
-namespace {
-
-struct Extent {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    void take(const std::vector<double>& values) {
-        for (const double v : values)
-            if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
-    }
-    double length() const { return high - low; }
-};
-
-/// Whether the curves are about as wide as they are high, in the numbers of their axes.
-bool areAboutSquare(const Figure& figure) {
-    constexpr double atMost = 2;
-    Extent x, y;
-    for (const Series& s : figure.series()) {
-        x.take(s.x);
-        y.take(s.y);
-    }
-    const double wide = x.length(), high = y.length();
-    return wide > 0 && high > 0 && wide <= atMost * high && high <= atMost * wide;
-}
-
-}  // namespace
 
 std::string titleOfColumn(const FigureContext& context, const std::string& column) {
     if (context.system)
@@ -53,11 +25,8 @@ Figure columnFigure(const FigureContext& context, const std::string& x, const st
         addAgainstTime(figure, context, y, Take::value);
     else
         addCurves(figure, context, x, y);
-    const bool isBoundaryProblem = context.system && kindOf<BoundaryProblem>(*context.system);
-    // The circle of an oscillator is drawn as a circle; where one axis would be crowded, each has its own
-    // scale.
-    if (x != "t" && !isBoundaryProblem && areAboutSquare(figure)) figure.aspect = Aspect::equal;
-    if (isBoundaryProblem && y == "u_exact" && !figure.series().empty()) {
+    if (context.system && kindOf<BoundaryProblem>(*context.system) && y == "u_exact" &&
+        !figure.series().empty()) {
         figure.y.title = "u";
         Series exact = figure.series().front();  // the same for all schemes
         exact.label = "exact solution";

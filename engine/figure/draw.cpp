@@ -1,6 +1,7 @@
 /// The recipes that views share (view/recipe.hpp), each a function of its parameters.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "engine/figure/against.hpp"
@@ -9,6 +10,31 @@
 
 namespace extremal {
 namespace {
+
+/// How far finite values reach.
+struct Extent {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void take(const std::vector<double>& values) {
+        for (const double v : values) {
+            if (!std::isfinite(v)) continue;
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+    }
+    double length() const { return high - low; }
+};
+
+/// Whether the curves are about as wide as they are high, in the numbers of their axes.
+bool areAboutSquare(const Figure& figure) {
+    constexpr double atMost = 2;
+    Extent x, y;
+    for (const Series& s : figure.series()) {
+        x.take(s.x);
+        y.take(s.y);
+    }
+    const double wide = x.length(), high = y.length();
+    return wide > 0 && high > 0 && wide <= atMost * high && high <= atMost * wide;
+}
 
 struct Draw {
     const FigureContext& context;
@@ -65,6 +91,10 @@ struct Draw {
         figure.y.title = axisTitle(yInfo.symbol, yInfo.unit);
         addStarts(figure, context);
         addCurves(figure, context, x, y);
+        // The circle of an oscillator is drawn as a circle. Where one axis would be crowded, each has its own
+        // scale.
+        const bool isOfMotion = x != "t" && y != "t" && !(system && system->independent != "t");
+        if (isOfMotion && areAboutSquare(figure)) figure.aspect = Aspect::equal;
         finishFigure(figure, context,
                      context.entry.item.title + " of " + yInfo.symbol + " over " + xInfo.symbol);
         return figure;

@@ -87,9 +87,12 @@ void TermStrip::setScheme(int index) {
 
 void TermStrip::fill(const std::vector<std::string>& terms) {
     for (const Row& row : rows_) {
-        delete grid_->itemAtPosition(static_cast<int>(&row - rows_.data()) + 1, 0)->widget();
-        delete row.rule;
-        delete row.nodes;
+        QWidget* const name = grid_->itemAtPosition(static_cast<int>(&row - rows_.data()) + 1, 0)->widget();
+        for (QWidget* part : {name, static_cast<QWidget*>(row.rule), static_cast<QWidget*>(row.nodes)}) {
+            part->hide();
+            grid_->removeWidget(part);
+            part->deleteLater();  // one of them may have asked for it
+        }
     }
     rows_.clear();
     for (const std::string& term : terms) {

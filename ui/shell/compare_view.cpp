@@ -73,7 +73,7 @@ CompareView::CompareView(Workspace& workspace, RunControl& run, Playback& playba
 
     connect(&workspace_, &Workspace::opened, this, [this] {  // another scene has no zoom yet
         arranged_.clear();
-        for (const auto& s : slots_) delete s->card;
+        for (auto& s : slots_) discard(std::move(s));
         slots_.clear();
         maximized_ = nullptr;
         group_->forget();
@@ -174,14 +174,25 @@ void CompareView::rebuild() {
             slots_.back()->view = views[i];
         }
     }
-    for (const auto& slot : before) {
+    for (auto& slot : before) {
         if (!slot) continue;
         if (slot->card == maximized_) maximized_ = nullptr;
         std::erase_if(arranged_, [&](const auto& c) { return c.first == slot->card; });
-        delete slot->card;
+        discard(std::move(slot));
     }
     if (!isSameSet) arrange();
     refresh();
+}
+
+/// A card that goes may be the one that is pressed: the press has left a field, and what was typed there took
+/// the card away. It leaves the page at once, and ends when the press is over.
+void CompareView::discard(std::unique_ptr<Slot> slot) {
+    Slot* const last = slot.release();
+    last->plot->disconnect(this);
+    connect(last->card, &QObject::destroyed, [last] { delete last; });
+    last->card->hide();
+    last->card->setParent(nullptr);
+    last->card->deleteLater();
 }
 
 void CompareView::makeMaximizable(Card& card) {

@@ -95,6 +95,7 @@ private:
         View shownView = {};
     };
     void rebuild();  ///< another set of views
+    void discard(std::unique_ptr<Slot> slot);
     Slot& makeSlot(const View& view);
     void makeMaximizable(Card& card);
     void addSceneActions(QMenu& menu, Slot& slot);

@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QLineEdit>
 #include <QPlainTextEdit>
+#include <QPointer>
 #include <QSlider>
 #include <QTabBar>
 #include <QTest>
@@ -13,6 +14,7 @@
 #include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/scheme_card.hpp"
+#include "ui/plots/plot_widget.hpp"
 #include "ui/shell/actions.hpp"
 #include "ui/shell/gallery.hpp"
 #include "ui/shell/playback.hpp"
@@ -132,6 +134,7 @@ private slots:
         Window window;
         QVERIFY(window.open("preset:pendulum"));
         QVERIFY(waitForResults(window));
+        window.compareView().stage()->setFocus();
         for (const int page : {2, 1, 0, 2}) {
             window.findChild<QTabBar*>()->setCurrentIndex(page);
             const QWidget* const focus = QApplication::focusWidget();
@@ -141,6 +144,30 @@ private slots:
             QVERIFY(window.playback().isPlaying());
         }
         window.playback().setPlaying(false);
+    }
+    /// A click into a plot takes what is typed in a field, which may take the plot away: another name of a
+    /// coordinate brings other plots.
+    void aPlotMayGoWithThePressThatLeavesAField() {
+        Window window;
+        QVERIFY(window.open("preset:two-frequencies"));
+        QVERIFY(waitForResults(window));
+        const auto plots = [&] { return window.compareView().plots(); };
+        const QPointer<PlotWidget> last = plots().back();
+        QWidget* const canvas = last->childAt(last->rect().center());
+        QVERIFY(canvas);
+        auto* names = window.findChild<QLineEdit*>("field.coordinates");
+        const QString before = names->text();
+        names->setFocus();
+        names->setCursorPosition(static_cast<int>(before.section(',', 0, 0).size()));
+        QTest::keyClicks(names, "a");
+        QTest::mouseClick(canvas, Qt::LeftButton);
+        QVERIFY(window.workspace().document().find("views") == nullptr ||
+                !window.workspace().history().undoText().isEmpty());
+        QCOMPARE(names->text(), QString(before).insert(before.section(',', 0, 0).size(), 'a'));
+        QApplication::processEvents();
+        QVERIFY(waitForResults(window));
+        window.workspace().undo();
+        QVERIFY(waitForResults(window));
     }
     void tabStillMovesIt() {
         Window window;
