@@ -22,7 +22,7 @@ namespace extremal {
 
 namespace {
 
-constexpr int debounceMs = 250;
+constexpr int typingPauseMs = 250;
 constexpr const char* formulaPlace = "/model/lagrangian";
 constexpr const char* coordinatesPlace = "/model/coordinates";
 
@@ -95,7 +95,7 @@ LagrangianEditor::LagrangianEditor(Workspace& workspace, QWidget* parent)
     column->addWidget(parameters_);
 
     debounce_.setSingleShot(true);
-    debounce_.setInterval(debounceMs);
+    debounce_.setInterval(typingPauseMs);
     connect(&debounce_, &QTimer::timeout, this, &LagrangianEditor::check);
     connect(text_, &QPlainTextEdit::textChanged, this, [this] {
         isPending_ = true;
