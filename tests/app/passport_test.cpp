@@ -164,7 +164,7 @@ class PassportTest : public QObject {
                 .arg(potential);
         };
         for (const char* potential :
-             {"if(x>-0.9,k*x*x*log(x+1),sqrt(-0.9-x))+max(x-0.1,0)^3/9-min(y,7,0)^3/9",
+             {"if(x>-1.9,k*x*x*log(x+2)/4,sqrt(-1.9-x))+max(x-0.1,0)^3/9-min(y,7,0)^3/9",
               "piecewise(t<-1,sqrt(-x),t>=1,acosh(x+3),t==7,log(-9-y^2),x*y/4)+(t!=2 && t<1.5 || t>=2.5)*x/9",
               "erf(x)*erfc(y)+asinh(x*y)+atanh(x/9)/7+log10(x+9)+hypot(x,y-9)/9+pow(x+9,y/9)/99",
               "x*(floor(9*t)+ceil(5*t)+round(3*t)+heaviside(t-1)+sign(t-2)+mod(t,0.7))/20",
