@@ -33,13 +33,30 @@ std::string machineText() {
            std::string(name(instructionSet()));
 }
 
+std::filesystem::path partLog(const AtlasSystem& system, const AtlasPart& part,
+                            const std::filesystem::path& folder) {
+    return folder / (part.logName(system.id) + ".log");
+}
+
+/// Before the work: what it writes may be written.
+void checkFiles(const std::vector<AtlasSystem>& systems, const std::filesystem::path& folder,
+                const Replacing& replacing) {
+    requireReplaceable(folder / "index.html", replacing);
+    for (const AtlasSystem& system : systems) {
+        requireReplaceable(folder / (system.id + ".svg"), replacing);
+        for (const AtlasPart& part : system.parts) requireReplaceable(partLog(system, part, folder), replacing);
+    }
+}
+
 /// What its log knows, and what is left to run. True: it was interrupted.
 bool runPart(const AtlasSystem& system, AtlasPart& part, InterruptWatch& watch, const AtlasRunOptions& given,
              const CommonOptions& options) {
-    const auto file = std::filesystem::path(given.out) / (part.logName(system.id) + ".log");
+    const Replacing replacing{options.isForced, {}};
+    const auto file = partLog(system, part, given.out);
     const std::string head = headOf("atlas", part.sweep);
     std::vector<std::string> known;
-    StudyLog log = given.isResumed ? StudyLog::resume(file, head, known) : StudyLog::begin(file, head);
+    StudyLog log = given.isResumed ? StudyLog::resume(file, head, known, replacing)
+                                   : StudyLog::begin(file, head, replacing);
     for (const std::string& line : known) (void)takeLine(line, part.sweep);
     if (part.sweep.isComplete()) return false;
     return runAndWait(part.sweep, log, watch, options, system.id + ", " + part.metric);
@@ -107,6 +124,8 @@ int atlasVerb(const AtlasRunOptions& given, const CommonOptions& common) {
         const std::vector<std::string>& wanted = given.systems.empty() ? atlasSystems() : given.systems;
         std::vector<AtlasSystem> systems;
         for (const std::string& id : wanted) systems.push_back(atlasSystem(id, options));
+        const Replacing replacing{common.isForced, {}};
+        checkFiles(systems, given.out, replacing);
         prepareFolder(given.out);
         InterruptWatch watch;
         bool isInterrupted = false;
@@ -116,7 +135,8 @@ int atlasVerb(const AtlasRunOptions& given, const CommonOptions& common) {
         const Offscreen qt;
         for (const AtlasSystem& system : systems) writePicture(system, given.out);
         const std::filesystem::path page = std::filesystem::path(given.out) / "index.html";
-        writeFile(page, atlasPage(systems, EXTREMAL_VERSION, machineText(), !isInterrupted));
+        const std::string html = atlasPage(systems, EXTREMAL_VERSION, machineText(), !isInterrupted);
+        writeFile(page, markedAsOwn(html, "<!-- ", " -->", 1), replacing);
         const int code = isInterrupted ? interrupted : done;
         if (common.isJson) return print(writeJson(documentOf(systems, !isInterrupted)), code);
         if (isInterrupted) printProblem("", "interrupted: the atlas is partial", "--resume goes on");

@@ -56,6 +56,9 @@ void addCommon(CLI::App& verb, CommonOptions& options) {
     if (isTaken("--trust"))
         added.push_back(verb.add_flag("--trust", options.isTrusted,
                                       "read files that the scene names outside its own folder"));
+    if (isTaken("--force"))
+        added.push_back(verb.add_flag("--force", options.isForced,
+                                      "replace files in --out that this program did not write"));
     if (isTaken("--threads"))
         added.push_back(
             verb.add_option("--threads", options.threads, "threads to use, 1 to 1024; all cores by default")

@@ -1,5 +1,6 @@
 #include "app/load.hpp"
 
+#include <cstdlib>
 #include <filesystem>
 
 #include "app/report.hpp"
@@ -53,6 +54,24 @@ std::vector<std::string> overridesOf(const CommonOptions& options, std::vector<P
 }
 
 }  // namespace
+
+Replacing replacingOf(const std::string& scene, const ReadScene& read, const CommonOptions& options,
+                      const std::vector<std::string>& further) {
+    Replacing replacing{options.isForced, {}};
+    const auto add = [&](const std::string& file) {
+        if (!file.empty()) replacing.read.emplace_back(file);
+    };
+    if (scene == "-")
+        add("/dev/stdin");  // "extremal run - < scene.json"
+    else if (!scene.starts_with("preset:"))
+        add(scene);
+    add(read.scene.reference.path);
+    for (const std::string& each : options.added) add(each);
+    if (!options.added.empty()) add(ownSchemesFile());
+    if (const char* wisdom = std::getenv("EXTREMAL_WISDOM")) add(wisdom);
+    for (const std::string& each : further) add(each);
+    return replacing;
+}
 
 std::string sceneName(const std::string& scene) { return scene == "-" ? "standard input" : scene; }
 

@@ -23,7 +23,7 @@ inline const std::vector<VerbOptions>& optionTable() {
         return all;
     };
     static const Options scene{"--set", "--add", "--trust"}, words{"--json", "--quiet"}, limits{"--threads"},
-        files{"--out"}, study{"--only", "--shard", "--resume", "--plot"},
+        files{"--out", "--force"}, study{"--only", "--shard", "--resume", "--plot"},
         sweep{"--metric", "--final", "--repeat"}, ladder{"--steps", "--from", "--to", "--points"};
     static const std::vector<VerbOptions> table{
         {"", {"--version", "--verbose"}},

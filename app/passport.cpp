@@ -49,16 +49,6 @@ ProgramLanguage languageOf(const ProgramRequest& request) {
                                    "--language");
 }
 
-/// Problems with arguments have their own place; others are of the scene.
-int tellUnusable(const InvalidScene& e, const std::string& scene) {
-    for (const Problem& p : e.problems())
-        if (p.pointer.starts_with("--"))
-            printProblem(p.pointer, p.message, p.hint);
-        else
-            printProblems(sceneName(scene), {p});
-    return unusable;
-}
-
 }  // namespace
 
 int passportVerb(const std::string& scene, const PassportRequest& request, const CommonOptions& options) {
@@ -66,10 +56,12 @@ int passportVerb(const std::string& scene, const PassportRequest& request, const
     if (!reportScene(scene, read, options)) return unusable;
     try {
         const PageFormat format = formatOf(request);
+        const Replacing replacing = replacingOf(scene, read, options);
+        if (!request.out.empty()) requireReplaceable(request.out, replacing);  // before the measurements
         const std::size_t place = schemeNamed(*read.resolved, request.scheme);
         const Document page = passportOf(*read.resolved, place, {request.isMeasured, options.threads});
-        const std::string text = written(page, format);
-        if (!request.out.empty()) writeFile(request.out, text);
+        const std::string text = request.out.empty() ? written(page, format) : writtenForFile(page, format);
+        if (!request.out.empty()) writeFile(request.out, text, replacing);
         if (options.isJson) {
             Value document{Value::Object{}};
             document.set("scheme", page.title);
@@ -79,10 +71,9 @@ int passportVerb(const std::string& scene, const PassportRequest& request, const
         if (request.out.empty()) return print(text, done);
         return options.isQuiet ? done : print(page.title + ": " + request.out + "\n", done);
     } catch (const InvalidScene& e) {
-        return tellUnusable(e, scene);
+        return tellUnusable(e, sceneName(scene));
     } catch (const ExportError& e) {
-        printProblem(e.path.string(), e.what());
-        return unwritable;
+        return tellUnwritable(e);
     }
 }
 
@@ -94,14 +85,13 @@ int programVerb(const std::string& scene, const ProgramRequest& request, const C
         const ProgramLanguage language = languageOf(request);
         const std::size_t place = schemeNamed(*read.resolved, request.scheme);
         label = &read.resolved->schemes[place].spec.label;
-        writeFile(request.out, programOf(*read.resolved, place, language));
+        writeFile(request.out, programOf(*read.resolved, place, language), replacingOf(scene, read, options));
     } catch (const InvalidScene& e) {
         for (const Problem& p : e.problems())
             printProblem(p.pointer.empty() ? sceneName(scene) + ": " + *label : p.pointer, p.message, p.hint);
         return unusable;
     } catch (const ExportError& e) {
-        printProblem(e.path.string(), e.what());
-        return unwritable;
+        return tellUnwritable(e);
     }
     if (options.isJson) {
         Value document{Value::Object{}};

@@ -38,6 +38,22 @@ void printProblems(const std::string& file, const std::vector<Problem>& problems
         printProblem(file, std::string(lead) + "and " + std::to_string(said.size() - mostProblems) + " more");
 }
 
+int tellUnusable(const InvalidScene& error, const std::string& file) {
+    for (const Problem& p : error.problems())
+        if (p.pointer.starts_with("--"))
+            printProblem(p.pointer, p.message, p.hint);
+        else
+            printProblems(file, {p});
+    return unusable;
+}
+
+int tellUnwritable(const ExportError& error) {
+    const bool isForeign = dynamic_cast<const ForeignFile*>(&error) != nullptr;
+    printProblem(error.path.string(), std::string("cannot be written: ") + error.what(),
+                 isForeign ? "--force replaces it, or choose another --out" : "another --out");
+    return unwritable;
+}
+
 int print(std::string_view text, int code) {
     const bool isWritten =
         std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;

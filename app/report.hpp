@@ -9,6 +9,7 @@
 
 #include "engine/core/problem.hpp"
 #include "engine/core/value.hpp"
+#include "engine/run/export.hpp"
 
 namespace extremal::app {
 
@@ -22,6 +23,11 @@ void printProblem(std::string_view where, std::string_view what, std::string_vie
 /// once. `lead` comes before the message ("warning: "). After mostProblems of them one line says how many
 /// more there are.
 void printProblems(const std::string& file, const std::vector<Problem>& problems, std::string_view lead = {});
+
+/// Problems with arguments ("--out") have their own place; others are of the scene. Returns the exit code.
+int tellUnusable(const InvalidScene& error, const std::string& file);
+/// What could not be written. Returns the exit code.
+int tellUnwritable(const ExportError& error);
 
 /// Writes to standard output. Returns `code`, or 3 after an error message if not all could be written.
 [[nodiscard]] int print(std::string_view text, int code);

@@ -91,6 +91,8 @@ int runVerb(const std::string& scene, const RunVerbOptions& given, const CommonO
     const ReadScene read = loadScene(scene, options);
     if (!reportScene(scene, read, options)) return unusable;
     try {
+        const Replacing replacing = replacingOf(scene, read, options);
+        checkExport(read.scene, folder, replacing);
         InterruptWatch watch;
         RunOptions how{options.threads};
         constexpr double never = 1e6;
@@ -102,7 +104,7 @@ int runVerb(const std::string& scene, const RunVerbOptions& given, const CommonO
         run.start();
         const bool isInterrupted = waitFor(run, watch, options);
         const Comparison result = run.latest();
-        exportComparison(result, folder);
+        exportComparison(result, folder, replacing);
         printFailures(result, sceneName(scene));
         const int code = printResult(result, folder, exitCode(result, isInterrupted), options);
         if (const std::string failure = run.checkpointFailure(); !failure.empty())
@@ -114,14 +116,9 @@ int runVerb(const std::string& scene, const RunVerbOptions& given, const CommonO
             run.removeCheckpoints();
         return code;
     } catch (const InvalidScene& e) {
-        if (const Problem& first = e.problems().front(); first.pointer == "--resume")
-            printProblem(first.pointer, first.message, first.hint);
-        else
-            printProblems(sceneName(scene), e.problems());
-        return unusable;
+        return tellUnusable(e, sceneName(scene));
     } catch (const ExportError& e) {
-        printProblem(e.path.string(), std::string("cannot be written: ") + e.what(), "another --out DIR");
-        return unwritable;
+        return tellUnwritable(e);
     }
 }
 

@@ -76,7 +76,8 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
     if (!reportScene(scene, read, options)) return unusable;
     const Offscreen qt;
     try {
-        const SnapshotRequest request = requestOf(snapshot);
+        SnapshotRequest request = requestOf(snapshot);
+        request.replacing = replacingOf(scene, read, options);
         checkSnapshot(read.scene, request);
         InterruptWatch watch;
         // A view asked for here is computed as if the scene had it.
@@ -104,8 +105,9 @@ int snapshotVerb(const std::string& scene, const SnapshotOptions& snapshot, cons
         if (isInterrupted) printProblem("", "interrupted: the picture shows partial results");
         return printSnapshot(snapshot, request, result, code, options);
     } catch (const InvalidScene& e) {
-        printProblems(sceneName(scene), e.problems());
-        return unusable;
+        return tellUnusable(e, sceneName(scene));
+    } catch (const ExportError& e) {
+        return tellUnwritable(e);
     } catch (const SnapshotError& e) {
         printProblem(e.where, e.what(), e.hint);
         return e.kind == SnapshotError::Kind::unwritable ? unwritable : unusable;

@@ -39,8 +39,9 @@ const StudyEntry& entryOf(const std::string& id) {
 
 template <class Study>
 void writeResults(const StudyEntry& study, const Study& work, const std::vector<StudyTable>& tables,
-                  const std::filesystem::path& folder, bool isPlotted) {
-    for (const StudyTable& table : tables) writeFile(folder / (table.name + ".csv"), csvText(table));
+                  const std::filesystem::path& folder, bool isPlotted, const Replacing& replacing) {
+    for (const StudyTable& table : tables)
+        writeFile(folder / (table.name + ".csv"), csvText(table), replacing);
     const std::vector<Figure> figures = studyFigures(study.item.id, work);
     if (!isPlotted || figures.front().view.empty()) return;
     const Offscreen qt;
@@ -48,6 +49,7 @@ void writeResults(const StudyEntry& study, const Study& work, const std::vector<
         for (const char* ending : {".svg", ".png"}) {
             const std::string& stem = &figure == &figures.front() ? study.item.id : figure.view;
             const std::filesystem::path file = folder / (stem + ending);
+            requireReplaceable(file, replacing);
             const QString problem =
                 saveFigure(QString::fromStdString(file.string()), figure, {900, 640}, Theme::light(), 2);
             if (!problem.isEmpty()) throw ExportError(file, problem.toStdString());
@@ -99,9 +101,9 @@ bool isReached(const StudyEntry&, const Study&, const StudyTable&) {
 /// The files, and what the terminal shows.
 template <class Study>
 int report(const StudyEntry& study, const Study& work, const StudyOptions& given, bool isInterrupted,
-           const CommonOptions& options) {
+           const CommonOptions& options, const Replacing& replacing) {
     const std::vector<StudyTable> tables = tablesOf(study, work);
-    writeResults(study, work, tables, given.out, given.isPlotted);
+    writeResults(study, work, tables, given.out, given.isPlotted, replacing);
     const int code = isInterrupted ? interrupted : isReached(study, work, tables.front()) ? done : failed;
     if (options.isJson) {
         Value document;
@@ -137,24 +139,35 @@ std::filesystem::path onlyLogIn(const std::string& folder) {
     return logs.front();
 }
 
-/// `scene`: null of a study that has none.
-void writeScene(const Scene* scene, const std::filesystem::path& folder) {
+/// Before the work: what it writes may be written. `scene`: null of a study that has none.
+void writeScene(const StudyEntry& study, const Scene* scene, const StudyOptions& options,
+                const Replacing& replacing) {
+    const std::filesystem::path folder = options.out;
+    const std::string text = scene ? extremal::writeScene(*scene) : std::string();
+    if (scene) requireReplaceable(folder / "scene.json", replacing, text);
+    requireReplaceable(folder / (study.item.id + ".csv"), replacing,
+                       csvText({study.item.id, study.columns, {}}));
+    if (options.isPlotted)
+        for (const char* ending : {".svg", ".png"})
+            requireReplaceable(folder / (study.item.id + ending), replacing);
     prepareFolder(folder);
-    if (scene) writeFile(folder / "scene.json", extremal::writeScene(*scene));
+    if (scene) writeFile(folder / "scene.json", text, replacing);
 }
 
 template <class Study>
 int runStudy(const StudyEntry& study, Study work, const Scene* scene, const StudyOptions& options,
-             const CommonOptions& common) {
+             const CommonOptions& common, const Replacing& replacing) {
     InterruptWatch watch;
-    writeScene(scene, options.out);
     const auto file = logOf(options.out, study.item.id);
+    requireReplaceable(file, replacing);
+    writeScene(study, scene, options, replacing);
     const std::string head = headOf(study.item.id, work);
     std::vector<std::string> known;
-    StudyLog log = options.isResumed ? StudyLog::resume(file, head, known) : StudyLog::begin(file, head);
+    StudyLog log = options.isResumed ? StudyLog::resume(file, head, known, replacing)
+                                     : StudyLog::begin(file, head, replacing);
     for (const std::string& line : known) (void)takeLine(line, work);
     const bool isInterrupted = runAndWait(work, log, watch, common);
-    return report(study, work, options, isInterrupted, common);
+    return report(study, work, options, isInterrupted, common, replacing);
 }
 
 /// `heads`: the first lines of the logs, all alike.
@@ -181,8 +194,12 @@ int mergeLogs(const StudyEntry& study, Study work, const Scene* scene, const Stu
             "arguments",
             std::to_string(missing) + " of " + std::to_string(work.size()) + " points are missing",
             "every shard, each run to its end");
-    writeScene(scene, options.out);
-    return report(study, work, options, false, common);
+    Replacing replacing{common.isForced, {}};
+    for (const std::string& folder : options.folders)
+        for (const std::string& name : {study.item.id + ".log", std::string("scene.json")})
+            replacing.read.push_back(std::filesystem::path(folder) / name);
+    writeScene(study, scene, options, replacing);
+    return report(study, work, options, false, common, replacing);
 }
 
 }  // namespace
@@ -199,7 +216,7 @@ int studyVerb(const std::string& scene, const StudyOptions& options, const Commo
         return std::visit(
             [&](auto&& work) {
                 return runStudy(study, std::forward<decltype(work)>(work), hasScene ? &read.scene : nullptr,
-                                options, common);
+                                options, common, replacingOf(scene, read, common));
             },
             makeStudy(study, options, hasScene ? read.resolved.get() : nullptr, common.threads));
     });

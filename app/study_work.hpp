@@ -53,8 +53,7 @@ int guarded(const std::string& file, Function&& work) {
         }
         return unusable;
     } catch (const ExportError& e) {
-        printProblem(e.path.string(), std::string("cannot be written: ") + e.what(), "another --out DIR");
-        return unwritable;
+        return tellUnwritable(e);
     }
 }
 

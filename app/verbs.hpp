@@ -19,6 +19,7 @@ struct CommonOptions {
     bool isJson = false;
     bool isQuiet = false;
     bool isTrusted = false;  ///< files that the scene names outside its folder are read
+    bool isForced = false;   ///< files of the user are replaced
     unsigned threads = 0;    ///< 0: as many as there are cores
 };
 

@@ -5,6 +5,7 @@
 
 #include "engine/core/markup.hpp"
 #include "engine/passport/formula_parts.hpp"
+#include "engine/run/replacing.hpp"
 
 namespace extremal {
 namespace {
@@ -181,6 +182,13 @@ std::string written(const Document& document, PageFormat format) {
             break;
     }
     return writtenBy<Markdown>(document);
+}
+
+std::string writtenForFile(const Document& document, PageFormat format) {
+    const std::string text = written(document, format);
+    if (format == PageFormat::latex) return markedAsOwn(text, "% ");
+    if (format == PageFormat::html) return markedAsOwn(text, "<!-- ", " -->", 1);  // behind the doctype
+    return markedAsOwn(text, "<!-- ", " -->", static_cast<int>(std::count(text.begin(), text.end(), '\n')));
 }
 
 }  // namespace extremal

@@ -13,6 +13,7 @@
 #include "engine/passport/program_text.hpp"
 #include "engine/passport/scene_formula.hpp"
 #include "engine/passport/scheme_tableau.hpp"
+#include "engine/run/replacing.hpp"
 #include "engine/space/typed.hpp"
 #include "engine/tableau/tableau.hpp"
 
@@ -234,7 +235,8 @@ std::string programOf(const ResolvedScene& scene, std::size_t place, ProgramLang
     else
         writeTableau(*method.tableau, w, isPython, method.kind == Kind::stages);
     writeFunctions(*formula, method.kind, w, isPython);
-    return w.text;
+    // In Python behind the two lines that come first: the interpreter and the encoding.
+    return isPython ? markedAsOwn(w.text, "# ", {}, 2) : markedAsOwn(w.text, "// ");
 }
 
 }  // namespace extremal

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 
+#include "engine/core/fingerprint.hpp"
 #include "engine/core/known_value.hpp"
 #include "engine/core/text.hpp"
 #include "engine/model/wave/levels.hpp"
@@ -287,25 +288,33 @@ void addProducts(std::vector<ExportFile>& files, const std::string& slug, const 
             {slug + ".action-defect.csv", [defect](FileBatch& batch) { batch.append(defectCsv(*defect)); }});
 }
 
-/// The scene, and a copy of the file that it is compared with, so that the folder can be taken anywhere;
-/// without the copy where that file is gone.
-std::vector<ExportFile> sceneFiles(const Scene& scene) {
+/// Whether the folder has a copy of the file that the scene is compared with, so that it can be taken
+/// anywhere; not where that file is gone.
+bool takesReference(const Scene& scene) {
     std::error_code ignored;
+    const std::string& path = scene.reference.path;
+    return !path.empty() && std::filesystem::is_regular_file(path, ignored) && std::ifstream(path).good();
+}
+
+/// The content of scene.json.
+std::string sceneText(const Scene& scene) {
+    if (!takesReference(scene)) return writeScene(scene);
+    Scene named = scene;
+    named.reference.path = referenceCopy;
+    return writeScene(named);
+}
+
+std::vector<ExportFile> sceneFiles(const Scene& scene) {
+    const auto write = [&scene](FileBatch& batch) { batch.append(sceneText(scene)); };
+    if (!takesReference(scene)) return {{"scene.json", write}};
     const std::string path = scene.reference.path;
-    if (path.empty() || !std::filesystem::is_regular_file(path, ignored) || !std::ifstream(path))
-        return {{"scene.json", [&scene](FileBatch& batch) { batch.append(writeScene(scene)); }}};
-    const auto writeNamed = [&scene](FileBatch& batch) {
-        Scene named = scene;
-        named.reference.path = referenceCopy;
-        batch.append(writeScene(named));
-    };
     const auto copy = [path](FileBatch& batch) {
         std::ifstream in(path, std::ios::binary);
         std::string block(1 << 16, '\0');
         while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0)
             batch.append(block.substr(0, static_cast<std::size_t>(in.gcount())));
     };
-    return {{"scene.json", writeNamed}, {referenceCopy, copy}};
+    return {{"scene.json", write}, {referenceCopy, copy}};
 }
 
 /// All but summary.csv and summary.json.
@@ -418,10 +427,25 @@ Value summaryValue(const Comparison& comparison) {
     summary.set("schemes", schemes);
     summary.set("reference", reference);
     summary.set("files", files);
+    // Tells a scene.json that was written by this run from one that was changed since.
+    summary.set("scene", fingerprint(sceneText(comparison.scene)));
     return summary;
 }
 
-std::vector<std::string> exportComparison(const Comparison& comparison, const std::filesystem::path& folder) {
+void checkExport(const Scene& scene, const std::filesystem::path& folder, const Replacing& replacing) {
+    requireReplaceable(folder / "scene.json", replacing, sceneText(scene));
+    std::vector<std::string> labels;
+    for (const SchemeSpec& scheme : scene.schemes)
+        if (scheme.isEnabled) labels.push_back(scheme.label);
+    std::vector<std::string> names{"summary.csv", "summary.json"}, taken{"summary"};
+    if (!scene.reference.path.empty()) taken.emplace_back("reference");
+    for (const std::string& slug : uniqueSlugs(labels, taken))
+        for (const char* ending : {".csv", ".checkpoint"}) names.push_back(slug + ending);
+    for (const std::string& name : names) requireReplaceable(folder / name, replacing);
+}
+
+std::vector<std::string> exportComparison(const Comparison& comparison, const std::filesystem::path& folder,
+                                          const Replacing& replacing) {
     prepareFolder(folder);
     FileBatch batch(folder);
     for (const ExportFile& file : filesOf(comparison)) {
@@ -431,7 +455,7 @@ std::vector<std::string> exportComparison(const Comparison& comparison, const st
     }
     batch.write("summary.csv", summaryCsv(comparison));
     batch.write("summary.json", writeJson(summaryValue(comparison)));
-    return batch.commit();
+    return batch.commit(replacing);
 }
 
 }  // namespace extremal

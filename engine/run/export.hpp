@@ -15,6 +15,7 @@
 
 #include "engine/core/value.hpp"
 #include "engine/run/comparison.hpp"
+#include "engine/run/replacing.hpp"
 
 namespace extremal {
 
@@ -26,15 +27,30 @@ public:
     std::filesystem::path path;
 };
 
+/// The file is the user's, and was not to be replaced.
+class ForeignFile : public ExportError {
+public:
+    explicit ForeignFile(std::filesystem::path file)
+        : ExportError(
+              std::move(file),
+              "another file has this name, which Extremal did not write, or which was changed since") {}
+};
+
 /// Makes the folder, with its parents, and makes sure that files can be written into it. Throws ExportError.
 void prepareFolder(const std::filesystem::path& folder);
 
-/// Writes a file whole or not at all. Throws ExportError.
-void writeFile(const std::filesystem::path& path, const std::string& text);
+/// Writes a file whole or not at all, in place of none but those that may be replaced. Throws what
+/// requireReplaceable does, and ExportError.
+void writeFile(const std::filesystem::path& path, const std::string& text, const Replacing& replacing = {});
+
+/// Before a run: whether its files may take the place of what the folder has, as far as their names are
+/// known. Throws what requireReplaceable does.
+void checkExport(const Scene& scene, const std::filesystem::path& folder, const Replacing& replacing);
 
 /// Writes all files of the comparison into the folder, which is made if missing; returns their names. Throws
-/// ExportError, and then leaves no file that is not whole.
-std::vector<std::string> exportComparison(const Comparison& comparison, const std::filesystem::path& folder);
+/// what requireReplaceable does, and ExportError; then no file has been replaced, and none is half written.
+std::vector<std::string> exportComparison(const Comparison& comparison, const std::filesystem::path& folder,
+                                          const Replacing& replacing = {});
 
 /// The text of a scheme's CSV.
 std::string csvText(const Trajectory& trajectory);

@@ -1,5 +1,6 @@
 #include "engine/run/file_batch.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -52,9 +53,16 @@ void FileBatch::write(const std::string& name, const std::string& text) {
     close();
 }
 
-std::vector<std::string> FileBatch::commit() {
+std::vector<std::string> FileBatch::commit(const Replacing& replacing) {
+    std::vector<std::string> changed;
+    for (const std::string& name : names_)
+        if (mayReplace(folder_ / name, temporary(name), replacing)) changed.push_back(name);
     for (const std::string& name : names_) {
         std::error_code error;
+        if (std::find(changed.begin(), changed.end(), name) == changed.end()) {
+            std::filesystem::remove(temporary(name), error);
+            continue;
+        }
         std::filesystem::rename(temporary(name), folder_ / name, error);
         if (error) throw ExportError(folder_ / name, error.message());
     }
@@ -70,10 +78,10 @@ void prepareFolder(const std::filesystem::path& folder) {
     trial.write("trial", "");
 }
 
-void writeFile(const std::filesystem::path& path, const std::string& text) {
+void writeFile(const std::filesystem::path& path, const std::string& text, const Replacing& replacing) {
     FileBatch batch(path.has_parent_path() ? path.parent_path() : std::filesystem::path("."));
     batch.write(path.filename().string(), text);
-    batch.commit();
+    batch.commit(replacing);
 }
 
 }  // namespace extremal

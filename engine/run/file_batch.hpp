@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/run/replacing.hpp"
+
 namespace extremal {
 
 class FileBatch {
@@ -20,8 +22,8 @@ public:
     void append(const std::string& text);
     void close();
     void write(const std::string& name, const std::string& text);
-    /// Gives the files their names, and returns these.
-    std::vector<std::string> commit();
+    /// Gives the files their names, and returns these: all of them, or, where one may not be replaced, none.
+    std::vector<std::string> commit(const Replacing& replacing);
 
 private:
     std::filesystem::path temporary(const std::string& name) const;

@@ -55,16 +55,18 @@ StudyLog::~StudyLog() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-StudyLog StudyLog::begin(const std::filesystem::path& file, const std::string& head) {
+StudyLog StudyLog::begin(const std::filesystem::path& file, const std::string& head,
+                         const Replacing& replacing) {
+    requireReplaceable(file, replacing);
     StudyLog log(file, true);
     log.append(head);
     return log;
 }
 
 StudyLog StudyLog::resume(const std::filesystem::path& file, const std::string& head,
-                          std::vector<std::string>& known) {
+                          std::vector<std::string>& known, const Replacing& replacing) {
     known = linesOf(file);
-    if (known.empty()) return begin(file, head);
+    if (known.empty()) return begin(file, head, replacing);
     if (known.front() != head)
         throw InvalidScene("--resume", file.string() + " belongs to another study, scene or option",
                            "another --out DIR, or leave --resume out to begin anew");

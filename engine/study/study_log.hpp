@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/core/value.hpp"
+#include "engine/run/replacing.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace extremal {
@@ -26,12 +27,13 @@ std::vector<std::string> linesOf(const std::filesystem::path& log);
 
 class StudyLog {
 public:
-    /// Begins a log, in place of an older one. Throws ExportError.
-    static StudyLog begin(const std::filesystem::path& file, const std::string& head);
+    /// Begins a log, in place of an older one. Throws what requireReplaceable does, and ExportError.
+    static StudyLog begin(const std::filesystem::path& file, const std::string& head,
+                          const Replacing& replacing = {});
     /// Goes on with a log, or begins one where there is none. `known`: its lines behind the head. Throws
     /// InvalidScene ("--resume") where it has another head, ExportError.
     static StudyLog resume(const std::filesystem::path& file, const std::string& head,
-                           std::vector<std::string>& known);
+                           std::vector<std::string>& known, const Replacing& replacing = {});
     StudyLog(StudyLog&& other) noexcept;
     ~StudyLog();
 

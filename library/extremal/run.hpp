@@ -66,7 +66,8 @@ public:
     /// The document of summary.json.
     Value summary() const;
     /// Writes what `extremal run` does; the folder is made if missing. Returns the names of the files. Throws
-    /// std::runtime_error where the files cannot be written; then none is left half-written.
+    /// std::runtime_error where the files cannot be written, or would replace one that no run has written;
+    /// then none is left half-written.
     std::vector<std::string> write(const std::string& folder) const;
 
     struct Data;

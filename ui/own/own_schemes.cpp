@@ -69,7 +69,7 @@ std::string OwnSchemes::text() const { return writeJson(Value::Object{{mark, 1},
 void OwnSchemes::save(const std::string& file) const {
     const std::filesystem::path path(file);
     if (path.has_parent_path()) prepareFolder(path.parent_path());
-    writeFile(path, text());
+    writeFile(path, text(), {.isForced = true});  // it was read before
 }
 
 /// Which entries can be used, and what is wrong with the others.

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "engine/core/markup.hpp"
+#include "engine/run/replacing.hpp"
 
 namespace extremal {
 namespace {
@@ -27,6 +28,7 @@ QByteArray pngBytes(QSize size, double scale, const DrawPage& draw) {
         painter.painter().scale(scale, scale);
         draw(painter, QRectF(QPointF(0, 0), QSizeF(size)));
     }
+    image.setText(QStringLiteral("Software"), QString::fromLatin1(maker));
     QBuffer buffer;
     image.save(&buffer, "PNG");
     return buffer.data();
@@ -39,7 +41,7 @@ QByteArray pdfBytes(QSize size, const QString& title, const DrawPage& draw) {
         constexpr int finer = 10;  // positions of letters are whole units of the device
         QPdfWriter writer(&buffer);
         writer.setTitle(title);
-        writer.setCreator(QStringLiteral("Extremal"));
+        writer.setCreator(QString::fromLatin1(maker));
         writer.setResolution(96 * finer);
         writer.setPageSize(
             QPageSize(QSizeF(size) * 72.0 / 96.0, QPageSize::Point, {}, QPageSize::ExactMatch));
@@ -82,7 +84,9 @@ QByteArray svgBytes(QSize size, const QString& title, const DrawPage& draw) {
     for (const char* noncharacter : {"\xef\xbf\xbe", "\xef\xbf\xbf"})
         bytes.replace(noncharacter, "\xef\xbf\xbd");
     // Readers without the font shall not fall back to one with serifs.
-    return bytes.replace("font-family=\"Inter\"", "font-family=\"Inter, Helvetica, Arial, sans-serif\"");
+    bytes.replace("font-family=\"Inter\"", "font-family=\"Inter, Helvetica, Arial, sans-serif\"");
+    // Behind the declaration of XML.
+    return QByteArray::fromStdString(markedAsOwn(bytes.toStdString(), "<!-- ", " -->", 1));
 }
 
 }  // namespace

@@ -67,6 +67,24 @@ QString schemeRow(const SchemeResult& result) {
              shortNumber(s.energyDrift), outcome);
 }
 
+/// What went wrong in writing, empty if nothing did.
+QString problemOf(const std::function<void()>& write) {
+    try {
+        write();
+    } catch (const ExportError& e) {
+        return QString::fromStdString(e.path.string()) + ": " + e.what();
+    }
+    return {};
+}
+
+/// A PNG picture that is known for our own later.
+QString savePicture(QImage picture, const QString& file) {
+    const QString problem = problemOf([&] { requireReplaceable(file.toStdString(), {}); });
+    if (!problem.isEmpty()) return problem;
+    picture.setText(QStringLiteral("Software"), QString::fromLatin1(maker));
+    return picture.save(file) ? QString() : file + " cannot be written";
+}
+
 }  // namespace
 
 QString figureName(const ExportParts& parts, std::size_t place) {
@@ -124,36 +142,31 @@ QString reportPage(const ExportParts& parts) {
 std::vector<std::function<QString()>> exportSteps(const ExportParts& parts, const QString& folder) {
     const auto shared = std::make_shared<const ExportParts>(parts);
     const std::filesystem::path path(folder.toStdString());
-    const auto guarded = [](const std::function<void()>& write) {
-        try {
-            write();
-        } catch (const ExportError& e) {
-            return QString::fromStdString(e.path.string()) + ": " + e.what();
-        }
-        return QString();
-    };
     std::vector<std::function<QString()>> steps;
     steps.push_back([=] {
-        return guarded([&] {
+        return problemOf([&] {
             exportComparison(*shared->comparison, path);
-            writeFile(path / "command.txt", commandsFor(*shared).toStdString());
-            writeFile(path / "report.html", reportPage(*shared).toStdString());
+            writeFile(path / "command.txt", markedAsOwn(commandsFor(*shared).toStdString(), "# "));
+            writeFile(path / "report.html",
+                      markedAsOwn(reportPage(*shared).toStdString(), "<!-- ", " -->", 1));
         });
     });
     for (std::size_t i = 0; i < parts.figures.size(); ++i) {
         const QString stem = folder + '/' + figureName(parts, i);
         steps.push_back([=] {
-            const QImage picture = renderFigure(shared->figures[i], figureSize, Theme::light(), 2);
-            return picture.save(stem + ".png") ? QString() : stem + ".png cannot be written";
+            return savePicture(renderFigure(shared->figures[i], figureSize, Theme::light(), 2),
+                               stem + ".png");
         });
         for (const char* ending : {".svg", ".pdf"})
-            steps.push_back(
-                [=] { return saveFigure(stem + ending, shared->figures[i], figureSize, Theme::light(), 2); });
+            steps.push_back([=] {
+                const QString problem =
+                    problemOf([&] { requireReplaceable((stem + ending).toStdString(), {}); });
+                if (!problem.isEmpty()) return problem;
+                return saveFigure(stem + ending, shared->figures[i], figureSize, Theme::light(), 2);
+            });
     }
     steps.push_back([=] {
-        if (!shared->stage.isNull() && !shared->stage.save(folder + "/stage.png"))
-            return QStringLiteral("stage.png cannot be written");
-        return QString();
+        return shared->stage.isNull() ? QString() : savePicture(shared->stage, folder + "/stage.png");
     });
     return steps;
 }
@@ -164,8 +177,7 @@ std::vector<std::function<QString()>> frameSteps(const QString& folder, double s
     for (int i = 0; i < count; ++i)
         steps.push_back([=] {
             const QString file = QStringLiteral("%1/frame-%2.png").arg(folder).arg(i + 1, 4, 10, QChar('0'));
-            const QImage image = picture(start + (end - start) * i / std::max(1, count - 1));
-            return image.save(file) ? QString() : file + " cannot be written";
+            return savePicture(picture(start + (end - start) * i / std::max(1, count - 1)), file);
         });
     return steps;
 }

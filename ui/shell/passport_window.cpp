@@ -89,10 +89,10 @@ bool PassportWindow::saveAs(const QString& path) {
             text = programOf(*scene_, scheme_,
                              path.endsWith(".py") ? ProgramLanguage::python : ProgramLanguage::cpp);
         else
-            text = written(*page_, path.endsWith(".html")  ? PageFormat::html
-                                   : path.endsWith(".tex") ? PageFormat::latex
-                                                           : PageFormat::markdown);
-        writeFile(path.toStdString(), text);
+            text = writtenForFile(*page_, path.endsWith(".html")  ? PageFormat::html
+                                          : path.endsWith(".tex") ? PageFormat::latex
+                                                                  : PageFormat::markdown);
+        writeFile(path.toStdString(), text, {.isForced = true});  // the dialog has asked
         return true;
     } catch (const std::exception& e) {
         notices_.post({Notice::Kind::error,

@@ -133,7 +133,8 @@ void checkThatSomethingIsDrawn(const Comparison& comparison, const std::vector<V
                         comparison.schemes.empty() ? "no scheme is switched on" : messages);
 }
 
-void writePng(const QImage& image, const QString& file) {
+void writePng(QImage image, const QString& file) {
+    image.setText(QStringLiteral("Software"), QString::fromLatin1(maker));
     QSaveFile target(file);
     QByteArray bytes;
     QBuffer buffer(&bytes);
@@ -141,6 +142,21 @@ void writePng(const QImage& image, const QString& file) {
     if (!target.open(QIODevice::WriteOnly) || target.write(bytes) != bytes.size() || !target.commit())
         throw SnapshotError(Kind::unwritable, file.toStdString(),
                             "cannot be written: " + target.errorString().toStdString());
+}
+
+QString differenceFileOf(const SnapshotRequest& request) {
+    return request.file + QStringLiteral(".diff.png");
+}
+
+/// What the request writes takes the place of nothing that it reads, nor of files of the user.
+void checkWhatIsReplaced(const SnapshotRequest& request) {
+    Replacing replacing = request.replacing;
+    std::vector<QString> files{request.file};
+    if (!request.compareWith.isEmpty()) {
+        replacing.read.emplace_back(request.compareWith.toStdString());
+        files.push_back(differenceFileOf(request));
+    }
+    for (const QString& file : files) requireReplaceable(file.toStdString(), replacing);
 }
 
 void compareWithBase(const QImage& picture, const SnapshotRequest& request, SnapshotResult& result) {
@@ -151,7 +167,7 @@ void compareWithBase(const QImage& picture, const SnapshotRequest& request, Snap
     const double tileTolerance = std::min(100.0, 50 * request.tolerance);  // by default 12 of 256 pixels
     result.isEqual = difference.hasSameSize && difference.differingPercent <= request.tolerance &&
                      difference.worstTilePercent <= tileTolerance;
-    result.differenceFile = request.file + QStringLiteral(".diff.png");
+    result.differenceFile = differenceFileOf(request);
     if (difference.hasSameSize)
         result.verdict = formatNumber(difference.differingPercent, 4) + " % of the pixels differ, " +
                          formatNumber(request.tolerance) + " % may; " +
@@ -197,6 +213,7 @@ void checkSnapshot(const Scene& scene, const SnapshotRequest& request) {
     if (!folder.isDir() || !folder.isWritable() || file.isDir())
         throw SnapshotError(Kind::unwritable, request.file.toStdString(), "cannot be written",
                             folder.isDir() ? "check the permissions" : "the folder does not exist");
+    checkWhatIsReplaced(request);
 }
 
 SnapshotResult makeSnapshot(std::shared_ptr<const Comparison> comparison, const SnapshotRequest& request) {

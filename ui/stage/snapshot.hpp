@@ -18,6 +18,7 @@
 #include <string>
 
 #include "engine/run/comparison.hpp"
+#include "engine/run/replacing.hpp"
 
 namespace extremal {
 
@@ -32,6 +33,7 @@ struct SnapshotRequest {
     /// Percent of the pixels that may differ by more than 8 of 255; of any tile of 16 x 16 pixels, 50 times
     /// as many.
     double tolerance = 0.1;
+    Replacing replacing = {};  ///< besides, the picture to compare with is never replaced
 };
 
 struct SnapshotResult {
@@ -56,7 +58,7 @@ public:
 };
 
 /// Throws SnapshotError if the request cannot be fulfilled, as far as that can be known without running the
-/// scene.
+/// scene, and what requireReplaceable does.
 void checkSnapshot(const Scene& scene, const SnapshotRequest& request);
 
 /// Draws, writes and compares. Throws SnapshotError.
