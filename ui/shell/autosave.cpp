@@ -56,6 +56,7 @@ void Autosave::writeNow() {
         {"name", workspace_.fileName().toStdString()},
         {"path", workspace_.path().toStdString()},
         {"origin", workspace_.origin().toStdString()},
+        {"disk", workspace_.diskMark()},
         {"drafts", Value(Value::Object(workspace_.drafts().begin(), workspace_.drafts().end()))},
         {"scene", workspace_.document()}});
     const std::string text = writeJson(copy);
@@ -91,7 +92,8 @@ std::vector<UnsavedScene> Autosave::unsaved() const {
             if (const Value* kept = copy.find("drafts"); kept && kept->isObject())
                 drafts = {kept->asObject().begin(), kept->asObject().end()};
             all.push_back({info.absoluteFilePath(), text("name"), text("path"), text("origin"),
-                           info.lastModified(), scene ? *scene : copy, std::move(drafts)});
+                           text("disk").toStdString(), info.lastModified(), scene ? *scene : copy,
+                           std::move(drafts)});
             if (all.back().name.isEmpty()) all.back().name = tr("unsaved");
         } catch (const InvalidScene&) {
             notices_.post({Notice::Kind::error,
@@ -105,7 +107,7 @@ std::vector<UnsavedScene> Autosave::unsaved() const {
 }
 
 bool Autosave::restore(const UnsavedScene& scene) {
-    if (!workspace_.adopt(scene.document, scene.path, scene.origin)) return false;
+    if (!workspace_.adopt(scene.document, scene.path, scene.origin, scene.disk)) return false;
     for (const auto& [place, value] : scene.drafts) workspace_.edit({{place, value}}, tr("Typed before"));
     writeNow();
     if (QFile::exists(ownPath())) QFile::remove(scene.copy);

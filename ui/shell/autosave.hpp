@@ -25,6 +25,7 @@ struct UnsavedScene {
     QString copy;          ///< the file that holds it
     QString name;          ///< "kepler.json"
     QString path, origin;  ///< as of Workspace
+    std::string disk;      ///< Workspace::diskMark()
     QDateTime time;
     Value document;
     std::map<std::string, Value> drafts;  ///< what was typed and refused, by its places

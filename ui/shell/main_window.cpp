@@ -253,6 +253,7 @@ void MainWindow::connectState() {
     connect(workspace_, &Workspace::fileChanged, this, &MainWindow::keepRecent);
     connect(workspace_, &Workspace::opened, this, &MainWindow::keepRecent);
     connect(workspace_, &Workspace::opened, this, &MainWindow::showWork);
+    connect(workspace_, &Workspace::saveAsWanted, this, [this] { save(true); });
     connect(workspace_, &Workspace::agreedToRead, this, [this](const QString& name) { open(name, true); });
     connect(notices_, &Notices::logRequested, this, &MainWindow::showLog);
     connect(run_, &RunControl::stateChanged, this, &MainWindow::showStatus);

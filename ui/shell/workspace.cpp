@@ -20,6 +20,7 @@
 #include "engine/scene/pointer.hpp"
 #include "engine/scene/topics.hpp"
 #include "ui/shell/background.hpp"
+#include "ui/shell/disk_file.hpp"
 #include "ui/shell/notices.hpp"
 
 namespace extremal {
@@ -73,7 +74,12 @@ ReadScene readAside(std::function<ReadScene()> read) {
 
 }  // namespace
 
-Workspace::Workspace(Notices& notices, QObject* parent) : QObject(parent), notices_(notices) {}
+Workspace::Workspace(Notices& notices, QObject* parent)
+    : QObject(parent), notices_(notices), disk_(new DiskFile(this)) {
+    connect(disk_, &DiskFile::changed, this,
+            [this] { tellOfChange(tr("%1 was changed by another program or window").arg(fileName())); });
+    connect(disk_, &DiskFile::restored, this, [this] { notices_.dismiss("disk"); });
+}
 
 /// Makes the edits of the document, or of another one in its place; else problems_ says why not.
 bool Workspace::accept(const std::vector<Edit>& edits, const Value* instead) {
@@ -316,6 +322,9 @@ bool Workspace::open(const QString& name, bool isTrusted) {
     notices_.dismiss("refused");
     path_ = path;
     origin_ = isPreset ? name : path;
+    disk_->take(path_, text);
+    notices_.dismiss("disk");
+    notices_.dismiss("save");
     drafts_.clear();
     problems_.clear();
     history_.clear();
@@ -328,7 +337,8 @@ bool Workspace::open(const QString& name, bool isTrusted) {
     return true;
 }
 
-bool Workspace::adopt(const Value& document, const QString& path, const QString& origin) {
+bool Workspace::adopt(const Value& document, const QString& path, const QString& origin,
+                      const std::string& disk) {
     ReadScene read = readAside([&] { return readScene(document, {}, directoryOf(path)); });
     if (!read.errors.empty()) {
         report(tr("The scene"), read.errors);
@@ -336,6 +346,9 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
     }
     path_ = path;
     origin_ = origin.isEmpty() ? path : origin;
+    disk_->takeKnown(path_, disk);
+    notices_.dismiss("disk");
+    notices_.dismiss("save");
     drafts_.clear();
     problems_.clear();
     history_.clear();
@@ -348,10 +361,31 @@ bool Workspace::adopt(const Value& document, const QString& path, const QString&
     return true;
 }
 
-bool Workspace::save() { return !path_.isEmpty() && saveAs(path_); }
+std::string Workspace::diskMark() const { return path_.isEmpty() ? std::string() : disk_->known(); }
+
+std::string Workspace::textFor(const QString& path) const {
+    return writeJson(completed(namedFrom(directoryOf(path), scene_), document_));
+}
+
+bool Workspace::save() {
+    if (path_.isEmpty()) return false;
+    if (!disk_->isChanged(textFor(path_))) return saveAs(path_);
+    tellOfChange(tr("%1 was not saved, as the file was changed since it was read").arg(fileName()));
+    return false;
+}
+
+void Workspace::tellOfChange(const QString& what) {
+    notices_.post({Notice::Kind::warning,
+                   "disk",
+                   what,
+                   isDirty() ? tr("to read it again drops the changes made here") : QString(),
+                   {{tr("Reload"), [this] { open(path_); }},
+                    {tr("Save anyway"), [this] { saveAs(path_); }},
+                    {tr("Save as..."), [this] { emit saveAsWanted(); }}}});
+}
 
 bool Workspace::saveAs(const QString& path) {
-    const std::string text = writeJson(completed(namedFrom(directoryOf(path), scene_), document_));
+    const std::string text = textFor(path);
     QSaveFile file(path);
     const bool isWritten =
         file.open(QIODevice::WriteOnly) &&
@@ -366,8 +400,10 @@ bool Workspace::saveAs(const QString& path) {
         return false;
     }
     notices_.dismiss("save");
+    notices_.dismiss("disk");
     path_ = QFileInfo(path).absoluteFilePath();
     origin_ = path_;
+    disk_->take(path_, text);
     saved_ = document_;
     emit fileChanged();
     return true;

@@ -23,6 +23,7 @@
 
 namespace extremal {
 
+class DiskFile;
 class Notices;
 struct ReadScene;
 struct ResolvedScene;
@@ -66,11 +67,17 @@ public:
     /// a file outside its own folder and the user has not agreed to read it.
     bool open(const QString& name, bool isTrusted = false);
     /// Takes a whole document, as for a new scene or a recovered one; it counts as unsaved.
-    bool adopt(const Value& document, const QString& path = {}, const QString& origin = {});
+    /// `disk`: the fingerprint that its file had, see diskMark().
+    bool adopt(const Value& document, const QString& path = {}, const QString& origin = {},
+               const std::string& disk = {});
     /// Why the last scene could not be opened.
     const std::vector<Problem>& openProblems() const { return openProblems_; }
-    bool save();  ///< false, with a notice, if it cannot be written or has no file yet
-    bool saveAs(const QString& path);
+    /// False, with a notice, if it cannot be written or has no file yet, and where the file was changed since
+    /// it was read: the notice offers to read it again, to save all the same, or to save elsewhere.
+    bool save();
+    bool saveAs(const QString& path);  ///< the user has agreed to replace what is there
+    /// The fingerprint of the file as it was read or saved last; empty: there is no file, or it is not known.
+    std::string diskMark() const;
     QString path() const { return path_; }      ///< empty: not saved yet
     QString origin() const { return origin_; }  ///< SCENE as on the command line: a path or "preset:NAME"
     QString fileName() const;                   ///< for titles: "spring-pendulum.json"
@@ -87,6 +94,7 @@ signals:
     void agreedToRead(
         const QString& name);  ///< files outside the folder of this scene, which is not open yet
     void selectionChanged();
+    void saveAsWanted();  ///< the user wants to choose another file
 
 private:
     bool accept(const std::vector<Edit>& edits, const Value* instead = nullptr);
@@ -103,6 +111,8 @@ private:
     EditState state() const { return {document_, drafts_}; }
     void restore(const EditState& state);
     void report(const QString& name, const std::vector<Problem>& problems);
+    std::string textFor(const QString& path) const;
+    void tellOfChange(const QString& what);
 
     Notices& notices_;
     Scene scene_;
@@ -113,6 +123,7 @@ private:
     std::vector<std::string> unclaimed_;  ///< places of a refused edit, until a field shows it
     History history_;
     QString path_, origin_;
+    DiskFile* disk_;
     int selected_ = -1;
     int revision_ = 0;  ///< counts documents
 };
