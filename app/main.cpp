@@ -4,13 +4,17 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <string>
 
 #include "app/arguments.hpp"
 #include "app/report.hpp"
 #include "app/verbs.hpp"
+#include "engine/core/problem.hpp"
 #include "engine/model/wave/wisdom.hpp"
+#include "engine/run/export.hpp"
 
 namespace {
 
@@ -59,8 +63,18 @@ int main(int argc, char** argv) {
         return dispatch(argc, argv);
     } catch (const std::bad_alloc&) {
         extremal::app::printProblem("", "out of memory", "fewer schemes at once: --threads 1, or fewer rows");
+    } catch (const extremal::ExportError& e) {
+        extremal::app::printProblem(e.path.string(), std::string("cannot be written: ") + e.what());
+        return extremal::app::unwritable;
+    } catch (const std::filesystem::filesystem_error& e) {
+        extremal::app::printProblem(e.path1().string(), e.code().message(), "another file or folder");
+        return extremal::app::unwritable;
+    } catch (const extremal::InvalidScene& e) {
+        extremal::app::printProblems("", e.problems());
+        return extremal::app::unusable;
     } catch (const std::exception& e) {
-        extremal::app::printProblem("internal error", e.what());
+        // A fault of the program: every cause that is known has its own message.
+        extremal::app::printProblem("internal error", e.what(), "please report it, with the command");
     }
     return extremal::app::failed;
 }

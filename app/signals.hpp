@@ -6,7 +6,8 @@
 
 namespace extremal::app {
 
-/// While it lives, SIGINT and SIGTERM are blocked in this thread and those it starts.
+/// While it lives, SIGINT, SIGTERM and, unless it is ignored, SIGHUP are blocked in this thread and those it
+/// starts.
 class InterruptWatch {
 public:
     InterruptWatch();

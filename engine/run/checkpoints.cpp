@@ -1,13 +1,14 @@
 #include "engine/run/checkpoints.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
+#include <sstream>
 #include <utility>
 
 #include "engine/core/fingerprint.hpp"
 #include "engine/core/instruction_set.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/regular_file.hpp"
 #include "engine/run/export.hpp"
 #include "engine/scene/json.hpp"
 
@@ -43,9 +44,15 @@ SchemeCheckpoint::SchemeCheckpoint(std::filesystem::path file, const Value& owne
 }
 
 void SchemeCheckpoint::read(const Value& head) {
-    std::ifstream in(file_, std::ios::binary);
+    std::string text;
+    try {
+        text = readRegularFile(file_.string(), std::size_t{8} << 30);
+    } catch (const UnreadableFile&) {  // nothing to go on from
+        return;
+    }
+    std::istringstream in(std::move(text));
     std::string first, check;
-    if (!in || !std::getline(in, first) || !std::getline(in, check)) return;
+    if (!std::getline(in, first) || !std::getline(in, check)) return;
     isWritten_ = true;
     if (first != head_) {
         std::string other = "scene";

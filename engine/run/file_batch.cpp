@@ -1,10 +1,15 @@
 #include "engine/run/file_batch.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
+#include <utility>
 
 #include <fcntl.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
 #include "engine/run/export.hpp"
@@ -21,8 +26,43 @@ void writeAll(int descriptor, std::string_view text, const std::filesystem::path
     }
 }
 
+namespace {
+
+/// ".HOST.PID.tmp", of a host without dots and other doubtful characters.
+std::string suffixOf(pid_t process) {
+    struct utsname system {};
+    std::string host = ::uname(&system) == 0 ? system.nodename : "";
+    for (char& c : host)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '-';
+    return "." + host + "." + std::to_string(process) + ".tmp";
+}
+
+/// Whether a temporary name is that of a process of this machine that has ended.
+bool isLeftOver(const std::string& name) {
+    if (!name.starts_with(".") || !name.ends_with(".tmp")) return false;
+    const std::size_t end = name.size() - 4, dot = name.rfind('.', end - 1);
+    if (dot == std::string::npos) return false;
+    pid_t process = 0;
+    const auto [last, error] = std::from_chars(name.data() + dot + 1, name.data() + end, process);
+    if (error != std::errc() || last != name.data() + end || process <= 0) return false;
+    if (!name.ends_with(suffixOf(process))) return false;
+    return process != ::getpid() && ::kill(process, 0) != 0 && errno == ESRCH;
+}
+
+void removeLeftOvers(const std::filesystem::path& folder) {
+    std::error_code ignored;
+    for (std::filesystem::directory_iterator at(folder, ignored), end; !ignored && at != end;
+         at.increment(ignored))
+        if (isLeftOver(at->path().filename().string())) {
+            std::error_code kept;  // of another user, perhaps
+            std::filesystem::remove(at->path(), kept);
+        }
+}
+
+}  // namespace
+
 std::filesystem::path FileBatch::temporary(const std::string& name) const {
-    return folder_ / ("." + name + "." + std::to_string(::getpid()) + ".tmp");
+    return folder_ / ("." + name + suffixOf(::getpid()));
 }
 
 FileBatch::~FileBatch() {
@@ -33,7 +73,14 @@ FileBatch::~FileBatch() {
 
 void FileBatch::open(const std::string& name) {
     const auto path = temporary(name);
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const auto make = [&] {
+        return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    };
+    if (!std::exchange(isCleared_, true)) removeLeftOvers(folder_);
+    descriptor_ = make();
+    if (descriptor_ < 0 && errno == EEXIST && ::unlink(path.c_str()) == 0)
+        descriptor_ =
+            make();  // of an earlier process with this number, or a link that somebody has put there
     if (descriptor_ < 0) throw ExportError(folder_ / name, std::strerror(errno));
     names_.push_back(name);
 }
@@ -72,8 +119,10 @@ std::vector<std::string> FileBatch::commit(const Replacing& replacing) {
 void prepareFolder(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    if (error && !std::filesystem::is_directory(folder)) throw ExportError(folder, error.message());
-    if (!std::filesystem::is_directory(folder)) throw ExportError(folder, "is not a folder");
+    std::error_code unknown;
+    const bool isFolder = std::filesystem::is_directory(folder, unknown);
+    if (!isFolder && error) throw ExportError(folder, error.message());
+    if (!isFolder) throw ExportError(folder, unknown ? unknown.message() : "is not a folder");
     FileBatch trial(folder);
     trial.write("trial", "");
 }

@@ -10,6 +10,9 @@
 
 namespace extremal {
 
+/// Temporary names hold the machine and the process, ".NAME.HOST.PID.tmp": what a process has left that was
+/// killed is taken away by the next that writes into the folder. They are made anew and never opened through
+/// a link.
 class FileBatch {
 public:
     explicit FileBatch(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -29,6 +32,7 @@ private:
     std::filesystem::path temporary(const std::string& name) const;
 
     std::filesystem::path folder_;
+    bool isCleared_ = false;  ///< of what others have left
     std::vector<std::string> names_;
     int descriptor_ = -1;
 };

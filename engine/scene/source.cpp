@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <memory>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/core/text.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/scene/preset.hpp"
@@ -34,9 +34,11 @@ std::string readFile(const std::string& path) {
         throw InvalidScene("", "is a folder", "name the scene file in it");
     if (!std::filesystem::is_regular_file(status))
         throw InvalidScene("", "is not a regular file", "- reads standard input");
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-    if (!file) throw InvalidScene("", std::string("cannot be opened: ") + std::strerror(errno));
-    return readAll(file.get());
+    try {
+        return readRegularFile(path, maxBytes);
+    } catch (const UnreadableFile& e) {
+        throw InvalidScene("", e.what(), "a scene has a few kilobytes");
+    }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <utility>
 
 #include <fcntl.h>
@@ -10,6 +11,7 @@
 
 #include "engine/core/fingerprint.hpp"
 #include "engine/core/problem.hpp"
+#include "engine/core/regular_file.hpp"
 #include "engine/run/export.hpp"
 #include "engine/run/write_all.hpp"
 #include "engine/scene/codec.hpp"
@@ -31,8 +33,14 @@ std::string headOf(const std::string& study, const Value& options, const std::st
 }
 
 std::vector<std::string> linesOf(const std::filesystem::path& log) {
-    std::ifstream in(log);
     std::vector<std::string> lines;
+    std::string content;
+    try {
+        content = readRegularFile(log.string(), std::size_t{2} << 30);
+    } catch (const UnreadableFile&) {  // nothing is known
+        return lines;
+    }
+    std::istringstream in(std::move(content));
     for (std::string line; std::getline(in, line);) {
         const std::size_t space = line.rfind(' ');
         if (space == std::string::npos) continue;
@@ -43,7 +51,9 @@ std::vector<std::string> linesOf(const std::filesystem::path& log) {
 }
 
 StudyLog::StudyLog(std::filesystem::path file, bool isNew) : file_(std::move(file)) {
-    const int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (isNew ? O_TRUNC : 0);
+    // Not through a link that somebody has put there, and no pipe, which would wait for a reader.
+    const int flags =
+        O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK | (isNew ? O_TRUNC : 0);
     descriptor_ = ::open(file_.c_str(), flags, 0666);
     if (descriptor_ < 0) throw ExportError(file_, std::strerror(errno));
 }

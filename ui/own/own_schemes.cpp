@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/run/export.hpp"
 #include "engine/scene/json.hpp"
 
@@ -51,12 +50,10 @@ OwnSchemes OwnSchemes::parse(std::string_view json) {
 OwnSchemes OwnSchemes::load(const std::string& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return {};
-    std::ifstream in(file, std::ios::binary);
-    std::stringstream text;
-    text << in.rdbuf();
-    if (!in) throw InvalidScene(file, "could not be read", "choose a file that can be read");
     try {
-        return parse(text.str());
+        return parse(readRegularFile(file));
+    } catch (const UnreadableFile& e) {
+        throw InvalidScene(file, e.what(), "choose a file that can be read");
     } catch (const InvalidScene& e) {
         std::vector<Problem> problems = e.problems();
         for (Problem& p : problems) p.pointer = file + (p.pointer.empty() ? "" : ":" + p.pointer);

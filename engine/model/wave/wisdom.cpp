@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "engine/core/regular_file.hpp"
 #include "engine/model/wave/fourier.hpp"
 
 namespace extremal {
@@ -35,8 +36,14 @@ double microsecondsOf(const Fourier& fourier) {
 }  // namespace
 
 void useWisdom(const std::string& file) {
-    if (fftw_import_wisdom_from_filename(file.c_str()) == 0)
-        throw std::runtime_error("cannot be read, or is no wisdom of this FFTW: \"" + file + "\"");
+    std::string text;
+    try {
+        text = readRegularFile(file);
+    } catch (const UnreadableFile& e) {
+        throw std::runtime_error("\"" + file + "\" " + e.what());
+    }
+    if (fftw_import_wisdom_from_string(text.c_str()) == 0)
+        throw std::runtime_error("\"" + file + "\" is no wisdom of this FFTW");
 }
 
 TransformGain measureTransform(const TransformSize& size) {
