@@ -23,7 +23,7 @@ double quantile(std::vector<double>& values, double share) {
     return values[static_cast<std::size_t>(k)];
 }
 
-struct Extent {
+struct SeriesExtent {
     double low = 0, high = 0;
     bool isEmpty = true;
     void include(double a, double b) {
@@ -34,8 +34,8 @@ struct Extent {
 };
 
 /// Extent of one series in axis space (log10 on logarithmic axes).
-Extent extentOf(std::vector<double> values, bool isLog, bool isTamed) {
-    Extent e;
+SeriesExtent seriesExtent(std::vector<double> values, bool isLog, bool isTamed) {
+    SeriesExtent e;
     if (values.empty()) return e;
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     e.include(*low, *high);
@@ -54,7 +54,7 @@ Extent extentOf(std::vector<double> values, bool isLog, bool isTamed) {
     return e;
 }
 
-std::pair<double, double> padded(Extent e, bool isLog) {
+std::pair<double, double> padded(SeriesExtent e, bool isLog) {
     if (isLog) {
         e.low = std::max(e.low, e.high - 18);
         const double missing = std::max(0.0, 1 - (e.high - e.low));  // at least a decade
@@ -70,14 +70,15 @@ std::pair<double, double> padded(Extent e, bool isLog) {
 }  // namespace
 
 std::pair<double, double> fitRange(const std::vector<RangeInput>& inputs, bool isLog) {
-    Extent good, bad;
+    SeriesExtent good, bad;
     for (const RangeInput& in : inputs)
         if (!in.hasFailed)
-            if (const Extent e = extentOf(usable(in.values, isLog), isLog, false); !e.isEmpty)
+            if (const SeriesExtent e = seriesExtent(usable(in.values, isLog), isLog, false); !e.isEmpty)
                 good.include(e.low, e.high);
     for (const RangeInput& in : inputs)
         if (in.hasFailed)
-            if (const Extent e = extentOf(usable(in.values, isLog), isLog, good.isEmpty); !e.isEmpty)
+            if (const SeriesExtent e = seriesExtent(usable(in.values, isLog), isLog, good.isEmpty);
+                !e.isEmpty)
                 bad.include(e.low, e.high);
     if (good.isEmpty && bad.isEmpty) return isLog ? std::pair{1e-16, 1.0} : std::pair{0.0, 1.0};
     if (good.isEmpty) return padded(bad, isLog);
