@@ -5,6 +5,7 @@
 
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_method.hpp"
+#include "engine/integrator/shared_force.hpp"
 
 namespace extremal {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 bool movesMomentum(HalfMap map) { return map == HalfMap::kickImplicit || map == HalfMap::kickExplicit; }
 
 template <int D>
-class Partitioned final : public FlowMethod<D> {
+class Partitioned final : public FlowMethod<D>, public SharesForce {
     using Base = FlowMethod<D>;
     using Vector = typename Base::Vector;
 
@@ -30,6 +31,12 @@ public:
     bool checkpoint(Archive& archive) override {
         archive(force_, forceAt_);
         return true;
+    }
+
+    void takeForce(const SharesForce& other) override {
+        const auto& before = static_cast<const Partitioned&>(other);
+        force_ = before.force_;
+        forceAt_ = before.forceAt_;
     }
 
     /// Separable systems: the same maps on local copies, without a call per step.

@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "engine/integrator/shared_force.hpp"
+
 namespace extremal {
 namespace {
 
@@ -22,12 +24,12 @@ class Composition final : public Integrator {
 public:
     Composition(std::vector<double> parts, const Integrator& scheme)
         : parts_(std::move(parts)), h_(scheme.stepSize()) {
-        for (std::size_t i = 0; i < parts_.size(); ++i) schemes_.push_back(scheme.clone());
+        for (std::size_t i = 0; i < parts_.size(); ++i) addScheme(scheme);
         setStep(h_);
     }
     Composition(const Composition& other)
         : Integrator(other), parts_(other.parts_), h_(other.h_), start_(other.start_), end_(other.end_) {
-        for (const auto& scheme : other.schemes_) schemes_.push_back(scheme->clone());
+        for (const auto& scheme : other.schemes_) addScheme(*scheme);
     }
     Composition& operator=(const Composition&) = delete;
 
@@ -104,6 +106,10 @@ public:
     }
 
 private:
+    void addScheme(const Integrator& scheme) {
+        schemes_.push_back(scheme.clone());
+        sharing_.push_back(dynamic_cast<SharesForce*>(schemes_.back().get()));
+    }
     /// All parts, from state.t to `until`; state.node is that of the composition.
     StepReport compose(State& state, double until) {
         StepReport report;
@@ -115,6 +121,7 @@ private:
             Integrator& scheme = *schemes_[i];
             scheme.setStop(stop());
             scheme.begin(state);  // its last step ended elsewhere
+            if (sharing_[i]) sharing_[i]->takeForce(*sharing_[i > 0 ? i - 1 : parts_.size() - 1]);
             passed += parts_[i];
             const bool isLast = i + 1 == parts_.size();
             const StepReport part = scheme.advance(state, isLast ? until : start + passed * h_);
@@ -131,6 +138,7 @@ private:
     std::vector<double> parts_;
     double h_;
     std::vector<std::unique_ptr<Integrator>> schemes_;
+    std::vector<SharesForce*> sharing_;  ///< the same, or null where they share nothing
     State work_, start_, end_;
     mutable std::map<double, std::unique_ptr<Composition>> shorter_;
 };
