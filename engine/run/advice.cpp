@@ -88,6 +88,17 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
     const Family* const family = scheme.family ? scheme.family : familyFor(system);
     if (family && family->advice && !undefinedAt)
         if (const std::string own = family->advice(outcome); !own.empty()) return own;
+    if (scheme.baseline && scheme.grid == TimeGrid::free) {
+        // Its step is a function of the state, and no first step keeps the density from what it does there.
+        if (outcome == Outcome::singular)
+            return "Its steps follow the density of the local action error, which changes its sign before "
+                   "the "
+                   "next node: there is no step across, however short the first one. Try a fixed step, or an "
+                   "adaptive code such as dopri5.";
+        if (outcome == Outcome::refused)
+            return "The density of the local action error, which its steps follow, is 0 or not a number at "
+                   "the start. Try a fixed step, or an adaptive code such as dopri5.";
+    }
     if (outcome == Outcome::stepBudget)
         return "The step shrank to round-off of t: the solution may end here. Try a larger tolerance or an "
                "earlier end.";
@@ -101,7 +112,8 @@ std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step
         return unstable;
     if (undefinedAt) return adviceOutsideDomain(scheme, step, w, system, initial, state, *undefinedAt);
     if (outcome == Outcome::lost)
-        return "The run has left the motion: its energy grows beyond all bounds, or the equations of the "
+        return "The run has left the motion: its energy grows beyond all bounds or has come from nowhere, as "
+               "after a step over a singularity or over a pole of the coordinates, or the equations of the "
                "step have no root that follows the forces. " +
                (state.node == initial.node ? shorterStep(scheme, system, initial, step, length / 2)
                                            : "A smaller step may help.");

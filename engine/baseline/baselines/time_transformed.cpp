@@ -23,6 +23,10 @@
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/coordinate_watch.hpp"
 #include "engine/baseline/flow_jacobian.hpp"
+#include "engine/core/text.hpp"
+#include "engine/family/energy_momentum/density.hpp"
+#include "engine/quadrature/rule.hpp"
+#include "engine/space/polynomial.hpp"
 
 namespace extremal::baselines {
 namespace {
@@ -216,6 +220,34 @@ private:
     StepReport report_;
 };
 
+/// Follows the motion, as the schemes with moving times do: the density is that of degree 1.
+void checkDensity(const SchemeCase& scheme, Findings& findings) {
+    constexpr int orderOfMidpoint = 2;
+    const Table<double> midpoint =
+        makeTable(polynomialSpace<double>(1, PolynomialBasis::lobatto), gauss<double>(1));
+    const auto forecast = [&](double h) {
+        return forecastSolvability(scheme.system.mechanics(), midpoint, orderOfMidpoint, scheme.initial, h,
+                                   scheme.end);
+    };
+    // A first step that is long where the density is large says little of it there.
+    constexpr double shorter = 0.1;
+    auto found = forecast(scheme.step);
+    if (!found || (!found->vanishes && found->signChanges.empty())) found = forecast(shorter * scheme.step);
+    if (!found) return;
+    const char* const remedy = "a fixed step, or an adaptive code such as dopri5";
+    if (found->vanishes)
+        findings.warning("",
+                         "will be refused: the density of the local action error, which its steps follow, "
+                         "is 0 to round-off",
+                         remedy, {}, "solvability");
+    else if (!found->signChanges.empty())
+        findings.warning("",
+                         "will end near t = " + formatNumber(found->signChanges.front(), 3) +
+                             ": its steps follow the density of the local action error, which changes its "
+                             "sign there, and no step passes that, however short the first one",
+                         remedy, {}, "solvability");
+}
+
 }  // namespace
 
 BaselineEntry time_transformed() {
@@ -233,6 +265,7 @@ BaselineEntry time_transformed() {
         return isMechanical(system) && !system.mechanics().isTimeDependent;
     };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
+    e.check = &checkDensity;
     e.make = [](const System& system, const BaselineOptions& options) {
         return std::make_unique<TimeTransformed>(system.mechanics(), options.step);
     };
