@@ -5,6 +5,10 @@
 
 namespace extremal {
 
+double RunningLine::scatter() const {
+    return n_ > 2 && xx_ > 0 ? std::sqrt(std::max(0.0, yy_ - slope() * xy_) / (n_ - 2)) : LineFit::unknown;
+}
+
 LineFit lineThrough(std::span<const double> x, std::span<const double> y) {
     double n = 0, mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
     const auto forAll = [&](const auto& work) {

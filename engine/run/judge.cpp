@@ -97,12 +97,13 @@ bool hasStatesWithoutEnergy(const System& system, const State& start, const OfSt
 /// By the number of the node alone, as the sizes of blocks follow the clock.
 bool Judge::looksAt(long long node) const {
     constexpr long long often = 64, apart = 37;  // no common factor
-    if (gains_ > 0) return true;
+    if (gains_ > 0 || shifted_ > 0) return true;
     if (node <= often) return std::has_single_bit(static_cast<unsigned long long>(node));
     return node % often == node / often * apart % often;
 }
 
-Judge::Judge(const System& system, const State& start, double step, bool isEnergySeen) {
+Judge::Judge(const System& system, const State& start, double step, bool isEnergySeen)
+    : isEnergySeen_(isEnergySeen) {
     energy_ = energyOf(system);
     const double atStart = energy_ ? energy_(start.t, start.x.data()) : 0;
     if (!std::isfinite(atStart)) energy_ = {};
@@ -148,6 +149,7 @@ bool Judge::isSound(double t, const double* x) {
         const double kinetic = kinetic_(t, x);
         if (std::abs(change) <= kinetic / 2) scale_ = std::max(scale_, kinetic);
         noteGain(t, change, kinetic);
+        if (!isEnergySeen_) noteShift(t, change);
     }
     return !(scale_ > 0 && std::abs(change) > band * scale_);
 }
@@ -165,9 +167,32 @@ void Judge::noteGain(double t, double change, double kinetic) {
     }
 }
 
+void Judge::noteShift(double t, double change) {
+    constexpr double ofScale = 0.5, spread = 1.25;
+    constexpr int fewest = 8;
+    if (!(change > ofScale * scale_)) {
+        shifted_ = 0;
+        return;
+    }
+    if (shifted_ == 0 || std::max(change, mostShift_) > spread * std::min(change, leastShift_)) {
+        shifted_ = 0;
+        shiftTime_ = t;
+        leastShift_ = mostShift_ = change;
+    }
+    leastShift_ = std::min(leastShift_, change);
+    mostShift_ = std::max(mostShift_, change);
+    if (++shifted_ >= fewest) longestShift_ = std::max(longestShift_, std::abs(t - shiftTime_));
+}
+
+bool Judge::hasShifted() const {
+    return longestShift_ > 0 && longestShift_ >= std::abs(lastTime_ - startTime_) / 32;
+}
+
 bool Judge::hasGained() const {
     constexpr int fewest = 3;
-    return gains_ >= fewest && std::abs(lastTime_ - gainTime_) >= std::abs(lastTime_ - startTime_) / 2;
+    const double time = std::abs(lastTime_ - startTime_);
+    if (hasShifted()) return true;
+    return gains_ >= fewest && std::abs(lastTime_ - gainTime_) >= time / 2;
 }
 
 /// Of one explicit step from the start; 0 where it is not known.

@@ -25,12 +25,21 @@
 ///     H(t) - H(0) > K/2 and > S/10,      K: the mean kinetic energy over the time so far.
 ///
 /// The energy of a stable scheme comes back, of a dissipative one it falls; this is energy that has come from
-/// nowhere and stays.
+/// nowhere and stays. It may have gone again by then: a step over the pole of spherical coordinates, whose
+/// barrier p_phi^2 / (2 sin^2 theta) it did not see, gives seven times the energy for half of a run, and a
+/// later one takes it away; K says nothing any more. So a run is lost at its end, too, where for 8 nodes in
+/// a row, and a thirty-second of its time, it has had
+///
+///     H(t) - H(0) > S/2,   constant to a quarter.
+///
+/// No stable scheme has that: close to the limit of an oscillator the error A sin^2 beats once in
+/// pi/2 sqrt(1 + A/S) nodes, and stays within a quarter of its largest value for 0.3 of a beat, which is 5
+/// nodes where A is 100 S.
 ///
 /// The energy is computed at the nodes 1, 2, 4, ..., 64, at one of every 64 from there on and at the last
 /// one, whatever the blocks of steps (march.hpp), whose sizes follow the clock: a lost run ends at the first
-/// of these that is out of bounds. The nodes are at changing distances, and while there is such a gain every
-/// node is looked at, so that no oscillation is taken for constant.
+/// of these that is out of bounds. The nodes are at changing distances, and while there is such a gain or
+/// shift every node is looked at, so that no oscillation is taken for constant.
 ///
 /// A step may also jump over the edge of the region in which L is defined (of log(x), to x < 0), to a finite
 /// state with finite forces: 1 - 1/x is as good there as anywhere. What gives it away is that H is not a
@@ -72,20 +81,30 @@ public:
     /// For whoever goes on with a lost run: node by node, in order. Learns S, and whether the energy is
     /// a number and, where it is conserved, within bounds at this one.
     bool isSound(double t, const double* x);
+    /// The energy at a node, from who computes it at every node (`isEnergySeen`): no step is overlooked then.
+    void noteEnergy(double t, double energy) {
+        if (conserved_ && isConservedEnergy_ && kinetic_) noteShift(t, energy - start_);
+    }
     /// Whether the last node that was not sound has an energy that is not a number.
     bool hasLeftDomain() const { return hasLeftDomain_; }
     /// Whether it is to be shown this node.
     bool looksAt(long long node) const;
     /// Of a run that ends at the last node that isSound() has seen: whether energy has come and stayed.
     bool hasGained() const;
+    /// The part of it that noteEnergy() tells.
+    bool hasShifted() const;
     /// What it has learned.
-    void checkpoint(Archive& archive) { archive(scale_, lastTime_, work_, gainTime_, gains_); }
+    void checkpoint(Archive& archive) {
+        archive(scale_, lastTime_, work_, gainTime_, gains_);
+        archive(shiftTime_, leastShift_, mostShift_, longestShift_, shifted_);
+    }
 
 private:
     using OfState = std::function<double(double t, const double* x)>;
 
     bool isDefined(double t, const double* x, double energy);
     void noteGain(double t, double change, double kinetic);
+    void noteShift(double t, double change);
     double gainedKineticEnergy(const System& system, const State& start, double step) const;
 
     OfState conserved_, kinetic_;  ///< empty: nothing is conserved; nothing is known of the parts
@@ -93,11 +112,16 @@ private:
     std::function<bool(double t, const double* x)> hasVelocity_;  ///< empty: every state has one
     bool isConservedEnergy_ = false;                              ///< conserved_ is the same as energy_
     bool hasEdge_ = false;                                        ///< there are states without an energy
+    bool isEnergySeen_ = false;
     bool hasLeftDomain_ = false;
     double start_ = 0, scale_ = 0;
     double startTime_ = 0, lastTime_ = 0, work_ = 0;  ///< work: kinetic energy times time
     double gainTime_ = 0;                             ///< the last node without a gain
     int gains_ = 0;                                   ///< nodes behind it
+    /// Since when the energy is too large by the same, the least and the most of that, and for how many
+    /// nodes; and the longest such time.
+    double shiftTime_ = 0, leastShift_ = 0, mostShift_ = 0, longestShift_ = 0;
+    int shifted_ = 0;
 };
 
 }  // namespace extremal

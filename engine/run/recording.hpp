@@ -74,7 +74,9 @@ struct Recording {
     SchemeResult result;
     State initialNode, state;
     bool isLastNodeRow = false;
-    bool isCutShort = false;     ///< stopped between the rows of a step
+    bool isCutShort = false;  ///< stopped between the rows of a step
+    RunningLine energyLine;   ///< through the energy errors of all nodes
+    std::size_t energyColumn = 0;
     bool isEnergySeen = false;   ///< an observer computes it at every node
     bool hasLeftDomain = false;  ///< the run is lost since a value of the state is not a number
     long long nextMultiple = 1;  ///< of output.every, for dense rows
@@ -138,7 +140,10 @@ struct Recording {
                     nullptr,
                     {}};
             b.state = StateValues(*entry, b.observer, system, initial);
-            isEnergySeen = isEnergySeen || id == "energy";
+            if (id == "energy") {
+                isEnergySeen = true;
+                energyColumn = b.firstColumn;
+            }
             // What is not conserved has no error.
             if (b.observer.extreme >= 0 && (id != "energy" || conservesEnergy(system))) {
                 b.extreme = summary.extremes.size();
@@ -155,12 +160,14 @@ struct Recording {
         }
     }
     /// Evaluates every observer at the nodes of a block, and counts those whose values are what a motion has.
-    std::size_t soundNodes(const NodeBlock& nodes) {
+    std::size_t soundNodes(const NodeBlock& nodes, Judge& judge) {
         evaluate(nodes);
+        const std::size_t width = result.trajectory.columns.size();
         std::size_t sound = nodes.size();
         for (const Bound& b : observers)
-            sound = std::min(sound, b.state.finiteNodes(nodes, values.data() + b.firstColumn,
-                                                        result.trajectory.columns.size()));
+            sound = std::min(sound, b.state.finiteNodes(nodes, values.data() + b.firstColumn, width));
+        for (std::size_t i = 0; i < sound && isEnergySeen; ++i)
+            judge.noteEnergy(nodes.t(i), values[i * width + energyColumn]);
         hasLeftDomain = hasLeftDomain || (sound < nodes.size() && nodes.node(0) > 0);
         return sound;
     }
@@ -181,6 +188,8 @@ struct Recording {
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 growTo(extreme, v[i * width]);
                 if (!std::isfinite(v[i * width]) && b.unknownNodes++ == 0) b.unknownFrom = nodes.t(i);
+                if (b.own == &Summary::maxEnergyError && std::isfinite(v[i * width]))
+                    energyLine.add(nodes.t(i), v[i * width]);
             }
             if (b.own) summary.*(b.own) = extreme;
             if (b.own == &Summary::maxError) summary.finalError = v[(nodes.size() - 1) * width];
@@ -350,9 +359,7 @@ struct Recording {
         }
         if (hasCompanion) judgeBar(result, system, initialNode);
         nameUnknownNodes();
-        const Column* energy = result.trajectory.find("energy_error");
-        if (energy && conservesEnergy(system))
-            s.energyDrift = lineThrough(result.trajectory.columns[0].values, energy->values).slope;
+        s.energyDrift = energyLine.slope();
     }
 
     /// Extremes over nodes some of which have no value say so: those that the observer knows at all, and not
@@ -375,7 +382,7 @@ struct Recording {
     /// All that the march has made so far, and needs to go on, but for its integrator.
     void checkpoint(Archive& archive, MarchReport& report, Judge& judge) {
         archive(state, report, judge, sampler, frames, delayed, isLastNodeRow, nextMultiple, hasOverflown,
-                hasLeftDomain, stopped, stoppedAt);
+                hasLeftDomain, energyLine, stopped, stoppedAt);
         archive(result.trajectory, result.products, result.summary);
         for (Bound& b : observers) {
             archive(b.unknownNodes, b.unknownFrom);
@@ -395,6 +402,8 @@ struct Recording {
         if (stateWidth > 0)  // else no row holds a state
             inside.emplace(result, scene, plan, system, !scheme.isFixed(), steps, std::move(denseError));
         if (inside && !inside->isWanted()) inside.reset();
+        const Judge freshJudge(system, initialNode, step, isEnergySeen);
+        Judge judge = freshJudge;
         std::vector<MarchSink> sinks;
         const bool readsQuantities = std::any_of(observers.begin(), observers.end(),
                                                  [](const Bound& b) { return b.observer.readsQuantities; });
@@ -409,7 +418,7 @@ struct Recording {
             };
         };
         sinks.push_back({beforeStop(observe), false, readsQuantities,
-                         [this](const NodeBlock& nodes) { return soundNodes(nodes); }});
+                         [&](const NodeBlock& nodes) { return soundNodes(nodes, judge); }});
         sinks.push_back({beforeStop([&](const Stretch& stretch) { recordRows(stretch, isDense); }), isDense});
         if (recordsSteps())
             sinks.push_back({beforeStop([&](const Stretch& stretch) { recordSteps(stretch); }), false, true});
@@ -431,8 +440,6 @@ struct Recording {
         const MarchGrid grid = marchGrid(scene, scheme, step);
         const auto fresh = isTimed ? integrator->clone() : nullptr;
         warmUp(*integrator, state, grid, stop);
-        const Judge freshJudge(system, initialNode, step, isEnergySeen);
-        Judge judge = freshJudge;
         MarchReport report;
         // False where the integrator keeps its history to itself: it is left out where the march has ended.
         const auto exchange = [&](Archive& archive, MarchReport& soFar, bool hasEnded) {
@@ -465,6 +472,7 @@ struct Recording {
         if (!hasEnded) {
             report = march(*integrator, state, grid, sinks, stop, &judge, known ? &report : nullptr);
             hasLeftDomain = hasLeftDomain || judge.hasLeftDomain();
+            if (report.outcome == Outcome::converged && judge.hasShifted()) report.outcome = Outcome::lost;
             if (file) keep(report, true);
         }
         if (isCutShort) report.outcome = Outcome::stopped;

@@ -27,12 +27,15 @@ public:
         state_ = StateValues(entry, observer_, system, start);
     }
 
-    /// How many nodes are those of a motion, by their values, which are computed here.
-    std::size_t soundNodes(const NodeBlock& nodes) {
+    /// How many nodes are those of a motion, by their values, which are computed here. `judge`: that of the
+    /// run, where the values are energies.
+    std::size_t soundNodes(const NodeBlock& nodes, Judge* judge) {
         const std::size_t width = observer_.columns.size();
         values_.resize(std::max(values_.size(), width * nodes.capacity()), PointResult::unknown);
         observer_.evaluate(nodes, values_.data(), width);
-        return state_.finiteNodes(nodes, values_.data(), width);
+        const std::size_t sound = state_.finiteNodes(nodes, values_.data(), width);
+        for (std::size_t i = 0; i < sound && judge; ++i) judge->noteEnergy(nodes.t(i), values_[i * width]);
+        return sound;
     }
     void see(const NodeBlock& nodes) {
         const std::size_t width = observer_.columns.size();
@@ -83,14 +86,16 @@ public:
             if (isKnown) measured.see(stretch.nodes);
             return true;
         };
+        const bool isOfEnergy = metric.observable->item.id == "energy";
+        Judge judge(system_, start_, step_, isOfEnergy);
         const auto soundNodes = [&](const NodeBlock& nodes) {
-            return isKnown ? measured.soundNodes(nodes) : nodes.size();
+            return isKnown ? measured.soundNodes(nodes, isOfEnergy ? &judge : nullptr) : nodes.size();
         };
         const MarchSink sink{see, false, measured.readsQuantities(), soundNodes};
         State state = start_;
         warmUp(*integrator, state, grid_, stop_);
-        Judge judge(system_, start_, step_, metric.observable->item.id == "energy");
-        const MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &judge);
+        MarchReport report = march(*integrator, state, grid_, {&sink, 1}, stop_, &judge);
+        if (report.outcome == Outcome::converged && judge.hasShifted()) report.outcome = Outcome::lost;
         result.error = measured.value;
         result.steps = state.node;
         result.cost = report.cost;

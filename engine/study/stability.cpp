@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/line_fit.hpp"
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/run/judge.hpp"
@@ -26,31 +27,23 @@ double sizeOf(const double* x, std::size_t n) {
     return scaledDistance(n, x, std::vector<double>(n).data());
 }
 
-/// The line through the energy errors, from sums.
+/// The line through the energy errors.
 class EnergyLine {
 public:
     void add(double t, double e) {
-        // Means and moments that are updated one by one: no cancellation over long runs.
-        ++n_;
-        const double dt = t - meanT_, de = e - meanE_;
-        meanT_ += dt / n_;
-        meanE_ += de / n_;
-        tt_ += dt * (t - meanT_);
-        te_ += dt * (e - meanE_);
-        ee_ += de * (e - meanE_);
+        line_.add(t, e);
         largest = std::max(largest, std::abs(e));
     }
     /// Whether it rises by more than the scatter about it, and by more than round-off of `scale`.
     bool drifts(double duration, double scale) const {
-        if (n_ < 8 || !(tt_ > 0)) return false;
-        const double slope = te_ / tt_, rise = std::abs(slope) * duration;
-        const double scatter = std::sqrt(std::max(0.0, ee_ - slope * te_) / (n_ - 2));
-        return rise > 2 * scatter && rise > 1e-12 * scale;
+        if (line_.points() < 8 || !std::isfinite(line_.slope())) return false;
+        const double rise = std::abs(line_.slope()) * duration;
+        return rise > 2 * line_.scatter() && rise > 1e-12 * scale;
     }
     double largest = 0;
 
 private:
-    double n_ = 0, meanT_ = 0, meanE_ = 0, tt_ = 0, te_ = 0, ee_ = 0;
+    RunningLine line_;
 };
 
 /// The scene with this scheme alone, and nothing to show.
@@ -101,7 +94,10 @@ StabilityResult runResolved(const ResolvedScene& scene, const std::stop_token& s
                 isOut = !judge.isSound(lastTime, stretch.nodes.x(i));
                 if (isOut && !wasOut) leftAt = lastTime;
             }
-            if (energy && std::isfinite(H)) line.add(lastTime, H - first);
+            if (energy && std::isfinite(H)) {
+                line.add(lastTime, H - first);
+                judge.noteEnergy(lastTime, H);
+            }
         }
         return !isLarge && !judge.hasLeftDomain();
     }};
