@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
+#include <vector>
 
 #include "app/progress.hpp"
 #include "app/report.hpp"
@@ -41,7 +43,26 @@ bool isSaidAlready(const Missing& missing, const Comparison& comparison) {
     const ObservableEntry* entry = findObservable(missing.observable);
     if (!entry) return false;
     return !entry->variations.isEmpty() || entry->needsWayBack ||
-           (entry->needsReference && !comparison.reference.problems.empty());
+           (entry->needsReference &&
+            (!comparison.reference.problems.empty() || comparison.reference.type == "none" ||
+             comparison.reference.type == "companion"));
+}
+
+/// What schemes that are done lack, one line for all that lack it for the same reason.
+void printMissing(const Comparison& comparison) {
+    std::map<std::string, std::vector<std::string>> labels;
+    std::vector<std::string> order;
+    for (const auto& scheme : comparison.schemes) {
+        if (scheme->summary.status != RunStatus::done) continue;
+        for (const Missing& m : missingFrom(comparison, *scheme)) {
+            if (isSaidAlready(m, comparison)) continue;
+            const std::string text = m.observable + " is not known: " + m.reason;
+            auto& all = labels[text];
+            if (all.empty()) order.push_back(text);
+            all.push_back(scheme->summary.label);
+        }
+    }
+    for (const std::string& text : order) printProblem(joinNames(labels[text]), "warning: " + text);
 }
 
 }  // namespace
@@ -57,11 +78,8 @@ void printFailures(const Comparison& comparison, const std::string& scene) {
                          s.advice);
         else if (!s.caution.empty())
             printProblem(s.label, "warning: " + s.caution);
-        if (s.status != RunStatus::done) continue;
-        for (const Missing& m : missingFrom(comparison, *scheme))
-            if (!isSaidAlready(m, comparison))
-                printProblem(s.label, "warning: " + m.observable + " is not known: " + m.reason);
     }
+    printMissing(comparison);
 }
 
 int exitCode(const Comparison& comparison, bool isInterrupted) {

@@ -29,7 +29,7 @@
 /// jumps, pulses and zeros at a start from rest, where there is neither a momentum nor an impulse to compare
 /// with. Beside a singularity N = A: displaced by what it does there, the curve would not meet it. (Kepler's
 /// problem with e = 0.9999 at the perihelion, four Gauss nodes, h = 0.05: the straight line is a root, D =
-/// 0.99 and N = A to six digits. From rest under x sign(sin 3t) - x^2/2 at x = 1: D = 0.99 and N = 0, as the
+/// 0.99, and N = A as Delta is 4000. From rest under x sign(sin 3t) - x^2/2 at x = 1: D = 1 and N = 0, as the
 /// force is -1 at t = 0 and nearly 0 just after.)
 ///
 /// Norms are those of the largest coordinate. Internal to integrator/.

@@ -26,9 +26,13 @@ double largestAtStart(const SchemeResult& scheme, const System& system) {
     return largest;
 }
 
-std::string withoutReference(const ReferenceInfo& reference) {
+std::string withoutReference(const Comparison& comparison) {
+    const ReferenceInfo& reference = comparison.reference;
     if (!reference.problems.empty()) return "there is no reference: " + reference.problems.front().message;
-    if (reference.type == "none") return "the scene has no reference";
+    if (reference.type == "none")
+        return comparison.scene.reference.kind == ReferenceSpec::Kind::none
+                   ? "the scene has no reference"
+                   : "no reference is known for this system";
     if (reference.type == "companion") return "the scheme has no companion";
     return "the reference (" + reference.type + ") is not known on the mesh or at the nodes of this scheme";
 }
@@ -43,7 +47,7 @@ std::string withoutOrder(const Comparison& comparison, const SchemeResult& schem
         std::find(comparison.scene.observe.begin(), comparison.scene.observe.end(), "error") !=
             comparison.scene.observe.end())
         return "the error is not known";
-    if (reference.type == "none") return withoutReference(reference);
+    if (reference.type == "none") return withoutReference(comparison);
     const double own = referenceFloor(reference),
                  round = roundOffFloor(largestAtStart(scheme, *comparison.system), scheme.summary.steps);
     return "of the runs with h, h/2 and h/4 fewer than two reach the end with an error above " +
@@ -53,7 +57,7 @@ std::string withoutOrder(const Comparison& comparison, const SchemeResult& schem
 
 std::string reasonFor(const ObservableEntry& entry, const Comparison& comparison,
                       const SchemeResult& scheme) {
-    if (entry.needsReference) return withoutReference(comparison.reference);
+    if (entry.needsReference) return withoutReference(comparison);
     if (!entry.variations.isEmpty()) return "the scheme has no tangent map, or no local errors";
     if (entry.needsWayBack) return "it takes a run that is done, with a fixed step";
     const auto energy = scheme.trajectory["energy"];

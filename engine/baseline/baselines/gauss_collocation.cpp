@@ -261,7 +261,9 @@ private:
         const double h = std::abs(this->h());
         double worst = 0;
         const auto look = [&](const auto& now, const auto& then, double value) {
-            const double size = h * (now - then).cwiseAbs().maxCoeff(), scale = h * now.cwiseAbs().maxCoeff();
+            // The new increments alone are 0 where forces vanish that did not at the start.
+            const double size = h * (now - then).cwiseAbs().maxCoeff(),
+                         scale = h * std::max(now.cwiseAbs().maxCoeff(), then.cwiseAbs().maxCoeff());
             const double roundOff = epsilon * std::abs(value);
             if (!(size < std::numeric_limits<double>::infinity()))
                 worst = std::numeric_limits<double>::infinity();
