@@ -96,9 +96,9 @@ private slots:
         QTest::newRow("too many data") << "/initial/q=[1, 2]"
                                        << "/initial/q"
                                        << "must have 1 number (x), got 2";
-        QTest::newRow("no momentum") << "/observe=[\"momentum\"]"
-                                     << "/observe/0"
-                                     << "";
+        QTest::newRow("no wave function") << "/observe=[\"norm\"]"
+                                          << "/observe/0"
+                                          << "norm is not defined for lagrangian";
     }
     void errorsAreAtTheirPlace() {
         QFETCH(QString, override);
