@@ -14,12 +14,13 @@ from ._extremal import catalogue as _catalogue
 from ._extremal import run as _run
 from .formula import Symbol, formula
 from .jet import Jet, derivatives
-from .number import acos, asin, atan, atan2, cos, cosh, exp, log, sign, sin, sinh, sqrt, tan, tanh
+from .number import (acos, acosh, asin, asinh, atan, atan2, atanh, ceil, cos, cosh, erf, erfc, exp, floor, log, log10,
+                     sign, sin, sinh, sqrt, tan, tanh)
 
 __all__ = ["Catalogue", "Comparison", "Entry", "Figure", "InvalidScene", "Jet", "Scene", "SchemeResult", "Study",
-           "Symbol", "__version__", "acos", "add_system", "asin", "atan", "atan2", "baselines", "catalogue",
-           "catalogue_names", "check",
-           "compositions", "cos", "cosh", "exp", "formula", "lagrangian", "log", "models", "observables", "presets",
+           "Symbol", "__version__", "acos", "acosh", "add_system", "asin", "asinh", "atan", "atan2", "atanh", "baselines",
+           "catalogue", "catalogue_names", "ceil", "check", "compositions", "cos", "cosh", "erf", "erfc", "exp", "floor",
+           "formula", "lagrangian", "log", "log10", "models", "observables", "presets",
            "profiles", "quadratures", "run", "scene", "schemes", "sign", "sin", "sinh", "spaces", "sqrt", "studies",
            "study", "tan", "tanh", "views"]
 

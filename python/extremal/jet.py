@@ -167,8 +167,40 @@ def _size(x):
     return math.fabs(x), sign, 0.0
 
 
+def _asinh(x):
+    d = 1 / math.hypot(1, x)
+    return math.asinh(x), d, -x * d**3
+
+
+def _acosh(x):
+    d = 1 / math.sqrt(x * x - 1)
+    return math.acosh(x), d, -x * d**3
+
+
+def _atanh(x):
+    d = 1 / (1 - x * x)
+    return math.atanh(x), d, 2 * x * d * d
+
+
+def _log10(x):
+    c = 1 / math.log(10)
+    return math.log10(x), c / x, -c / (x * x)
+
+
+def _erf(x):
+    d = 2 / math.sqrt(math.pi) * math.exp(-x * x)
+    return math.erf(x), d, -2 * x * d
+
+
+def _erfc(x):
+    _, df, ddf = _erf(x)
+    return math.erfc(x), -df, -ddf
+
+
 # f, f' and f'' at x.
 _functions = {
+    "asinh": _asinh, "acosh": _acosh, "atanh": _atanh, "log10": _log10, "erf": _erf, "erfc": _erfc,
+    "floor": lambda x: (math.floor(x), 0.0, 0.0), "ceil": lambda x: (math.ceil(x), 0.0, 0.0),
     "sin": lambda x: (math.sin(x), math.cos(x), -math.sin(x)),
     "cos": lambda x: (math.cos(x), -math.sin(x), -math.cos(x)),
     "sinh": lambda x: (math.sinh(x), math.cosh(x), math.sinh(x)),

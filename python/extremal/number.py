@@ -6,8 +6,8 @@ A kind of number says what each operation gives; numpy's functions of the same n
 import math as _math
 import operator as _operator
 
-__all__ = ["Number", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log",
-           "sqrt", "abs", "sign"]
+__all__ = ["Number", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "asinh", "acosh",
+           "atanh", "exp", "log", "log10", "sqrt", "erf", "erfc", "floor", "ceil", "abs", "sign"]
 
 
 def is_plain(value):
@@ -63,7 +63,8 @@ def _sign(x):
 
 
 plain = {name: getattr(_math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh",
-                                                 "exp", "log", "sqrt")}
+                                                 "asinh", "acosh", "atanh", "exp", "log", "log10", "sqrt", "erf", "erfc",
+                                                 "floor", "ceil")}
 plain |= {"abs": _math.fabs, "sign": _sign}
 for _name, _each in plain.items():
     globals()[_name] = _function(_name, _each)
@@ -79,6 +80,7 @@ def atan2(y, x):
 
 # By the names of numpy.
 _ufuncs = {name: globals()[name] for name in plain if name != "abs"}
+_ufuncs |= {"arc" + name[1:]: globals()[name] for name in ("asinh", "acosh", "atanh")}
 _ufuncs |= {"absolute": globals()["abs"], "fabs": globals()["abs"], "arcsin": globals()["asin"],
             "arccos": globals()["acos"], "arctan": globals()["atan"], "arctan2": atan2, "square": lambda x: x**2,
             "negative": _operator.neg, "positive": _operator.pos, "add": _operator.add, "subtract": _operator.sub,

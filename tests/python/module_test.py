@@ -156,7 +156,8 @@ class Formulas(unittest.TestCase):
         self.assertGreater(abs(a["q.x"][-1] - 1), 0.1)
 
     def test_every_function(self):
-        for name in ("sin cos tan asin acos atan sinh cosh tanh exp log sqrt sign").split():
+        for name in ("sin cos tan asin acos atan sinh cosh tanh exp log sqrt sign asinh atanh log10 erf erfc "
+                     "floor ceil").split():
             function = getattr(extremal, name)
             self.assertEqual(function(extremal.Symbol("x")).text, f"{name}(x)")
             self.assertAlmostEqual(function(0.5), getattr(math, name)(0.5) if name != "sign" else 1)

@@ -66,13 +66,16 @@ class Derivatives(unittest.TestCase):
 
     def test_every_function(self):
         place = np.array([0.31, 0.42, -0.27, 0.6])
-        for name in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt"):
+        for name in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "exp", "log", "sqrt",
+                     "asinh", "atanh", "log10", "erf", "erfc", "floor", "ceil"):
             function = getattr(extremal, name)
             with self.subTest(name):
                 self.assertLess(self.check_at(lambda x, y, u, w: u * w + function(x * y + w / 3), place), 1e-8)
                 self.assertAlmostEqual(
                     derivatives(lambda t, q, v: function(q.x), NAMES, 0, place[:2], place[2:], {})[0],
                     getattr(math, name)(0.31), delta=1e-15)
+        self.assertLess(self.check_at(lambda x, y, u, w: u * w + extremal.acosh(2 + x * y), place), 1e-8)
+        self.assertLess(self.check_at(lambda x, y, u, w: u * np.arctanh(x * y) + np.arcsinh(w), place), 1e-8)
         for angle in (0.1, 1.2, 2.0, 3.0, -1.0, -2.5):  # every octant of atan2
             turned = np.array([np.cos(angle), np.sin(angle), 0.2, 0.3])
             with self.subTest(angle):
