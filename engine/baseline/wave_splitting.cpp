@@ -29,6 +29,7 @@ private:
         const Hamiltonian& h = *shared();
         const double unit = dt() / h.hbar();
         for (const SplittingStage& s : splitting_.stages) {
+            if (stop().stop_requested()) return;
             if (s.isKick && h.isTimeDependent()) {
                 phases_.emplace_back();
                 continue;

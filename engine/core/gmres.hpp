@@ -103,6 +103,8 @@ private:
             for (int pass = 0; pass < 2; ++pass) {
                 const double start = after;
                 for (int i = 0; i <= k; ++i) {
+                    // Vectors of a plane have a megabyte: what is left undone is given up with the rest.
+                    if (stop.stop_requested()) return k;
                     Complex along;
                     vectors_.dot(q(i), next, n_, &along);
                     h(i, k) += along;

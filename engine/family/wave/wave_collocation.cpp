@@ -53,7 +53,7 @@ private:
         middle_ = (*low + *high) / 2;
         inverse_.resize(stages_ * stages_ * size_);
         for (std::size_t k = 0; k < size_; ++k) {
-            if (k % 512 == 0 && stop().stop_requested()) return;  // and so will the step
+            if (k % 512 == 0 && stop().stop_requested()) return;
             const Complex y(0, factor * (hamiltonian().kinetic()[k] + middle_ - shift()));
             const Eigen::MatrixXcd P = Eigen::MatrixXcd::Identity(s, s) + y * A_.cast<Complex>();
             Eigen::Map<Eigen::MatrixXcd>(inverse_.data() + k * stages_ * stages_, s, s) =
@@ -86,6 +86,7 @@ private:
         const auto apply = [&](const Complex* z, Complex* out) {
             precondition(z, u_.data());
             for (std::size_t j = 0; j < stages_; ++j) {
+                if (stop().stop_requested()) return;  // and so does the solver
                 hamiltonian().fourier().rawToNodes(u_.data() + j * size_, psi_.data());
                 const double* kick = V_.data() + j * size_;
                 for (std::size_t x = 0; x < size_; ++x)

@@ -58,7 +58,7 @@ void WaveStep::resume(const State& state) {
         isPrepared_ = false;
     }
     if (!isPrepared_) prepare();
-    isPrepared_ = hasState_ = true;
+    isPrepared_ = hasState_ = !stop().stop_requested();  // preparing ends early where it is stopped
     origin_ = gauge.origin;
     endTime_ = state.t;
     memorySize_ = state.memory.size();
@@ -81,6 +81,10 @@ StepReport WaveStep::advance(State& state, double until) {
             begin(state);
         else
             resume(state);
+        if (!hasState_) {
+            report.outcome = Outcome::stopped;
+            return report;
+        }
     }
     std::copy(v_.begin(), v_.end(), before_.begin());
     startTime_ = state.t;
