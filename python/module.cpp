@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "extremal/extremal.hpp"
+#include "python/active_calls.hpp"
 #include "python/own_system.hpp"
 
 namespace py = pybind11;
@@ -84,8 +85,10 @@ py::array arrayOf(std::span<const double> values, const Owner& owner) {
 /// is evaluated in Python.
 template <class Work>
 auto watched(const std::optional<py::function>& progress, const Work& work) {
+    const ActiveCall active;
     std::exception_ptr failure;
     const auto look = [&](double fraction) {
+        if (ActiveCalls::ofInterpreter().isEnding()) return false;
         const py::gil_scoped_acquire lock;
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -110,6 +113,7 @@ auto watched(const std::optional<py::function>& progress, const Work& work) {
 /// Short work of the library, in which threads may evaluate systems in Python.
 template <class Work>
 auto unlocked(const Work& work) {
+    const ActiveCall active;
     try {
         auto result = [&] {
             const py::gil_scoped_release lock;
@@ -335,6 +339,10 @@ PYBIND11_MODULE(_extremal, m) {
         }
     });
     m.attr("__version__") = api::version();
+    py::module_::import("atexit").attr("register")(py::cpp_function([] {
+        const py::gil_scoped_release lock;
+        ActiveCalls::ofInterpreter().end();
+    }));
     bindScene(m);
     bindFigure(m);
     bindResult(m);

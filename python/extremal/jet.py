@@ -26,6 +26,9 @@ class Jet(Number):
 
     def chain(self, f, df, ddf):
         """f(x) from f, f' and f'' at x.value: for functions that are not in the module, such as tables."""
+        return self._chain(*(_plain(name, each) for name, each in (("f", f), ("df", df), ("ddf", ddf))))
+
+    def _chain(self, f, df, ddf):
         g = self.gradient
         return Jet(float(f), df * g, df * self.hessian + ddf * np.outer(g, g))
 
@@ -38,7 +41,7 @@ class Jet(Number):
         if name == "atan2":
             return _angle(*arguments)
         x = arguments[0]
-        return x.chain(*_functions[name](x.value))
+        return x._chain(*_functions[name](x.value))
 
     def __lt__(self, other): return self.value < _value(other)
     def __le__(self, other): return self.value <= _value(other)
@@ -56,6 +59,19 @@ class Jet(Number):
                         "functions of extremal or numpy, or .value and .chain(f, df, ddf)")
 
     __float__ = __int__ = __index__ = _refuse
+
+
+def _plain(name, value):
+    """An argument of chain, which an array would multiply entry by entry."""
+    if np.ndim(value) == 0:
+        try:
+            return float(value)
+        except (TypeError, ValueError):
+            pass
+        raise TypeError(f"chain(f, df, ddf): {name} must be a number, got {type(value).__name__}")
+    if np.size(value) == 1:
+        return float(np.reshape(value, ()))
+    raise ValueError(f"chain(f, df, ddf): {name} must be a number, got an array of shape {np.shape(value)}")
 
 
 def _value(x):
@@ -85,7 +101,7 @@ def _inverse(x):
     if not isinstance(x, Jet):
         return 1 / float(x)
     f = 1 / x.value if x.value != 0 else math.inf
-    return x.chain(f, -f * f, 2 * f**3)
+    return x._chain(f, -f * f, 2 * f**3)
 
 
 def _power(a, b):
@@ -96,10 +112,10 @@ def _power(a, b):
     try:
         f, df, ddf = x**n, 0.0 if n == 0 else n * x**(n - 1), 0.0 if n in (0, 1) else n * (n - 1) * x**(n - 2)
     except (ZeroDivisionError, OverflowError):
-        return a.chain(math.nan, math.nan, math.nan)
+        return a._chain(math.nan, math.nan, math.nan)
     if any(isinstance(each, complex) for each in (f, df, ddf)):
-        return a.chain(math.nan, math.nan, math.nan)
-    return a.chain(f, df, ddf)
+        return a._chain(math.nan, math.nan, math.nan)
+    return a._chain(f, df, ddf)
 
 
 _operations = {"+": _add, "-": lambda a, b: _add(a, _multiply(b, -1.0) if isinstance(b, Jet) else -float(b)),

@@ -214,5 +214,46 @@ class Surroundings(unittest.TestCase):
             extremal.study("converge", PENDULUM)
 
 
+class End(unittest.TestCase):
+    """The interpreter ends while a daemon thread is inside the library: without a crash, whatever it does there."""
+
+    def ended(self, call, loop=False):
+        script = f"""
+import threading
+import extremal
+started = threading.Event()
+scene = {PENDULUM!r}
+def lagrangian(t, q, v):
+    started.set()
+    return v.x**2 / 2 - q.x**2 / 2
+extremal.add_system("swing", lagrangian, ["x"])
+def progress(fraction):
+    started.set()
+def work():
+    try:
+        {"while True" if loop else "if True"}:
+            {call}
+    finally:
+        started.set()
+threading.Thread(target=work, daemon=True).start()
+started.wait()
+"""
+        return subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=100)
+
+    def test_daemon_threads(self):
+        swing = {"type": "swing"}
+        for call in (f"extremal.run(scene, {LONG}, progress=progress)",
+                     f"extremal.run(scene, {LONG}, threads=2, progress=progress)",
+                     f"extremal.run(dict(scene, model={swing}), {LONG})",
+                     f"extremal.study('convergence', scene, {LONG[:2]}, steps=[1e-3, 1e-4], progress=progress)"):
+            with self.subTest(call):
+                ended = self.ended(call)
+                self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+
+    def test_a_thread_that_begins_again_and_again(self):
+        ended = self.ended("started.set(); extremal.run(scene)", loop=True)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -33,7 +33,28 @@ def table(t, q, v):
     return v.x**2 / 2 - q.x.chain(f(x), f.deriv()(x), f.deriv(2)(x))
 
 
+def wrong_shape(make):
+    """A system whose derivatives are not of the shapes of its one coordinate: (L, 2, 2 x 2)."""
+    return lambda t, q, v, values: make(np.zeros)
+
+
+WRONG = {"short gradient": (lambda z: (0.0, z(1), z((2, 2))), "a gradient of shape \\(1,\\), and 1 coordinate needs \\(2,\\)"),
+         "long gradient": (lambda z: (0.0, z(3), z((2, 2))), "a gradient of shape \\(3,\\)"),
+         "flat Hessian": (lambda z: (0.0, z(2), z(4)), "a Hessian of shape \\(4,\\), and 1 coordinate needs \\(2, 2\\)"),
+         "small Hessian": (lambda z: (0.0, z(2), z((1, 1))), "a Hessian of shape \\(1, 1\\)"),
+         "array for L": (lambda z: (z(2), z(2), z((2, 2))), "a value of shape \\(2,\\), and 1 coordinate needs \\(\\)"),
+         "two of three": (lambda z: (0.0, z(2)), "must give \\(L, gradient, Hessian\\), got"),
+         "no numbers": (lambda z: (0.0, ["a", "b"], z((2, 2))), "a gradient that is no array of numbers")}
+
+
+def wrong_chain(t, q, v):
+    return v.x**2 / 2 - q.x.chain(1.0, np.array([1.0, 2.0]), 0.0)
+
+
 # Before anything is read.
+for number, (name, (make, _)) in enumerate(WRONG.items()):
+    extremal._extremal.add_system(f"wrong-{number}", name, "", ["x"], {}, False, wrong_shape(make))
+extremal.add_system("wrong-chain", wrong_chain, ["x"])
 extremal.add_system("swing-python", swing, ["a", "theta"], k=100)
 extremal.add_system("wall-python", with_wall, ["x"], k=50)
 extremal.add_system("broken-python", broken, ["x"])
@@ -124,6 +145,20 @@ class Runs(unittest.TestCase):
         with self.assertRaisesRegex(ZeroDivisionError, "below one half"):
             extremal.run(scene({"type": "broken-python"}, [0.2]))
         self.assertEqual(extremal.run(scene({"type": "wall-python"}, [1.0]))[0].status, "done")  # and no other
+
+    def test_shapes_of_arrays_are_looked_at(self):
+        for number, (name, (_, message)) in enumerate(WRONG.items()):
+            with self.subTest(name):
+                with self.assertRaisesRegex((ValueError, TypeError), f'system "wrong-{number}" .*{message}'):
+                    extremal.run(scene({"type": f"wrong-{number}"}, [1.0]))
+        with self.assertRaisesRegex(ValueError, "chain.*df must be a number, got an array of shape \\(2,\\)"):
+            extremal.run(scene({"type": "wrong-chain"}, [1.0]))
+
+    @unittest.skipUnless(hasattr(BaseException, "add_note"), "exceptions have no notes before Python 3.11")
+    def test_an_exception_says_where(self):
+        with self.assertRaises(ZeroDivisionError) as caught:
+            extremal.run(scene({"type": "broken-python"}, [0.2]))
+        self.assertRegex("".join(caught.exception.__notes__), 'system "broken-python" at t = 0.*q = \\[0.2\\], v = ')
 
     def test_it_is_in_the_catalogue(self):
         self.assertEqual(extremal.models["swing-python"]["parameters"][0]["default"], 100)
