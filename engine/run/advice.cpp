@@ -48,10 +48,12 @@ std::string shorterStep(const ResolvedScheme& scheme, const System& system, cons
     return "Steps down to h = " + formatNumber(2 * h, digits) + " fail there too.";
 }
 
-/// Of a step from `state` to a finite state without an energy, at time `at`. `w`: of the fastest motion.
+/// Of a step from `state` to a finite state without an energy, at time `next`, or at that of `state`: wide
+/// states are not copied, and are those of the node itself. `w`: of the fastest motion.
 std::string adviceOutsideDomain(const ResolvedScheme& scheme, double step, double w, const System& system,
-                                const State& initial, const State& state, double at) {
+                                const State& initial, const State& state, double next) {
     const EnergyFunction energy = energyOf(system);
+    const double at = energy && !std::isfinite(energy(state.t, state.x.data())) ? state.t : next;
     if (energy && !std::isfinite(energy(at, initial.x.data())))
         return "The Lagrangian is not defined at t = " + formatNumber(at, 4) +
                ", whatever the state. Try an end before that.";

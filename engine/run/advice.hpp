@@ -12,7 +12,7 @@ namespace extremal {
 
 /// `step`: signed, as the run takes it. `initial` is the start of the run, `state` the last node that was
 /// reached. `undefinedAt`: of a run that is lost since its energy, or another value of the state, is not a
-/// number after the next step, the time there. A step that is advised has been tried: some steps of that
+/// number after the next step, the time of that. A step that is advised has been tried: some steps of that
 /// length go on from there.
 std::string adviceFor(Outcome outcome, const ResolvedScheme& scheme, double step, const System& system,
                       const State& initial, const State& state, std::optional<double> undefinedAt = {});

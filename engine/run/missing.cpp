@@ -77,6 +77,11 @@ bool isMissing(const ObservableEntry& entry, const SchemeResult& scheme) {
 
 }  // namespace
 
+std::string textOfKnown(const std::string& column, long long known, long long nodes, double unknownFrom) {
+    return column + " is known at " + std::to_string(known) + " of " + std::to_string(nodes) +
+           " nodes, not at t = " + formatNumber(unknownFrom, 4) + ", and its largest value is that of those";
+}
+
 std::vector<Missing> missingFrom(const Comparison& comparison, const SchemeResult& scheme) {
     std::vector<Missing> all;
     const Summary& s = scheme.summary;

@@ -20,4 +20,8 @@ struct Missing {
 /// In the order of the scene's `observe`; of a scheme that is not computed yet, nothing.
 std::vector<Missing> missingFrom(const Comparison& comparison, const SchemeResult& scheme);
 
+/// Of an extreme over some of the nodes only: a clause that says over how many, and where the first is that
+/// has no value.
+std::string textOfKnown(const std::string& column, long long known, long long nodes, double unknownFrom);
+
 }  // namespace extremal

@@ -22,6 +22,7 @@
 #include "engine/run/inside_step.hpp"
 #include "engine/run/judge.hpp"
 #include "engine/run/march_grid.hpp"
+#include "engine/run/missing.hpp"
 #include "engine/run/open_bar.hpp"
 #include "engine/run/reference.hpp"
 #include "engine/run/row_sampler.hpp"
@@ -341,14 +342,10 @@ struct Recording {
             s.status = outcome == Outcome::stopped ? RunStatus::partial : RunStatus::failed;
             s.cause = outcome;
             s.failedAt = outcome == Outcome::stopped ? Summary::unknown : state.t;
-            std::optional<double> undefinedAt;
-            if (outcome == Outcome::lost && hasLeftDomain) {
-                // Wide states are not copied, and are those of the node itself.
-                const EnergyFunction energy = energyOf(system);
-                const bool isThere = energy && !std::isfinite(energy(state.t, state.x.data()));
-                undefinedAt = isThere ? state.t : state.t + (scheme.isFixed() ? step : report.last.step);
-            }
-            s.advice = adviceFor(outcome, scheme, step, system, initialNode, state, undefinedAt);
+            std::optional<double> next;
+            if (outcome == Outcome::lost && hasLeftDomain)
+                next = state.t + (scheme.isFixed() ? step : report.last.step);
+            s.advice = adviceFor(outcome, scheme, step, system, initialNode, state, next);
             if (recordsSteps() && outcome != Outcome::stopped) {
                 StepRecord record;
                 record.k = state.node;
@@ -372,10 +369,8 @@ struct Recording {
             const long long known = s.steps + 1 - b.unknownNodes;
             if (!std::isfinite(extreme.value) || b.unknownNodes == 0 || b.unknownFrom == initialNode.t)
                 continue;
-            s.caution += (s.caution.empty() ? "" : "; ") + extreme.column + " is known at " +
-                         std::to_string(known) + " of " + std::to_string(s.steps + 1) +
-                         " nodes, not at t = " + formatNumber(b.unknownFrom, 4) +
-                         ", and its largest value is that of those";
+            if (!s.caution.empty()) s.caution += "; ";
+            s.caution += textOfKnown(extreme.column, known, s.steps + 1, b.unknownFrom);
         }
     }
 
