@@ -120,7 +120,7 @@ std::vector<Symmetry> symmetriesOnSamples(const System& system, const StateSampl
     const int d = system.dimension();
     const Unknowns unknowns(d);
     StateSampler sampler = from;
-    const Index m = unknowns.size(), random = 3 * m + 20, rows = random + sampler.statesAtLandmarks();
+    const Index m = unknowns.size(), random = 3 * m + 20, rows = random + sampler.statesAtLandmarks() / 2;
     MatrixXd M(rows, m);
     VectorXd row(m);
     SampledState state;

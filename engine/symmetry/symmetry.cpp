@@ -76,24 +76,29 @@ bool movesSomething(const Symmetry& s) {
     return s.movesTime() || hasNonzero(s.A) || hasNonzero(s.b) || hasNonzero(s.c);
 }
 
-/// The largest violation over fresh states, those near the landmarks of the formula among them; infinity
-/// where there are no states, or where it is not a number.
-double worstViolation(const Mechanical& mechanics, const Symmetry& s) {
-    constexpr int states = 40;
+/// Fresh states, those near the landmarks of the formula among them. Empty where L has no value at most
+/// places.
+std::vector<SampledState> freshStates(const Mechanical& mechanics) {
+    constexpr int random = 40;
     StateSampler sampler(mechanics, 2718);
+    std::vector<SampledState> states;
     SampledState state;
-    double worst = 0;
-    const auto look = [&] {
-        const double violation = s.violation(mechanics, state.t, state.q.data(), state.v.data());
-        worst = std::isnan(violation) ? std::numeric_limits<double>::infinity() : std::max(worst, violation);
-    };
-    for (int i = 0; i < states; ++i) {
-        if (!sampler.next(state)) return std::numeric_limits<double>::infinity();
-        look();
+    for (int i = 0; i < random; ++i) {
+        if (!sampler.next(state)) return {};
+        states.push_back(state);
     }
     for (int i = 0; i < sampler.statesAtLandmarks(); ++i)
-        if (sampler.nextAtLandmarks(state)) look();
-    return worst;
+        if (sampler.nextAtLandmarks(state)) states.push_back(state);
+    return states;
+}
+
+/// Whether a symmetry is violated by less than the limit at all states.
+bool holdsAt(const std::vector<SampledState>& states, const Mechanical& mechanics, const Symmetry& s,
+             double limit) {
+    return !states.empty() && std::all_of(states.begin(), states.end(), [&](const SampledState& state) {
+        const double violation = s.violation(mechanics, state.t, state.q.data(), state.v.data());
+        return violation < limit;  // false if it is not a number
+    });
 }
 
 /// Whether t alone moves, and F does not make up for it: then L_t = 0, which the formula itself tells.
@@ -159,6 +164,7 @@ std::vector<Symmetry> search(const System& system) {
     constexpr double exact = 1e-10, almost = 1e-4;
     const Mechanical& mechanics = system.mechanics();
     const bool isSmall = system.dimension() <= mostCoordinates;
+    const std::vector<SampledState> states = freshStates(mechanics);
     std::vector<Symmetry> found;
     for (Symmetry& s : isSmall ? symmetriesOnSamples(system, StateSampler(mechanics)) : candidates(system)) {
         normalise(s);
@@ -166,9 +172,9 @@ std::vector<Symmetry> search(const System& system) {
         Symmetry rounded = s;
         changeAll(rounded, snapped);
         const double limit = s.isExact() ? exact : almost;
-        if (worstViolation(mechanics, rounded) < limit)
+        if (holdsAt(states, mechanics, rounded, limit))
             found.push_back(std::move(rounded));
-        else if (worstViolation(mechanics, s) < limit)
+        else if (holdsAt(states, mechanics, s, limit))
             found.push_back(std::move(s));
     }
     nameAll(system, found);
