@@ -354,13 +354,20 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
     if (kind == Kind::file) return readReference(scene.reference.path, system);
     const Family* const onMeshes = system.at ? familyOnMeshes(system) : nullptr;
     if (exactSolution(scene, system, initial)) {
-        if (kind == Kind::automatic && onMeshes && isComputedInstead(scene, system) &&
-            premiseOf(scene, system, initial).isViolated)
-            if (Reference better = computedOnMesh(resolved, *onMeshes, stop);
-                better.make || stop.stop_requested())
-                return better;
         Reference reference;
-        reference.info = {"exact", errorOfExact(resolved, stop), "exact solution"};
+        std::vector<Problem> problems;
+        if (kind == Kind::automatic && onMeshes && isComputedInstead(scene, system)) {
+            const ExactPremise premise = premiseOf(scene, system, initial);
+            if (premise.isViolated) reference = computedOnMesh(resolved, *onMeshes, stop);
+            if (reference.make || stop.stop_requested()) return reference;
+            if (premise.isViolated)
+                problems = {{"/reference",
+                             "exact solution: " + premise.text +
+                                 ": to compute one costs too much, and its estimated error "
+                                 "contains that",
+                             "a shorter run, or fewer cells"}};
+        }
+        reference.info = {"exact", errorOfExact(resolved, stop), "exact solution", std::move(problems)};
         reference.make = [scene, system, initial] { return exactSolution(scene, system, initial); };
         return reference;
     }
