@@ -31,15 +31,15 @@ double roundOffPart(const System& system, const State& initial, double duration)
     return 2e-15 * scale * std::max(1.0, w * duration / 10);
 }
 
-constexpr int samples = 199;  ///< of a run: a prime, not in step with the motion
+constexpr int samplesOfRun = 199;  ///< of a run: a prime, not in step with the motion
 
 /// What a double can say of the largest numbers that the motion comes to.
 double sizePart(const Scene& scene, const System& system, const State& initial) {
     const ExactSolution exact = exactSolution(scene, system, initial);
     std::vector<double> x(initial.x.size());
     double most = 0;
-    for (int k = 1; k <= samples; ++k) {
-        exact(scene.start.value + (scene.end.value - scene.start.value) * k / samples, x);
+    for (int k = 1; k <= samplesOfRun; ++k) {
+        exact(scene.start.value + (scene.end.value - scene.start.value) * k / samplesOfRun, x);
         for (const double v : x)
             if (std::isfinite(v)) most = std::max(most, std::abs(v));
     }
@@ -64,8 +64,8 @@ double conditionPart(const Scene& scene, const System& system, const State& init
         const ExactSolution other = exactSolution(scene, system, moved);
         if (!other) return 0.0;
         double most = 0;
-        for (int k = 1; k <= samples && !stop.stop_requested(); ++k) {
-            const double t = scene.start.value + length * k / samples;
+        for (int k = 1; k <= samplesOfRun && !stop.stop_requested(); ++k) {
+            const double t = scene.start.value + length * k / samplesOfRun;
             exact(t, x);
             other(t, y);
             measure.evaluate(x.data(), y.data(), values.data());

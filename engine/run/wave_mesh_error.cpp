@@ -17,7 +17,7 @@ namespace {
 using Shared = std::shared_ptr<const Hamiltonian>;
 using Coefficients = std::vector<Complex>;
 
-constexpr int samplesOfRun = 101;  ///< of a run
+constexpr int meshSamples = 101;  ///< of a run
 
 /// Coefficients on a finer mesh of the same domain that are the same function.
 class Embedding {
@@ -72,7 +72,7 @@ private:
     Eigen::MatrixXd matrix_;
 };
 
-double distance(const Coefficients& a, const Coefficients& b) {
+double differenceOf(const Coefficients& a, const Coefficients& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += std::norm(a[i] - b[i]);
     return std::sqrt(sum);
@@ -112,10 +112,10 @@ public:
         std::vector<double> x(low.x.size());
         Coefficients y(static_cast<std::size_t>(fine->size()));
         double most = 0;
-        for (int k = 0; k < samplesOfRun && !stop_.stop_requested(); ++k) {
+        for (int k = 0; k < meshSamples && !stop_.stop_requested(); ++k) {
             a(time(k), x);
             b(time(k), {reinterpret_cast<double*>(y.data()), 2 * y.size()});
-            most = std::max(most, distance(embed(coefficients(x.data())), y));
+            most = std::max(most, differenceOf(embed(coefficients(x.data())), y));
         }
         return most;
     }
@@ -136,22 +136,22 @@ public:
         Coefficients low(n), high(m), workLow(n), workHigh(m);
         std::vector<double> x(initial_.x.size());
         const Coefficients start = startOn(fine, scene_);
-        double error = start.empty() ? 0 : distance(embed(coefficients(initial_.x.data())), start);
-        const double step = std::abs(scene_.end.value - scene_.start.value) / (samplesOfRun - 1);
-        for (int k = 0; k < samplesOfRun && !stop_.stop_requested(); ++k) {
+        double error = start.empty() ? 0 : differenceOf(embed(coefficients(initial_.x.data())), start);
+        const double step = std::abs(scene_.end.value - scene_.start.value) / (meshSamples - 1);
+        for (int k = 0; k < meshSamples && !stop_.stop_requested(); ++k) {
             motion(time(k), x);
             h_->apply(h_->potential().data(), coefficients(x.data()), low.data(), workLow.data());
             fine->apply(fine->potential().data(), embed(coefficients(x.data())).data(), high.data(),
                         workHigh.data());
-            const double defect = distance(embed(low.data()), high) / h_->hbar();
-            error += defect * step * (k == 0 || k == samplesOfRun - 1 ? 0.5 : 1);
+            const double defect = differenceOf(embed(low.data()), high) / h_->hbar();
+            error += defect * step * (k == 0 || k == meshSamples - 1 ? 0.5 : 1);
         }
         return error;
     }
 
 private:
     double time(int k) const {
-        return scene_.start.value + (scene_.end.value - scene_.start.value) * k / (samplesOfRun - 1);
+        return scene_.start.value + (scene_.end.value - scene_.start.value) * k / (meshSamples - 1);
     }
     const Scene& scene_;
     Shared h_;

@@ -44,7 +44,7 @@ double sumOver(double stretch, double speed, double step, const std::vector<doub
 
 /// Waves from one end meet themselves after 2 L/c; those of both ends meet each other after L/2c, and add up
 /// as squares before. The smaller of both bounds.
-double errorOf(const std::array<EndWave, 2>& waves, double crossing, double speed, double step) {
+double boundOf(const std::array<EndWave, 2>& waves, double crossing, double speed, double step) {
     std::vector<double> left, right, both;
     for (std::size_t k = 0; k < waves[0].values.size(); ++k) {
         left.push_back(waves[0].values[k] * waves[0].values[k]);
@@ -205,7 +205,7 @@ EndViolation endViolationOf(const ExactSolution::AtPlaces& exact, const FieldPro
     found.largest = waves[worse].largest;
     found.place = ends.place(worse);
     found.from = waves[worse].from();
-    found.error = errorOf(waves, problem.mesh.length() / ends.speed(), ends.speed(), step);
+    found.error = boundOf(waves, problem.mesh.length() / ends.speed(), ends.speed(), step);
     return found;
 }
 
