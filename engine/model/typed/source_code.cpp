@@ -87,24 +87,24 @@ private:
         if (name == "pow") return "power";
         return name.starts_with("a") ? "arc" + name.substr(1) : name;
     }
-    /// The pieces one in another, so that the line needs nothing outside of it.
-    std::string lookUp(const LookUp& look, const std::string& x) const {
-        std::string text, end;
+    /// One expression, so that the line needs nothing outside of it: of the pieces from `first` to before
+    /// `end` by halves, as languages limit how deep brackets may be nested.
+    std::string lookUp(const LookUp& look, const std::string& x, std::size_t first, std::size_t end) const {
+        if (end - first == 1) return piece(look, x, first);
+        const std::size_t middle = (first + end) / 2;
+        const std::string low = lookUp(look, x, first, middle), high = lookUp(look, x, middle, end),
+                          isLow = x + " < " + inBrackets(look.table->abscissae()[middle - 1]);
+        return isPython_ ? "(" + low + " if " + isLow + " else " + high + ")"
+                         : "(" + isLow + " ? " + low + " : " + high + ")";
+    }
+    std::string piece(const LookUp& look, const std::string& x, std::size_t k) const {
         const Interpolant& table = *look.table;
-        for (std::size_t k = 0; k < table.pieces(); ++k) {
-            const std::string s = "(" + x + " - " + inBrackets(table.base(k)) + ")";
-            std::string piece;
-            for (int j = table.degree(); j >= look.order; --j) {
-                double factor = table.coefficient(k, j);
-                for (int i = 0; i < look.order; ++i) factor *= j - i;
-                piece =
-                    piece.empty() ? number(factor) : "(" + piece + ") * " + s + " + " + inBrackets(factor);
-            }
-            if (k + 1 == table.pieces()) return text + piece + end;
-            const std::string bound = inBrackets(table.abscissae()[k]);
-            text += isPython_ ? "(" + piece + " if " + x + " < " + bound + " else "
-                              : "(" + x + " < " + bound + " ? " + piece + " : ";
-            end += ")";
+        const std::string s = "(" + x + " - " + inBrackets(table.base(k)) + ")";
+        std::string text;
+        for (int j = table.degree(); j >= look.order; --j) {
+            double factor = table.coefficient(k, j);
+            for (int i = 0; i < look.order; ++i) factor *= j - i;
+            text = text.empty() ? number(factor) : "(" + text + ") * " + s + " + " + inBrackets(factor);
         }
         return text;
     }
@@ -139,7 +139,7 @@ private:
                 return isPython_ ? "(" + b + " if " + a + " != 0.0 else " + c + ")"
                                  : "(" + a + " != 0.0 ? " + b + " : " + c + ")";
             case Op::lookUp:
-                return lookUp(code_.tables()[i.c], a);
+                return lookUp(code_.tables()[i.c], a, 0, code_.tables()[i.c].table->pieces());
         }
         return {};
     }
