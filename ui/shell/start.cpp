@@ -10,9 +10,11 @@
 #include <algorithm>
 
 #include "ui/shell/actions.hpp"
+#include "ui/shell/autosave.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/playback.hpp"
 #include "ui/shell/run_control.hpp"
+#include "ui/shell/termination.hpp"
 #include "ui/shell/workspace.hpp"
 
 namespace extremal {
@@ -74,9 +76,12 @@ int runWindow(int& argc, char** argv, const std::string& scene,
     MainWindow window(theme);
     constexpr QSize frame(16, 48);  // what window managers put around it
     window.resize(window.size().boundedTo(window.screen()->availableSize() - frame));
+    const Termination termination([&] {
+        if (auto* const autosave = window.findChild<Autosave*>()) autosave->writeNow();
+    });
+    window.show();  // at once: a scene may take seconds to be read
     if (!scene.empty() && !window.open(QString::fromStdString(scene)) && tell)
         tell(window.workspace().openProblems());
-    window.show();
     return application.exec();
 }
 
