@@ -61,12 +61,16 @@ private slots:
     }
 
     void theSignalsHaveTheirEffectAgainAfterwards() {
+        struct sigaction before {
+        }, now{};
+        sigaction(SIGTERM, nullptr, &before);
         {
             const Termination termination([] {}, [](int) {});
+            sigaction(SIGTERM, nullptr, &now);
+            QVERIFY(now.sa_handler != before.sa_handler);
         }
-        struct sigaction now {};
         sigaction(SIGTERM, nullptr, &now);
-        QVERIFY(now.sa_handler == SIG_DFL);
+        QVERIFY(now.sa_handler == before.sa_handler);
     }
 };
 
