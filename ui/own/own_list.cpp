@@ -12,6 +12,7 @@
 #include "engine/run/export.hpp"
 #include "engine/scene/json.hpp"
 #include "ui/panels/card.hpp"
+#include "ui/panels/tool_window.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/save_dialog.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -53,6 +54,7 @@ OwnList::OwnList(Workspace& workspace, Notices& notices, QWidget* parent)
     setWindowTitle(tr("Your schemes"));
     setProperty("ground", "window");
     resize(480, 420);
+    closeOnEscape(*this);
     auto* column = new QVBoxLayout(this);
     list_ = new QListWidget;
     list_->setObjectName("ownNamesList");

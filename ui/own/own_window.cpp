@@ -89,6 +89,7 @@ const char* const typedRuleKind = "nodes";
 OwnWindow::OwnWindow(Workspace& workspace, Notices& notices, const Theme& theme, QWidget* parent)
     : QWidget(parent, Qt::Window), workspace_(workspace), notices_(notices) {
     setUpToolWindow(*this, "ownScheme", tr("Your own space and rule"), "own-space", {1080, 700});
+    closeOnEscape(*this, [this] { return !workspace_.hasScene() || scheme() == opened_; });
     auto* layout = new QHBoxLayout(this);
     makeForm();
     auto* scroll = new QScrollArea;
@@ -205,6 +206,7 @@ void OwnWindow::open() {
         for (const char* part : {"space", "quadrature"}) original_.set(part, *pair.find(part));
     }
     fill();
+    opened_ = scheme();
     bringToFront(*this);
     changed();
 }

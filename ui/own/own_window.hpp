@@ -69,6 +69,7 @@ private:
     std::vector<std::pair<QLabel*, FormulaEdit*>> ofSpace_, ofRule_;  ///< fields with their captions
     QTimer delay_;
     Value original_;  ///< the scheme as the scene has it
+    Value opened_;    ///< what the fields said when they were filled
     WrittenScheme written_;
     int index_ = -1;
     DiscretizationSketch sketch_;

@@ -22,6 +22,7 @@ namespace extremal {
 CopiesWindow::CopiesWindow(Workspace& workspace, Playback& playback, const Theme& theme, QWidget* parent)
     : QWidget(parent, Qt::Window), workspace_(workspace), playback_(playback) {
     setUpToolWindow(*this, "copies", tr("Perturb and watch"), "structure#regular-or-chaotic", {900, 820});
+    closeOnEscape(*this);
     auto* column = new QVBoxLayout(this);
     auto* row = new QHBoxLayout;
     title_ = makeElidedLabel({}, "heading", this);

@@ -34,6 +34,7 @@ InspectorWindow::InspectorWindow(Workspace& workspace, RunControl& run, Playback
     : QWidget(parent, Qt::Window), workspace_(workspace), run_(run), playback_(playback), theme_(theme) {
     setUpToolWindow(*this, "inspector", tr("One step"), "framework#element-by-element-or-node-by-node",
                     {1280, 820});
+    closeOnEscape(*this);
     auto* layout = new QVBoxLayout(this);
     title_ = makeLabel({}, "heading", this);
     layout->addWidget(title_);

@@ -4,6 +4,7 @@
 #include <QScrollBar>
 #include <QVBoxLayout>
 
+#include "ui/panels/tool_window.hpp"
 #include "ui/shell/notices.hpp"
 
 namespace extremal {
@@ -13,6 +14,7 @@ LogWindow::LogWindow(Notices& notices, QWidget* parent)
     setObjectName("log");
     setWindowTitle(tr("Log"));
     resize(760, 420);
+    closeOnEscape(*this);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     text_->setReadOnly(true);

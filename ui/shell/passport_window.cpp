@@ -11,6 +11,7 @@
 #include "engine/passport/passport.hpp"
 #include "engine/passport/program.hpp"
 #include "engine/run/export.hpp"
+#include "ui/panels/tool_window.hpp"
 #include "ui/shell/background.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/save_dialog.hpp"
@@ -23,6 +24,7 @@ PassportWindow::PassportWindow(Workspace& workspace, Notices& notices, QWidget* 
     : QWidget(parent, Qt::Window), workspace_(workspace), notices_(notices) {
     setObjectName("passport");
     resize(860, 720);
+    closeOnEscape(*this);
     auto* layout = new QVBoxLayout(this);
     text_ = new TextView(this);
     text_->setAccessibleName(tr("Passport of the scheme"));

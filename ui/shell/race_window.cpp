@@ -26,6 +26,7 @@ constexpr int tickMs = 33, wholeMs = 10000, fine = 1000;
 RaceWindow::RaceWindow(RunControl& run, const Theme& theme, QWidget* parent)
     : QWidget(parent, Qt::Window), run_(run), theme_(theme) {
     setUpToolWindow(*this, "race", tr("Race"), "studies", {1200, 800});
+    closeOnEscape(*this);
     auto* column = new QVBoxLayout(this);
     auto* row = new QHBoxLayout;
     play_ = new QPushButton(tr("Start"), this);
