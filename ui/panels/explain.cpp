@@ -4,12 +4,17 @@
 
 #include <cmath>
 
+#include "engine/view/catalog.hpp"
 #include "ui/panels/format.hpp"
 
 namespace extremal {
 namespace {
 
 QString say(const char* text) { return QCoreApplication::translate("explain", text); }
+
+QString inUnit(const std::string& unit) {
+    return unit.empty() ? say("without a unit") : say("in %1").arg(QString::fromStdString(unit));
+}
 
 /// How an error stands to what the reference itself is good to.
 QString trustIn(double error, const ReferenceInfo& reference) {
@@ -27,7 +32,8 @@ QString trustIn(double error, const ReferenceInfo& reference) {
 
 QString explainCost(const Summary& s) {
     QString text =
-        say("CPU time of the thread in the steps of this scheme alone: neither plots, nor files, nor the "
+        say("CPU time, in seconds and their parts, of the thread in the steps of this scheme alone: neither "
+            "plots, nor files, nor the "
             "reference. Short runs are repeated.");
     if (s.steps > 0 && s.cpuSeconds > 0)
         text += '\n' + say("%1 per step.").arg(shortTime(s.cpuSeconds / static_cast<double>(s.steps)));
@@ -38,12 +44,12 @@ QString explainCost(const Summary& s) {
     return text;
 }
 
-QString explainError(const Summary& s, const ReferenceInfo& reference) {
+QString explainError(const Summary& s, const ReferenceInfo& reference, const std::string& unit) {
     if (reference.type == "none") return say("There is no reference, so the error is not known.");
     const bool isOver = s.status == RunStatus::done || s.status == RunStatus::failed;
     if (isOver && s.steps == 0) return say("No step was taken: there is nothing to measure.");
-    QString text = say("Largest distance from the reference over all nodes of the run.\nReference: %1.")
-                       .arg(QString::fromStdString(reference.description));
+    QString text = say("Largest distance from the reference over all nodes of the run, %1.\nReference: %2.")
+                       .arg(inUnit(unit), QString::fromStdString(reference.description));
     text += '\n' + trustIn(s.maxError, reference);
     if (std::isfinite(s.finalError)) text += '\n' + say("At the end: %1.").arg(shortNumber(s.finalError));
     if (std::isfinite(s.opensAt))
@@ -63,11 +69,22 @@ QString explainOrder(const Summary& s) {
     return text;
 }
 
-QString explainSteps(const Summary& s) {
+QString explainSteps(const Summary& s, bool areElements) {
+    if (areElements) return say("Number of elements, all of the same length; the problem is solved at once.");
     QString text = say("Number of steps of the run.");
     if (std::isfinite(s.tEnd) && s.steps > 0)
         text += '\n' + say("It has come to t = %1.").arg(shortNumber(s.tEnd, 4));
     return text;
+}
+
+QString explainValue(const Figure& figure, const QString& scheme, double t) {
+    const QString axis = QString::fromStdString(figure.y.title);
+    const std::string unit = axis.section('[', 1).section(']', 0, 0).toStdString();
+    QString text = say("%1 of %2 at t = %3, %4.")
+                       .arg(axis.section('[', 0, 0).trimmed(), scheme, shortNumber(t, 6), inUnit(unit));
+    if (const ViewEntry* view = findView(figure.view))
+        text += '\n' + say("Plot: %1.").arg(QString::fromStdString(view->item.description));
+    return text + '\n' + say("Between the rows of the run it is read off a straight line.");
 }
 
 }  // namespace extremal

@@ -7,9 +7,11 @@
 
 #include "engine/baseline/catalog.hpp"
 #include "engine/core/text.hpp"
+#include "engine/family/family.hpp"
 #include "engine/integrator/composition.hpp"
 #include "engine/quadrature/catalog.hpp"
 #include "engine/scene/json.hpp"
+#include "engine/scene/resolve.hpp"
 
 namespace extremal {
 
@@ -86,9 +88,20 @@ QString innerText(const SchemeSpec& spec) {
     return text;
 }
 
+/// The length of an element, which follows from their number: the expression in its place says how, and is
+/// not what was typed.
+bool hasElements(const SchemeSpec& spec) {
+    const auto discretization = discretizationOf(spec);
+    const Family* const family = discretization ? familyOf(discretization->space) : nullptr;
+    return family && family->impliedStep;
+}
+
 }  // namespace
 
 QString schemeText(const SchemeSpec& spec) {
+    // Of elements that take their rule from the problem, "auto" says nothing.
+    if (spec.kind == SchemeSpec::Kind::discretization && spec.quadrature.type == "auto" && hasElements(spec))
+        return QString::fromStdString(describe(spec.space, spec.quadrature).space);
     const Settings& c = spec.composition;
     if (c.type.empty()) return innerText(spec);
     for (const CatalogItem& item : compositionCatalog())
@@ -100,12 +113,15 @@ QString schemeText(const SchemeSpec& spec) {
     return innerText(spec);
 }
 
+int elementsOf(const SchemeSpec& spec) { return static_cast<int>(std::lround(1 / spec.step.value)); }
+
 QString stepText(const SchemeSpec& spec) {
     if (spec.tolerance) return QStringLiteral("tol ") + shortNumber(*spec.tolerance);
     // Steps that follow from a mesh have all digits.
     const Number& step = spec.step;
-    return QStringLiteral("h = ") +
-           (step.expression.empty() ? QString::fromStdString(formatNumber(step.value, 5)) : numberText(step));
+    return QStringLiteral("h = ") + (step.expression.empty() || hasElements(spec)
+                                         ? QString::fromStdString(formatNumber(step.value, 5))
+                                         : numberText(step));
 }
 
 QString fieldText(const Value& value) {

@@ -18,6 +18,8 @@ QString numberText(const Number& number);
 QString schemeText(const SchemeSpec& spec);
 /// "h = 0.25" or "tolerance 1e-9".
 QString stepText(const SchemeSpec& spec);
+/// Of a boundary problem on an interval of length 1.
+int elementsOf(const SchemeSpec& spec);
 /// A value of a scene as it stands in a field.
 QString fieldText(const Value& value);
 /// The opposite: a number if it is one, else an expression; null if empty.

@@ -1,6 +1,8 @@
 #include "ui/panels/scheme_card.hpp"
 
+#include "engine/model/system.hpp"
 #include "engine/run/event_files.hpp"
+#include "engine/scene/resolve.hpp"
 #include "engine/scene/topics.hpp"
 
 #include <QGridLayout>
@@ -13,8 +15,9 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QToolButton>
-#include <QToolTip>
 #include <QVBoxLayout>
+
+#include <algorithm>
 #include <cmath>
 
 #include "ui/panels/card.hpp"
@@ -24,7 +27,6 @@
 #include "ui/panels/problem_text.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/panels/scrub_label.hpp"
-#include "ui/shell/plain_tips.hpp"
 #include "ui/shell/scheme_edits.hpp"
 #include "ui/shell/theme.hpp"
 #include "ui/shell/workspace.hpp"
@@ -34,7 +36,7 @@ namespace extremal {
 SchemeCard::SchemeCard(Workspace& workspace, int index, const Theme& theme, QWidget* parent)
     : QFrame(parent), workspace_(workspace), index_(index), theme_(&theme) {
     setProperty("card", true);
-    setFocusPolicy(Qt::ClickFocus);
+    setFocusPolicy(Qt::StrongFocus);
     layout_ = new QVBoxLayout(this);
     layout_->setContentsMargins(11, 8, 11, 9);
     layout_->setSpacing(3);
@@ -196,6 +198,15 @@ void SchemeCard::toggleOrSolo() {
 }
 
 void SchemeCard::scaleStep(double factor) {
+    if (hasElements()) {
+        const int now = elementsOf(spec()), scaled = static_cast<int>(std::lround(now / factor));
+        const int next = std::max(2, scaled != now ? scaled : factor < 1 ? now + 1 : now - 1);
+        const Edit edit = stepEdit(Value(next));
+        if (next != now)
+            workspace_.edit({edit}, tr("Change the number of elements"),
+                            QString::fromStdString(edit.pointer));
+        return;
+    }
     const std::vector<Edit> edits = editsForStep(workspace_.scene(), index_, factor);
     if (!edits.empty())
         workspace_.edit(edits, tr("Change the step"), QString::fromStdString(edits[0].pointer));
@@ -239,7 +250,8 @@ void SchemeCard::showSpec() {
     setAccessibleName(tr("Scheme %1").arg(label));
     name_->setText(label);
     name_->setEnabled(s.isEnabled);
-    step_->setText(stepText(s));
+    step_->setText(hasElements() ? tr("%n elements", nullptr, elementsOf(s)) : stepText(s));
+    steps_.caption->setText(hasElements() ? tr("elements") : tr("steps"));
     step_->setEnabled(s.isEnabled);
     parts_->setToolTip({});
     parts_->setText(s.isEnabled ? schemeText(s) : schemeText(s) + tr(" · off"));
@@ -256,6 +268,13 @@ void SchemeCard::showSpec() {
 }
 
 namespace {
+
+std::string unitOfError(const SchemeResult& result) {
+    const auto& columns = result.trajectory.columns;
+    const auto error =
+        std::find_if(columns.begin(), columns.end(), [](const Column& c) { return c.name == "error"; });
+    return error == columns.end() ? std::string() : error->unit;
+}
 
 /// The same discretization with the same step, under whatever name and colour.
 bool isSameScheme(SchemeSpec a, const SchemeSpec& b) {
@@ -297,8 +316,10 @@ void SchemeCard::showResult(const SchemeResult* result, bool isStale, const Refe
     order_.value->setText(order);
     steps_.value->setText(summary.steps > 0 ? QString::number(summary.steps) : QStringLiteral("–"));
     for (const auto& [figure, text] :
-         {std::pair{&cost_, explainCost(summary)}, std::pair{&error_, explainError(summary, reference)},
-          std::pair{&order_, explainOrder(summary)}, std::pair{&steps_, explainSteps(summary)}}) {
+         {std::pair{&cost_, explainCost(summary)},
+          std::pair{&error_, explainError(summary, reference, result ? unitOfError(*result) : std::string())},
+          std::pair{&order_, explainOrder(summary)},
+          std::pair{&steps_, explainSteps(summary, hasElements())}}) {
         figure->value->setEnabled(!isStale);
         figure->value->setToolTip(text);
         figure->caption->setToolTip(text);
@@ -314,94 +335,6 @@ void SchemeCard::setSelected(bool isSelected) {
     setProperty("selected", isSelected);
     step_->setTurnable(isSelected);
     repolish(*this);
-}
-
-void SchemeCard::editName() {
-    nameEdit_->setText(name_->text());
-    name_->hide();
-    nameEdit_->show();
-    nameEdit_->selectAll();
-    nameEdit_->setFocus();
-}
-
-void SchemeCard::finishName() {
-    if (nameEdit_->isHidden()) return;
-    nameEdit_->hide();
-    name_->show();
-    const std::string text = nameEdit_->text().trimmed().toStdString();
-    if (text.empty() || text == spec().label) return;
-    workspace_.edit(
-        {{"/schemes/" + std::to_string(index_) + "/label", uniqueLabel(workspace_.scene(), text)}},
-        tr("Rename scheme"));
-}
-
-void SchemeCard::editStep(const QString& typed) {
-    const SchemeSpec& s = spec();
-    stepEdit_->setText(s.tolerance ? shortNumber(*s.tolerance, 6) : numberText(s.step));
-    step_->hide();
-    stepEdit_->show();
-    stepEdit_->setFocus();
-    stepEdit_->selectAll();
-    if (!typed.isEmpty()) stepEdit_->insert(typed);
-}
-
-std::string SchemeCard::stepPlace() const {
-    return "/schemes/" + std::to_string(index_) + (spec().tolerance ? "/tolerance" : "/step");
-}
-
-void SchemeCard::finishStep() {
-    if (stepEdit_->isHidden()) return;
-    const std::string at = stepPlace();
-    const Value value = numberOrExpression(stepEdit_->text());
-    const Value* const now = valueAt(workspace_.document(), at);
-    const Value* const draft = workspace_.draftAt(at);
-    const bool isChanged = !value.isNull() && stepEdit_->isModified() && !(now && *now == value);
-    if (draft && !stepEdit_->isModified()) return;  // what was refused stays until it is changed
-    stepEdit_->hide();
-    step_->show();
-    if (!isChanged) return workspace_.dropDraft(at);
-    workspace_.edit({{at, value}}, tr("Change the step"), QString::fromStdString(at));
-}
-
-/// The digits are keys of the window as well: at a card that has the focus they are typed.
-bool SchemeCard::event(QEvent* event) {
-    if (event->type() == QEvent::ShortcutOverride) {
-        auto* key = static_cast<QKeyEvent*>(event);
-        const QString text = key->text();
-        if (!(key->modifiers() & ~Qt::KeypadModifier) && text.size() == 1 &&
-            (text[0].isDigit() || text == "."))
-            key->accept();
-    }
-    return QFrame::event(event);
-}
-
-void SchemeCard::keyPressEvent(QKeyEvent* event) {
-    const QString text = event->text();
-    if (!(event->modifiers() & ~Qt::KeypadModifier) && text.size() == 1 && (text[0].isDigit() || text == "."))
-        return editStep(text);
-    QFrame::keyPressEvent(event);
-}
-
-void SchemeCard::setEditing(bool isOpen) {
-    if (isOpen == isEditing()) return;
-    if (!isOpen) {
-        editor_->deleteLater();
-        editor_ = nullptr;
-        return showRefusal();
-    }
-    editor_ = new SchemeEditor(workspace_, index_);
-    connect(editor_, &SchemeEditor::closed, this, [this] { setEditing(false); });
-    layout_->insertWidget(2, editor_);
-    showRefusal();
-}
-
-/// A click on a number explains it at once.
-bool SchemeCard::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() == QEvent::MouseButtonRelease)
-        if (auto* label = qobject_cast<QLabel*>(watched))
-            QToolTip::showText(label->mapToGlobal(QPoint(0, label->height())), plainTip(label->toolTip()),
-                               label);
-    return QFrame::eventFilter(watched, event);
 }
 
 void SchemeCard::resizeEvent(QResizeEvent* event) {

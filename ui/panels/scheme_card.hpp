@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/run/comparison.hpp"
+#include "ui/shell/document.hpp"
 
 class QHBoxLayout;
 class QLabel;
@@ -47,6 +48,7 @@ public:
 
 signals:
     void moveRequested(int index, int by);
+    void neighbourRequested(int index, int by);  ///< the focus is to go to the row so far below
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -55,6 +57,7 @@ protected:
     bool event(QEvent* event) override;
     bool eventFilter(QObject* watched, QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
+    void focusInEvent(QFocusEvent* event) override;
 
 private:
     struct Figure {
@@ -75,6 +78,9 @@ private:
     void showRefusal();
     std::string stepPlace() const;
     const SchemeSpec& spec() const;
+    bool hasElements() const;  ///< in place of steps: a boundary problem
+    QString typedStep() const;
+    Edit stepEdit(const Value& typed) const;
 
     Workspace& workspace_;
     int index_;

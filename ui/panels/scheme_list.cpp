@@ -37,7 +37,7 @@ SchemeList::SchemeList(Workspace& workspace, RunControl& run, const Theme& theme
     header->addWidget(addButton_);
     layout->addLayout(header);
 
-    auto* scroll = new QScrollArea;
+    auto* scroll = scroll_ = new QScrollArea;
     scroll->setWidgetResizable(true);
     scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     scroll->setFrameShape(QFrame::NoFrame);
@@ -165,6 +165,8 @@ void SchemeList::rebuild() {
                 workspace_.selectScheme(index);
                 moveSelected(by);
             });
+            connect(cards_[i], &SchemeCard::neighbourRequested, this,
+                    [this](int index, int by) { focusRow(index + by); });
         }
         cardsLayout_->insertWidget(place, cards_[i]);
         cards_[i]->setIndex(place);
@@ -189,6 +191,13 @@ void SchemeList::showResults() {
 void SchemeList::showSelection() {
     for (std::size_t i = 0; i < cards_.size(); ++i)
         cards_[i]->setSelected(static_cast<int>(i) == workspace_.selectedScheme());
+}
+
+void SchemeList::focusRow(int index) {
+    SchemeCard* const there = card(index);
+    if (!there) return;
+    there->setFocus(Qt::TabFocusReason);
+    scroll_->ensureWidgetVisible(there);
 }
 
 void SchemeList::editSelected() {

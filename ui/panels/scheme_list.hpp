@@ -8,6 +8,7 @@
 
 class QMenu;
 class QPushButton;
+class QScrollArea;
 class QVBoxLayout;
 
 namespace extremal {
@@ -25,6 +26,8 @@ public:
     SchemeCard* card(int index) const;
 
     void openAddMenu();
+    /// Gives a row the focus, and so selects it.
+    void focusRow(int index);
     void editSelected();
     void renameSelected();
     /// Selects a scheme and opens its step, or its tolerance, for typing.
@@ -54,6 +57,7 @@ private:
     QPushButton* addButton_;
     QMenu* addMenu_;
     QVBoxLayout* cardsLayout_;
+    QScrollArea* scroll_;
     std::vector<SchemeCard*> cards_;
 };
 

@@ -1,14 +1,22 @@
 #include "ui/panels/values_table.hpp"
 
 #include <QHeaderView>
+#include <QToolTip>
 
 #include <algorithm>
 
 #include "engine/figure/sample.hpp"
+#include "ui/panels/explain.hpp"
 #include "ui/panels/format.hpp"
+#include "ui/shell/plain_tips.hpp"
 #include "ui/shell/theme.hpp"
 
 namespace extremal {
+namespace {
+
+constexpr int explainedMs = 15000;
+
+}  // namespace
 
 ValuesTable::ValuesTable(QWidget* parent) : QTableWidget(parent) {
     setAccessibleName(tr("Values at the cursor"));
@@ -19,6 +27,11 @@ ValuesTable::ValuesTable(QWidget* parent) : QTableWidget(parent) {
     verticalHeader()->setMinimumSectionSize(18);
     horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
     setShowGrid(false);
+    connect(this, &QTableWidget::cellClicked, this, [this](int row, int column) {
+        const QRect cell = visualItemRect(item(row, column));
+        QToolTip::showText(viewport()->mapToGlobal(cell.bottomLeft()), plainTip(item(row, column)->toolTip()),
+                           this, {}, explainedMs);
+    });
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
 }
 
@@ -52,6 +65,8 @@ void ValuesTable::show(const std::vector<const Figure*>& figures, double t, cons
                     if (const auto p = pointAt(s, t)) text = shortNumber(p->second, 6);
             if (!item(row, column)) setItem(row, column, new QTableWidgetItem);
             item(row, column)->setText(text);
+            item(row, column)
+                ->setToolTip(explainValue(*shown[static_cast<std::size_t>(column)], schemes[row], t));
             item(row, column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
         }
     }

@@ -130,7 +130,14 @@ private slots:
         QCOMPARE(window.own()->sketch().order, 6);
         QCOMPARE(window.own()->sketch().functions.all<Series>().size(), std::size_t{6});  // and dots at nodes
         QVERIFY(!window.own()->sketch().amplification.series().empty());
-        QVERIFY(!window.own()->sketch().pattern.series().empty());
+        const Figure& pattern = window.own()->sketch().pattern;
+        QVERIFY(!pattern.series().empty());
+        // Blocks have names, the first of them at the left and at the top.
+        QVERIFY(pattern.x.ticks.size() >= 2 && pattern.x.ticks.size() == pattern.y.ticks.size());
+        QVERIFY(pattern.x.ticks.front().second.starts_with("z") &&
+                pattern.x.ticks.front().second == pattern.y.ticks.front().second);
+        QVERIFY(pattern.x.ticks.front().first < pattern.x.ticks.back().first);
+        QVERIFY(pattern.y.ticks.front().first > pattern.y.ticks.back().first);
 
         window.type("ownFunctionTexts", "1\ntau\ntau^2");
         window.type("ownNodes", "0\n1/2\n1");

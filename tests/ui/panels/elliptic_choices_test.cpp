@@ -1,17 +1,23 @@
 /// What the window offers for the elliptic problem: its own elements, and nothing that would be refused.
 #include <QComboBox>
+#include <QLabel>
 #include <QMenu>
 #include <QPushButton>
 #include <QStandardItemModel>
 #include <QTest>
+
+#include <algorithm>
 
 #include "engine/family/family.hpp"
 #include "engine/model/system.hpp"
 #include "engine/scene/bind.hpp"
 #include "engine/scene/resolve.hpp"
 #include "tests/tools/test.hpp"
+#include "tests/ui/enter.hpp"
 #include "tests/ui/window.hpp"
 #include "ui/panels/discretizer.hpp"
+#include "ui/panels/format.hpp"
+#include "ui/panels/scheme_card.hpp"
 #include "ui/panels/scheme_editor.hpp"
 #include "ui/shell/run_control.hpp"
 #include "ui/shell/scheme_edits.hpp"
@@ -41,6 +47,44 @@ private slots:
         QVERIFY(waitForResults(window));
         QTRY_VERIFY(window.findChild<StageWidget*>()->isVisible() &&
                     window.findChild<QWidget*>("field.end")->isVisible());
+    }
+    void rowsSpeakOfElements() {
+        MainWindow window(Theme::light(), false);
+        window.show();
+        window.open("preset:elliptic");
+        QVERIFY(waitForResults(window));
+        const auto row = [&](int i) { return window.findChild<SchemeCard*>(QString("scheme.%1").arg(i)); };
+        const auto stepOf = [&](int i) { return row(i)->findChild<QLabel*>("stepLabel")->text(); };
+        QCOMPARE(stepOf(0), QString("10 elements"));
+        const auto labels = row(0)->findChildren<QLabel*>();
+        const auto hasCaption = [&](const char* text) {
+            return std::any_of(labels.begin(), labels.end(),
+                               [&](const QLabel* l) { return l->text() == QLatin1String(text); });
+        };
+        QVERIFY(hasCaption("elements") && !hasCaption("steps"));
+        auto* const number = row(0)->findChild<QLabel*>("steps");
+        QCOMPARE(number->text(), QString("10"));
+        QVERIFY(number->toolTip().contains("elements") && !number->toolTip().contains("t ="));
+        QCOMPARE(stepText(window.workspace().scene().schemes[0]), QString("h = 0.1"));
+
+        // Typed and scaled, both for elements of the model and for a number of the scheme's own.
+        const auto type = [&](int i, const QString& text) {
+            row(i)->editStep();
+            enter(row(i)->findChild<QLineEdit*>("step"), text);
+        };
+        type(1, "20");
+        QCOMPARE(stepOf(1), QString("20 elements"));
+        QVERIFY(!window.workspace().hasDrafts());
+        QCOMPARE(stepOf(0), QString("10 elements"));
+        QTest::mouseClick(window.discretizer().findChild<DiscretizerCell*>("cell.linear.40"), Qt::LeftButton);
+        QCOMPARE(stepOf(2), QString("40 elements"));
+        QVERIFY(!schemeText(window.workspace().scene().schemes[2]).contains("auto"));
+        type(2, "80");
+        QCOMPARE(stepOf(2), QString("80 elements"));
+        QVERIFY(!window.workspace().hasDrafts());
+        QVERIFY(waitForResults(window));
+        for (const auto& scheme : window.runControl().results()->schemes)
+            QVERIFY(scheme->summary.status == RunStatus::done);
     }
     void everyCellOfTheDiscretizerRuns() {
         MainWindow window(Theme::light(), false);

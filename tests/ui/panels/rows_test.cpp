@@ -135,9 +135,9 @@ private slots:
         QVERIFY(tip("cost").contains("per step") && tip("order").contains("claims the order 8"));
         Summary summary;
         summary.maxError = 1e-9;
-        QVERIFY(explainError(summary, {"computed", 1e-8, "x", {}}).contains("upper bound"));
-        QVERIFY(explainError(summary, {"computed", 1e-12, "x", {}}).contains("0.1 %"));
-        QVERIFY(explainError(summary, {}).contains("no reference"));
+        QVERIFY(explainError(summary, {"computed", 1e-8, "x", {}}, "rad").contains("upper bound"));
+        QVERIFY(explainError(summary, {"computed", 1e-12, "x", {}}, "rad").contains("0.1 %"));
+        QVERIFY(explainError(summary, {}, {}).contains("no reference"));
     }
     void aMotionStartsFromTheCursor() {
         Window window;
