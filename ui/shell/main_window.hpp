@@ -130,7 +130,10 @@ private:
                         const QString& problem, const QString& folder);
     bool tellOfExport(const QString& problem, const QString& file, const QString& folder);
     void exportReport();
+    void askForFolder(const QString& title, const QString& kind,
+                      const std::function<void(const QString&)>& use);
     void exportFrames();
+    void startFrames(const QString& folder, int count);
     void exportSized();
     void copyScene();
     void pasteScene();

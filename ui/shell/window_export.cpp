@@ -2,12 +2,14 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QDesktopServices>
+#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QPointer>
 #include <QSaveFile>
 #include <QStackedWidget>
+#include <QStandardPaths>
 #include <QStatusBar>
 #include <QTimer>
 #include <QUrl>
@@ -18,6 +20,7 @@
 #include "ui/shell/background.hpp"
 #include "ui/shell/compare_view.hpp"
 #include "ui/shell/export_folder.hpp"
+#include "ui/shell/folder_dialog.hpp"
 #include "ui/shell/main_window.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/playback.hpp"
@@ -31,8 +34,21 @@ namespace extremal {
 
 void MainWindow::exportDialog() {
     if (!run_->results()) return;
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Export everything into a folder"));
-    if (!folder.isEmpty()) startExport(folder);
+    askForFolder(tr("Export everything into a folder"), QStringLiteral("export"),
+                 [this](const QString& folder) { startExport(folder); });
+}
+
+/// Beside the scene, or among the documents of the user, a folder named after it is proposed.
+void MainWindow::askForFolder(const QString& title, const QString& kind,
+                              const std::function<void(const QString&)>& use) {
+    const QString place = workspace_->path().isEmpty()
+                              ? QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation)
+                              : QFileInfo(workspace_->path()).absolutePath();
+    const QString name = QFileInfo(workspace_->fileName()).completeBaseName();
+    auto* dialog = new FolderDialog(title, place + '/' + name + '-' + kind, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &QDialog::accepted, this, [dialog, use] { use(dialog->folder()); });
+    dialog->open();
 }
 
 /// Files of the run in another thread, then picture after picture, between which the window answers.
@@ -125,8 +141,15 @@ void MainWindow::exportFrames() {
                                            tr("Pictures, 2 to 5000, from the start to the end"), 240, 2, 5000,
                                            1, &isChosen);
     if (!isChosen) return;
-    const QString folder = QFileDialog::getExistingDirectory(this, tr("Frames into a folder"));
-    if (folder.isEmpty()) return;
+    askForFolder(tr("Frames into a folder"), QStringLiteral("frames"),
+                 [this, count](const QString& folder) { startFrames(folder, count); });
+}
+
+void MainWindow::startFrames(const QString& folder, int count) {
+    if (!QDir().mkpath(folder)) {
+        tellOfExport(tr("%1 cannot be made").arg(folder), folder, folder);
+        return;
+    }
     playback_->setPlaying(false);
     auto steps = std::make_shared<std::deque<std::function<QString()>>>();
     const auto picture = [this](double t) {
