@@ -1,5 +1,7 @@
 #include "ui/shell/run_control.hpp"
 
+#include <QPointer>
+
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -8,6 +10,7 @@
 #include "engine/scene/bind.hpp"
 #include "engine/scene/map_grid.hpp"
 #include "engine/scene/topics.hpp"
+#include "ui/shell/background.hpp"
 #include "ui/shell/notices.hpp"
 #include "ui/shell/workspace.hpp"
 
@@ -101,34 +104,61 @@ bool isSame(const Comparison& a, const Comparison& b) {
 
 }  // namespace
 
-void CostModel::learn(const Comparison& comparison) {
+void CostModel::keep(Known known) {
     constexpr std::size_t maxKnown = 200;
-    for (const auto& scheme : comparison.schemes) {
-        if (scheme->summary.steps < 10 || scheme->summary.cpuSeconds <= 0) continue;
-        std::erase_if(known_, [&](const Known& k) {
-            return k.model == comparison.scene.model && isSameMethod(k.spec, scheme->spec);
-        });
-        known_.push_back({scheme->spec, comparison.scene.model,
-                          scheme->summary.cpuSeconds / static_cast<double>(scheme->summary.steps)});
-    }
+    std::erase_if(known_,
+                  [&](const Known& k) { return k.model == known.model && isSameMethod(k.spec, known.spec); });
+    known_.push_back(std::move(known));
     if (known_.size() > maxKnown) known_.erase(known_.begin(), known_.end() - maxKnown);
+}
+
+void CostModel::learn(const Comparison& comparison) {
+    for (const auto& scheme : comparison.schemes)
+        if (scheme->summary.steps >= 10 && scheme->summary.cpuSeconds > 0)
+            keep({scheme->spec, comparison.scene.model,
+                  scheme->summary.cpuSeconds / static_cast<double>(scheme->summary.steps)});
+}
+
+void CostModel::learn(const Scene& scene, const TrialCosts& trial) {
+    for (const auto& [spec, seconds] : trial.seconds)
+        keep({spec, scene.model, seconds / stepsOf(scene, spec)});
+}
+
+const CostModel::Known* CostModel::find(const Scene& scene, const SchemeSpec& spec) const {
+    const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
+        return k.model.type == scene.model.type && isSameMethod(k.spec, spec);
+    });
+    return found == known_.end() ? nullptr : &*found;
+}
+
+bool CostModel::knows(const Scene& scene) const {
+    return std::all_of(scene.schemes.begin(), scene.schemes.end(),
+                       [&](const SchemeSpec& spec) { return !spec.isEnabled || find(scene, spec); });
+}
+
+double CostModel::secondsOf(const Scene& scene, const SchemeSpec& spec, double stepsInMaps) const {
+    if (!spec.isEnabled) return 0;
+    const double steps =
+        stepsOf(scene, spec) + (spec.step.value > 0 ? stepsInMaps : 0) + startStepsOf(scene, spec);
+    const Known* const known = find(scene, spec);
+    return steps * sizeOf(scene.model) *
+           (known ? known->secondsPerStep / sizeOf(known->model) : guessPerStep(spec));
 }
 
 double CostModel::predict(const Scene& scene) const {
     double seconds = 0;
-    const double inMaps = mapStepsOf(scene), size = sizeOf(scene.model);
-    for (const SchemeSpec& spec : scene.schemes) {
-        if (!spec.isEnabled) continue;
-        const double steps =
-            stepsOf(scene, spec) + (spec.step.value > 0 ? inMaps : 0) + startStepsOf(scene, spec);
-        const auto found = std::find_if(known_.begin(), known_.end(), [&](const Known& k) {
-            return k.model.type == scene.model.type && isSameMethod(k.spec, spec);
-        });
-        seconds +=
-            steps * size *
-            (found == known_.end() ? guessPerStep(spec) : found->secondsPerStep / sizeOf(found->model));
-    }
+    const double inMaps = mapStepsOf(scene);
+    for (const SchemeSpec& spec : scene.schemes) seconds += secondsOf(scene, spec, inMaps);
     return seconds;
+}
+
+std::pair<std::string, double> CostModel::largestPart(const Scene& scene) const {
+    std::pair<std::string, double> largest;
+    const double inMaps = mapStepsOf(scene);
+    for (const SchemeSpec& spec : scene.schemes)
+        if (const double seconds = secondsOf(scene, spec, inMaps); seconds > largest.second)
+            largest = {spec.label, seconds};
+    return largest;
 }
 
 RunControl::RunControl(Workspace& workspace, Notices& notices, QObject* parent)
@@ -136,10 +166,7 @@ RunControl::RunControl(Workspace& workspace, Notices& notices, QObject* parent)
     debounce_.setSingleShot(true);
     debounce_.setInterval(debounceMs);
     pollTimer_.setInterval(pollMs);
-    connect(&debounce_, &QTimer::timeout, this, [this] {
-        const double seconds = cost_.predict(unknownPart(workspace_.scene(), store_));
-        seconds > askAboveSeconds ? offer(seconds) : compute(true);
-    });
+    connect(&debounce_, &QTimer::timeout, this, &RunControl::decide);
     connect(&pollTimer_, &QTimer::timeout, this, &RunControl::poll);
     connect(&workspace_, &Workspace::sceneChanged, this, &RunControl::sceneChanged);
     connect(&workspace_, &Workspace::opened, this, [this] {
@@ -154,6 +181,7 @@ RunControl::RunControl(Workspace& workspace, Notices& notices, QObject* parent)
 }
 
 RunControl::~RunControl() {
+    trial_.request_stop();
     if (run_) run_->stop();
     for (const auto& run : stopping_) run->stop();
 }
@@ -210,6 +238,7 @@ void RunControl::sceneChanged() {
     if (lastScene_ && *lastScene_ == shown(scene)) return;
     lastScene_ = shown(scene);
     notices_.dismiss("offer");
+    trial_.request_stop();
     if (run_) store_.keep(run_->latest());
     if (auto all = known(scene)) {
         debounce_.stop();
@@ -232,13 +261,49 @@ void RunControl::sceneChanged() {
     debounce_.setInterval(debounceMs);
 }
 
-void RunControl::offer(double seconds) {
-    const QString time =
-        seconds < 120 ? tr("%1 s").arg(seconds, 0, 'f', 0) : tr("%1 min").arg(seconds / 60, 0, 'f', 0);
+/// Starts the run, or offers it where it would take long. Of large models estimates tell nothing: a step on a
+/// plane takes a thousand times as long as one of a pendulum. Trial steps beside the window do.
+void RunControl::decide() {
+    constexpr double surelyCheap = 0.3;
+    const Scene wanted = unknownPart(workspace_.scene(), store_);
+    const auto resolved = workspace_.resolved();
+    const bool isEstimated = !resolved || cost_.knows(wanted) ||
+                             (isMechanical(*resolved->system) && cost_.predict(wanted) < surelyCheap);
+    if (isEstimated) return decideWith(wanted, 0);
+    trial_ = std::stop_source();
+    runInBackground([self = QPointer(this), wanted, resolved, cost = cost_, stop = trial_.get_token()] {
+        const auto isWanted = [&](const SchemeSpec& spec) {
+            const auto there = std::find_if(wanted.schemes.begin(), wanted.schemes.end(),
+                                            [&](const SchemeSpec& s) { return s.label == spec.label; });
+            return there != wanted.schemes.end() && there->isEnabled && !cost.knows(wanted, spec);
+        };
+        const TrialCosts trial = tryCosts(*resolved, isWanted, stop);
+        sendToWindow([self, wanted, trial, stop] {
+            if (!self || stop.stop_requested()) return;
+            self->cost_.learn(wanted, trial);
+            self->decideWith(wanted, trial.reference);
+        });
+    });
+}
+
+void RunControl::decideWith(const Scene& wanted, double referenceSeconds) {
+    const double seconds = cost_.predict(wanted) + referenceSeconds;
+    if (seconds <= askAboveSeconds) return compute(true);
+    const auto [label, ofScheme] = cost_.largestPart(wanted);
+    const bool isReference = referenceSeconds > ofScheme;
+    offer(seconds, isReference ? tr("the reference").toStdString() : label,
+          isReference ? referenceSeconds : ofScheme);
+}
+
+void RunControl::offer(double seconds, const std::string& largest, double ofLargest) {
+    const auto time = [](double s) {
+        return s < 120 ? tr("%1 s").arg(s, 0, 'f', s < 10 ? 1 : 0) : tr("%1 min").arg(s / 60, 0, 'f', 0);
+    };
     notices_.post({Notice::Kind::information,
                    "offer",
-                   tr("This run will take about %1.").arg(time),
-                   tr("press Run, or take larger steps"),
+                   tr("This run waits for you, as it will take about %1 of processor time, %2 of it for %3.")
+                       .arg(time(seconds), time(ofLargest), QString::fromStdString(largest)),
+                   tr("press Run, take larger steps, or switch schemes off"),
                    {{tr("Run"), [this] { start(); }}}});
     setState(State::offered);
 }
@@ -258,6 +323,7 @@ void RunControl::start() {
 void RunControl::compute(bool usesKnown) {
     if (!workspace_.hasScene()) return;
     debounce_.stop();
+    trial_.request_stop();
     retire();
     notices_.dismiss("offer");
     RunOptions options{.products = {Product::denseOutput}};  // of the stage
@@ -293,6 +359,7 @@ void RunControl::compute(bool usesKnown) {
 
 void RunControl::stop() {
     debounce_.stop();
+    trial_.request_stop();
     if (run_) {
         run_->stop();
         wasStopped_ = true;

@@ -8,10 +8,14 @@
 #include <QTimer>
 #include <memory>
 #include <optional>
+#include <stop_token>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/run/comparison.hpp"
 #include "engine/run/run.hpp"
+#include "ui/shell/cost_trial.hpp"
 #include "ui/shell/result_store.hpp"
 
 namespace extremal {
@@ -24,7 +28,13 @@ class Workspace;
 class CostModel {
 public:
     void learn(const Comparison& comparison);
+    void learn(const Scene& scene, const TrialCosts& trial);
     double predict(const Scene& scene) const;  ///< of its enabled schemes
+    /// Whether no scheme is estimated without a measurement.
+    bool knows(const Scene& scene) const;
+    bool knows(const Scene& scene, const SchemeSpec& spec) const { return find(scene, spec) != nullptr; }
+    /// The scheme with the largest part, and its seconds.
+    std::pair<std::string, double> largestPart(const Scene& scene) const;
 
 private:
     struct Known {
@@ -32,6 +42,10 @@ private:
         Settings model;
         double secondsPerStep;
     };
+    const Known* find(const Scene& scene, const SchemeSpec& spec) const;
+    void keep(Known known);
+    double secondsOf(const Scene& scene, const SchemeSpec& spec, double stepsInMaps) const;
+
     std::vector<Known> known_;
 };
 
@@ -72,12 +86,15 @@ private:
     bool takeNames(Comparison& latest) const;
     void poll();
     void retire();
-    void offer(double seconds);
+    void decide();
+    void decideWith(const Scene& wanted, double referenceSeconds);
+    void offer(double seconds, const std::string& largest, double ofLargest);
     void setState(State state);
 
     Workspace& workspace_;
     Notices& notices_;
     State state_ = State::idle;
+    std::stop_source trial_{std::nostopstate};
     std::unique_ptr<Run> run_;
     Scene runScene_;  ///< of run_
     bool wasStopped_ = false;
