@@ -242,8 +242,13 @@ void MainWindow::makePages() {
     column->addWidget(stack_, 1);
     setCentralWidget(whole);
     status_ = makeLabel({}, "caption", this);
+    status_->setObjectName("status");
     status_->setContentsMargins(14, 0, 0, 0);
     statusBar()->addWidget(status_, 1);
+    // Below a message the bar hides the label, and shows it again with the next change of its layout, though
+    // the message is still there. What is hidden explicitly stays hidden.
+    connect(statusBar(), &QStatusBar::messageChanged, status_,
+            [this](const QString& message) { status_->setVisible(message.isEmpty()); });
     statusBar()->setSizeGripEnabled(false);
 }
 
