@@ -69,7 +69,7 @@ Edit SchemeCard::stepEdit(const Value& typed) const {
     return {scheme + "/step", Value("1/" + number)};
 }
 
-std::string SchemeCard::stepPlace() const { return stepEdit({}).pointer; }
+std::string SchemeCard::stepPlace() const { return stepEdit(Value()).pointer; }
 
 void SchemeCard::finishStep() {
     if (stepEdit_->isHidden()) return;
