@@ -14,6 +14,8 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Half the trace is known to this much in quadruple precision; a growth of 4e-13.
 constexpr double traceSlack = 1e-25;
 constexpr double leastGrowth = 1e-12;
+/// Where M is singular, as with s Gauss nodes, rounding its entries moves the roots at infinity to about 1e7.
+constexpr double farthest = 1e4;
 
 using Index = Eigen::Index;
 using Real = Eigen::MatrixXd;
@@ -25,7 +27,7 @@ void collectRoots(const Real& inverseSquares, std::vector<double>& roots) {
     for (const std::complex<double>& value : dense::eigenvalues(inverseSquares)) {
         if (!(value.real() > 0) || std::abs(value.imag()) > 1e-5 * value.real()) continue;
         const double z = 1 / std::sqrt(value.real());
-        if (z < 1e7) roots.push_back(z);
+        if (z < farthest) roots.push_back(z);
     }
 }
 

@@ -28,7 +28,8 @@
 
 namespace extremal {
 
-/// K and M, rows and columns in the order start, inside, end.
+/// K and M, rows and columns in the order start, inside, end. The function 1 is the sum of the first and the
+/// last function, as those inside vanish at both ends and are no part of it.
 struct OscillatorAction {
     Eigen::MatrixXd stiffness, mass;
 };
@@ -48,8 +49,8 @@ public:
     double growth(double z) const;
     /// Number of eigenvalues of either problem.
     Eigen::Index unknowns() const;
-    /// All intervals with z > 0, ascending. Left out are those whose growth stays below 1e-12 per step, which
-    /// is less than what rounding the coefficients of the scheme does.
+    /// All intervals that begin below z = 10^4, ascending. Left out are those whose growth stays below 1e-12
+    /// per step, which is less than what rounding the coefficients of the scheme does.
     std::vector<UnstableInterval> intervals() const;
 
 private:

@@ -78,6 +78,11 @@ std::vector<UnstableInterval> timeIntervals(const TimeTable& time) {
             for (int q = 0; q < time.points(); ++q)
                 action.mass(l, m) += time.weight(q) * time.value(q, l) * time.value(q, m);
         }
+    // The functions of the levels sum to 1: those inside are added to the first.
+    Eigen::MatrixXd change = Eigen::MatrixXd::Identity(n, n);
+    change.col(0).segment(1, n - 2).setOnes();
+    action.stiffness = (change.transpose() * action.stiffness * change).eval();
+    action.mass = (change.transpose() * action.mass * change).eval();
     return OscillatorStep(action).intervals();
 }
 

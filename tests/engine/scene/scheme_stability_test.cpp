@@ -6,8 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/family/field/dispersion.hpp"
+#include "engine/family/field/time_table.hpp"
 #include "engine/family/frequency.hpp"
 #include "engine/passport/passport.hpp"
+#include "engine/quadrature/catalog.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/codec.hpp"
 #include "engine/study/linear_stability.hpp"
@@ -98,6 +101,19 @@ private slots:
         }
         const auto two = intervalsOf(R"("scheme":"galerkin-lobatto-2")")[0];
         QVERIFY(std::abs(two.low - std::sqrt(8.0)) < 1e-14 && std::abs(two.high - std::sqrt(12.0)) < 1e-14);
+    }
+    /// Slabs of fields in time have the functions of a step.
+    void slabsInTimeHaveTheIntervalsOfSteps() {
+        for (const int s : {1, 2, 3, 4}) {
+            const auto slabs =
+                timeIntervals(TimeTable(s, makeRule<double>({"lobatto", {{"nodes", s + 1.0}}, {}})));
+            const auto steps = intervalsOf(named("galerkin-lobatto-", s));
+            QCOMPARE(slabs.size(), steps.size());
+            for (std::size_t i = 0; i < slabs.size(); ++i)
+                QVERIFY(std::abs(slabs[i].low - steps[i].low) < 1e-11 * steps[i].low);
+            const auto none = timeIntervals(TimeTable(s, gauss<double>(s)));
+            QVERIFY2(none.empty(), none.empty() ? "" : qPrintable(QString::number(none[0].low, 'g', 12)));
+        }
     }
     void gaussHasNoInterval() {
         for (int s = 1; s <= 24; ++s)
