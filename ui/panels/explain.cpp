@@ -54,8 +54,7 @@ QString explainError(const Summary& s, const ReferenceInfo& reference, const std
     if (std::isfinite(s.finalError)) text += '\n' + say("At the end: %1.").arg(shortNumber(s.finalError));
     if (std::isfinite(s.opensAt))
         text +=
-            '\n' +
-            say("From t = %1 on the error is too large for this estimate.").arg(shortNumber(s.opensAt, 3));
+            '\n' + say("From t = %1 on this estimate is not to be trusted.").arg(shortNumber(s.opensAt, 3));
     return text;
 }
 
