@@ -29,7 +29,7 @@ QString refusalText(const Workspace& workspace, const std::string& place) {
     const std::vector<Problem> problems = workspace.refusalAt(place);
     if (problems.empty()) return {};
     const Problem& first = problems.front();
-    if (first.pointer.starts_with(place)) return problemText(first);
+    if (first.pointer == place || first.pointer.starts_with(place + "/")) return problemText(first);
     const QString where = workspace.placeName(first.pointer);
     QString text = problemText(first, where.isEmpty() ? QString() : where + ": ");
     if (problems.size() > 1)

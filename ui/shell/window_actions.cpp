@@ -427,8 +427,7 @@ void MainWindow::save(bool asksName) {
         workspace_->save();
         return;
     }
-    const QString path =
-        askForSave(this, tr("Save scene"), workspace_->fileName(), tr("Scenes (*.json)"));
+    const QString path = askForSave(this, tr("Save scene"), workspace_->fileName(), tr("Scenes (*.json)"));
     if (!path.isEmpty()) workspace_->saveAs(path);
 }
 

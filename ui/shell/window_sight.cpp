@@ -27,9 +27,9 @@ bool MainWindow::isSceneInSight() const {
 /// The scene stays as it is, for the way back.
 void MainWindow::showStartPage() {
     if (stack_->currentIndex() == startPlace) return;
-    focusBefore_ = QApplication::focusWidget();
-    if (focusBefore_ && focusBefore_->window() == this)
-        focusBefore_->clearFocus();  // what was typed is taken
+    QWidget* const had = QApplication::focusWidget();
+    focusBefore_ = had && had->window() == this ? had : nullptr;
+    if (focusBefore_) focusBefore_->clearFocus();  // what was typed is taken
     wasPlaying_ = playback_->isPlaying();
     playback_->setPlaying(false);
     stack_->setCurrentIndex(startPlace);
