@@ -134,8 +134,8 @@ private slots:
         QVERIFY(!pattern.series().empty());
         // Blocks have names, the first of them at the left and at the top.
         QVERIFY(pattern.x.ticks.size() >= 2 && pattern.x.ticks.size() == pattern.y.ticks.size());
-        QVERIFY(pattern.x.ticks.front().second.starts_with("z") &&
-                pattern.x.ticks.front().second == pattern.y.ticks.front().second);
+        QCOMPARE(pattern.x.ticks.front().second, std::string("p₀"));
+        QCOMPARE(pattern.y.ticks.front().second, std::string("p₀"));
         QVERIFY(pattern.x.ticks.front().first < pattern.x.ticks.back().first);
         QVERIFY(pattern.y.ticks.front().first > pattern.y.ticks.back().first);
 
