@@ -160,7 +160,7 @@ double distance(const ExactSolution& a, const ExactSolution& b, double step, boo
     return worst;
 }
 
-/// None, and why.
+/// No reference, and the reason.
 Reference withoutReference(const std::string& reason) {
     Reference none;
     none.info.problems = {
