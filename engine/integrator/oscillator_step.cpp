@@ -13,7 +13,8 @@ namespace {
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 /// Half the trace is known to this much in quadruple precision; a growth of 4e-13.
 constexpr double traceSlack = 1e-25;
-constexpr double leastGrowth = 1e-12;
+/// Edges that touch are opened by rounding: of entries in double precision to about the root of it.
+constexpr double leastOfTableau = 1e-12, leastOfAction = 1e-7;
 /// Where M is singular, as with s Gauss nodes, rounding its entries moves the roots at infinity to about 1e7.
 constexpr double farthest = 1e4;
 
@@ -251,6 +252,7 @@ double largestGrowth(const OscillatorStep& step, double low, double high) {
 }  // namespace
 
 std::vector<UnstableInterval> OscillatorStep::intervals() const {
+    const double leastGrowth = tableau_ ? leastOfTableau : leastOfAction;
     const std::vector<double> roots = candidates();
     std::vector<double> middle;
     for (std::size_t i = 0; i <= roots.size(); ++i) {

@@ -49,8 +49,9 @@ public:
     double growth(double z) const;
     /// Number of eigenvalues of either problem.
     Eigen::Index unknowns() const;
-    /// All intervals that begin below z = 10^4, ascending. Left out are those whose growth stays below 1e-12
-    /// per step, which is less than what rounding the coefficients of the scheme does.
+    /// All intervals that begin below z = 10^4, ascending. Left out are those whose growth stays below what
+    /// rounding the coefficients does: 1e-12 per step of a tableau, 1e-7 of an action, whose entries are in
+    /// double precision.
     std::vector<UnstableInterval> intervals() const;
 
 private:
