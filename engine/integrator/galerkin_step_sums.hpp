@@ -9,6 +9,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "engine/core/work.hpp"
 #include "engine/integrator/galerkin_step.hpp"
 
 namespace extremal {
@@ -239,6 +240,9 @@ void GalerkinStep<T, D>::assembleNode(int i) {
 /// dR/dY at the present Y and its factorisation.
 template <class T, int D>
 bool GalerkinStep<T, D>::assembleJacobian(const T& t) {
+    // Seconds and more from some thousand unknowns on: the trial of a step, when a scene is read, is bounded.
+    if (const auto size = static_cast<double>(jacobian_.rows()); size > 256)
+        work::spend(size * size * (size / 3 + n()));
     if (!evaluateHessians(t)) return false;
     if (isVectorised_) {
         for (int k = 0; k < d(); ++k)

@@ -136,12 +136,22 @@ void checkCost(Reader& reader, const ResolvedScene& scene, const ResolvedScheme&
             family && family->slowestStep ? family->slowestStep(caseOf(scene, scheme)) : 5e-3;
         if (timeSpan(scene.scene).length() / scheme.spec.step.value * slowestStep < longest) return;
     }
-    work::spend(1e7);  // some milliseconds
-    const double seconds = predictSeconds(scene, scheme);
+    work::spend(1e7);                     // some milliseconds
+    constexpr double longestTrial = 2e9;  // operations: some seconds
+    double seconds = 0;
+    bool isBound = false;
+    try {
+        const work::Account trial(longestTrial);
+        seconds = predictSeconds(scene, scheme);
+    } catch (const work::Exceeded&) {  // in the first step
+        seconds = timeSpan(scene.scene).length() / scheme.spec.step.value * longestTrial * 1e-9;
+        isBound = true;
+    }
     if (seconds > longest)
         reader.warning(pointer,
-                       "will take about " + durationText(seconds) + " of computing, to within a factor of " +
-                           formatNumber(predictedWithin),
+                       isBound ? "will take more than " + durationText(seconds) + " of computing"
+                               : "will take about " + durationText(seconds) +
+                                     " of computing, to within a factor of " + formatNumber(predictedWithin),
                        "a larger step, or an earlier end", {}, "duration");
 }
 
