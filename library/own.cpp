@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "engine/core/own_entries.hpp"
+#include "engine/core/problem.hpp"
 #include "engine/model/system.hpp"
 #include "engine/space/catalog.hpp"
 
@@ -163,6 +164,11 @@ void addSpace(const SpaceInfo& info, std::function<Basis(const Parameters&)> mak
     entry.item = {info.id, info.title, info.description, fieldsOf(info.parameters), {}, ""};
     entry.make = [info, make = std::move(make)](const Settings& settings) {
         const Basis basis = make(valuesOf(info.parameters, settings));
+        if (basis.size < 2 || !basis.evaluate)
+            throw InvalidScene("/space",
+                               "the basis of \"" + info.id + "\" has " + std::to_string(basis.size) +
+                                   (basis.evaluate ? " functions" : " functions and no evaluate()"),
+                               "at least two functions, and what evaluates them");
         Space<double> space;
         space.size = basis.size;
         space.degree = basis.degree;
