@@ -275,7 +275,8 @@ typename GalerkinStep<T, D>::Attempt GalerkinStep<T, D>::solve(const T& t, const
     Attempt result = anyRoot(t, stop);
     // A parabola may leave the domain of L, such as velocities below that of light; and with spaces of their
     // own some coordinates have many periods in a step, which no parabola follows.
-    const bool hasNoRoot = result != Attempt::solved && result != Attempt::stopped;
+    const bool hasLeftDomain = result == Attempt::notFinite || result == Attempt::singular,
+               hasNoRoot = hasLeftDomain || (result == Attempt::failed && tables_.size() > 1);
     if (hasNoRoot && defect_ && startFromMotion(t)) result = iterate(t, StartingValue::fallback, stop);
     if (result != Attempt::solved || !defect_ || !(nearness_ > T(far)) || followsForces(t)) return result;
     return fromElsewhere(t, stop);

@@ -62,8 +62,8 @@ struct CorrectionSize {
     T buried = T(0);  ///< the largest relative correction of a buried coordinate
 };
 
-/// `of(k)` is the CoordinateCorrection of coordinate k. Corrections that are small against the coordinate's
-/// own increments belong to `size`, whatever their size in the metric.
+/// `of(k)` is the CoordinateCorrection of coordinate k. Corrections of a unit in the last place of the
+/// coordinate's own increments belong to `size`, whatever their size in the metric.
 template <class T, class Of>
 CorrectionSize<T> measureCorrection(int coordinates, const Of& of) {
     using std::abs;
@@ -80,8 +80,8 @@ CorrectionSize<T> measureCorrection(int coordinates, const Of& of) {
     for (int k = 0; k < coordinates; ++k) {
         const CoordinateCorrection<T> c = of(k);
         const T own = relativeCorrection(c.change, c.increments, c.value), root = sqrt(T(abs(c.mass)));
-        const bool isBuried =
-            own > roundOffOfSums<T>() && root > T(0) && root * c.change <= mostRoundOff * common;
+        const bool isBuried = own > std::numeric_limits<T>::epsilon() && root > T(0) &&
+                              root * c.change <= mostRoundOff * common;
         T& worst = isBuried ? all.buried : all.size;
         worst = std::max(worst, own);
     }

@@ -63,6 +63,8 @@ public:
         for (Vector* v :
              {&q_, &p_, &dq_, &dp_, &endQ_, &endP_, &lostQ_, &lostP_, &inverseMass_, &changeQ_, &changeP_})
             *v = Vector::Zero(d);
+        gradient_ = Eigen::VectorXd::Zero(2 * d);
+        hessian_ = Square::Zero(2 * d, 2 * d);
         if (mechanics.isSeparable)
             inverseMass_ = Eigen::Map<const Vector>(mechanics.masses, d).cwiseInverse();
     }
@@ -296,14 +298,11 @@ private:
 
     /// 1/L_vv(k, k) at the start of the step.
     void findMasses(double t) {
-        const int d = this->d(), n = 2 * d;
-        std::vector<double> gradient(static_cast<std::size_t>(n));
-        Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(n, n);
         double value = 0;
         const auto& m = this->mechanics_;
         if (!m.velocity(m.model.get(), t, this->q0_.data(), this->p0_.data(), dq_.data())) return;
-        m.jet(m.model.get(), t, this->q0_.data(), dq_.data(), &value, gradient.data(), hessian.data());
-        inverseMass_ = hessian.diagonal().tail(d).cwiseInverse();
+        m.jet(m.model.get(), t, this->q0_.data(), dq_.data(), &value, gradient_.data(), hessian_.data());
+        for (int k = 0; k < this->d(); ++k) inverseMass_(k) = 1 / hessian_(this->d() + k, this->d() + k);
     }
 
     void finish() {
@@ -343,6 +342,8 @@ private:
     Eigen::PartialPivLU<Square> stagesLu_;
     Nodes Kq_, Kp_, newKq_, newKp_, Q_, P_;
     Vector q_, p_, dq_, dp_, endQ_, endP_, lostQ_, lostP_, inverseMass_, changeQ_, changeP_;
+    Eigen::VectorXd gradient_;  ///< of L at the start of a step, as is the Hessian
+    Square hessian_;
     bool hasCurve_ = false;
 };
 
