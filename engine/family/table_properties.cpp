@@ -7,6 +7,7 @@
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
 #include "engine/family/rule_choices.hpp"
+#include "engine/integrator/stability.hpp"
 
 namespace extremal {
 namespace {
@@ -50,6 +51,8 @@ OscillatorAction oscillatorAction(const Table<double>& t) {
     return {slope.transpose() * t.weight.asDiagonal() * slope,
             value.transpose() * t.weight.asDiagonal() * value};
 }
+
+double scannedStabilityLimit(const Table<double>& table) { return firstInstability(HalfTrace(table)); }
 
 int OrderBounds::order() const { return std::min({ofSpace, ofRule, ofEquations}); }
 

@@ -37,6 +37,9 @@ double halfTrace(const Table<double>& table, double z);
 /// What the table makes of the action of a step on the harmonic oscillator: the source of everything that is
 /// said of its linear stability.
 OscillatorAction oscillatorAction(const Table<double>& table);
+/// The first z at which the step is unstable, by a scan of half the trace in double precision, which may miss
+/// intervals narrower than 0.004: for tables of many functions, whose edges would take seconds.
+double scannedStabilityLimit(const Table<double>& table);
 
 /// What is doubtful in a rule or what it makes of the kinetic energy ("has a negative weight ..."); may be
 /// empty.

@@ -208,7 +208,7 @@ private slots:
                 "{\"extremal\": 1, \"model\": {\"type\": \"lagrangian\", \"coordinates\": [\"x\", \"y\"], "
                 "\"parameters\": {}, \"lagrangian\": {\"kinetic\": \"(x_t^2+y_t^2)/2\", \"fast\": "
                 "\"-100*y^2/2\", \"slow\": \"-(x-y)^2\"}}, \"initial\": {\"q\": [1, 0], \"v\": [0, 0]}, "
-                "\"time\": {\"end\": 4}, \"schemes\": [{\"step\": " +
+                "\"time\": {\"end\": 400}, \"schemes\": [{\"step\": " +
                 formatNumber(step) +
                 ", \"space\": {\"type\": \"by-coordinate\", \"otherwise\": {\"type\": \"polynomial\", "
                 "\"degree\": 1}, \"variables\": {\"y\": {\"type\": \"spline\", \"degree\": 1, \"cells\": "
