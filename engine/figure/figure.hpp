@@ -155,7 +155,7 @@ enum class AxisStyle {
 struct Figure {
     std::string view;      ///< "energy", "phase", ...
     std::string title;     ///< "Energy error"
-    std::string subtitle;  ///< muted: "bounded: 3 of 4"
+    std::string subtitle;  ///< muted: "no drift: 3 of 4"
     Axis x, y;
     Aspect aspect = Aspect::free;
     AxisStyle axes = AxisStyle::scales;
