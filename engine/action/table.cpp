@@ -7,12 +7,16 @@
 #include "engine/action/combined_table.hpp"
 #include "engine/action/quadruple_table.hpp"
 #include "engine/action/table_build.hpp"
+#include "engine/core/problem.hpp"
 
 namespace extremal {
 namespace {
 
-/// The twin of a space in quadruple precision, from its evaluateQuadruple.
+/// The twin of a space in quadruple precision, from its evaluateQuadruple. Throws InvalidScene where a
+/// space of one's own does not have it.
 Space<Quad> quadrupleTwin(const Space<double>& space) {
+    if (!space.evaluateQuadruple)
+        throw InvalidScene("/space", "has no functions in quadruple precision", "a space of the catalogue");
     Space<Quad> twin;
     twin.size = space.size;
     twin.degree = space.degree;

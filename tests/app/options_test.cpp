@@ -133,7 +133,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
     if (option == "--size") return added(words("--size 640x480"));
     static const QMap<QString, QStringList> simple{
         {"--set", words("--set /time/end=1")},
-        {"--add", words("--add nobody")},
+        {"--add", words("--add missing")},
         {"--json", words("--json")},
         {"--quiet", words("--quiet")},
         {"--threads", words("--threads 0")},
@@ -154,7 +154,7 @@ Sample sampleOf(const QString& verb, const QString& option) {
         {"--only", words("--only A")},
         {"--shard", words("--shard 1/2")},
         {"--plot", words("--no-plot")},
-        {"--systems", words("--systems nobody")},
+        {"--systems", words("--systems missing")},
         {"--version", words("--version")},
         {"--verbose", words("--verbose")},
         // Their runs take minutes: tests/extremes and atlas_test.cpp.

@@ -104,7 +104,8 @@ void SchemeCard::keyPressEvent(QKeyEvent* event) {
     const QString text = event->text();
     if (!(event->modifiers() & ~Qt::KeypadModifier) && text.size() == 1 && (text[0].isDigit() || text == "."))
         return editStep(text);
-    const bool isPlain = !(event->modifiers() & ~Qt::KeypadModifier);
+    // Keys that a field in the card has left over are not those of the row.
+    const bool isPlain = hasFocus() && !(event->modifiers() & ~Qt::KeypadModifier);
     if (isPlain && (event->key() == Qt::Key_Up || event->key() == Qt::Key_Down))
         emit neighbourRequested(index_, event->key() == Qt::Key_Up ? -1 : 1);
     else if (isPlain && (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter))

@@ -87,7 +87,7 @@ void MainWindow::focusStage() {
 }
 
 /// What has the focus and is hidden or switched off gives it to the next field, where Space and the arrows
-/// would change what nobody has pointed at: to the stage instead. The keys Tab and Backtab move it as usual.
+/// would change what the user has not pointed at: to the stage instead. The keys Tab and Backtab move it as usual.
 bool MainWindow::focusNextPrevChild(bool next) {
     const QWidget* const had = QApplication::focusWidget();
     const bool isLost = had && had->window() == this && !(had->isVisible() && had->isEnabled());

@@ -144,6 +144,7 @@ private:
     Attempt iterate(double t) {
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
         constexpr double infinity = std::numeric_limits<double>::infinity();
+        constexpr int usual = 30;  // iterations after which some coordinates may be buried
         double before = infinity, earlier = infinity;
         int growing = 0;
         bool hasBuried = false;
@@ -156,7 +157,7 @@ private:
             ++this->report_.cost.iterations;
             double size = change();
             this->report_.residual = size;
-            if (!hasBuried && size > roundOffOfSums<double>() && size >= earlier) {
+            if (!hasBuried && (growing >= 3 || iteration >= usual)) {
                 hasBuried = true;
                 before = earlier = infinity;  // what was seen so far has another meaning
             }

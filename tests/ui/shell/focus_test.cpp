@@ -1,4 +1,4 @@
-/// Where the focus is: after a scene opens at the stage, and never at a field that nobody has pointed at.
+/// Where the focus is: after a scene opens at the stage, and never at a field that the user has not pointed at.
 #include <QAbstractSpinBox>
 #include <QApplication>
 #include <QComboBox>

@@ -70,7 +70,7 @@ private slots:
         row("a parameter that loses the fast phase", "spring-pendulum", "k", "1e+300",
             "multiscale R2, step: ");
         row("a parameter that is not positive", "spring-pendulum", "m", "-1", "");
-        row("an expression without a name", "spring-pendulum", "g", "9.81*nobody", "");
+        row("an expression without a name", "spring-pendulum", "g", "9.81*unknown", "");
         row("an end that takes too many steps", "spring-pendulum", "end", "1e+12", "Galerkin 8, step: ");
         row("an end that is not finite", "kepler", "end", "exp(1000)", "");
         row("a start that is not finite", "spring-pendulum", "q.theta", "exp(1000)", "");
