@@ -95,6 +95,10 @@ class BuriedWatch {
 public:
     bool hasSettled(const T& buried) {
         constexpr int patience = 5;
+        if (!(buried > T(0))) {  // nothing is buried: what comes later is measured afresh
+            *this = BuriedWatch();
+            return true;
+        }
         const bool hasHalved = 2 * buried < least_;
         sinceHalved_ = hasHalved ? 0 : sinceHalved_ + 1;
         if (hasHalved) least_ = buried;

@@ -160,7 +160,7 @@ private:
     /// shrink either, with a new Jacobian.
     Verdict judgeApart(const CorrectionSize<T>& correction) {
         const bool isNew = isJacobianNew(), isStalled = correction.buried >= lastBuried_ * T(stall);
-        lastBuried_ = correction.buried;
+        lastBuried_ = correction.buried > T(0) ? correction.buried : std::numeric_limits<T>::infinity();
         const Verdict verdict = judge(correction.size);
         if (verdict != Verdict::converged || correction.buried <= limits_.tolerance) return verdict;
         if (isStalled && isNew) return Verdict::converged;
