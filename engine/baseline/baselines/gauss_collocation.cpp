@@ -144,7 +144,7 @@ private:
     Attempt iterate(double t) {
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
         constexpr double infinity = std::numeric_limits<double>::infinity();
-        constexpr int usual = 30;  // iterations after which some coordinates may be buried
+        constexpr int usual = 100;  // iterations after which some coordinates may be buried
         double before = infinity, earlier = infinity;
         int growing = 0;
         bool hasBuried = false;
