@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* sceneHelp = "a path, preset:NAME, or - for standard input";
 
-/// A number from `least` to `most`; what is not finite is none of them.
+/// A finite number from `least` to `most`.
 CLI::Validator numberIn(double least, double most) {
     return {[=](std::string& text) {
                 const auto number = parseNumber(text);

@@ -223,7 +223,7 @@ std::shared_ptr<const System> systemOf(const Comparison& comparison, const Schem
     return scheme.scheme && scheme.scheme->ownSystem ? scheme.scheme->ownSystem : comparison.system;
 }
 
-/// The lowest energies of a wave function, where a view of the scene draws them; else there are none.
+/// The lowest energies of a wave function, where a view of the scene draws them; else empty.
 std::vector<double> levelsOf(const Comparison& comparison, const SchemeResult& scheme) {
     const auto system = systemOf(comparison, scheme);
     const auto& views = comparison.scene.views;

@@ -64,7 +64,7 @@ Reference makeReference(const ResolvedScene& resolved, const std::stop_token& st
 Reference companionReference(const ResolvedScene& resolved, const ResolvedScheme& scheme,
                              const std::stop_token& stop);
 
-/// The run of its second companion; empty where there is none. `factor`: what the difference from it is
+/// The run of its second companion; empty where it does not exist. `factor`: what the difference from it is
 /// multiplied by to estimate the error, as its own is a known part of that of the scheme.
 struct SecondCompanion {
     std::function<ExactSolution()> make;

@@ -35,7 +35,7 @@ bool isSame(const fs::path& a, const fs::path& b) {
     return x && y && std::equal(std::istreambuf_iterator<char>(x), {}, std::istreambuf_iterator<char>(y), {});
 }
 
-/// The object that a text is; null if it is none.
+/// The object in a text; null where the text has another form.
 Value objectOf(const std::string& text) {
     try {
         Value value = parseJson(text);
@@ -54,7 +54,7 @@ fs::path folderOfFile(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// The summary of a run in the folder; null where there is none.
+/// The summary of a run in the folder; null where it is missing.
 Value summaryIn(const fs::path& folder) {
     const Value summary = objectOf(contentOf(folder / "summary.json"));
     return summary.isObject() && summary.find("extremal") && summary.find("schemes") && summary.find("files")

@@ -204,7 +204,7 @@ private slots:
         for (int i = 0; i < 2; ++i) QCOMPARE(run(words("study merge p1 p2 --out whole")).code, 0);
     }
 
-    /// A checkpoint that is none is not removed.
+    /// A file that is not a checkpoint is not removed.
     void aFileWithTheNameOfACheckpointStays() {
         QVERIFY(QDir(folder_->path()).mkdir("d"));
         write("d/a.checkpoint", notMine);

@@ -106,7 +106,7 @@ private:
         log_ << what;
         if (log_.size() > 30) log_.removeFirst();
     }
-    /// A widget that can be seen; null where there is none.
+    /// A widget that can be seen; null where nothing is visible.
     QWidget* widget() {
         QList<QWidget*> seen;
         for (QWidget* w : QApplication::allWidgets())

@@ -59,7 +59,7 @@ private slots:
         const auto press = [&](Qt::Key key) {
             QTest::keyClick(QApplication::focusWidget() ? QApplication::focusWidget() : &window, key);
         };
-        press(Qt::Key_Up);  // there is none above
+        press(Qt::Key_Up);  // no row is above
         QCOMPARE(window.workspace().selectedScheme(), 0);
         press(Qt::Key_Down);
         press(Qt::Key_Down);
