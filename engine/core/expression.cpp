@@ -265,7 +265,8 @@ private:
             throw ExpressionError("needs at least two points for " + name, at_,
                                   "write " + name + "(x; 0, 0; 1, 2), points x, y after semicolons");
         closeBracket(bracket);
-        const auto kind = name == "spline" ? Interpolant::Kind::cubic : Interpolant::Kind::linear;
+        using Kind = Interpolant::Kind;
+        const Kind kind = name == Interpolant::functionName(Kind::cubic) ? Kind::cubic : Kind::linear;
         return add({Operator::call, 0, name, argument, -1, position, -1, nullptr,
                     std::make_shared<const Interpolant>(kind, std::move(x), y)});
     }

@@ -53,7 +53,7 @@ struct Expression {
         std::size_t position = 0;                       ///< byte in the text
         int third = -1;                                 ///< operand
         const ExpressionFunction* function = nullptr;   ///< of calls but dot and tables
-        std::shared_ptr<const Interpolant> table = {};  ///< called "table" or "spline": what is looked up
+        std::shared_ptr<const Interpolant> table = {};  ///< of a call of table or spline: what is looked up
     };
     std::string text;
     std::vector<Node> nodes;

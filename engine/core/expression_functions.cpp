@@ -66,6 +66,10 @@ constexpr Signature later(std::string_view name, std::string_view meaning, int a
     return {name, meaning, arguments, arguments};
 }
 constexpr Signature folding(std::string_view name) { return {name, name, 2, any, false, true}; }
+constexpr Signature lookUp(Interpolant::Kind kind) {
+    return {
+        Interpolant::functionName(kind), Interpolant::functionName(kind), 1, 1, false, false, false, true};
+}
 
 /// As users write them. The first sixteen never were names; the others may be.
 constexpr Signature signatures[] = {
@@ -104,8 +108,8 @@ constexpr Signature signatures[] = {
     later("step", "heaviside"),
     later("if", "if", 3),
     {"piecewise", "if", 3, any, false, false, true},
-    {"table", "table", 1, 1, false, false, false, true},
-    {"spline", "spline", 1, 1, false, false, false, true},
+    lookUp(Interpolant::Kind::linear),
+    lookUp(Interpolant::Kind::cubic),
 };
 
 }  // namespace

@@ -39,6 +39,8 @@ public:
     }
     int degree() const { return kind_ == Kind::linear ? 1 : 3; }
     Kind kind() const { return kind_; }
+    /// The function of formulas that looks up this kind.
+    static constexpr const char* functionName(Kind kind) { return kind == Kind::cubic ? "spline" : "table"; }
     const std::vector<double>& abscissae() const { return x_; }
     std::size_t pieces() const { return bases_.size(); }
     double base(std::size_t piece) const { return bases_[piece]; }

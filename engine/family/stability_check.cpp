@@ -75,6 +75,18 @@ void warnOfLimit(const SchemeCase& scheme, double frequency, const UnstableInter
                      {}, "stability-limit");
 }
 
+/// Whether the space with its automatic rule is stable for every step.
+bool isStableWithItsRule(Discretization discretization) {
+    const Family* const family = familyOf(discretization.space);
+    if (!family) return false;
+    try {
+        discretization.quadrature = family->completeRule(discretization.space, {});
+        return hasTable(discretization) && tableStability(discretization)->intervals.empty();
+    } catch (const InvalidScene&) {
+        return false;
+    }
+}
+
 void warnOfResonance(const SchemeCase& scheme, double frequency, const LinearStabilityFacts& stability,
                      const std::vector<double>& frequencies, Findings& findings) {
     const double z = frequency * scheme.step, growth = stability.growth(z);
@@ -84,15 +96,16 @@ void warnOfResonance(const SchemeCase& scheme, double frequency, const LinearSta
                                  ? "growth " + formatNumber(growth, 2) + " a step, e^" +
                                        formatNumber(growth * stepsOf(scheme, scheme.step), 2) + " in this run"
                                  : "the equations of a step are singular";
-    findings.warning("/step",
-                     "resonance at h omega = " + resonanceName(z, interval) + ": " + size +
-                         " (omega = " + formatNumber(frequency, 6) +
-                         "; the step is unstable for h omega from " + betweenText(interval) + ")",
-                     (shorter > 0 ? "a step of " + formatNumber(shorter, 3) : std::string("another step")) +
-                         (scheme.discretization.space.type == "polynomial"
-                              ? ", or the rule gauss with one node per degree, which has no such interval"
-                              : ""),
-                     {}, "stability-limit");
+    findings.warning(
+        "/step",
+        "resonance at h omega = " + resonanceName(z, interval) + ": " + size +
+            " (omega = " + formatNumber(frequency, 6) + "; the step is unstable for h omega from " +
+            betweenText(interval) + ")",
+        (shorter > 0 ? "a step of " + formatNumber(shorter, 3) : std::string("another step")) +
+            (isStableWithItsRule(scheme.discretization)
+                 ? ", or the rule that the space has where none is given, which has no such interval"
+                 : ""),
+        {}, "stability-limit");
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "engine/run/advice.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include "engine/core/problem.hpp"
 #include "engine/core/text.hpp"
@@ -42,8 +42,9 @@ std::string shorterStep(const ResolvedScheme& scheme, const System& system, cons
     double h = longest;
     for (int halvings = 0; halvings <= mostHalvings; ++halvings, h /= 2) {
         const std::string text = formatNumber(h, digits);
-        if (goesOn(scheme, system, state, std::copysign(std::strtod(text.c_str(), nullptr), step)))
-            return "Try h ≤ " + text + ".";
+        double written = h;
+        std::from_chars(text.data(), text.data() + text.size(), written);
+        if (goesOn(scheme, system, state, std::copysign(written, step))) return "Try h ≤ " + text + ".";
     }
     return "Steps down to h = " + formatNumber(2 * h, digits) + " fail there too.";
 }

@@ -34,10 +34,6 @@
 
 namespace extremal {
 
-/// Of runs too short to be timed by themselves.
-inline constexpr TimingPlan shortRun{5, 1e-3, 3e-2, 100};
-inline constexpr double shortRuns = 1.5e-2;  ///< seconds: below it
-
 inline void growTo(double& extreme, double value) {
     if (!(std::abs(value) <= extreme) && std::isfinite(value)) extreme = std::abs(value);
 }

@@ -27,6 +27,9 @@ struct TimingPlan {
     double longest = 2;      ///< of all of them: slow runs have fewer
     int together = 10000;    ///< at most, repetitions of one measurement
 };
+/// Of runs too short to be timed by themselves.
+inline constexpr TimingPlan shortRun{5, 1e-3, 3e-2, 100};
+inline constexpr double shortRuns = 1.5e-2;  ///< seconds: below it
 
 /// CPU seconds of the steps. `integrator` is as it was before a run, and stays so. `first`: about what a run
 /// takes. Unknown where it was stopped. `judge`: as it is before a run that it may end; each has a copy.

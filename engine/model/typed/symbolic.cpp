@@ -1,7 +1,5 @@
 #include "engine/model/typed/symbolic.hpp"
 
-#include <ginac/ginac.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -16,81 +14,9 @@
 #include <utility>
 
 #include "engine/core/text.hpp"
+#include "engine/model/typed/symbolic_functions.hpp"
 
 namespace extremal::typed {
-
-DECLARE_FUNCTION_1P(magnitude)
-DECLARE_FUNCTION_1P(signum)
-DECLARE_FUNCTION_1P(errorFunction)
-DECLARE_FUNCTION_1P(complementaryErrorFunction)
-DECLARE_FUNCTION_1P(floorOf)
-DECLARE_FUNCTION_1P(ceilOf)
-DECLARE_FUNCTION_1P(rounded)
-DECLARE_FUNCTION_1P(heavisideOf)
-DECLARE_FUNCTION_2P(hypotenuse)
-DECLARE_FUNCTION_2P(isLess)
-DECLARE_FUNCTION_2P(isLessOrEqual)
-DECLARE_FUNCTION_2P(isEqualTo)
-DECLARE_FUNCTION_2P(isNotEqualTo)
-DECLARE_FUNCTION_2P(greaterOf)
-DECLARE_FUNCTION_2P(smallerOf)
-DECLARE_FUNCTION_3P(choice)
-/// A derivative of a table: of x, with the number of the table, the order and the degree of its pieces.
-DECLARE_FUNCTION_4P(lookedUp)
-
-namespace {
-
-GiNaC::ex magnitudeDerivative(const GiNaC::ex& x, unsigned) { return signum(x); }
-GiNaC::ex flat(const GiNaC::ex&, unsigned) { return 0; }
-GiNaC::ex flatInBoth(const GiNaC::ex&, const GiNaC::ex&, unsigned) { return 0; }
-GiNaC::ex errorFunctionDerivative(const GiNaC::ex& x, unsigned) {
-    return 2 / GiNaC::sqrt(GiNaC::Pi) * GiNaC::exp(-x * x);
-}
-GiNaC::ex complementaryErrorFunctionDerivative(const GiNaC::ex& x, unsigned) {
-    return -errorFunctionDerivative(x, 0);
-}
-GiNaC::ex hypotenuseDerivative(const GiNaC::ex& a, const GiNaC::ex& b, unsigned which) {
-    return (which == 0 ? a : b) / hypotenuse(a, b);
-}
-/// That of the branch: chosen, and not a sum of products with 0, as the other one need not be finite.
-GiNaC::ex chosen(const GiNaC::ex& condition, const GiNaC::ex& a, const GiNaC::ex& b) {
-    return a.is_equal(b) ? a : choice(condition, a, b);
-}
-GiNaC::ex choiceDerivative(const GiNaC::ex& c, const GiNaC::ex& a, const GiNaC::ex& b,
-                           const GiNaC::symbol& s) {
-    return chosen(c, a.diff(s), b.diff(s));
-}
-GiNaC::ex greaterDerivative(const GiNaC::ex& a, const GiNaC::ex& b, const GiNaC::symbol& s) {
-    return chosen(isLess(a, b), b.diff(s), a.diff(s));
-}
-GiNaC::ex smallerDerivative(const GiNaC::ex& a, const GiNaC::ex& b, const GiNaC::symbol& s) {
-    return chosen(isLess(b, a), b.diff(s), a.diff(s));
-}
-GiNaC::ex lookedUpDerivative(const GiNaC::ex& x, const GiNaC::ex& table, const GiNaC::ex& order,
-                             const GiNaC::ex& degree, const GiNaC::symbol& s) {
-    if (order.is_equal(degree)) return 0;
-    return lookedUp(x, table, order + 1, degree) * x.diff(s);
-}
-
-}  // namespace
-
-REGISTER_FUNCTION(magnitude, derivative_func(magnitudeDerivative))
-REGISTER_FUNCTION(signum, derivative_func(flat))
-REGISTER_FUNCTION(errorFunction, derivative_func(errorFunctionDerivative))
-REGISTER_FUNCTION(complementaryErrorFunction, derivative_func(complementaryErrorFunctionDerivative))
-REGISTER_FUNCTION(floorOf, derivative_func(flat))
-REGISTER_FUNCTION(ceilOf, derivative_func(flat))
-REGISTER_FUNCTION(rounded, derivative_func(flat))
-REGISTER_FUNCTION(heavisideOf, derivative_func(flat))
-REGISTER_FUNCTION(hypotenuse, derivative_func(hypotenuseDerivative))
-REGISTER_FUNCTION(isLess, derivative_func(flatInBoth))
-REGISTER_FUNCTION(isLessOrEqual, derivative_func(flatInBoth))
-REGISTER_FUNCTION(isEqualTo, derivative_func(flatInBoth))
-REGISTER_FUNCTION(isNotEqualTo, derivative_func(flatInBoth))
-REGISTER_FUNCTION(greaterOf, expl_derivative_func(greaterDerivative))
-REGISTER_FUNCTION(smallerOf, expl_derivative_func(smallerDerivative))
-REGISTER_FUNCTION(choice, expl_derivative_func(choiceDerivative))
-REGISTER_FUNCTION(lookedUp, expl_derivative_func(lookedUpDerivative))
 
 namespace {
 
@@ -98,26 +24,6 @@ using GiNaC::ex;
 using GiNaC::ex_to;
 using GiNaC::exvector;
 using GiNaC::is_a;
-
-/// The functions that GiNaC lacks, and their names in a graph.
-constexpr std::pair<std::string_view, Function> ownFunctions[] = {
-    {"magnitude", Function::abs},
-    {"signum", Function::sign},
-    {"errorFunction", Function::erf},
-    {"complementaryErrorFunction", Function::erfc},
-    {"floorOf", Function::floor},
-    {"ceilOf", Function::ceil},
-    {"rounded", Function::round},
-    {"heavisideOf", Function::heaviside},
-    {"hypotenuse", Function::hypot},
-    {"isLess", Function::less},
-    {"isLessOrEqual", Function::lessOrEqual},
-    {"isEqualTo", Function::equal},
-    {"isNotEqualTo", Function::notEqual},
-    {"greaterOf", Function::max},
-    {"smallerOf", Function::min},
-    {"choice", Function::choose},
-};
 
 /// Formulas larger than this are opaque to GiNaC where they are operands: a derivative then refers to them
 /// instead of repeating them, as in automatic differentiation, and no product of many factors explodes.

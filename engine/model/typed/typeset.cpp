@@ -174,7 +174,7 @@ private:
     /// With a prime for each derivative.
     static std::string lookUpName(const Graph::Node& n) {
         static constexpr std::array<const char*, 4> primes = {"", "′", "″", "‴"};
-        return std::string(n.table->kind() == Interpolant::Kind::cubic ? "spline" : "table") +
+        return std::string(Interpolant::functionName(n.table->kind())) +
                primes[static_cast<std::size_t>(n.order)];
     }
     std::string callText(const Graph::Node& n, const std::string& exponent) {
