@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Starts Extremal: installs what is missing, builds the program, opens the window on a scene.
 # Without a display the same comparison runs headless, into out/.
 set -euo pipefail

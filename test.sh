@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Installs missing packages, builds everything, runs all tests, and compiles the benchmarks. Arguments are passed to ctest:
 # ./test.sh -R laws
 #

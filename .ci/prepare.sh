@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What run.sh and test.sh share: missing Debian packages and the configured build folder. To be sourced;
 # expects `root`, the folder of the project.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -DROOT=.. -DOUT=commit.hpp -P commit.cmake: the commit that the sources are of, where git knows it.
 set(commit "unknown")
 find_program(GIT git)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Completions of shells and the manual page, made from the verbs and options of the command line
 /// (interface.cpp) and from the catalogues.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// `extremal handbook`: a page of the handbook, or a section of it, as Markdown.
 #include "app/report.hpp"
 #include "app/verbs.hpp"

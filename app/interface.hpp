@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The verbs and options of the command line, with their descriptions: --help, manual page and completions of
 /// shells are made from them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/report.hpp"
 #include "app/verbs.hpp"
 #include "engine/core/text.hpp"

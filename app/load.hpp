@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// SCENE, --add and --set of a command line, read and checked.
 #pragma once
 

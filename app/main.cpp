@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The program: a verb of the command line, or the window.
 #include <QHashFunctions>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Qt for a verb that draws without a display: the application, on the platform "offscreen".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which verb takes which option, and for `study` which study: the parser declares and refuses by this table,
 /// and a test walks it. An option that a verb would not obey is not in its row.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One line on a terminal's standard error that says how far the work is; nothing when it is piped.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the command line says: errors as `extremal: WHERE: WHAT (HINT)` on standard error, tables and
 /// documents on standard output.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Ctrl-C while work is going on: the signal is held back from all threads and asked for, so that no handler
 /// runs.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The verbs of the command line; each returns the exit code.
 #pragma once
 

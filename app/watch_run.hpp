@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Waiting for a run, or a study, on the command line: progress, Ctrl-C, and what became of it.
 #pragma once
 

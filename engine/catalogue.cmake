@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # extremal_catalogue(namespace folders type header function)
 #   For every FOLDER/<stem>.cpp, which defines `TYPE extremal::NAMESPACE::<stem>()`, one entry in alphabetical order
 #   of `const std::vector<TYPE>& extremal::FUNCTION()`. FOLDER may be a pattern, or a list of them.

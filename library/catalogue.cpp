@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "extremal/catalogue.hpp"
 
 #include "engine/core/problem.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the handles of the library stand for. Not installed.
 #pragma once
 

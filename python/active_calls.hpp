@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The threads of Python that are inside the library.
 ///
 /// When the interpreter ends, a thread that asks for its lock is ended on the spot, in the middle of C++

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the wheel for pip (PEP 517) with CMake and nothing else, so that no network is needed.
 
     pip install .                                         builds in build-python, which is kept for the next time

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Python module extremal._extremal: the public headers of the library (library/extremal), with scenes
 /// from dicts and results as numpy arrays that share memory with the library. What is friendlier to write in
 /// Python is in extremal/__init__.py.

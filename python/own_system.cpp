@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "python/own_system.hpp"
 
 #include <pybind11/numpy.h>

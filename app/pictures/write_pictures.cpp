@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// write_pictures FOLDER: the pictures of the presets on the start page, light and dark, made by the
 /// program's own parts when it is built.
 #include <QApplication>

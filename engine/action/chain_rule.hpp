@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The chain rule behind every discrete action, written once.
 ///
 /// At a node the Lagrangian sees (q, v) = (q(z), v(z)), J = d(q, v)/dz, and its share of S is w L(q, v):

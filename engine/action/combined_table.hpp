@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One table of several rules, for a Lagrangian in parts L = sum_r L_r with a rule for each:
 ///     S = h sum_r sum_i b_i^r L_r(c_i^r).
 /// The functions are the same for all; the nodes of all rules stand in one list, ascending, and each says

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/action/element_kernel.hpp"
 
 #include <boost/multiprecision/float128.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The element kernel: the discrete action of one element and its derivatives by the unknowns and by the
 /// step,
 ///     S(h, z) = h sum_i b_i L(t_0 + c_i h, q(c_i), q'(c_i) / h),    q = sum_a phi_a z_a,

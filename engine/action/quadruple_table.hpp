@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Tables in quadruple precision, of spaces that can be evaluated there. Includes the header of quadruple
 /// numbers.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The augmented action of N elements, nothing condensed: every element has its own degrees of freedom z_k in
 /// the basis of the space, and multipliers join them,
 ///     A = sum_k S(z_k) + p_0 . (s-(z_0) - q_0) + sum_{k=1}^{N-1} p_k . (s-(z_k) - s+(z_{k-1})) - p_N .

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Space x quadrature = one table: all a step needs to know of the two choices that make an integrator.
 ///
 /// With nodes i = 0..n-1 and unknowns a = 0..m-1 (Y_a in R^d), on a step of length h from q_0:

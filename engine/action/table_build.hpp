@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How a table is made: the definition of makeTable for any scalar. Included by table.cpp alone.
 #pragma once
 

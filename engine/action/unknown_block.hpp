@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A stretch of the unknowns of an assembled system: the degrees of freedom z_k of an element, or the
 /// multiplier p_k before it.
 #pragma once

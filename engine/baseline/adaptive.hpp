@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Explicit codes of Boost.odeint under its own error control.
 ///
 /// A step below round-off of t, or 500 refusals in a row, is Outcome::stepBudget.

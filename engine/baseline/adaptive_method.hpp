@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the codes that choose their own steps share: one accepted step per advance(), the end hit exactly,
 /// dense output.
 ///

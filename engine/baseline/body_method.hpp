@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the baselines of rigid bodies share: the step, the state, and dense output.
 ///
 /// They see a body through its inertia and the force of its potential (model/body.hpp). A step moves the

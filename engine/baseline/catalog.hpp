@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Baselines by name: what users would otherwise use, to compare with.
 #pragma once
 

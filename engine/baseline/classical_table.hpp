@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The classical Runge-Kutta method of order 4: stage i starts from x_0 + h c_i k_{i-1}, and
 ///     x_1 = x_0 + h sum_i b_i k_i,   c = (0, 1/2, 1/2, 1),   b = (1/6, 1/3, 1/3, 1/6).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The tangent map of the classical Runge-Kutta step: the same stages of the variational equation W' = f'(x)
 /// W, whose step is the derivative of the step of x.
 #pragma once

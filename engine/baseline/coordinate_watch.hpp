@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether every coordinate of a step is solved, for iterations that compare the largest correction with the
 /// largest entry of the state.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What baselines of fields share: the integrals over space with the mass at the nodes.
 #pragma once
 

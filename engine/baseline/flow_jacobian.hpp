@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Jacobian of Hamilton's vector field X_H = (qdot, pdot), from the Hessian of L at v = v(q, p): with
 /// M = L_vv,
 ///     v_q = -M^{-1} L_vq,  v_p = M^{-1},   pdot_q = L_qq + L_qv v_q,  pdot_p = L_qv v_p.

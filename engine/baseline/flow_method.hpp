@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the baselines of mechanical systems share: Hamilton's vector field, counted, the state, and dense
 /// output.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Splitting methods for x' = A(x) + B(x) as tables: products of the two flows, exp(h (A + B)) up to order r,
 ///     exp(b_1 h B) exp(a_1 h A) exp(b_2 h B) ... exp(b_{n+1} h B)     kick first ("BAB"), or
 ///     exp(a_1 h A) exp(b_1 h B) exp(a_2 h A) ... exp(a_{n+1} h A)     drift first ("ABA"),

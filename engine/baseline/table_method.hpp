@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A Runge-Kutta method of a table on Hamilton's equations:
 ///     Q_i = q_0 + h sum_j a_ij V_j,    P_i = p_0 + h sum_j ahat_ij F_j,    (V_i, F_i) = X_H(t + c_i h, Q_i,
 ///     P_i).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runge-Kutta tables and splittings as a user types them: the keys of the baselines "runge-kutta" and
 /// "splitting".
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Split-step methods for wave functions: a splitting table with A the kinetic part, a phase for each wave
 /// number, and B the potential, a phase at each node. Unitary for every step; explicit; V may depend on time,
 /// which moves with A.

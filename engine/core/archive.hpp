@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Values on their way into bytes, or back: one function names them and serves both directions, so that what
 /// is written and what is read are the same.
 ///

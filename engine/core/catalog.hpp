@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What every catalogue (models, spaces, quadratures, schemes, baselines, observables, views) says of an
 /// entry.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Node times of a fixed grid of time: products, not sums, so that no round-off accumulates.
 #pragma once
 

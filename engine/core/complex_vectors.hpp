@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Inner products and sums of long complex vectors, compiled for several instruction sets
 /// (core/instruction_set.hpp) and with the same bits on all of them: sums run in eight parts, whatever the
 /// width of the machine's vectors.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// No exception of a library leaves the engine: each becomes a finding with its place.
 #pragma once
 

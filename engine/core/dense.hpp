@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Dense linear algebra for set-up, once per scheme or per view and never in a step: factorisations of
 /// matrices of any size, in double, complex, extended and quadruple precision. They are compiled in a few
 /// separate files, because every further file in which Eigen instantiates them takes seconds longer to

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The definitions behind core/dense.hpp, for the files that instantiate them.
 #pragma once
 

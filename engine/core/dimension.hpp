@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Converts a dimension known at run time into one known at compile time, for small dimensions: a fixed
 /// dimension makes a step two to seven times faster. Larger systems use Eigen::Dynamic.
 #pragma once

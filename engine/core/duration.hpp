@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Times of computing for people: "75 s", "12 min", "3 h", "2.4 days".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The steps of the elements of an asynchronous scheme: one entry for each element of its mesh.
 #pragma once
 

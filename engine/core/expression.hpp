@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Expressions as users type them: numbers, Lagrangians, potentials and profiles.
 ///
 ///     whole      = both { "||" both }

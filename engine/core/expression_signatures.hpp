@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How the functions of expressions are written: their names, and how many arguments they take. Internal to
 /// core/expression*.
 #pragma once

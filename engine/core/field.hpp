@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Descriptors: one table entry describes one parameter of a model, space, rule, scheme or baseline.
 /// They are the single source for JSON keys, range checks, forms, `extremal list`, the schema and the
 /// handbook.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Short numbers that stand for long texts, as hexadecimal digits.
 #pragma once
 

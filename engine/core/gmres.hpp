@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// GMRES for complex systems A u = v from u = 0, restarted; A is a callable (const Complex* u, Complex* Au).
 ///
 /// Vectors of length n as contiguous complex numbers; the basis is orthogonalised twice where once loses

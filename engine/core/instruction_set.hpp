@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Kernels compiled for several instruction sets and chosen at start.
 ///
 /// A release runs on any x86-64; loops over Lanes are also compiled for AVX2 and AVX-512. Contraction is

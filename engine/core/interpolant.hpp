@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A function given by points: straight lines between them, or the natural cubic spline through them.
 ///
 ///     y(x) = sum_j c(k, j) (x - b_k)^j,    k: the piece with x_(k-1) <= x < x_k

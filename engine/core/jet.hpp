@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Forward-mode automatic differentiation: first order (Dual) and second order (Jet) numbers.
 ///
 /// A Dual<T, N> carries a value and its gradient in N variables; a Jet<T, N> also the Hessian, as the lower

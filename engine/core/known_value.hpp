@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Cells of tables that may be unknown: null stands for what is not known.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Eight numbers that go through the same arithmetic together.
 ///
 /// Plain loops of fixed length, which the compiler turns into the vector instructions of whatever it compiles

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// sin and cos of eight numbers together: straight lines of arithmetic, of which the compiler makes vector
 /// instructions, with the same bits on every machine; five times as fast as one number after the other.
 ///

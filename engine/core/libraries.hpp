@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The libraries that the engine is built with, for reports of problems.
 #pragma once
 

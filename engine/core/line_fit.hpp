@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The least-squares line y = constant + slope x through points.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Foreign text inside other languages: titles, labels and formulas of a scene in what the program exports.
 ///
 /// There is one function per format, and every exporter uses it for every text that is not its own, so that a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The last few values that were computed, by their keys: for values that are expensive and needed
 /// repeatedly. Thread-safe; each value is computed once, while other threads wait for it.
 #pragma once

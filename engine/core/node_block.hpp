@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Consecutive nodes of one run: filled by an integrator, read by observers.
 ///
 /// x(i) are the state columns at node i of the block (see State), contiguous and `width` apart. Everything is

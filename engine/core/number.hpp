@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A number of a scene as the user wrote it: a literal, or an expression in the model's parameters with its
 /// value.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How a step, or a whole run, ended: numerical trouble is a value and never an exception.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Entries of catalogues that do not come from files of the engine: systems and spaces of a program that uses
 /// the library. Catalogues are constants; such entries are added before a catalogue is first asked for, and
 /// become part of the constant.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Errors and warnings about input: what is wrong, where, and what to do about it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A number that has a name, for files and plots.
 #pragma once
 

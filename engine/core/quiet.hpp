@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Boost.Math without exceptions: where a function has no value, or none that can be represented, it is NaN
 /// or an infinity, as those of <cmath> are.
 ///

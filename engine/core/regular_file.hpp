@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Reading files that somebody else may have put there: regular ones alone, up to a size. A pipe or a device
 /// would be read for ever, and opening one may have effects of its own.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A named choice and its keys, as it stands in a scene: {"type": "gauss", "nodes": 2}.
 #pragma once
 

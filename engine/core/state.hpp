@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The state of a run at one node of time, and all that is needed to go on from it.
 ///
 /// x holds the state columns of the system in their order; for a mechanical system x = (q, p), q first. It is

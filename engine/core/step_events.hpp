@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What happened in the steps of a run besides going on: counted, and kept with its time as far as memory is
 /// bounded, to be drawn as marks.
 #pragma once

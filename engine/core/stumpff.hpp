@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Stumpff's functions c_k(x) = sum_j (-x)^j / (k + 2j)!, k = 0, 1, 2, ...: c_0(x) = cos sqrt(x),
 /// c_1(x) = sin(sqrt(x)) / sqrt(x), and c_{k+2} = (1/k! - c_k) / x; hyperbolic for negative x.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where an expression has kinks and jumps: its switching functions.
 ///
 /// Each is a function s of the names of the expression whose sign changes where the expression stops being

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Small text helpers: numbers in files, suggestions for misspelt names, and file names made from labels.
 ///
 /// Numbers go through std::to_chars and std::from_chars alone, so that no locale changes a file.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The CPU time that this thread has used.
 #pragma once
 

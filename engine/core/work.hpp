@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Work that reading a scene takes, counted by those who do it.
 ///
 /// A unit is about one multiplication with an addition in double precision; what is done in quadruple

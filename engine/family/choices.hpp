@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discretizations of a family that the window offers side by side: rows x columns of cells.
 #pragma once
 

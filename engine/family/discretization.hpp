@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A discretization: a finite-dimensional function space and a quadrature rule, and how the equations of its
 /// steps are solved. A value: comparable, and written as the scene writes it. What it means is said by its
 /// family (family.hpp).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A family of schemes: one folder engine/family/<id>, one constant, and one section of the paper. All that
 /// is particular to it is there: its spaces and their keys, defaults, claims, checks before a run, stability,
 /// cost, the reference it trusts, what the window offers, and its steps. Nothing outside the folder names it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What stands against a scene, or a scheme before it runs: errors refuse it, warnings do not. Pointers of
 /// what families and baselines find are relative to the scheme ("/step", "/space/omega").
 #pragma once

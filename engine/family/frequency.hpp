@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Frequencies of a linear system M q'' + K q = 0, and of what a system is near a state.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which momenta a discretization keeps to round-off, by a rule and without a run.
 ///
 /// A symmetry with F = 0 that does not move time leaves the integrand at every node as it is, if the varied

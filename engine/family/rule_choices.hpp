@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Grids of choices with a space per row and a plain rule per column: the rules that have a heading
 /// (quadrature/catalog.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The terms of a Lagrangian, put together by the rules that a scene gives them.
 #pragma once
 

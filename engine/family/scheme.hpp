@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Named schemes: discretizations under their usual names. One file of engine/family/<id>/schemes makes one
 /// entry.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What named schemes claim, at each of their degrees: from the description of their discretization, which
 /// the laws measure (tests/laws).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the intervals of instability of a step on the harmonic oscillator mean for a scheme on a system.
 ///
 /// A frequency w of the system with z = h w beyond the last edge grows without bound: the step is beyond the

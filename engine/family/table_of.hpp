@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The table of a space and a rule as a scene names them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a table of a space and a plain rule promises: order, symmetry, stability on the harmonic oscillator,
 /// and why the combination is unsupported. What every family of polynomials on a step shares.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The equations of a family as they are written: its discrete action, and what makes it stationary. Plain
 /// text in Unicode for pages and the window, and LaTeX.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What views of errors have along x: time, or the number of steps done, so that what accumulates step by
 /// step is seen.
 ///

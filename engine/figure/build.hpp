@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the views share: axes with titles and units, series from columns, marks, ranges and the sentence for
 /// readers.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One column of the results against time, or against another column: what the views of trajectories and of
 /// momentum components share.
 #pragma once

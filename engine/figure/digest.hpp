@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A figure as a few lines of text, for tests: titles, ranges, and per series its length, extremes and a
 /// hash.
 ///

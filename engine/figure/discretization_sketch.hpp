@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is drawn and said of a discretization while it is typed: its functions over one step with the nodes
 /// of its rule, their slopes, the amplification on the harmonic oscillator, the pattern of its equations, the
 /// order that is predicted and the one that is measured. Computed on any thread.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The recipes that views share (view/recipe.hpp), each a function of its parameters.
 #include <algorithm>
 #include <cmath>

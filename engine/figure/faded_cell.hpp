@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The colour of a cell of a heat map without a scale, the same on the screen and in pictures that need no
 /// window.
 #pragma once

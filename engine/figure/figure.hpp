@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A plot as data: what the window, the snapshots, the exports and the tests share. No Qt here.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The ranges of a figure's axes: the part that the view asks for, else what is there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What grows with time on chaotic motions, against the logarithm of the time since the start.
 #pragma once
 

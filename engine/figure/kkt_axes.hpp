@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The axes of a picture of a KKT matrix: each block of unknowns has its name in its middle, "z_2" of a node
 /// and "p_2" of a multiplier, along the columns and down the rows. Rows grow downwards, as in print, so
 /// numbers of an axis would count them backwards.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The layers of one kind among the layers of a figure, as a range of references. A layer is a std::variant;
 /// Variant and L are both const where the figure is.
 #pragma once

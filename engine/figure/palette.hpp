@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The colours of plots, the same in the window and in pictures that need no window.
 #pragma once
 

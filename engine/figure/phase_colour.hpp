@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The colour of a phase, the same on the stage and in space-time plots: once around the circle in a turn, of
 /// even brightness enough for both themes.
 #pragma once

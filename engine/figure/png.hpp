@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pixels as a PNG picture, not compressed: for the images inside an SVG, which have some ten thousand
 /// pixels.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Ranges of axes that show the results rather than their accidents.
 ///
 /// A scheme that blows up must not flatten the others, and the downward spikes of a logarithm where an error

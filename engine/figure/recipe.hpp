@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How a view of a comparison becomes a figure. The recipes that views share are in figure/draw.cpp; one of a
 /// view of its own (OwnRecipe) is a file of figure/recipes, whose catalogue is gathered from the folder. What
 /// the files share is in figure/build.hpp.

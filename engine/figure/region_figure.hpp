@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The plot of regions of stability over the complex plane z = h lambda.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Reading a figure: values at a time, and its data as CSV.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The motions from the starts of a view (run/start_sets.hpp), coloured by their Lyapunov exponents.
 #pragma once
 

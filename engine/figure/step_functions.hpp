@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The functions of one step and what is said of them, for the view `basis` and for the sketch of a
 /// discretization that is typed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The plots of studies: a line per scheme over a ladder of steps, as the figure that the window, snapshots
 /// and exports share.
 #pragma once

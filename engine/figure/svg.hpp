@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A figure as an SVG picture, for notebooks and pages: no window, no font and no script is needed. It shows
 /// every layer of the figure; the plots of the window and of `extremal snapshot` are drawn by ui/plots, which
 /// also knows cursors and hovering.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether an error e(t) drifts over a run or only fluctuates, or whether the run is too short to tell.
 ///
 /// The finite values e_1, ..., e_n, in their order, are cut into m = min(48, n/2) blocks. Two sequences are

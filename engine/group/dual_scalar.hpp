@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Dual<T, 1> as a scalar of Eigen's matrices: a + e b with e^2 = 0.
 ///
 /// Rigid motions are rotations over these numbers (the principle of transference): what so3.hpp computes for

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rigid motions SE(3): y -> R y + x, the exponential chart and its derivatives, generic in the scalar.
 ///
 /// A twist is (omega, rho), six numbers: rotation first, then translation, both in the body. By the principle

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rotations SO(3): the exponential chart and everything an integrator needs of it, generic in the scalar.
 ///
 /// xi in R^3 is the rotation by |xi| about xi; x = |xi|^2, theta = |xi|, xi x v the vector product.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Two copies of a motion that start a little apart, by the same scheme, and how their distance grows: evenly
 /// on regular motions, exponentially on chaotic ones.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of a scheme, looked at: its motion with the nodes and weights of its rule, the functions it is
 /// made of, how its equations are solved, their pattern, and the equations themselves for this Lagrangian.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scheme written down as functions, nodes and weights, one per line, for an editor to begin with.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An integrator with something carried along its steps (local errors, an orthogonal frame of variations),
 /// which lives in the memory of the state, behind that of the scheme, and says quantities of its own besides
 /// those of the scheme. What is carried is moved after each step that succeeded.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Compositions: a symmetric scheme with itself, over parts of the step, has a higher order.
 ///
 ///     Psi_h = Phi_{g_1 h} o ... o Phi_{g_m h},   sum g_i = 1,   sum g_i^(p+1) = 0,   g_i = g_{m+1-i}

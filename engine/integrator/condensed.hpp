@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The condensed step of a discretization with tables (integrator/galerkin_step.hpp) as an Integrator, for
 /// the families that have them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How much of the force along the curve of a step its rule has missed: whether a root of the step's
 /// equations is the motion.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of a generalized Galerkin variational integrator: the stationarity conditions of the discrete
 /// action.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The definition of GalerkinStep for any scalar and dimension. Included where it is instantiated:
 /// galerkin.cpp for double, the tests for quadruple precision.
 #pragma once

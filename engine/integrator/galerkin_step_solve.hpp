@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How GalerkinStep finds its unknowns: the two equations, starting values, Newton's method and the fixed
 /// point. Included by galerkin_step_build.hpp.
 #pragma once

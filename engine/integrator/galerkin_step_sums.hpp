@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The sums over the nodes in GalerkinStep: positions, forces, equations and their Jacobian. Included by
 /// galerkin_step_build.hpp.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The tangent map of GalerkinStep. Included by galerkin_step_build.hpp.
 ///
 /// A variation (dq_0, dp_0) of the start moves Y and with it the end. At the nodes dq = dq_0 + sum_a phi_a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one virtual boundary of the engine, crossed once per step.
 ///
 /// An Integrator is made for one system, one discretization and one step size. The run owns time: it says

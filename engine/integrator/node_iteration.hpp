@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step of a discretization on a separable Lagrangian, L = 1/2 sum_k m_k v_k^2 - V(t, q), solved by
 /// fixed-point iteration on the positions at the nodes.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The definition of NodeIteration for any scalar. Included where GalerkinStep is instantiated.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One sweep of the fixed-point iteration over all nodes of a step (node_iteration.hpp):
 ///     Z_k(i) <- base_k(i) + sum_j G(i, j) w_j F_k(j) / mass_k,     Q_k(i) <- q_k + Z_k(i),
 /// and the impulses w_j F_k(j) themselves; without weights F takes their place.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A step on the harmonic oscillator, and the intervals of z = step * frequency in which it is unstable.
 ///
 /// On L = (v^2 - w^2 q^2)/2 the discrete action of one step is a quadratic form of the coefficients y =

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Forces that one part of a composition hands to the next.
 ///
 /// A method that ends its step with a kick and begins the next one with a kick needs the force there once. In

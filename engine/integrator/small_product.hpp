@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sums over the nodes of steps that have many of them, in the instruction set of this machine: C += A B, and
 /// columns weighted row by row.
 ///

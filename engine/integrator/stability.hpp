@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Linear stability of a step: its map on the harmonic oscillator, as a function of z = step * frequency.
 ///
 /// Symplectic maps of the plane have determinant 1: their eigenvalues are on the unit circle where half the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An interval of z = step * frequency in which a step on the harmonic oscillator is unstable.
 #pragma once
 

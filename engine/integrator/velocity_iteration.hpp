@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step of a discretization with as many nodes as unknowns on any Lagrangian L(t, q, v), solved by
 /// fixed-point iteration on the velocities at the nodes.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An integrator that carries an orthonormal frame of variations along, by the tangent maps of its steps, and
 /// says all Lyapunov exponents of its motion (Benettin, Galgani, Giorgilli and Strelcyn 1980):
 ///

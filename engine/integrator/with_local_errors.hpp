@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An integrator that carries an estimate of its own error along, by the tangent maps M_k of its steps:
 ///
 ///     e_{k+1} = M_k e_k + d_k,   d_k = x_{k+1} - (a better step from x_k)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An integrator that carries variations of the state along with it, by the tangent maps M_k of its steps
 /// (Integrator::applyTangent), and says what they show:
 ///

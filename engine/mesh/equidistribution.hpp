@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Nodes that give every element the same share of a density, and second differences on any mesh: what
 /// adaptive meshes are placed by.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Dyadic levels of the elements of a mesh: element e has the step 2^level[e] times the smallest.
 ///
 /// From the largest steps h_e that the elements allow: level = floor(log2(h_e / min h)). With balance no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Meshes of an interval: elements between ascending ends, and what holds at the ends of the interval.
 ///
 /// Element e lies between x[e] and x[e + 1], e = 0..N-1. Where the interval is periodic x[N] is the place of

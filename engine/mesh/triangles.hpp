@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Triangulations of a disc of radius 1.
 ///
 /// Rings of nodes around the centre, one for each sector, whose radii grow geometrically from `core` to 1:

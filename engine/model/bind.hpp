@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// From a model written as formulas to the calls of Mechanics. Included by the systems' .cpp files only.
 ///
 /// A model is a struct with a compile-time `dimension` d and one of

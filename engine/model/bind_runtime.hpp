@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Mechanics of a separable model whose dimension is only known at run time.
 ///
 /// A model has `int dimension() const`, `double mass(int i) const`, and in closed form `double potential(t,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A rigid body as the group integrators see it: a Lagrangian on TG, left trivialised,
 ///     L(g, eta) = 1/2 eta . M eta - U(g),   eta = g^{-1} g' in the body,   M diagonal.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How the stage shows a rigid body: as a box or as an ellipsoid, with the body's axes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A boundary-value problem as a system: no motion, but a solution u along x, the first state column, which a
 /// scheme gives node by node. Its error is |u - u_exact| / scale.
 #pragma once

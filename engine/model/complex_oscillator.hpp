@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The oscillator with a complex frequency, as a real Lagrangian of two coordinates.
 ///
 /// The equation z'' = -W z with complex z = q_0 + i q_1 and W has the Lagrangian (z'^2 - W z^2)/2, which is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The motion q'' = -mu q / |q|^3 in a plane, on conics of every eccentricity, by universal variables.
 ///
 /// With the perihelion distance P, the eccentricity e, beta = 2 mu/r - v^2 (positive for ellipses, 0 for the

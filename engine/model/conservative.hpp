@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether the energy of a system stays what it is: only then do its changes say something of a scheme.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the stage shows of a state, as plain shapes in the model's own coordinates; no graphics library here.
 /// Planar systems draw in the plane z = 0, y up; systems in space (System::isSpatial) are seen from a corner,
 /// y up.

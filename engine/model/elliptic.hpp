@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The elliptic problem with a fast coefficient, (a(x/epsilon) u')' = f on (0, 1), u(0) = u(1) = 0, and its
 /// finite elements.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Curves of constant energy on the momentum sphere of a free rigid body.
 ///
 /// With w_1 > w_2 > w_3 the inverse moments of inertia and e = 2 E / |Pi|^2, the curves around axis 1 on the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An exact solution from given initial data: fills the state x at given times.
 ///
 /// Made from a callable `(double t, std::span<double> x)`, or, where many times at once are cheaper, from a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The exact motion of a free rigid body: momentum and attitude at any time, from those at the start.
 ///
 /// Axes are renamed so that Pi_3 > 0 never vanishes (the axis of largest moment where L^2 > 2 E I_2, else of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Jacobi's elliptic functions and the integral of the first kind, from the complementary parameter
 /// m1 = 1 - k^2: near k = 1 the modulus no longer says what m1 is, and quarter periods are ln(16/m1)/2.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/lagrangian_terms.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The terms that a Lagrangian is the sum of, by name: what schemes may have rules for.
 ///
 /// A system says them in parts itself (Mechanics::terms). One that does not, but is separable, has "kinetic",

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A mechanical system as the integrators see it: a Lagrangian L(t, q, v) behind one plain call per node.
 ///
 /// T is the scalar (double; quadruple precision in tests). Arrays of length d: q[i], v[i], p[i]. Gradients of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The forces of a separable model at many nodes together, in the instruction set of this machine.
 ///
 /// A model opts in by `static constexpr bool isNodeParallel = true`; its `potential` (and `force`) must then

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The gradient of a Lagrangian, and its Hessian, at many nodes together, in the instruction set of this
 /// machine.
 ///

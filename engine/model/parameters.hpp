@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Filling a model struct from the checked keys of a scene through its Field descriptors, and back.
 #pragma once
 

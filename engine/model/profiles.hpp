@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The initial data that have names: profiles of fields (the key `profile`) and packets of wave functions
 /// (the key `packet` of `psi`).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What all rigid bodies have in common as systems: their state's columns, initial data, energy, error, rate
 /// and picture. Included by the .cpp files of the bodies in model/systems.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The profile u on [a, b] with the least energy
 ///
 ///     E[u] = int_a^b k u_x^2 / 2 + W(x, u) dx,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The symplectic form of a system's phase space, in the coordinates of its variations (integrator.hpp):
 ///     w(a, b) = a_q . b_p - a_p . b_q,
 /// on the cotangent bundle of a group, left trivialised, a = (zeta_a, mu_a), at the momentum mu

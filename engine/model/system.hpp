@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A system with its parameters in place: what a scene's "model" turns into.
 ///
 /// A System is a bag of optional capabilities: a field that is empty is something the system does not have

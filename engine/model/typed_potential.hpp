@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A potential U(x, R) as a user types it, for rigid bodies: expressions in x, y, z and R11..R33,
 /// differentiated symbolically.
 ///

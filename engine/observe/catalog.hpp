@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The catalogue of observables; the observables themselves are in observe/observables, one file each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What an observer computes at nodes: one value per column.
 ///
 /// Made from a callable for one node, `(const State&, const StepReport&, double* values)`, or, for

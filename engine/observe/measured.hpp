@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An observable that systems evaluate themselves (System::measures): the entry is its descriptor alone, and
 /// it applies to the systems that have such a measure.
 #pragma once

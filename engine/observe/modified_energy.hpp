@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The modified energy of a symplectic scheme from its nodes, without derivatives of the Lagrangian.
 ///
 /// The steps of a symplectic scheme follow, up to exponentially small terms, the flow of a modified energy

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An observable of fields that some schemes can say of their last step (Integrator::quantities), and others
 /// leave unknown.
 #pragma once

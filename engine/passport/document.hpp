@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A page of text, formulas, tables and listings, as a value: written as Markdown, as HTML that needs nothing
 /// else, or as LaTeX.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Indices and exponents of formulas in plain text, as pages set them: "a_t^2", "Y_{m−1}", "f^(4)".
 ///
 /// What follows "_" or "^" is an index or exponent where it is one or two letters or digits, a few characters

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What runs of a scheme on its scene say: orders of position and energy errors, and costs. Internal to
 /// engine/passport.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The passport of a scheme: all that is known of it before a run, and what a few runs on its scene measure.
 ///
 /// The discrete action and its stationarity; the step that is left when the interior unknowns are eliminated,

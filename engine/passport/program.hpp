@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scheme on its scene as one program that needs nothing of Extremal: the table of the scheme, the
 /// equations of the system from its symbolic Lagrangian, and a test of itself against the CSV of a run.
 ///

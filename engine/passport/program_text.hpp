@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The parts of exported programs that are the same for all. Internal to engine/passport.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/passport/program_text.hpp"
 
 namespace extremal::program_text {

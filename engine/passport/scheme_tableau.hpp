@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The tableau of a scheme of a scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Quadrature rules by name; one file of quadrature/rules makes one entry.
 ///
 /// An entry says everything that is particular to a rule: its keys, what they are where a scene leaves them

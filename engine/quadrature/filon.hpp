@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Filon rules: weights for integrals of a smooth function times a fast oscillation, at a cost that does not
 /// depend on the frequency,
 ///     int_0^1 f(x) e^{izx} dx ~ sum_i b_i(z) f(c_i),   b_i(z) = int_0^1 l_i(x) e^{izx} dx,

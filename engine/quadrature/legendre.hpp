@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What computes nodes and weights: Legendre polynomials on [-1, 1], Newton's method, and the way to [0, 1].
 /// Internal to engine/quadrature.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Quadrature rules on [0, 1]: integral of f ~ sum_i b_i f(c_i), i = 0..n-1, nodes ascending.
 ///
 /// Nodes and weights are computed (Newton on the orthogonal polynomials), not tabulated, for any number of

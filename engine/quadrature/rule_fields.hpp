@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Keys that several rules have. Internal to engine/quadrature.
 #pragma once
 

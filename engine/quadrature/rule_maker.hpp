@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Gives an entry its rule in both precisions from one function. Internal to engine/quadrature: includes the
 /// heavy header of quadruple numbers.
 #pragma once

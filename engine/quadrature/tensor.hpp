@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A rule made of rules, one for each direction of integration: {"space": {...}, "time": {...}}.
 ///
 /// In Settings its type is "product", and each part is an object with its own type and keys, so that printing

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A rule of the user's: nodes, and weights or those of the polynomial through the nodes.
 ///
 /// Its degree is the highest for which the shifted Legendre moments sum_i b_i P_k(2 c_i - 1), k = 1..degree,

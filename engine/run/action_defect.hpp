@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How close the discrete Lagrangian of a discretization comes to the exact one: |L_d - L_d^exact| against
 /// the step.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What to try after a failure, in one or two sentences for the scheme's row.
 #pragma once
 

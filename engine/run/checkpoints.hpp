@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Checkpoints: what a scheme of a run needs to go on after the process was killed, in a file
 /// "<slug>.checkpoint" beside the results to come.
 ///

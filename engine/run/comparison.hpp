@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The outcome of running a scene: one result per scheme, ready for plots, tables and files.
 #pragma once
 

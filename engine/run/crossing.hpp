@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where a function g of the state passes zero inside a step, on the dense output of the scheme.
 ///
 /// g is sampled in the step until its samples are those of a smooth curve: where a parabola through every

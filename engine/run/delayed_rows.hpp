@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rows whose observers look at nodes on both sides (Observer::delay): their values are filled in when the
 /// nodes behind them are known, and are unknown until then.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The products that show the equations of a discretization beside its run: the pattern of its KKT matrix,
 /// the defect of its action. A scheme that has none says why.
 #pragma once

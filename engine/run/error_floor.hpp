@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Errors that a run cannot resolve: below them, errors say nothing of the scheme.
 #pragma once
 

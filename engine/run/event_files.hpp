@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The events of a run as a file, as numbers of its summary, and in words.
 #pragma once
 

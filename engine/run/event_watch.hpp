@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Looks for the events of a scene in every step, on its dense output (run/crossing.hpp).
 ///
 /// Events that a step has in common are in the order of their times; one that stops the run ends the motion

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Exact actions from one state after a sequence of steps, and how far the discrete Lagrangian of a
 /// discretization is from them.
 ///

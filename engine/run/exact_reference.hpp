@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How good an exact solution is itself: the error that it is said to have when it serves as a reference.
 ///
 /// The largest of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The files of a finished comparison: scene.json, one <slug>.csv per scheme and its products by their
 /// suffixes
 /// (<slug>.field.csv, .mesh.csv, .steps.csv, .section.csv, .kkt.csv, .action-defect.csv), parameter-map.csv,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Files that appear together: each is written under a temporary name, and all are renamed at the end.
 /// Internal to engine/run.
 #pragma once

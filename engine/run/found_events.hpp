@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What was found of the events of a scene (EventSpec) along the motion of one scheme.
 #pragma once
 

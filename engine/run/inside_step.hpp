@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The products made inside the steps of a run, on the dense output of its scheme: points for plots, their
 /// distance from the reference, and the events of sections. Where a view shows a part of the time axis its
 /// steps have more points. In runs of more than 500 steps only those steps have points inside in which the

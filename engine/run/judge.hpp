@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether a run is still the motion that it began: the outcome `lost` of runs that have no other fault.
 ///
 /// Steps may go on for ever, finite all the time, while the solution has long left the problem: an explicit

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which entries of the KKT matrix of a discretization are not zero: the structure of its equations, for a
 /// few elements.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scene by its name, with its overrides, and what it may read: how the command line and the library load
 /// scenes.
 #pragma once

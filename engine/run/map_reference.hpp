@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The reference of runs with several steps (a column of a map, a study): computed once, at the nodes of
 /// every step, and then looked up by every scheme. An exact solution is asked directly.
 ///

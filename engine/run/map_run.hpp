@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Computes the maps of the views "parameter-map" of a scene, a column (one value of the parameter, every
 /// step, every scheme) as a task: its scene is read anew with the parameter changed, as --set would, so that
 /// what is written in terms of the parameter follows. A cell is the same run as that scene with this step.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The loop of every run: an integrator is taken from node to node, and sinks look at what it leaves.
 ///
 /// Steps go in blocks: the nodes of a block are computed first, under the clock of the thread, then shown to

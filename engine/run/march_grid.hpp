@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where a scheme of a scene goes: its nodes, or the end of the run, and its step budget.
 #pragma once
 

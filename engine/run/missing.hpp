@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a run was asked for and could not have, and why: nothing that was asked for vanishes without a word.
 ///
 /// An observable is missing where it has no value at any row, or, of those that only fill the summary, where

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// From when on the difference from a companion is no estimate of the error any more: it is above 0.05 of the
 /// size of the state, of systems with coordinates the rms of |q| over the rows; from the start where steps do
 /// not resolve the fastest motion (scene/companion.hpp), or many of the companion's steps failed. It opens as

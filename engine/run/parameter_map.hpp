@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How well a scheme does over a grid of a parameter of the model and the step: one short run a cell.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a run makes besides the rows of its schemes, because a view or the export asks for it: each product
 /// by its type, at most one of a type. What is not asked for is not computed (neededProducts).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The march of one scheme over the time interval, and what it records: rows, extremes, products, what it
 /// costs. Internal to scheme_run.cpp.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The solution that errors are measured against, and how good it is itself.
 ///
 /// exact: the model's own; computed: Gauss collocation of degree 12 at a step refined until two of them

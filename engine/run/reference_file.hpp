@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A reference from a CSV file: rows with the time t and the state, in columns of these names and in any
 /// order, as the files of a run have them. Columns of the state may be missing, as momenta are in what was
 /// measured: errors are those of what is there. It is known at its own times, to 1e-9 of t; an empty cell, or

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether a file may be written where another one stands: one decision for every writer.
 ///
 /// A file that is missing, or has the same content, may always be written. One that was read for the work is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// When the result of a scheme still holds after the scene has changed.
 ///
 /// A result depends on the problem (model, initial data, times, reference, what is observed and written), on

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which nodes become rows: with output.every = E the first node at or after each multiple of E, else every
 /// m-th node with the smallest m that gives at most 2,000 rows; always the first and the last node reached.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A run of a scene: every enabled scheme is a task on a pool of threads; results stream out while it goes
 /// on.
 ///

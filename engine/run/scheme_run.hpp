@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One scheme of a scene, run from start to end: nodes, rows, extremes, outcome.
 ///
 /// It is a march (run/march.hpp) whose sinks grow the extremes, over every node, and record rows, frames and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One solution for many readers: its states at the times that will be asked for, computed once, in order and
 /// only as far as somebody has asked.
 ///

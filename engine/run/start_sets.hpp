@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What became of the starts of a view: motions of one scheme from many places in the plane of the view.
 #pragma once
 

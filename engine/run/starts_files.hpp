@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The files of the starts of views: "starts.csv", one row per start, and "starts.points.csv", the points of
 /// their motions; of further views with starts "starts-2.csv", ...
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Computes the motions from the starts of the views of a scene, each as a task, with the view's scheme: the
 /// first enabled one by default. The Lyapunov exponent is carried along. Motions that were computed before in
 /// this program are remembered: one more start costs one more motion.

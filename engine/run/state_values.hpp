@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Values of states that a run was asked for: where they stop being numbers, the motion was left.
 ///
 /// Observables that are functions of the state alone (energies, momenta, norms, ...) are known wherever the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The steps of a run whose times are unknowns, for its file and for pictures of its mesh: all of them while
 /// they fit into their memory, then every second, every fourth, ...
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a run costs, from repetitions of it without observers.
 ///
 /// A single short run says little: the clock of a thread has a grain, caches and branches are cold, and a

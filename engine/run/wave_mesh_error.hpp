@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The error that the exact motion of a wave function shares with its schemes: it is exact for the modes of
 /// the scene, not for the equation.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The way back: a run of the same scheme from its end with the opposite step, which ends at the start to
 /// round-off where the scheme is symmetric.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scene's document with one of its schemes alone.
 #pragma once
 

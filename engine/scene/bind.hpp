@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// From a checked scene to the system, its initial state and its nodes of time. Schemes: resolve.hpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Scene files: reading with every error named, and writing. The format is documented in the handbook
 /// ("Scenes").
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The companion of a scheme: a better run over the same nodes. The difference of the two runs is an estimate
 /// of the error of the first, which costs no reference.
 ///

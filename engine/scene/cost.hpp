@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a scheme will cost, from a few trial steps: for warnings beforehand, and for proposals.
 #pragma once
 

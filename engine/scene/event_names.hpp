@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The names of the state in the expressions of events: t, every column with its dots as underscores
 /// (q_theta, p_theta, attitude_w), and coordinates by their own names (theta) where no parameter of the model
 /// has that name.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The keys of the scene format that do not come from a catalogue.
 #pragma once
 

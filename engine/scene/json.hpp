@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// JSON text to a Value and back.
 ///
 /// Reading is strict: one document, UTF-8, no duplicate keys, only finite numbers, at most 200 levels

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The steps of a lesson: the key "steps" of a scene. They tell a reader what to do next and drive the
 /// window; no run depends on them, and a Scene does not hold them.
 ///

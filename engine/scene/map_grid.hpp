@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The grid of a view "parameter-map": a parameter of the model against the step, both in equal ratios.
 ///
 ///     value_i = from (to/from)^(i/(columns - 1)),   step_j likewise,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// --set POINTER=VALUE: changes a document before it is checked.
 #pragma once
 

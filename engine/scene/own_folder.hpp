@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Scenes may come from strangers: what a scene names lies in the scene's own folder, or is read only where
 /// the user agrees.
 #pragma once

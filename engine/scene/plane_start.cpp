@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/scene/plane_start.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>

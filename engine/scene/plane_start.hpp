@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// States that start at a place in the plane of a view, besides the start of the scene.
 ///
 /// Two columns are given by the place, and the others are those of the start of the scene. In a section

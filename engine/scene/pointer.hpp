@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// JSON pointers (RFC 6901): "/schemes/1/step" names a place in a scene; "~1" stands for "/" and "~0" for
 /// "~".
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether the exact solution of a scene is that of its own problem over the whole run: the premises that its
 /// formula makes of the ends of the domain (model/field/exact_premise.hpp), and of a wave function between
 /// Dirichlet boundaries, that it vanishes there at the start.

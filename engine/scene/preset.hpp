@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The presets, compiled into the program: one scene per figure and claim of the theory.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The key `events` of a scene: where expressions in the state pass zero.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Arrays of expressions, and names for expressions, as functions of a space and nodes of a rule are typed.
 /// Internal to engine/scene.
 #pragma once

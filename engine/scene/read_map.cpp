@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The view "parameter-map" of a scene: what it leaves out, and whether its grid makes sense.
 #include <algorithm>
 #include <cmath>

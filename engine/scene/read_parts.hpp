@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The parts of a scene, each read into its place; findings go to the reader. Internal to engine/scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The quadrature of a scheme: one rule with what it leaves to the space, one for each direction, or one for
 /// each term.
 #include "engine/family/scheme.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The keys `starts` and `spread` of a view: starts in its plane besides that of the scene.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What reading a scene shares between its parts: the findings, and the values of the model's parameters by
 /// name. Internal to engine/scene. Every function records what is wrong and goes on, so that all errors are
 /// found.

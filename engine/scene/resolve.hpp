@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scene as it runs: what reading it makes of its model and its schemes, once. Everything behind the codec
 /// takes it; nothing derives it again.
 #pragma once

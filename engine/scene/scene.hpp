@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scene: everything that defines a comparison, as a value. Equal scenes give equal bytes.
 ///
 /// A scene is read by scene/codec.hpp, which checks it against the catalogues; a Scene in hand is valid.

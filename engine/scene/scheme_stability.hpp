@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The linear stability of a scheme as a scene has it: the one answer that checks, advice, passports, studies
 /// and the window share.
 ///

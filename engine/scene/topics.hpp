@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the handbook says of an error or a warning: every finding has a topic, and every topic a page, as
 /// "PAGE#HEADING" with the heading's words in lower case, joined by hyphens.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Starts given by two positions: q at the start and q_1 a time `at` later, in place of a momentum.
 ///
 /// The exact motion between them gives the start of the scene, p_0 = -D_1 L_d^exact(q_0, q_1, at): errors are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the keys of a view may name in a scene: for the reader, which refuses the rest, and for menus.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Banded matrices and their LU factorisation with partial pivoting, in place.
 ///
 /// Entry (i, j) is in the band where |i - j| <= reach. With row swaps U reaches twice as far to the right. A

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The matrix zeta + iY of BandedPoles without its corners, eliminated from both ends, for any number of
 /// harmonics; and what puts the corners back. Plain and complete: the quick way of one harmonic is in
 /// solve/banded_poles.cpp. Internal to engine/solve.

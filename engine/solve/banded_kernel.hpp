@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The substitutions of BandedPoles over all lanes: both ends of the matrix and all poles of a group side by
 /// side. Internal to engine/solve; compiled for several instruction sets, whose last bits may differ: those
 /// that have it multiply and add in one.

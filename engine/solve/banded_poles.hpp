@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Solves of a cyclic banded matrix with several shifts at once: for a group of poles zeta_j
 ///     out = sign v + sum_j r_j (zeta_j + i Y)^{-1} v,
 /// Y Hermitian, N x N, Y_{ab} = d_a on the diagonal and y_{a-b mod N} off it for 0 < |a - b| <= B cyclically:

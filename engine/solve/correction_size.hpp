@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How large a correction of a step is: the one place that says what it is compared with.
 ///
 /// An iteration is measured coordinate by coordinate, since coordinates may have units of their own and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Discrete Lagrangians: what a discretization makes of the action between two positions, the same over
 /// several elements, and the exact one.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// When the fixed-point iteration over all nodes of a step (integrator/node_iteration.hpp) is done, and when
 /// it is given up for Newton's method.
 ///

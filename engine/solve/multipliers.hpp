@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Solves the augmented action of action/saddle_point.hpp with its multipliers, by Newton on the whole
 /// indefinite system.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Newton's method with damping for small dense systems F(x) = 0 that are solved before or beside a run;
 /// steps have their own, which allocates nothing (integrator/galerkin_step.hpp).
 ///

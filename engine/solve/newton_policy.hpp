@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one policy of the iterations that solve a step: when they are done, when they want a new Jacobian,
 /// when they are given up, and what they start from. Every number is named here, with its reason.
 ///

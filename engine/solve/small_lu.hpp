@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Gaussian elimination with partial pivoting for the small dense systems of a step (up to some 50 unknowns):
 /// in place, with no allocation after the constructor, and cheaper there than what is made for large ones.
 ///

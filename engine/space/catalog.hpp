@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Function spaces that are tables, by name and with the descriptors of their keys; one file of space/spaces
 /// makes one entry. Families have further spaces of their own (engine/family).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/space/formulas.hpp"
 
 #include <boost/math/constants/constants.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Functions of tau as a user types them, with their derivatives by tau, in any precision.
 ///
 /// Each is an expression (core/expression.hpp) in tau, in the length h of the step, and in names that stand

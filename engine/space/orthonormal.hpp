@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Gram-Schmidt with pivoting, twice, in any precision: what typed functions are made independent with.
 /// Internal to engine/space.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Polynomials of degree s on a step, in nodal or modal form: all span the same space, hence give the same
 /// step.
 ///

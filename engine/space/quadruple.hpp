@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Adds to a space its evaluation in quadruple precision, so that tables are computed without round-off.
 /// Internal to engine/space: includes the large header of quadruple numbers.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Panels of a step in which functions are smooth to the last digit: what carries integrals of typed
 /// functions, and where a jump or a corner is found.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A finite-dimensional function space on one step, tau in [0, 1]: the span of basis functions phi_a, a =
 /// 0..size-1.
 ///

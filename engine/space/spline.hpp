@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Splines of degree s on a step divided into cells: a polynomial of degree s in each, s - 1 times
 /// continuously differentiable where cells meet, free at the ends of the step.
 ///

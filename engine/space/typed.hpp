@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Spaces of typed functions: any formulas of tau that span one, made well conditioned.
 ///
 /// The functions f_1..f_n are scaled and made orthonormal in f(0) g(0) + int f' g', in quadruple precision,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The atlas: on one system after the other every named scheme and every baseline that fits it, so that what
 /// a scheme claims stands beside what is measured.
 ///

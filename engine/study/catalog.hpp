@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The catalogue of studies; the studies themselves are in study/studies, one file each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// All catalogues by their names, as `extremal list`, completions and the library show them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The cells of a line in the log of a study, and the lists in its head. Internal to engine/study.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The order of a scheme as it is measured: the slope of log error over log step, over the steps where errors
 /// lie on a line.
 ///

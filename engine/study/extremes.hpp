@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runs at the extremes: one number of a scene goes from what is usual to what no scheme can follow, over
 /// systems and schemes of every family. Where does the domain of each scheme end, and does it say so?
 ///

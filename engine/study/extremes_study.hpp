@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The study "extremes": every case of extremes.hpp. It has no scene. Its lines in the log:
 ///
 ///     {"extremal": 1, "study": "extremes", "options": {"long": false}, "scene": "<fingerprint of all

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The steps, or tolerances, at which a study runs a scheme.
 ///
 ///     h_i = (end - start)/n_i,   n_i whole, so that every run ends where the scene does.

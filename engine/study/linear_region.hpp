@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What one step makes of the linear test equation over the complex plane z = h lambda, measured on the
 /// scheme itself.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Linear stability of a scheme, measured on the scheme itself: what one step makes of the test equation.
 ///
 ///     with coordinates   q'' = -w^2 q,       z = h w        (the model harmonic-oscillator)

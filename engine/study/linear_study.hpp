@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The study "linear-stability": every scheme of a scene on the linear test equation
 /// (linear_stability.hpp). Each scheme is one point; its lines in the log:
 ///

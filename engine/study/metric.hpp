@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a study measures of a run: the largest size, over all nodes or at the last one, of the column that an
 /// observable declares as its extreme.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of a given size from any state: what the linear stability of a scheme is measured with. Internal
 /// to engine/study.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which points of a sweep are worth their cost: no other has a smaller error for no more CPU time, or the
 /// same for less.
 #pragma once

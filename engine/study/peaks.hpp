@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Peaks of a curve, as resonances make them: values that stand out from both sides.
 #pragma once
 

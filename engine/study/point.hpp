@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One point of a study: a scheme of the scene with one step (or tolerance), run once for its errors and then
 /// again, without observers, for its cost.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How the points of a study are run: as independent tasks on a pool of threads, each handed on when it is
 /// known, with the share of them that is.
 #pragma once

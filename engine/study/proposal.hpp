@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the points of a sweep say of a wanted error: which scheme would reach it at the lowest cost.
 ///
 /// Each scheme's points are taken in the order of its ladder, from the largest step (or tolerance) down.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a wanted error will take of a scheme, from one run: whether a search for its step is worth while.
 ///
 /// A run of W evaluations with the error E has, at the claimed order p,

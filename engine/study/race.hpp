@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Schemes side by side with the same processor time in place of the same time of the motion: where each is
 /// when so much has been spent. The wanted error is the finish line: who arrives with a larger one has not
 /// finished.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a scheme can do without: a smaller degree, fewer nodes.
 #pragma once
 

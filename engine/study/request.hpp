@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A study as it is asked for, by the words of the command line, and made from them.
 #pragma once
 

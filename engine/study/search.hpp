@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The largest step, or tolerance, with which a scheme keeps its error below a wanted one.
 ///
 /// The number of steps n (or 1/tolerance) is bracketed from the scheme's own step, extrapolated by the

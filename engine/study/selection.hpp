@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which part of a study is run: some of a scene's schemes, and of their points those of a shard.
 #pragma once
 

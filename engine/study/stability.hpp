@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How a scheme behaves where one or two numbers of a scene vary: stable, drifting, blowing up, or failing.
 ///
 ///     blow-up        a state that is not finite, or larger than 10^6 times its size at the start, or a

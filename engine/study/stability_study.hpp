@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The study "stability": every scheme over a grid of one or two numbers of the scene, and the limits along
 /// the first of them. Its lines in the log:
 ///

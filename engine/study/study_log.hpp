@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The log of a study: its points as they finish, one per line, so that a study that is killed loses only
 /// those in flight, and shards can be merged.
 ///

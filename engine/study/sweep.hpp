@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A sweep: every scheme of a scene over its ladder of steps, each point with its error and its cost. What
 /// the studies "convergence", "work-precision" and "cheapest" have in common.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The lines of a sweep in the log of a study:
 ///
 ///     {"extremal": 1, "study": "convergence", "options": {..}, "scene": "<fingerprint>"}

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Symmetries that have a name, to be tried, and the names of those that were found.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The momenta of a system that Noether's theorem conserves: its own, and, where it has none or is typed by a
 /// user, those of the symmetries that are found (symmetry.hpp).
 ///

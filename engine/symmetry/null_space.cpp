@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/symmetry/null_space.hpp"
 
 #include <Eigen/QR>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The null space of the symmetry condition over random states.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Random states at which a Lagrangian is looked at, of the sizes that its own terms suggest.
 ///
 /// Places are of sizes 0.3 to 10; each velocity is such that its kinetic energy is as large as the work of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Affine symmetries of a Lagrangian and the momenta of Noether's theorem, found by linear algebra.
 ///
 /// q -> q + e xi, t -> t + e tau with

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Order conditions of a partitioned Runge-Kutta method, by rooted trees.
 ///
 /// The expansions of the solution and of the step agree up to h^p iff for all trees t with at most p nodes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A step as a partitioned Runge-Kutta method, in quadruple precision.
 ///
 /// Of q' = v(q, p), p' = f(q, p), with velocities V_j and forces F_i at stages of their own:

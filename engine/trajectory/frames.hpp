@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Frames of a field along a run, within a fixed amount of memory.
 ///
 /// Every row is offered. As long as all fit, all are stored; when the budget is exceeded, every second one is

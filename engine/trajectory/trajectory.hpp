@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Columns of samples of one run: t, the state, then the observables, at the sampled nodes.
 ///
 /// column(c)[r] is row r of column c. All columns have the same length. An unknown value is NaN.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is known of the axes of a view before there are results: the format of scenes checks `range` and
 /// `curve` by it.
 #pragma once

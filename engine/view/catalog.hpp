@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The catalogue of views: what each shows, what it needs of a run, and to which systems and schemes it
 /// applies. One file of view/views makes one entry.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The components of the angular momentum of a rigid body: its state columns momentum.<axes>.<component>.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The keys of the view "parameter-map": a grid of a parameter of the model and the step.
 #pragma once
 

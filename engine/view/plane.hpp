@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The plane of a view that can add starts: the columns of its axes and, of a section, the column that passes
 /// zero.
 #pragma once

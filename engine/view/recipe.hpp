@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How a view is drawn, as data. Most views are a column of the results against time, or against another
 /// column; a view whose picture is like no other names a recipe of its own. engine/figure interprets them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A view as a scene asks for it: which one, and what it is to show. What there is to ask for is in
 /// view/catalog.hpp.
 #pragma once

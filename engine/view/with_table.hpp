@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Views of the equations of a discretization: they need coordinates, and one table of basis functions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What every header of the library needs. The headers of this folder are the whole public interface; they
 /// include the standard library, and three headers of the engine that do so as well: engine/core/value.hpp
 /// (JSON-like trees), problem.hpp (what is wrong with a scene) and jet.hpp (numbers with derivatives).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a scene may contain, from the same descriptors as `extremal list` and the forms of the window.
 #pragma once
 

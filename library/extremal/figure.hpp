@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The plots of a comparison or of a study, as data and as SVG.
 #pragma once
 

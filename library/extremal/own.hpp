@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Systems and spaces of one's own. They are added before the first scene is read or catalogue asked for,
 /// and are then used in scenes, lists and checks like those that are supplied:
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Running a scene: every enabled scheme is a task on a pool of threads; partial results can be read while it
 /// goes on.
 ///

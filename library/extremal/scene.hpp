@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Scenes: read, checked, with every default filled in. The format is documented in the handbook ("Scenes").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Studies: many runs of a scene, for orders of convergence, costs, limits of stability.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The compiled part of the module."""
 
 from collections.abc import Callable, Mapping, Sequence

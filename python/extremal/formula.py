@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Lagrangians written as Python functions, turned into formulas.
 
 A function L(t, q, v) is called once with symbols in place of numbers. What it returns is a formula, which the

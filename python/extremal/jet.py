@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers that carry their first and second derivatives, for Lagrangians that are no formulas.
 
 With f, f', f'' at the value u,  grad f(u) = f' grad u,  hess f(u) = f' hess u + f'' grad u grad u^T. Comparisons

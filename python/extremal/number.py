@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What stands for a number in a Lagrangian that is a Python function: arithmetic, and the functions of mathematics.
 
 A kind of number says what each operation gives; numpy's functions of the same names go the same way.

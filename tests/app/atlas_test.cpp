@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// `extremal atlas` as a user runs it: a page that is well formed and needs nothing from elsewhere, whose
 /// numbers are those of the studies; taken up where it was left.
 #include <QDir>

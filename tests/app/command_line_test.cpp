@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The command line run as a user runs it: arguments in; exit code, words and files out.
 #include <QDir>
 #include <QFile>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Help, completions of shells and manual page, which are made from the options: what they offer is what the
 /// program takes.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The program in surroundings that fail: killed at any moment, output that vanishes, two of it in one
 /// folder, and machines without what is usually there.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Texts of a scene in everything that is exported: whatever a title, a label, a note or a formula says, a
 /// strict reader finds in the file what it finds in that of a harmless scene, and nothing that acts.
 #include <QDir>

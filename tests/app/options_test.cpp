@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every option of every verb is obeyed or refused: the test reads which there are from the program's own
 /// help, so that a new option is in it by itself, and which verb takes which from the table of the parser.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Nothing is written over unasked: no verb replaces what it has read, and files that the program has not
 /// made are replaced only with --force; what an earlier run has left is replaced as ever.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Schemes of the user's catalogue and of exported files, on the command line.
 #include <QFile>
 #include <QJsonArray>

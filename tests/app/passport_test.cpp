@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Passports and exported programs: pages of every kind, and programs that compile, run and agree with the
 /// CSV of the run.
 #include <QDir>

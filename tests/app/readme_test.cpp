@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The commands that README and handbook show, run as a user would type them, in an empty folder without a
 /// display.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// `extremal snapshot` run as a user runs it.
 #include <QFile>
 #include <QPainter>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Scenes from strangers read nothing outside their own folder before the user agrees; what a run writes can
 /// be taken anywhere.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// `extremal study` as a user runs it: files, words and exit codes; killed and resumed, split and merged.
 #include <QDir>
 #include <QFile>

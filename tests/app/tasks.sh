@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # tasks.sh PROGRAM FOLDER: the ten commonest tasks with mouse and keys on a display of its own, a picture of each in the
 # folder, and the clicks and keys that each takes (typing a text counts as one). Needs Xvfb, xdotool and ImageMagick.
 # What a task needs is found by its name, in the palette (Ctrl+K), or is in the middle of the window: nothing depends on

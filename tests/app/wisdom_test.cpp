@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wisdom of Fourier transforms as a user keeps and uses it.
 #include <QDir>
 #include <QFile>

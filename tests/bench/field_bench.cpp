@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How fast a field streams through leapfrog: 10^6 cells, numbers read and written per second against the
 /// bandwidth of memory, measured in the same process by copying two arrays into two others. Prints ratios;
 /// and what a run of a scene costs beside its steps.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A thousand short runs through the library, each of another step: what `ninja bench-python` compares the
 /// Python module with. Prints seconds.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Ten million steps of degree 8 on the Hénon-Heiles system at H = 0.13: how the energy error grows.
 ///
 /// Round-off that is not biased makes a random walk: its size after n steps grows like sqrt(n), and a

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a step on a moving mesh costs by the number of nodes: it is to grow linearly up to 10^5. Beside it a
 /// step of leapfrog on as many nodes.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Multiscale schemes against the impulse method with the exact oscillator, the best resolved peer, on the
 /// stiff spring pendulum to t = 10: CPU time to bring both the angle and the extension (over its amplitude)
 /// below an error, at the times 0.1, 0.2, ..., 10. Prints the cheapest run of each that reaches it, nodes

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What evaluating the nodes of a step together is worth: Galerkin of degree 8 with Gauss(8) on Kepler, e =
 /// 0.6, to |q - q_ref| = 1e-9 after 100 periods, against Boost.odeint's Fehlberg 7(8) under error control on
 /// a hand-written right-hand side. Prints, for each, the cheapest run that reaches the error, and the ratio

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the table of peers is made of: CPU seconds of whole runs, set-up included, over settings from coarse
 /// to fine; the cheapest of ours and of the peers for an error, and their ratio.
 ///

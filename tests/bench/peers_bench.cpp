@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The engine against its peers on problems whose solutions are known, in one process: the ratio of the CPU
 /// seconds that the best variational scheme and the best peer need for errors of 1e-3, 1e-6, 1e-9 and 1e-12.
 ///

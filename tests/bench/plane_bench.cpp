@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions in the plane: transforms, and work against precision, in one process.
 ///
 /// Transforms: ours, by rows and then a few columns at a time, against one estimated and one measured plan of

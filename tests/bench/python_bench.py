@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A thousand short runs from Python and from C++ (library_bench.cpp), and their ratio: python_bench.py PROGRAM"""
 
 import re

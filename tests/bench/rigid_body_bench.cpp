@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The free body with moments 1, 2, 3 from Pi = (cos 1.1, 0, sin 1.1) to t = 100, its attitude to a given
 /// accuracy: CPU time of the Lie group scheme of degree 4, of Boost.odeint's dopri5 on quaternions, of
 /// splitting and of the closed form.

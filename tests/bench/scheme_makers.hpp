@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Integrators by what a table of costs varies: the step of a scheme, the tolerance of an adaptive one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// P1 of the table of peers: the spring pendulum to t = 10, in polar coordinates (extension and angle) and in
 /// Cartesian ones, where its Lagrangian is separable. Errors at the rows t = 0.1 n: of the angle, of the
 /// extension over its amplitude, of both.

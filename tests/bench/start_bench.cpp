@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How long a user waits at first, and for each frame while a plot of a million points is panned: processor
 /// time of the window's thread, and wall-clock time on an idle machine.
 #include <qcustomplot.h>

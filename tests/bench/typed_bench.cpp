@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a typed Lagrangian costs against the built-in system: the same scheme in the same process, best of
 /// several alternating runs, as a ratio. Also single evaluations, and what differentiation itself takes.
 #include <algorithm>

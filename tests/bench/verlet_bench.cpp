@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How much the program adds to a bare loop: 10^7 Störmer-Verlet steps on Kepler, energy and error observed
 /// at every node, against (a) a hand-written loop of steps alone and (b) one that computes energy and the
 /// exact solution too. Prints ratios measured in one process, and the growth of memory.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Work against precision for wave functions: variational Gauss schemes with the energy shift against
 /// split-step methods and a Chebyshev series, in one process (wave_costs.hpp).
 ///

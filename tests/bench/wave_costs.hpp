@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the benchmarks of wave functions share: CPU seconds of a whole run with set-up, median of five, read
 /// off at fixed errors by log-log interpolation over the number of steps.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How long the window does not answer: the longest event of its thread during what a user does, in
 /// milliseconds of wall-clock and of processor time. To be measured on an idle machine.
 #include <qcustomplot.h>

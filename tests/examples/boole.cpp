@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Boole's rule: five equally spaced nodes, exact to degree 5.
 #include "engine/quadrature/rule_maker.hpp"
 

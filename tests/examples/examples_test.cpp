@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The worked examples of the handbook ("Adding to the program"): each is one file, and does what the
 /// handbook says.
 #include <QFile>

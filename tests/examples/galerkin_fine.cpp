@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree s with Gauss(s + 1): one node more than collocation needs.
 #include "engine/family/scheme.hpp"
 

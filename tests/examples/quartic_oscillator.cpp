@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A mass in a quartic well: L = m x_t^2 / 2 - c x^4 / 4.
 /// The harder it is pushed, the faster it swings.
 #include <array>

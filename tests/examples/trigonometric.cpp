@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Curves A + B cos z tau + C sin z tau on one step: a space fitted to one frequency,
 /// z = frequency * step.
 #include <cmath>

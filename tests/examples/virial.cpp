@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The virial q . p: the mean of its rate of change over a bounded motion tends to 0.
 #include "engine/observe/catalog.hpp"
 

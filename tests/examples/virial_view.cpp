@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The virial of each scheme against time.
 #include "engine/view/catalog.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// All cases of the study of extremes against the table of what is expected: the class of each, and for those
 /// that are right a bound of the measure. `EXTREMAL_UPDATE_EXTREMES=1` writes the table, and that of domains
 /// in the handbook, anew.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Long fuzzing: `tool.fuzz KIND COUNT [SEED [FIRST]]`, or KIND all. The cases run in a process of their own
 /// with bounded memory; where it dies, takes more than ten seconds of processor time for a case, waits for
 /// two minutes without any or finds a fault, the text is kept in fuzz/ below the current folder, and the next

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The kinds of input that are fuzzed. A case is a text: it is made from two numbers, or read from
 /// tests/fuzz/cases.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Inputs that are wrong in a few places: what users mistype, what files lose, and what is random.
 #pragma once
 

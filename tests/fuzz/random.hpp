@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Numbers for fuzzing: the same on every machine, from two numbers that name a case.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Compares a picture with the golden image of the same name in tests/golden.
 ///
 ///     const GoldenResult result = checkGolden(image, "stage-pendulum", GoldenLimits::stage());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The comparison with golden images must itself be able to fail.
 #include "tests/golden/golden_check.hpp"
 #include "tests/tools/test.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The limits of the golden images see every single shape: each one is removed from a drawing in turn, and
 /// the comparison with the whole drawing must fail.
 #include <QPainter>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Golden images of plots, 600 x 400, and tests that small changes are seen.
 #include <QTest>
 

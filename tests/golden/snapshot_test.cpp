@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Golden images of whole snapshots: stage, plots, cards and text together.
 #include <QTest>
 

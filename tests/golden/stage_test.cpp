@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Golden images of the stage, through OSMesa.
 #include <QPainter>
 #include <QTest>

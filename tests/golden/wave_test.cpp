@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Golden images of a wave function: stage, carpet, profile, spectrum, and errors against steps.
 #include <QTest>
 

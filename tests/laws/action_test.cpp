@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What follows from the discrete action: multipliers are momenta, nodal and element-wise assembly agree, and
 /// L_d is close to the exact discrete Lagrangian to the order of the discretization.
 #include <QTest>

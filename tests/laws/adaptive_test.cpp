@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What every code that chooses its own steps keeps: it lands on the end, its errors follow the tolerance,
 /// its curve is the solution, and it gives up where the solution ends.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step is the hot loop: after the first one it allocates nothing. Counted by replacing operator new.
 #include <QTest>
 

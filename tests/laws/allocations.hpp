@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Counts what the test program allocates: allocations.cpp replaces operator new.
 #pragma once
 

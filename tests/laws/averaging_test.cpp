@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A discrete Lagrangian that is not invariant under rotations becomes so when it is averaged over the group:
 /// the mean is
 ///     Lbar_d(g_0, g_1) = int_G L_d(g g_0, g g_1) dg,   int_G dg = 1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Taking many steps in one call is the same as taking them one by one, to the last bit, for every scheme.
 #include <QTest>
 

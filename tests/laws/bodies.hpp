@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the laws on rigid bodies share: bodies by their numbers, reference solutions, distances of attitudes
 /// and momenta.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lie group integrators on rigid bodies: orders, reference numbers, what is kept and for how long, hard
 /// cases.
 #include <QTest>

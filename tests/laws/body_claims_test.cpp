@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What every scheme and baseline for rigid bodies claims, measured on the free body and on the top.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What runs of rigid bodies write beside the state, against what it should be: angle of the attitude error,
 /// Casimir, orthogonality with and without projection, momenta.
 #include <QTest>

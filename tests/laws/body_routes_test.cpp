@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Independent routes to the Lie group step: the action written with matrices g and g' and nothing reduced,
 /// rotation vectors as coordinates with the Galerkin step of mechanical systems, and turned starts.
 #include <QTest>

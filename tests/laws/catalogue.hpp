@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything that the catalogues offer for a system, as a scene would name it: every named scheme at its
 /// degrees, every space of every family with every rule that the family gives it, the choices that the window
 /// offers, every baseline in each of its variants, and the compositions of what can be composed. A new entry

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The laws of claims: order, return, symplecticity and what is conserved, measured for a scheme on every
 /// subject that it fits. A claim must hold on each of them, must have been measured on one, and what a named
 /// scheme or a baseline does not claim it must miss on at least one, or it could claim it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything for rigid bodies, alone and composed: what it claims, measured on every body. More of free
 /// bodies and of the top: laws.body_claims.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Compositions of everything that is symmetric, for coordinates: two orders up, and all else as before.
 #include <QTest>
 

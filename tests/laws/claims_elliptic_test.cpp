@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every scheme for the elliptic problem: the order in the number of elements that it claims, and what claims
 /// none is exact at the nodes.
 #include <QTest>

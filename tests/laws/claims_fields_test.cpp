@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything for fields on intervals, alone and composed: what it claims, measured on a nonlinear field
 /// around a circle. Orders are those of the mesh and the step, which are refined together.
 #include <QTest>

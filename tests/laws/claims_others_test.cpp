@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Systems of further kinds (neither coordinates nor bodies nor wave functions): everything for them,
 /// measured by what the systems say of themselves. And no model of the catalogue is left out by the suites of
 /// claims.

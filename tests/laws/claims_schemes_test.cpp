@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Named schemes and baselines for coordinates: what they claim, measured on every system.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every space with every rule, for coordinates: what the discretizations claim, measured on every system.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The laws of claims seen failing: each of them on a scheme that is broken in the way it is there to find,
 /// on every kind of system that it applies to, and on schemes that claim too much or too little.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything for wave functions, alone and composed: what it claims, measured on every form of their models
 /// and on a potential that depends on time.
 #include <QTest>

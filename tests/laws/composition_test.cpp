@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Compositions of any symmetric scheme, pairs and baselines alike: order, symmetry, symplecticity, momentum,
 /// and what is lost where the parts are wrong or the scheme is not symmetric.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What an integrator remembers is in the state and nowhere else: every scheme of the catalogues, on systems
 /// of every kind.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the element kernel says of a solved step: the residual of its stationarity conditions, relative to
 /// the sum of the magnitudes of the terms of each.
 #pragma once

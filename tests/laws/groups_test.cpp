@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Laws every group keeps: one suite over SO(3) and SE(3). Derivatives are checked by complex step, the
 /// coefficient functions against closed forms in 100 digits.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rigid bodies at the extremes: near the separatrix, moments of inertia ten powers of ten apart, a million
 /// radians a second, steps far too long. The answer is right or the outcome says that there is none; energy
 /// does not tell which.

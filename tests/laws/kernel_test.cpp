@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every way of solving a step, held against the element kernel: its stationarity conditions hold to
 /// round-off at what the condensed step, the fixed point over all nodes, the sums of many nodes, the full KKT
 /// system, the Lie group step and the product form give. With swapped weights the kernel refuses all of them.

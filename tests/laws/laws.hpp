@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the laws share: systems by name, every scheme and baseline of the catalogues, end states.
 #pragma once
 

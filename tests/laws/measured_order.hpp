@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The order of a scheme in double precision, on a system whose motion is known.
 #pragma once
 

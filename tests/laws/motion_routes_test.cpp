@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Independent routes to the step on SE(3): the action written with R, x and their rates, nothing reduced and
 /// nothing in body axes; an adaptive code on quaternions; the canonical form.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lie group integrators on SE(3): a satellite in the gradient of gravity, bodies that move freely, and what
 /// typed potentials keep.
 #include <QTest>

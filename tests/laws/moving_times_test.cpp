@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What schemes whose times are unknowns keep, where their energy equation has no root, and what they do
 /// there. Reference numbers: a prototype in another language, and for the pendulum at degree 2, where
 /// round-off of E_d leaves ten digits of a step, a solution with 40 digits.

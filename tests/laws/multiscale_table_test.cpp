@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Multiscale schemes on the stiff spring pendulum, with up to 250 fast periods in a step: errors against the
 /// motion in quadruple precision, and the energy to t = 100.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What multiscale schemes keep, how far they go, and what they say when they cannot.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Orders are measured on nonlinear problems, for q and p each, beside what every scheme claims.
 #include <QTest>
 

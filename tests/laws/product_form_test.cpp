@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The printed product of a slow part and one oscillation: right where its curves contain the motion, and
 /// where it fails.
 #include <QTest>

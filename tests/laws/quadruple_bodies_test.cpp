@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Orders 8 to 16 of Lie group integrators in quadruple precision: double has no window between truncation
 /// and round-off.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Orders 8 and 10 in quadruple precision: double has no window between truncation and round-off there.
 /// The exact solution at T comes from Kepler's equation, solved in quadruple precision.
 #include <QTest>

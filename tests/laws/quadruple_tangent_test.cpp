@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Tangent maps in quadruple precision, against differences of the step: no digit of double hides anything.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Round-off has no direction: over a million steps the energy of an orbit of order 16 walks at random, and
 /// nothing of it is a drift. What is left of bias, in the coefficients, the sums or the iteration that stops
 /// too early, adds up step after step and is seen here long before truncation is.

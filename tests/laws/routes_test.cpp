@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The same step by independent routes agrees to round-off.
 #include <QTest>
 

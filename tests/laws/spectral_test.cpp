@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Spectral convergence: at a fixed step the error falls by a factor with every degree, whatever the order in
 /// the step. That is what spectral variational integrators are for (Hall and Leok 2015).
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The edges of linear stability, over the catalogue: half the trace of the scheme's own step matrix, in
 /// quadruple precision, is beyond 1 inside each interval and not outside, up
 /// to 1e-8 beside the edges. The matrix comes from the table in quadruple precision by another route than the

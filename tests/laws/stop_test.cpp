@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A step that is asked to stop does at most one iteration more: the stop token is polled in every iteration,
 /// so that a run stops within 50 ms however long its steps are.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the flow of a Lagrangian keeps, measured for every scheme that claims to keep it, and missed by those
 /// that do not.
 #include <QTest>

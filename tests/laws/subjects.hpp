@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Systems as subjects of laws: where they start, how large and how fast they are, where they go. There is
 /// one for each model of the catalogue, from its first preset (typed Lagrangians from each of theirs), and
 /// small wave functions in place of those of the presets.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The tangent map of a step: against differences of the step, and against the symplectic form, for every
 /// scheme of the catalogues that has one. A quadratic action has a symplectic M whatever its unknowns are, so
 /// that both laws are needed.

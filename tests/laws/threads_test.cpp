@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A run has the same bits with any number of threads, and in the company of any other schemes: everything
 /// that the catalogues offer, in one comparison on each kind of system.
 #include <QTest>

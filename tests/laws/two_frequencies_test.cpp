@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Steps over two fast oscillations without a common period, and what is left of round-off in stiff steps.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which pairs make sense is decided by a table made in quadruple precision; here it is decided again, from
 /// scratch: from the rank of what the nodes see of the curve, and from what a step does to a free particle.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is measured along a run with the tangent maps of its steps (integrator/with_variations.hpp), against
 /// known motions and the numbers of others.
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Split-step methods and series for wave functions: orders, errors, norms; with a potential that depends on
 /// time.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Collocation in time for wave functions: Gauss nodes against the factors, potentials that depend on time,
 /// Chebyshev nodes.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Leok's exact convolution as a choice: its own norm is kept, and it differs from products at the nodes
 /// by aliasing alone.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions with a Dirichlet boundary: the box by its sines, harmonic levels, revival, norm, reversal,
 /// what is refused, and the squared differentiation matrix that loses the norm.
 #include <QTest>

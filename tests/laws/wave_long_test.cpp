@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A hundred thousand steps of wave functions, the scene norm-long: what is kept, a solve and in all, and
 /// that a solver which is not exact would be seen.
 #include <QTest>

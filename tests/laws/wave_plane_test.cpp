@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions on a rectangle, against products of solutions in one dimension, eigenstates, and each
 /// other.
 #include <QTest>

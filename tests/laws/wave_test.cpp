@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one-step schemes of wave functions: orders, what is kept, reference values, and agreement of the three
 /// solvers.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The three-level schemes of wave functions: starts and orders, the form they keep, and their stability
 /// limit.
 #include <QTest>

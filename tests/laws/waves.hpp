@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the laws of wave functions share: the page problems, schemes by degree and solver, readings.
 ///
 /// A: hbar = m = 1, V = 50 (1 - cos x), a packet of width 0.16 in the well, T = 1. S: hbar = 0.01, V = 1 -

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The public interface: scenes, runs, figures, catalogues and studies.
 #include <QDir>
 #include <QTemporaryDir>

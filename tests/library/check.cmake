@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -DROOT=.. -DBUILD=.. -DOUT=.. -P check.cmake: installs the library into an empty folder, looks at what is there,
 # builds the example of the handbook against it, and runs it.
 cmake_minimum_required(VERSION 3.25)

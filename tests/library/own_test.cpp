@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Systems and spaces of a program that uses the library: added before the first scene is read, then like
 /// those that are supplied.
 #include <QTest>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Mutation testing: each small fault of mutants.json is put into a copy of the sources, built, and given to the tests that
 # should see it. A fault that no test sees is a survivor: it gets a test, or it makes no difference and goes from the list.
 #

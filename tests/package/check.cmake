@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -DROOT=.. -DBUILD=.. -DOUT=.. -P check.cmake: installs the program into an empty folder, runs it there, and validates
 # what desktops read, as far as their tools are installed.
 cmake_minimum_required(VERSION 3.25)

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # clean_root.sh FOLDER [ROOT]: installs the .deb files of a folder into a clean Debian 12, runs what they install, removes
 # them, and looks for what is left. As root, with debootstrap and a mirror; takes some minutes, so it is run by hand
 # (`cmake --build build --target check-package`). ROOT: the folder of the clean system, removed in the end.

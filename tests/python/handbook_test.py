@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs the code of a page of the handbook, block after block: handbook_test.py PAGE. A block that imports the module
 anew is a program of its own."""
 

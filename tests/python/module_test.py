@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The Python module: results share memory, errors name their places, Ctrl-C and progress stop a run, functions
 become formulas, stubs say what there is."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Systems whose Lagrangian is evaluated in Python: their derivatives, their runs against the same formula, and what
 they throw."""
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
 # pip_test.sh PYTHON ROOT BUILD OUT: `pip install .` in an empty environment without a network, then five lines that
 # integrate Kepler's problem and draw the energy.
 set -euo pipefail

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Citations of the paper that the program is built on (M. Leok, Generalized Galerkin variational
 /// integrators, 2004) name sections that exist, and a section whose subject is that of the file:
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The handbook's page of Filon's rules: it says what the program measures, and what it measures is what
 /// theory says.
 #include <QDir>

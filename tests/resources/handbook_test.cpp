@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The handbook keeps up with the program: its pages hang together, its scenes are valid, and what the
 /// catalogues offer is in it.
 #include <QDir>

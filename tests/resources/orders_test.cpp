@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The handbook's page of orders: its rows are those of the program, each measured order is the claimed one,
 /// and some rows, measured again, are what the page says.
 #include <QFile>

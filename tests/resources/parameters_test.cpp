@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The handbook's page of keys is what the descriptors say.
 #include <QDir>
 #include <QFile>

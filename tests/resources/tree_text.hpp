@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The text of the project's own files, as tests of its prose read it.
 ///
 /// `runningText` joins the lines of a comment or of a string literal into running text, so that a phrase

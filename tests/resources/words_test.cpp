@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Words that the program does not use, because a reader cannot know what they mean: each was an internal
 /// name, or a figure of speech, for something that has a name in the field.
 #include <QRegularExpression>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Included first in the tests of the window that are built with sanitizers: programs are ten times as slow,
 /// and what a test waits for may take longer than the five seconds of Qt Test.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A deliberate fault, named by the argument, inside Qt's event loop as in every test of the window: the
 /// sanitizers must report it, whatever the lists suppress.
 #include <QCoreApplication>

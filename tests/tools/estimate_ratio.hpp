@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How an estimate of an error compares with the error.
 #pragma once
 

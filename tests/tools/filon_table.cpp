@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/tools/filon_table.hpp"
 
 #include <boost/multiprecision/float128.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Errors of Filon's rules on int_0^h e^x e^{iwx} dx, measured: the regimes in h and in h w, and a table
 /// against h w.
 ///

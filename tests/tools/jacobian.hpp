@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Jacobian of a step by central differences of order 6, and how far it is from symplectic.
 #pragma once
 

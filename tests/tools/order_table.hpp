@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Orders of pairs, measured in quadruple precision on two nonlinear problems, beside what the program
 /// claims.
 ///

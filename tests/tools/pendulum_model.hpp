@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The mathematical pendulum in units of its length and mass, for steps in any scalar.
 #pragma once
 

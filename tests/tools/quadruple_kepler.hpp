@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Kepler's problem in quadruple precision, with its solution from Kepler's equation.
 #pragma once
 

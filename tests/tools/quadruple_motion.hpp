@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Motion in quadruple precision, by extrapolation of Gragg's midpoint rule: the truth that exact solutions
 /// and references are measured against.
 ///

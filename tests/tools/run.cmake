@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # run(command...): runs it in OUT; what it prints is in `said`, what it complains of in `error`. Anything but success is an
 # error.
 function(run)

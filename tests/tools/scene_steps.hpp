@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Steps of the first scheme of a scene, and problems that are what they should be: what tests of spaces and
 /// rules share.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The order of a method from its errors over steps, both as logarithms.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Tangent maps of steps, as the scheme gives them (Integrator::applyTangent) and by central differences of
 /// order 6, in the same coordinates.
 #pragma once

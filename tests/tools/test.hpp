@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The test classes of a folder are one program: each registers itself, and the program runs the one that is
 /// named.
 ///

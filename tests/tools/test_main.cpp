@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The main function of every test program, see test.hpp.
 #include "tests/tools/test.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Writes the handbook's page of Filon's rules and its picture: tool.filon PAGE.md PICTURE.svg
 #include <QApplication>
 

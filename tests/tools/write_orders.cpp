@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Writes the handbook's page of measured orders: tool.orders FILE. Takes some minutes.
 #include <atomic>
 #include <cstdio>

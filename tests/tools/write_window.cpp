@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// tool.window FOLDER [WIDTHxHEIGHT [light|dark [LETTERS [RATIO [PRESET...]]]]]: pictures of the whole window
 /// on each preset, or on those that are named, with its results, as PRESET.png. LETTERS is the scale of the
 /// text, RATIO that of the screen. Needs no display.

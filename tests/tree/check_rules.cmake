@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # cmake -DSCRATCH=<folder to make trees in> -P check_rules.cmake: the rules find each made-up violation, and
 # nothing in a sound tree.
 cmake_minimum_required(VERSION 3.25)
@@ -65,3 +66,28 @@ expect(defined_elsewhere engine/scene/a.hpp "${header}\nnamespace extremal {\nin
     "a.hpp:1: declares scene/listed")
 expect(defined_inline engine/scene/a.hpp "${header}\nnamespace extremal {\ninline int here() { return 1; }\nint here(int a);\n}\n" "")
 expect(members_are_no_functions engine/scene/a.hpp "${header}\nclass A {\npublic:\n    int a() const;\n\nprivate:\n    int b_;\n};\n" "")
+
+# expect_licence(NAME PATH TEXT IS_SOUND): whether the file is found to lack the line of its licence.
+function(expect_licence name path text is_sound)
+    set(root ${SCRATCH}/licence_${name})
+    file(REMOVE_RECURSE ${root})
+    file(WRITE ${root}/${path} "${text}")
+    extremal_licence_violations(${root} violations)
+    list(LENGTH violations count)
+    if(is_sound AND count GREATER 0 OR NOT is_sound AND NOT count EQUAL 1)
+        message(SEND_ERROR "licence_${name}: found: ${violations}")
+    endif()
+endfunction()
+
+set(spdx "SPDX-License-Identifier: GPL-3.0-or-later")
+expect_licence(source engine/core/a.cpp "// ${spdx}\nint a;\n" TRUE)
+expect_licence(no_source engine/core/a.cpp "int a;\n" FALSE)
+expect_licence(header ui/a.hpp "/// What it is.\n#pragma once\n" FALSE)
+expect_licence(later library/a.hpp "/// What it is.\n// ${spdx}\n" FALSE)
+expect_licence(other app/a.cpp "// SPDX-License-Identifier: MIT\n" FALSE)
+expect_licence(script python/a.py "# ${spdx}\n" TRUE)
+expect_licence(program tests/a.sh "#!/bin/sh\n# ${spdx}\n" TRUE)
+expect_licence(list tests/a/CMakeLists.txt "add_test(a)\n" FALSE)
+expect_licence(root CMakeLists.txt "project(a)\n" FALSE)
+expect_licence(build build/engine/a.cpp "int a;\n" TRUE)
+expect(licence_before_what_it_is ui/a.hpp "// ${spdx}\n/// What it is.\n#pragma once\n" "")

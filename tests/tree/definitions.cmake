@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What a header declares is defined in its own folder, as a function of the tree's root:
 #
 #     extremal_definition_violations(ROOT OUT)    OUT: a list of "FILE:1: WHAT", empty if the tree is sound

@@ -1,6 +1,8 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The rules of the source tree, as a function of its root:
 #
 #     extremal_tree_violations(ROOT OUT)    OUT: a list of "FILE:LINE: WHAT", empty if the tree is sound
+#     extremal_licence_violations(ROOT OUT) the same of sources without the line that says their licence
 #
 # Includes point down the order of the folders; the engine does not use Qt or OpenGL; a file is one idea; a family of
 # schemes is named in its own folder only; what a header declares is defined in its folder (definitions.cmake).
@@ -110,7 +112,7 @@ function(extremal_tree_violations root out)
         if(path MATCHES "\\.hpp$" AND NOT text MATCHES "\n#pragma once\n")
             list(APPEND violations "${path}:1: a header without #pragma once")
         endif()
-        if(path MATCHES "\\.hpp$" AND NOT text MATCHES "^///")
+        if(path MATCHES "\\.hpp$" AND NOT text MATCHES "^(// SPDX-License-Identifier: [^\n]*\n)?///")
             list(APPEND violations "${path}:1: a header that does not open with what it is (///)")
         endif()
         if(text MATCHES "(TODO|FIXME|XXX)[^A-Za-z]")
@@ -155,5 +157,25 @@ function(extremal_tree_violations root out)
     endforeach()
     extremal_definition_violations(${root} undefined)
     list(APPEND violations ${undefined})
+    set(${out} "${violations}" PARENT_SCOPE)
+endfunction()
+
+# Every source begins with its licence, below "#!" where it has that.
+function(extremal_licence_violations root out)
+    set(violations "")
+    set(patterns "")
+    foreach(folder engine library ui app tests python package .ci)
+        foreach(kind *.cpp *.hpp *.cmake CMakeLists.txt *.py *.pyi *.sh)
+            list(APPEND patterns ${root}/${folder}/${kind})
+        endforeach()
+    endforeach()
+    file(GLOB files RELATIVE ${root} ${root}/CMakeLists.txt ${root}/*.sh)
+    file(GLOB_RECURSE below RELATIVE ${root} ${patterns})
+    foreach(path ${files} ${below})
+        file(READ ${root}/${path} text LIMIT 200)
+        if(NOT text MATCHES "^(#![^\n]*\n)?(//|#) SPDX-License-Identifier: GPL-3.0-or-later\n")
+            list(APPEND violations "${path}:1: no SPDX-License-Identifier: GPL-3.0-or-later")
+        endif()
+    endforeach()
     set(${out} "${violations}" PARENT_SCOPE)
 endfunction()

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The user's catalogue as a window: its schemes with what they are, to be added to the scene, renamed,
 /// removed, exported and imported. What is wrong in the file is named below the list.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The user's own schemes: a JSON file of schemes under names,
 ///     {"extremal-schemes": 1, "schemes": [{"label": "fitted", "step": 0.1, "space": {...}, ...}, ...]},
 /// each as a scene has it. The file is the same whether it is the user's catalogue or an export of one

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The editor of a discretization of one's own: its functions, knots, nodes and weights as text, and beside
 /// it, while one types, what they make of a step (discretization_sketch.hpp). Nothing changes in the scene
 /// before "Apply".

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A card: a titled panel with rounded corners; what the whole window is made of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A box of choices whose text, where it has no room, ends in an ellipsis; the whole of it is in the tooltip.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discretizer: what each family of the model offers side by side (family/choices.hpp), usually function
 /// spaces as rows and quadratures as columns, and one's own functions and nodes last. A cell says which
 /// scheme the discretization is and its order; a click adds it to the comparison. Unsupported combinations

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the numbers of a scheme's row and of the table at the cursor are: how they are measured, in which
 /// unit, against what, and how far they can be trusted. Plain text of some lines.
 #pragma once

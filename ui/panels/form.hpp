@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A form: one row per parameter, each bound to a place of the scene. A refused value stays in its field,
 /// marked, with the message below it.
 #pragma once

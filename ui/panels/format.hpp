@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Numbers and names as people read them in the window; files never use these.
 #pragma once
 

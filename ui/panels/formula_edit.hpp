@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A text field for a formula: monospaced, as high as its text, with one place that can be underlined as
 /// wrong.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The editor of a typed Lagrangian: the formula, checked while it is typed, its equations of motion, the
 /// coordinates and the parameters.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the editor of a typed Lagrangian does to a scene, as edits of its document.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scheme's line: its colour and dash, as in every plot. As a button it switches the scheme on and off.
 #pragma once
 

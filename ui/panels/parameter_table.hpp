@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The parameters of a typed Lagrangian: one row per parameter with its name, value, a slider, and a button
 /// that removes it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is wrong, what to do about it, and a link to the page of the handbook that explains it.
 #pragma once
 

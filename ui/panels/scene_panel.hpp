@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The scene's card: the model, its parameters, the initial data, the end of time, the reference and the
 /// events, as forms from descriptors.
 #pragma once

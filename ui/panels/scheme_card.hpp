@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scheme of the comparison: its line, name, step, what it cost and how wrong it was. After a failure the
 /// card is amber and says what happened, when, and what to try.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is typed in a row, and its keys.
 #include <QFocusEvent>
 #include <QKeyEvent>

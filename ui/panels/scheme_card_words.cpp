@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a row says besides its numbers: warnings, refusals, and why a run failed.
 #include <QLabel>
 #include <QLineEdit>

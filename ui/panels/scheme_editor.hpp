@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The form of one scheme, unfolded inside its card: what it is, its parameters, its step, its solver. All
 /// from descriptors.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The right column: all schemes of the comparison, and the menu to add more.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A label of a number that the mouse changes: dragged sideways, or turned with the wheel where that is
 /// allowed. A click without a drag opens what the number is typed into.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A slider that goes to where it is clicked, and can be dragged on from there.
 #pragma once
 

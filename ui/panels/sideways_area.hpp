@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Shows its content at full height and scrolls it sideways where it is too wide.
 #pragma once
 

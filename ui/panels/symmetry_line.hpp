@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The symmetries of the model, as the engine finds them: "Symmetries: rotation in the plane x-y about
 /// (5, -3), time (energy)". They are found beside the window when the model has changed.
 #pragma once

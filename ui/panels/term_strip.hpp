@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A rule for each term of the Lagrangian: one line per term with its rule and its number of nodes. Shown for
 /// a space and a rule on a system that says its terms; the first change makes the rule of the scheme that of
 /// the other terms.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the windows beside the main one have in common.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An input for one parameter, made from its descriptor: a text field for numbers and expressions, a spin box
 /// for integers, a box for yes or no, a list for choices.
 #pragma once

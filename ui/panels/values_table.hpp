@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The values at the cursor: a row per scheme, a column per plot.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Titles of axes with lowered and raised parts and norms: "p_theta" is p with theta below the line, up to
 /// the end of the word, "x^(1/2)" is x with 1/2 above it; the bars of a norm are thin lines, as bold ones run
 /// together.

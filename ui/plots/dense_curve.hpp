@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A curve that is drawn many times over itself, as an image: its cost is that of its pixels, not that of
 /// Qt's stroker, which takes a tenth of a second for some ten thousand segments.
 #pragma once

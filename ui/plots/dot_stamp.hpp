@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Small discs, painted ten thousand times: a fifth of what as many antialiased ellipses cost. Pictures of
 /// the disc at four places within a pixel are made once and copied.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A figure in a QCustomPlot: axes, ticks, series, marks, cursors. Used by the renderer (without a screen)
 /// and by the widget (on it), so that both look the same.
 ///

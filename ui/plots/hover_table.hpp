@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What all schemes of a plot are at the time under the pointer, in a box beside it: t, a row per curve with
 /// its value, and where a second cursor is pinned the difference to its value there. Between two samples the
 /// value is on the straight line; where samples must not be joined it is that of the nearer one, which the

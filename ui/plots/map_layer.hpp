@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Heat maps: their cells, and the scale in the right margin of the plot where there is one; and the scale of
 /// the colours of series.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Text on a plot: small, or in a rounded box. Only for the sources of ui/plots: it includes QCustomPlot.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plots/plot_group.hpp"
 
 #include "ui/plots/plot_widget.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Plots that belong together: one time axis, one cursor, aligned left margins in each column.
 #pragma once
 

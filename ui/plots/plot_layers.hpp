@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The things a FigurePlot puts on the layers of its QCustomPlot. Only for the sources of ui/plots: it
 /// includes QCustomPlot.
 #pragma once

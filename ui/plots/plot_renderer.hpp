@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Figures without a window: into a painter, an image, a PDF or an SVG, of any size, in any theme. The same
 /// bytes for the same figure, every time. Needs a QApplication, but no display (the offscreen platform will
 /// do).

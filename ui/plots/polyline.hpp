@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// From the values of a series to what a screen can show of them: lines in pixels, clipped and thinned, and
 /// bands where a line goes up and down more often than pixels can tell apart.
 ///

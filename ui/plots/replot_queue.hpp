@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Draws plots one per turn of the event loop: those of a window together would take longer than a user waits
 /// for an answer.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pages as PNG, PDF and SVG files, the same bytes every time.
 #include "ui/plots/plot_renderer.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the ticks of an axis stand and what they say: as many as there is room for and at least three,
 /// powers of ten with real superscripts, real minus signs.
 #pragma once

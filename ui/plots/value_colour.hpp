@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The colours of a scale of values (engine/figure/palette.hpp) for painters.
 #pragma once
 

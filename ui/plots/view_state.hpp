@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What part of a plot is visible: ranges fitted to the data, ranges the user chose, and the way back.
 ///
 /// Once the user has zoomed or panned an axis, new data do not move it; fit() gives it back. All changes work

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the window says about itself: versions, libraries, and what draws the stage.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The registry of everything the window can do: the menus, the command palette and the key list come from
 /// it.
 #pragma once

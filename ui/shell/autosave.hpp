@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Unsaved scenes survive a crash: a copy every 20 seconds, with the name and the file of the scene, offered
 /// on the start page of the next session.
 ///

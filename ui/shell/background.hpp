@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Work of the window that takes a while, on threads of its own.
 ///
 /// Not on the global pool of Qt: painting divides its work among those threads and waits for them, so that a

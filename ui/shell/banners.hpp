@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The banners above the content: notices with a text, a hint, choices, and a way to dismiss them.
 #pragma once
 

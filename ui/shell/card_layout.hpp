@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The cards of the Compare page: rows that fill the width. The stage stands first and is wider than what is
 /// beside it; cards of plots with equal scales are about square, and share their row with others.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pictures of scenes for the start page: the stage part of the way through, or where there is none the first
 /// plot. Those of the presets are made when the program is built (app/pictures) and lie beside it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A case of a map of parameters on the stage, while the pointer rests on its cell: the scheme of the map
 /// runs it alone, in the background, and its motion is repeated until the pointer leaves.
 #pragma once

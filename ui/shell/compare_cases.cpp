@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Cases of maps of parameters: on the stage while the pointer is on them, and into the scene by a click.
 #include <algorithm>
 

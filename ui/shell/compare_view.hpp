@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Compare page: the stage, speed against accuracy, and the linked plots of the scene's views, each in a
 /// card. A plot keeps its zoom and its history for as long as the scene has its view.
 #pragma once

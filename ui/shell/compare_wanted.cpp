@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What "speed against accuracy" shows besides the schemes as they are: other steps, and the wanted error.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Perturb and watch: the motion of the selected scheme and a copy that starts a little apart, on one stage,
 /// with their distance below it. It follows the time of the window.
 #pragma once

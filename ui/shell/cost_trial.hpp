@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a scene will cost before anything of it has been run: from trial steps of its schemes, which take
 /// milliseconds, or as long as one step where that is more.
 #pragma once

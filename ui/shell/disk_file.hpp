@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The file of the scene being worked on, as far as others write it as well: another program, another window,
 /// another user.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Edits of a scene as a tree: places are JSON pointers ("/schemes/1/step"), values are Values.
 ///
 /// This code is independent of the format: a changed tree becomes a scene only through readScene().

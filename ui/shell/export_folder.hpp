@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything of a comparison in a folder: the files of `extremal run`, the figures as PNG, SVG and PDF, the
 /// stage, a page that can be read in any browser, and the commands that make files and figures again.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The figures and the stage of a comparison, made away from the window's thread.
 #pragma once
 

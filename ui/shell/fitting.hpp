@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What of the catalogues can be used on the scene's model: menus and editors offer nothing else.
 #pragma once
 

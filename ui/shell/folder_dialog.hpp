@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Asks for a folder to write into. It need not exist: the dialog says what will be made, and accepts only a
 /// place at which a folder can be.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Texts that come from a scene, and so from anybody: notes, steps of a lesson, pages with labels in them.
 ///
 ///     ForeignDocument document;

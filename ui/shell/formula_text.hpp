@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Formulas in texts, as TeX between dollar signs: the part of it that notes use, as characters with italic
 /// letters, raised and lowered parts, and roots under a line.
 ///

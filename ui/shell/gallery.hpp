@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The presets as the start page shows them: in sections, with what can be searched. The sections are data
 /// (resources/gallery.json); a preset that none of them names is in the last one.
 #pragma once

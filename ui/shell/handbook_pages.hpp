@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The pages of the handbook that are built into the program, and their sections. A place is a page or a
 /// heading of it: "tour", "scenes#time-and-rows".
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The row at the top: what is open, the wanted error and what it would cost, and the main buttons.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Help: the handbook's pages, in the order in which its index links to them, with a search through all of
 /// them, the way back, and links that open the presets which a page names.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Undo and redo: the previous documents, each with what was typed and refused at that time, so that neither
 /// is lost. Edits of the same place in quick succession (a dragged slider) merge.
 #pragma once

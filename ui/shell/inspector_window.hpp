@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of the selected scheme beside the window, at the time of the cursor: plots of it, and its
 /// equations. It follows the time, the selection and the results.
 #pragma once

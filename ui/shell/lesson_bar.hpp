@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A lesson above the plots: what to do next, with buttons that do it, go on and go back. Each step selects
 /// its scheme, goes to its time and points at its plot. While there is no lesson it is hidden.
 #pragma once

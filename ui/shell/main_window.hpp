@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The main window: it only arranges. State lives in Workspace, RunControl and Playback; panels and pages
 /// show it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Messages to the user, shown as banners: problems are never modal dialogs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The command palette: type a few letters, find what to do, Return does it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the palette offers: every action, preset and parameter, the schemes, the cells of the discretizer,
 /// and the plots.
 #include <QLabel>

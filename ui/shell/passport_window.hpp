@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The passport of a scheme as a page beside the window, with the pages and programs that can be saved from
 /// it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Tool tips are plain text. Qt takes a tip for rich text if it looks like it, and rich text opens the files
 /// it names: "<img src=/dev/zero>" in a label of a scene would be enough. This filter shows every tip of the
 /// application, of widgets, actions, items and tabs, as the characters that it consists of.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The time that is shown: a cursor independent of the running computation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the scene keeps of a plot, as edits of the document: the part it shows, and a curve to compare with.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Initial data of a field, drawn with the mouse on the stage.
 ///
 /// A stroke goes from one point of the stage to another: between them u at the start becomes the height of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A race of the schemes of the scene: a stage for each, all with the same processor time, and the wanted
 /// error as the finish line (study/race.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Results of schemes that were computed before and may hold again: of schemes that are switched off, of an
 /// edit that was undone, of everything that an edit does not touch.
 #pragma once

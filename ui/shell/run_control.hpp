@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The run of the current scene: starts automatically after an edit, cancels a run that has become stale, and
 /// keeps the latest results. Only what an edit touches is computed: results that still hold are shown at
 /// once, also those of schemes that were switched off. Nothing of the engine's work happens on this thread;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Asks for the name of a file that is to be written. The name ends as the kind of file does, whatever was
 /// typed, and it is this whole name of which the user is asked whether it may be replaced.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the window does with schemes, as edits of the document: add, duplicate, remove, move, switch on and
 /// off.
 #pragma once

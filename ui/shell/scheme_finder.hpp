@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which scheme of a scene a cell of the discretizer stands for.
 #pragma once
 

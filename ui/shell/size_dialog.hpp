@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Asks for the size of a picture on paper. The last choice is offered again.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The start page: the scenes that an earlier session has left unsaved, the recent files, and the presets in
 /// sections, each with its picture and its lesson; a field searches them.
 #pragma once

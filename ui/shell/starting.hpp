@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where motions start, chosen in the plots: a click in a phase portrait or a section adds a start there, and
 /// the start of the scene is dragged in every plot of its columns.
 #pragma once

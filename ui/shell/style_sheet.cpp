@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one style sheet. It is a template: @name stands for a colour of the theme, @Npx for N pixels times the
 /// font scale, @mode for the variant of an icon.
 #include "ui/shell/theme.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The end of the program by a signal: SIGTERM, SIGINT and SIGHUP, as when a session ends or a terminal is
 /// closed.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one view of texts that come from a scene: notes, steps of a lesson, and pages of the engine in which
 /// labels of the scene stand. What it shows loads nothing (foreign_text.hpp), and a link opens only after a
 /// click that names its target.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The look of the program as one value: colours, fonts, series styles, and the style sheet made from them.
 ///
 /// Everything that draws takes a `const Theme&`: the window, the plots, the stage and the exports. Two values

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Puts another theme on the windows that are there, in several turns of the event loop, between which the
 /// program answers. They are painted again when everything has its new colours.
 #pragma once

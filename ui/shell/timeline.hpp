@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The timeline: play, a slider over the time interval with what is computed so far, the time, the speed.
 #pragma once
 

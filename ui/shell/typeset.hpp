@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Makes a Markdown page look like a page: space between paragraphs, code set off, tables with hairlines.
 /// Qt's Markdown reader sets structure only.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything the main window can do, each with its key.
 #include <QActionGroup>
 #include <QApplication>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What leaves the window: exports, pages for browsers, scenes as text.
 #include <QApplication>
 #include <QClipboard>

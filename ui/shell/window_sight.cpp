@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What of the window is in sight, the start page or the scene, and where the focus is then.
 #include <QApplication>
 #include <QStackedWidget>

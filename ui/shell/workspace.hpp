@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The scene being worked on: a value, its history, its file.
 ///
 /// The document is always valid and complete: an edit goes through readScene(), and one that is refused

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How the stage is looked at: an orthographic camera that orbits a point of the scene.
 ///
 /// Screen coordinates of a model point r, in logical pixels from the middle of the picture, x right and y up:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The part of OpenGL 3.3 core that the stage uses, as function pointers of our own.
 ///
 /// The table is filled by any getProcAddress: the window's context, OSMesa or EGL. Qt's function classes need

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The renderer in somebody else's OpenGL context. Apart from surface.hpp, because Qt's OpenGL headers and
 /// GL/glcorearb.h do not go together.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How much two pictures differ: for `extremal snapshot --compare`, and for tests that compare with a golden
 /// image.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A library that was opened at run time and is closed with its owner.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Draws a StageFrame with OpenGL 3.3 core: the same pixels on screen and off screen.
 ///
 /// Strokes are quads whose edges are smoothed in the fragment shader, so no multisampled framebuffer is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pictures of a finished comparison without a display: the stage through OSMesa, the plots through
 /// QCustomPlot, in the look of the window's cards and the light theme. The same comparison gives the same
 /// bytes.

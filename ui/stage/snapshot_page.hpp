@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The page of a snapshot: a heading, a legend, and the stage and the plots as cards in a grid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The two kinds of ground a StageWidget can paint on: an OpenGL widget, or a plain one that shows pictures
 /// made without a display.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The clocks of the elements of asynchronous schemes, on the stage while it plays.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One picture of the stage as data: what to draw at a time t, in model coordinates, with colours.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The small picture in the corner of the stage, put into the large one.
 ///
 /// Every point of it is mapped by one similarity without rotation, r -> C + s r, into the coordinates of the

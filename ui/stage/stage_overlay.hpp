@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The words on the stage, drawn over its picture: the time shown, the length of the trail, failures so far
 /// and, if there is no list of schemes beside it, a legend.
 #pragma once

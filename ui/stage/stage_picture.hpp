@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pictures of the stage without a display, with the words on it or without.
 #pragma once
 

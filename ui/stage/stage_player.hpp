@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// From a comparison and a time to the picture of the stage.
 ///
 ///     StagePlayer player(comparison);

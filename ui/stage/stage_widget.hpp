@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The animated stage of the window.
 ///
 ///     auto* stage = new StageWidget;

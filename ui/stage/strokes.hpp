@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A StageFrame turned into what the renderer draws: round-ended strokes in batches.
 ///
 /// Nearly everything on the stage is a stroke: a rod, a piece of a spring or trail, a hatch line, and a disc,

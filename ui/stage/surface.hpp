@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the stage is drawn: something that makes an OpenGL context current and owns a framebuffer.
 ///
 /// Three kinds: the window's widget (stage_canvas.cpp), OSMesa, the default without a display, and EGL

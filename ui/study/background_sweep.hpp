@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The schemes of the scene over a few steps around their own, run in the background once a run is over: the
 /// lines of "speed against accuracy". Runs that take long are not repeated, and a scheme keeps what was
 /// measured as long as neither it nor the problem changes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the results of studies are in a scene: edits that load one of their runs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What study is wanted: its kind, and what this kind needs besides the scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A study in the background: its points arrive as they finish, and what is known stays when it is stopped.
 /// Nothing of its work happens on the window's thread; points are fetched by a timer.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The page of studies: schemes of the scene over many steps, or numbers of the scene over which they are
 /// stable; their plot, and what is worth its cost. A point of the plot, or a row of the table, is a run that
 /// can be put into the scene.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/study/varied_number_edit.hpp"
 
 #include <QCheckBox>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A number of the scene that a study varies: which, from where to where, how many values, in equal ratios or
 /// not.
 #pragma once

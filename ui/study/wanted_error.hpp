@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The wanted error as a number and a slider of tenths of decades.
 #pragma once
 

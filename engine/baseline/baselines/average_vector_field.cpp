@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The average vector field method: z_1 = z_0 + h int_0^1 X_H(z_0 + xi (z_1 - z_0)) dxi, the integral by
 /// Gauss points.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// S10 of Blanes and Moan (2002): order 6, explicit for separable systems.
 #include "engine/baseline/partitioned.hpp"
 

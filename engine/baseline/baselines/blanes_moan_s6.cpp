@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// S6 of Blanes and Moan (2002): order 4, explicit for separable systems.
 #include "engine/baseline/partitioned.hpp"
 

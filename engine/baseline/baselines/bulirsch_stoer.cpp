@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The extrapolation code of Boost.odeint: modified midpoint rules of 2, 6, 10, ... substeps extrapolated to
 /// substeps of length zero, with step and number of rules chosen by work per unit of time, and its own
 /// interpolant. Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.9.

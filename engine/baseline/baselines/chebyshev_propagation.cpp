@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Chebyshev propagation of wave functions (family/wave/chebyshev_series.hpp).
 #include <cmath>
 #include <limits>

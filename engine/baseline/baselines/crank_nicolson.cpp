@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Crank-Nicolson scheme for wave functions, (1 + i dt H/2 hbar) psi_1 = (1 - i dt H/2 hbar) psi_0: what
 /// most use, with energies counted as they stand. It is the Gauss scheme of degree 1 without an energy shift.
 #include <limits>

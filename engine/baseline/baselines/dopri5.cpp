@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Dormand-Prince 5(4) of Boost.odeint, without its dense output.
 #include <utility>
 #include <vector>

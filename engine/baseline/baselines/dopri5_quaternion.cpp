@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Dormand-Prince 5(4) of Boost.odeint under error control, on attitude quaternion and momentum in the body,
 /// with or without bringing the quaternion back to length 1 after each step.
 #include "engine/baseline/adaptive.hpp"

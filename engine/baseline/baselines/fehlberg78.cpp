@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runge-Kutta-Fehlberg 7(8) of Boost.odeint.
 #include "engine/baseline/adaptive.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Gauss collocation with s stages on Hamilton's equations, by fixed-point iteration (Hairer, Lubich, Wanner
 /// 2006, II.1.3 and VIII.6).
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Implicit midpoint rule on Hamilton's equations, z_1 = z_0 + h X_H((z_0 + z_1)/2), solved for the midpoint
 /// by Newton.
 ///

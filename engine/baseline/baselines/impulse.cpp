@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Impulse method with the exact oscillator: half a step of the slow forces, the fast oscillation exactly,
 /// half a step of the slow forces (order 2; Garcia-Archilla, Sanz-Serna and Skeel 1999; Deuflhard 1979).
 /// Higher orders are symmetric compositions of it: Suzuki's 5 stages (order 4), Kahan and Li's 9 (order 6)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Leapfrog. Of fields, u^{l+1} = 2 u^l - u^{l-1} + dt^2 (c^2 delta_x^2 u^l - W'(u^l)): explicit, stable for
 /// c dt <= dx. Of wave functions, psi^{l+1} = psi^{l-1} - (2 i dt/hbar) H psi^l: explicit, stable for |E| dt
 /// <= hbar. The three-level scheme of the trapezoidal rule, started with one step of Gauss degree 2; for

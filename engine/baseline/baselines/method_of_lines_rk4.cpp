@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Method of lines for fields: second differences in space (the mass at the nodes), and the classical
 /// Runge-Kutta method of order 4 in time.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discrete Moser-Veselov algorithm of the free body, and its higher orders by preprocessed moments of
 /// inertia.
 ///

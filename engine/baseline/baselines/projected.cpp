@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// RK4 projected onto the energy of the start: after each step z goes along grad H to H(z) = H(z_0).
 ///
 ///     z_1 = z~_1 + lambda grad H(z~_1),   H(z_1) = H(z_0),   z~_1 = RK4(z_0),

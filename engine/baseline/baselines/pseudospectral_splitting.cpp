@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pseudospectral splitting for periodic fields: half a kick by W', the free wave exactly in Fourier space,
 /// half a kick. Spectral in space, order 2 in time, without a stability limit of the wave.
 #include <algorithm>

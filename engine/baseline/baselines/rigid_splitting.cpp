@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Splitting of a rigid body into rotations about its axes: exp of H_i = Pi_i^2 / (2 I_i) turns it about axis
 /// i by t Pi_i / I_i. The Strang composition 1(h/2) 2(h/2) 3(h) 2(h/2) 1(h/2), between half kicks of a
 /// potential, is of order 2; Suzuki's five of them are of order 4, Kahan and Li's nine of order 6 (Hairer,

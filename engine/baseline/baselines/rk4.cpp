@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The classical Runge-Kutta method of order 4 on (q, p): accurate over short times, not symplectic.
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/classical_table.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The classical Runge-Kutta method of order 4 on attitude quaternion and momentum in the body, with or
 /// without bringing the quaternion back to length 1 after each step.
 #include <limits>

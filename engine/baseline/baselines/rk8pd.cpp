@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Prince and Dormand's Runge-Kutta pair 8(9) of the GNU Scientific Library, under its standard step control.
 #include <algorithm>
 #include <limits>

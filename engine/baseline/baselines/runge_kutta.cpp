@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A Runge-Kutta method of the user's, plain or partitioned, by its table.
 #include "engine/baseline/catalog.hpp"
 #include "engine/baseline/table_method.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Spectral collocation in time, for wave functions: a polynomial of degree s through the start that
 /// satisfies the equation at Chebyshev nodes of the step, s of them: the extrema without the start, or the
 /// roots. Not from an action: at the extrema the norm is off by about the square of the error; the roots are

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A splitting of the user's: a product of kicks and drifts by their fractions of the step.
 #include "engine/baseline/partitioned.hpp"
 #include "engine/baseline/typed_tableau.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// SRKN 14a of Blanes and Moan (2002): order 6, for L = 1/2 sum m v^2 - V(t, q).
 #include "engine/baseline/partitioned.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// CVODE of SUNDIALS: backward differentiation formulas of order 1 to 5 with variable step, Newton's method
 /// with a dense Jacobian by differences. For stiff problems with damping; in oscillations it wastes its
 /// stability on small steps.

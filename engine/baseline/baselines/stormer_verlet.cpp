@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Störmer-Verlet, kick-drift-kick (velocity form); for any Hamiltonian the symmetric composition of the two
 /// Euler maps.
 #include "engine/baseline/partitioned.hpp"

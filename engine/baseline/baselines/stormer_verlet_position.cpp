@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Störmer-Verlet, drift-kick-drift (position form).
 #include "engine/baseline/partitioned.hpp"
 

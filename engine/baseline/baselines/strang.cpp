@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Split-step of order 2: half a kick, a drift, half a kick; one kick per step.
 #include "engine/baseline/wave_splitting.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Split-step of order 4: five Strang steps, one of them backwards; five kicks per step.
 #include "engine/baseline/wave_splitting.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Symplectic Euler, kick first: p_1 = p_0 + h pdot(q_0, p_1), q_1 = q_0 + h qdot(q_0, p_1).
 #include "engine/baseline/partitioned.hpp"
 

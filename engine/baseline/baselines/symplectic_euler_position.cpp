@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Symplectic Euler, drift first: q_1 = q_0 + h qdot(q_1, p_0), p_1 = p_0 + h pdot(q_1, p_0).
 #include "engine/baseline/partitioned.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The implicit midpoint rule in a fictitious time in which it needs equal steps: a symplectic scheme of
 /// variable steps, with the density of the local action error as its step function.
 ///

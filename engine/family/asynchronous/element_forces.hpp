@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The elements of a bar or a membrane with masses at the nodes, for schemes that take them one by one.
 ///
 /// Both have the same members: elements(), nodes(), nodesOf(e), the nodes that element e kicks, kick(e, h, u,

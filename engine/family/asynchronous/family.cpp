@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Asynchronous variational integrators: each element of a bar or a membrane has its own step (Leok 2004,
 /// sec. 2.1).
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Asynchronous variational integrators of bars and membranes: every element has its own step (Lew, Marsden,
 /// Ortiz, West 2003). They follow from the framework of Leok 2004, sec. 2.1, with a mesh of time for each
 /// element:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discrete solution of the elliptic problem as a march along x: nothing is integrated, the nodal values
 /// are found at once and given one by one, with the curve of the elements between them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Finite elements of the elliptic problem with functions that know its coefficient (Leok 2004, sec. 7.1).
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The density of the local error of the discrete action, whose sign decides whether the energy equation has
 /// a root, and where along a motion it changes that sign.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step of a table from a fixed (q_0, p_0), as a function of its length h: the inner problem of the
 /// energy equation.
 ///

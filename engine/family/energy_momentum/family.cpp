@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Symplectic-energy-momentum integrators: the times of nodes are unknowns, chosen so that the discrete
 /// energy is kept (Leok 2004, sec. 5).
 #include "engine/family/family.hpp"

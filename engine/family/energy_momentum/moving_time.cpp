@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/energy_momentum/moving_time.hpp"
 
 #include <boost/math/tools/minima.hpp>

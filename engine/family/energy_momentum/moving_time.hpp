@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Symplectic-energy-momentum integrators: the end times of elements are degrees of freedom, and minus the
 /// energy is their multiplier.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discrete action of one cell of space and time, element x slab, as a function of its own degrees of
 /// freedom (Leok 2004, sec. 2):
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a tent space and a tensor product of rules mean: degrees, the rule of each direction, and how a step
 /// is made. Internal to engine/family/field.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How fast waves run in a scheme: its frequency W(K) for waves of wave number K on a uniform mesh.
 ///
 /// In space the waves exp(i K x) of a periodic mesh make an eigenvalue problem of r unknowns, K_h phi =

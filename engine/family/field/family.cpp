@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields: hat functions and their higher-order likes on a mesh of space and time (Leok 2004, sec. 2.1,
 /// multisymplectic variational integrators).
 #include "engine/family/family.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the integrators of fields share: two buffers, dense output, the discrete energy.
 ///
 /// A step writes u and v at the new level into a buffer, which is exchanged with the state: nothing is

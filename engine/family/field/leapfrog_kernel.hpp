@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of leapfrog on a uniform mesh for a force that is a cubic of u, in one pass through memory:
 ///
 ///     v+ = v + h/2 a(u),  u' = u + h v+,  v' = v+ + h/2 a(u'),

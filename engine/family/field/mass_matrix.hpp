@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// M of a spatial form, factorised: forces to accelerations. Nodes that stay as they are get 0. Internal to
 /// engine/family/field.
 #pragma once

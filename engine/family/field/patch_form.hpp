@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The multisymplectic form formula of a scheme, on a patch of cells (Marsden, Patrick, Shkoller 1998):
 ///
 ///     Omega_c^l(V, W) = sum_m d2S_c/dz_l dz_m (V_m W_l - W_m V_l),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/field/slab_stepper.hpp"
 
 #include <Eigen/SparseLU>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step of a field by the one equation of the framework, with nothing eliminated:
 ///
 ///     dS/dz + C^T lambda + (Ds-)^T p - (Ds+)^T p' = 0,   C z = 0,   s-(z) = u,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The largest step of a field on its mesh, checked before a run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Space x rule in time of a field's scheme: polynomials of degree s on one slab, nodal at its s + 1 Lobatto
 /// points, and where the rule looks at them.
 ///

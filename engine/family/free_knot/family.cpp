@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Static profiles on knots that are unknowns (Leok 2004, sec. 6).
 #include <limits>
 

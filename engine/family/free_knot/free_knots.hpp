@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The profile with the least energy as a march along x: nothing is integrated, knots and values are found at
 /// once (knots.hpp) and given one by one, with the straight lines between them.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Knots of the piecewise linear profile with the least energy: given, or stationary as well as the values
 /// (Leok 2004, sec. 6: "horizontal" variations).
 ///

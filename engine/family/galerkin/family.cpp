@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Generalized Galerkin variational integrators of systems with coordinates: a space that is a table and a
 /// plain rule (Leok 2004, sec. 2).
 #include <algorithm>

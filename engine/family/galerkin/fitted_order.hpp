@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The order of spaces whose functions change with the step, such as {1, tau, cos(w h tau), sin(w h tau)}.
 ///
 /// With e_j the rate at which the H1 distance of tau^j from the space goes to 0, O(h^e_j), and d_k that of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Galerkin schemes with a rule for each term of the Lagrangian, or a space for each coordinate.
 ///
 /// The terms L_r of L are grouped by their rules, and S = h sum_r sum_i b_i^r L_r(c_i^r) is still one

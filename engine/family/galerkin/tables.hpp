@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Tables of Galerkin schemes: a space and a rule as a scene names them, on cells that need not be equal, and
 /// rules that are chosen for the space.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/galerkin/written.hpp"
 
 #include "engine/family/galerkin/split.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discrete action of Galerkin schemes and its stationarity, as they are written (Leok 2004, sec. 2).
 #pragma once
 

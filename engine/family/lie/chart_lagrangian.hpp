@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Lagrangian of a rigid body in the natural chart at a base point g,
 ///     l(xi, v) = 1/2 eta . M eta - U(g exp xi),    eta = dexp(xi) v,
 /// and its derivatives by (xi, v): with them a Lie group element is one more element of the kernel's, and the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lie group variational integrators of rigid bodies: curves g_0 exp(xi), xi a polynomial in the algebra
 /// (Leok 2004, sec. 3 and 4).
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The integrator of the space lie-polynomial: LieStep on the system's group, or, symmetrised, half a step of
 /// its adjoint and then half a step of it, whose charts have their base point at the middle.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What LieStep needs of its group beyond the chart: poses with momenta, and how they move along a chart.
 ///
 /// A pose holds the attitude as a quaternion of length 1 and the angular momentum about the centre of mass in

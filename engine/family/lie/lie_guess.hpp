@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A first guess for the step of a Lie group integrator: the motion of the body by the classical Runge-Kutta
 /// method, from one point of the curve to the next.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of a Galerkin variational integrator on a Lie group, in the natural chart at its base point.
 ///
 /// The curve is g(t) = g_0 exp(xi(t)) with xi in the polynomial space of the table, xi = sum_a Y_a

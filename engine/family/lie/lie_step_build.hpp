@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The definition of LieStep for any scalar. Included where it is instantiated: lie.cpp for double, the tests
 /// for quadruple precision.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The tangent map of LieStep, left trivialised: (zeta_0, dmu_0) -> (zeta_1, dmu_1), zeta = g^{-1} dg.
 /// Included by lie_step_build.hpp.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Equidistribution as a holonomic constraint on values and places of the nodes,
 ///
 ///     g_i(z) = m_i - m_{i-1} = 0,  i = 1 .. N,    m_e = (M h)^2 of element e:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Meshes of a hierarchy of hat functions: elements are halves of halves of the domain, and as many at all
 /// times.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step h for which the discrete energy of a slab has a given value,
 ///
 ///     E_d(h) = -dS/dh = E:

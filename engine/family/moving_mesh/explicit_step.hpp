@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step on a mesh that follows a monitor with a lag, from data at the start of the step alone:
 ///
 ///     X_{k+1} = X_k + theta (X_eq - X_k),  X_eq equidistributes M(u_x, u_xx, u_t), smoothed,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Moving meshes: fields whose nodes are unknowns, spatio-temporally adaptive (Leok 2004, sec. 6).
 #include "engine/family/family.hpp"
 

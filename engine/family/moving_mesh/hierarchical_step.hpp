@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step on a mesh at rest that is chosen before it: hat functions of a hierarchy, refined in some places
 /// and coarsened in others (dyadic_mesh.hpp).
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Monitors: densities M(x) > 0 of the nodes of a mesh, of which every element is to have the same share.
 ///
 ///     arclength     M = sqrt(1 + alpha^2 (u_x^2 + beta u_t^2))

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields whose nodes move (Leok 2004, sec. 6): the integrator of all methods.
 ///
 /// multiplier: equidistribution is imposed on the action in values and places (multiplier_step.hpp).

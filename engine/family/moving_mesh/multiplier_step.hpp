@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of the action in values and places of the nodes, on the manifold of equidistributed meshes
 /// g(z) = 0:
 ///

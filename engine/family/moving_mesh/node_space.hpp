@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the steps of a moving mesh share: nodes z = (y_i, X_i) and rates v = (y'_i, X'_i), i = 0 .. N + 1,
 /// one after the other; which of them are held; mass, momentum and energies.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The start of a field on a moving mesh: places that equidistribute a monitor of the initial data, values
 /// there, and rates.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The action of one slab by the midpoint rule in time,
 ///
 ///     L_d(z_0, z_1) = h sum_e l_e(z, v),   z = (z_0 + z_1)/2,   v = (z_1 - z_0)/h,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Curves with a slow and a fast part: polynomials, and harmonics of one frequency or of two with polynomial
 /// amplitudes,
 ///     q(tau) = sum_{j <= n} c_j P_j + sum_k sum_{j <= m_k} P_j (C_kj cos(k . phase) + S_kj sin(k . phase)),

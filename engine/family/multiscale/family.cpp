@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Spaces that contain a fast oscillation: steps of many of its periods (Leok 2004, sec. 7).
 #include <algorithm>
 #include <numbers>

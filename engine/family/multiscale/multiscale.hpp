@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The oscillatory discretizations that have names, from the smallest space to the largest.
 #pragma once
 

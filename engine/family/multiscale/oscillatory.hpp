@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a scene's oscillatory space and its rule mean: the functions of each coordinate, the frequency, the
 /// tables of a step, and whether the step is near a resonance.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The table of an oscillatory space (basis.hpp) and a rule, on steps with z = step * frequency.
 ///
 /// A node of a Filon grid is a pair (c_i, phase_m): all M phases of a slow node share its time, and the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The printed multiscale space (Leok 2004, sec. 7.2): in each coordinate a slow polynomial times one
 /// oscillation,
 ///     q(t) = P(t) F(t),   P = sum_{j <= n} p_j P_j(2t/h - 1),   F = 1 + alpha sin wt + beta cos wt,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The trial curve of the product form in one coordinate, q = P F (product.hpp), with its first and second
 /// derivatives by the unknowns X = (p_0..p_n, alpha, beta, and w where it is free): what the chain rule of
 /// action/chain_rule.hpp needs of a nonlinear curve.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Steps at which an oscillatory space does not determine the curve: the linear system of a step, given (q_0,
 /// p_0), is singular at isolated z = step * frequency (for the space 1, cos, sin where 2 sin(z/2) (z cos(z/2)
 /// - 2 sin(z/2)) = 0), one just below each integer z/pi in long steps; in steps of few periods they lie

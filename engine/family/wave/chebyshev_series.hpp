@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// exp(-i dt H/hbar) as a Chebyshev series over the whole spectrum of H, cut where its coefficients reach
 /// round-off (Tal-Ezer and Kosloff, J. Chem. Phys. 81 (1984) 3967):
 ///     exp(-i dt H/hbar) = e^{-i dt Em/hbar} sum_k (2 - delta_k0) (-i)^k J_k(R) T_k((H - Em)/W),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions: the modes of the model in space, polynomials in time (Leok 2004, sec. 8).
 #include <algorithm>
 #include <cmath>

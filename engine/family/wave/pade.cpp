@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/family/wave/pade.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one-step Gauss scheme of degree s in time, in factors: the diagonal Pade approximant of exp(z) of
 /// order 2s,
 ///     R_s(z) = P_s(z)/P_s(-z) = prod_j (conj(zeta_j) + z)/(zeta_j - z),   z = -i dt (H - Ec)/hbar,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Integrators of wave functions: the space `fourier` in space and polynomials of degree s in time.
 ///
 /// One-step form: R_s(-i dt (H - Ec)/hbar), see pade.hpp; order 2s, unitary for every step. Ec,

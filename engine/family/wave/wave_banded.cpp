@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one-step scheme by elimination in Fourier space (solve/banded_poles.hpp).
 #include <utility>
 

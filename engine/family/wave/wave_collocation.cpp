@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Collocation in time for wave functions with any nodes, and with potentials that depend on time: all stages
 /// together by GMRES, preconditioned mode by mode with the kinetic part and the middle of the potential,
 ///     P_k = 1 + i dt (T_k + Vmid - Ec)/hbar A,   an s x s matrix for each wave number, inverted once.

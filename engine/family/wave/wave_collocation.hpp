@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions by collocation in time at the nodes of a rule: the curve of degree s through the start
 /// satisfies the equation at every node. At the Gauss nodes this is the variational scheme, with a potential
 /// that may depend on time, of order 2s and unitary; at nodes that are not symmetric it is neither

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one-step scheme in the basis of eigenstates: R_s is a phase for each of them.
 #include <cmath>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The one-step scheme by GMRES, one pole after the other (wave_poles.hpp).
 #include <optional>
 #include <utility>

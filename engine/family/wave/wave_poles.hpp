@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One shifted system after the other: (zeta_j + i dt (H - Ec)/hbar) w = v by GMRES, preconditioned from the
 /// right by P = zeta_j + i dt (T + Vmid - Ec)/hbar, which is diagonal in Fourier space:
 ///     A P^{-1} u = u + i dt/hbar F (V - Vmid) F^{-1} P^{-1} u,

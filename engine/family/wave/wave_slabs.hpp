@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fully spectral in space and time: each step in equal slabs, on each of which the curve is a polynomial of
 /// high degree. `legendre`: tested with polynomials of one degree less, which is Gauss collocation, from the
 /// action; `chebyshev`: collocation at the Chebyshev roots. Both have symmetric nodes and keep the norm.

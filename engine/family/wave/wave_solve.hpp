@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One solve (zeta + i dt (H - Ec)/hbar) w = v of the two-step schemes, in any of the three ways.
 /// Internal to engine/integrator.
 #pragma once

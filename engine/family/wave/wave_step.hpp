@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the integrators of wave functions share: the gauge, the state, and dense output.
 ///
 /// v = e^{i Ec (t - t_0)/hbar} c is carried on by step(); the state gets c. t_0, the origin of the gauge, is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Leok's scheme for wave functions, linear in time with the action of each slab integrated by a rule, in
 /// three levels:
 ///     (i hbar/2)(v^{l+1} - v^{l-1}) = dt H (alpha v^{l-1} + (1 - 2 alpha) v^l + alpha v^{l+1}),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The functions of one step, with the nodes and weights of the rule: those that vanish at both ends,
 /// orthonormal in their slopes, pale; the one that goes from 0 to 1, full. At each node a stroke as high as
 /// its weight, in units of the largest.

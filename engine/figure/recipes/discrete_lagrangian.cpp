@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// |L_d - L_d^exact| against the step, for every discretization: the order of the discrete action, of which
 /// all others follow.
 #include <algorithm>

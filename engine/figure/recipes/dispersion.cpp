@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How fast waves run in each scheme, against the field equation.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// |H(t) - H(0)| on a logarithmic axis; says how many schemes drift (trend.hpp).
 #include <algorithm>
 #include <cmath>

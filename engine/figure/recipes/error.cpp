@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Distance to the reference on a logarithmic axis, with the floor below which the reference itself is no
 /// better.
 #include <algorithm>

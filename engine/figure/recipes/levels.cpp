@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The potential and the lowest energies of a wave function's operator, each line over the part of space that
 /// a classical particle of that energy could reach; and the energy of the start.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Lyapunov exponent up to each time, both axes logarithmic: it falls like ln t / t on regular motions
 /// and comes to rest on chaotic ones.
 #include "engine/figure/growth.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The mean of MEGNO against the logarithm of time, with a line at 2, to which it tends on regular motions.
 #include "engine/figure/growth.hpp"
 

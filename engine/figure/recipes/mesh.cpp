@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The meshes of time, one above the other: a tick at every node of a scheme. Of very fine ones every m-th
 /// node, which leaves the ratios of distances as they are.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The map from the computational domain to space at the end of each scheme: X over xi, the share of the
 /// nodes to its left; its derivative as a density of nodes over X; and the field over xi.
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The polhode: the momentum in the body on its sphere, with the curves of constant energy on which a free
 /// body moves.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A field over space at the last time of each scheme; of wave functions the modulus, or the real and
 /// imaginary parts. Over a rectangle that of one scheme, as colours.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The shape function of a node: what the finite elements of each scheme are made of.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The cube root of the density of the local action error against time, with a line at zero where it would
 /// change its sign. Along an eccentric orbit the density varies by four powers of ten; the root keeps its
 /// sign, and its zeros can be seen.

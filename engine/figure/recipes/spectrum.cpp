@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The size of each Fourier coefficient of the wave function at the end, with a Dirichlet boundary of each
 /// Chebyshev coefficient, on a logarithmic axis: is N enough? Over a rectangle the largest with each wave
 /// number along x, and with each along y.

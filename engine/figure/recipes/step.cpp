@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step size against time. A scheme with a fixed step needs no column for it.
 #include <cmath>
 

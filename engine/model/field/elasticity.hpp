@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The energy phi(e) of a field's slope e = u_x, per length, and its derivatives.
 ///
 ///     linear       k e^2 / 2

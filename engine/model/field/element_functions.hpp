@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Functions of the elements of a field that are no polynomials: for media a(x/epsilon) that elements are too
 /// large to resolve (Leok 2004, sec. 7).
 ///

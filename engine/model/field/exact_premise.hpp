@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whether what calls itself the exact solution of a field is one: it is tested, not believed.
 ///
 /// The equation: 0 = u_tt - (a phi'(u_x))_x + W'(u). The residual at a place is |sum of the terms| / sum of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What models of fields share: the System of a field problem.
 #pragma once
 

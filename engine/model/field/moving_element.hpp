@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Lagrangian of one linear element whose ends move: u and the places of the nodes are both unknowns
 /// (Leok 2004, sec. 6). With h = X_R - X_L, s = (y_R - y_L) / h, and u_t at both ends, seen from inside the
 /// element, w_L = y'_L - s X'_L, w_R = y'_R - s X'_R:

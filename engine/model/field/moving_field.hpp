@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The System of a field whose nodes move: u is linear between nodes with values y_i at places X_i, and both
 /// are coordinates.
 ///

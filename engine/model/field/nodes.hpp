@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Places of the values of a field that is a polynomial of degree r on each element of a mesh.
 ///
 /// Element e has the nodes a = 0..r at its Lobatto points; the last is the first of the next element. Node

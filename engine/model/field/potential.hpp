@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The potential W(u) of a field, at many places at once: sine-Gordon, phi-4, Klein-Gordon, none, or typed.
 ///
 ///     none          0

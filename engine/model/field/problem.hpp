@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A field u(x, t) over an interval:
 ///
 ///     L = integral of u_t^2 / 2 - a(x) phi(u_x) - W(u) dx,    u_tt = (a phi'(u_x))_x - W'(u).

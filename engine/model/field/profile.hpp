@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Initial data of a field: a named profile, expressions, or values; and the exact solution that they start,
 /// where one is known.
 ///

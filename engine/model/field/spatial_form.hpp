@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The integrals of a field's Lagrangian over space, by one quadrature rule on each element:
 ///
 ///     L_h(u, v) = v^T M v / 2 - U(u),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The System of a membrane: energy, momentum, start, exact modes, samples along a diameter, and its picture.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A membrane over a disc of radius 1, of unit density and tension, that moves at right angles to its plane:
 ///
 ///     L = integral of u_t^2 / 2 - w(|grad u|^2),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rigid body on SO(3) about a fixed point: L = 1/2 eta . I eta - U(R), U typed by the user in R11..R33. SI
 /// units, unless the numbers are meant otherwise.
 #include <algorithm>

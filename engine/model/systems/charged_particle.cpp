@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A charged particle in given electric and magnetic potentials,
 ///     L = m/2 |v|^2 + charge (A(q, t) . v - phi(q, t)),    p = m v + charge A,
 /// so that m a = charge (E + v x B) with B = curl A, E = -grad phi - dA/dt. SI units. The Lagrangian is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Double pendulum: two point masses on massless rods, angles theta1, theta2 both from the downward vertical,
 ///     L = (m1 + m2)/2 l1^2 theta1_t^2 + m2/2 l2^2 theta2_t^2 + m2 l1 l2 theta1_t theta2_t cos(theta1 -
 ///     theta2)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// An elastic bar of unit length, density and modulus: L = integral of u_t^2 / 2 - w(u_X), u the displacement
 /// of the material point X. On uniform, graded and notched meshes: what asynchronous schemes are for.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scalar field in one dimension, u_tt = c^2 (a(x/epsilon) u_x)_x - W'(u): wave, Klein-Gordon, sine-Gordon,
 /// phi-4 equation, or a typed potential, on a periodic domain, between fixed values, or with free ends.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fermi-Pasta-Ulam-Tsingou chain with alternating springs (Hairer, Lubich and Wanner, Geometric Numerical
 /// Integration, sec. I.5): 2n equal masses between fixed walls, displacements q_1..q_2n, joined by soft and
 /// stiff springs in turn,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Harmonic oscillator: L = m x_t^2 / 2 - k x^2 / 2. Exact solution: a rotation of (sqrt(m k) x, p) by w =
 /// sqrt(k/m). Schemes super-converge on it: stability shows here, orders are measured on nonlinear systems.
 #include <array>

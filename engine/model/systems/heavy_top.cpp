@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Heavy top on SO(3): L = 1/2 eta . I eta - weight * centre . R^T e_3, turning about a fixed point.
 ///
 /// I: moments of inertia about the fixed point; `weight` * `centre`: weight times the body vector from the

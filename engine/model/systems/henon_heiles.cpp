@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Hénon-Heiles system: a star in the plane of a galaxy (Hénon and Heiles 1964),
 ///     L = (x_t^2 + y_t^2) / 2 - (x^2 + y^2) / 2 - lambda (x^2 y - y^3 / 3).
 /// Dimensionless. Bounded below the escape energy 1/(6 lambda^2), where the potential has three saddles at

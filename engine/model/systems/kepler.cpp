@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Kepler problem in the plane: L = (x_t^2 + y_t^2) / 2 + mu / r. Dimensionless.
 ///
 /// Exact solution in the basis of the perihelion: of ellipses up to e = 0.9 by Kepler's equation, at many

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Any system, given by its Lagrangian as a text: L(t, q, q_t) with named coordinates and parameters.
 ///
 /// Differentiated symbolically, evaluated as a tape (engine/model/typed). Units are the user's own.

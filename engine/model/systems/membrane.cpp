@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A membrane over a disc of radius 1, of unit density and tension: L = integral of u_t^2 / 2 - w(|grad
 /// u|^2), on triangles that become small towards the centre. The second example of asynchronous schemes, in
 /// two dimensions.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The elliptic problem with a fast coefficient (Leok 2004, sec. 7.1), (a(x/epsilon) u')' = f, u(0) = u(1) =
 /// 0: no motion, but a solution along x, which a scheme gives node by node. State columns u, u_exact at the
 /// place x (elliptic.hpp).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Sun and the five outer planets, Pluto among them, attracting each other (Hairer, Lubich and Wanner,
 /// Geometric Numerical Integration, sec. I.2.4), 18 coordinates in astronomical units, days and solar masses:
 ///     L = 1/2 sum_i m_i |q_i_t|^2 + G sum_{i<j} m_i m_j / |q_i - q_j|.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Planar pendulum: L = m l^2 theta_t^2 / 2 + m g l cos theta, theta from the downward vertical.
 ///
 /// Exact solution by Jacobi elliptic functions (w = sqrt(g/l), y = theta_t at the start, modulus from the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rigid body on SE(3): L = 1/2 eta . I eta + 1/2 m |x'|^2 - U(x, R), U typed by the user in x, y, z,
 /// R11..R33. SI units, unless the numbers are meant otherwise.
 #include <algorithm>

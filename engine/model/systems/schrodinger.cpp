@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) psi_xx + V(x, t) psi on a periodic domain, or
 /// with psi = 0 at both ends (Dirichlet; V(x) then). hbar and m are free; nothing else has a unit.
 #include <memory>

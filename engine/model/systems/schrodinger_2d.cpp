@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Schroedinger equation i hbar psi_t = -hbar^2/(2m) (psi_xx + psi_yy) + V(x, y, t) psi on a rectangle,
 /// periodic in both directions. hbar and m are free; nothing else has a unit.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Planar pendulum on a stiff spring (Leok 2004, sec. 7.2), in polar coordinates: extension a, angle theta
 /// from the downward vertical,
 ///     L = m/2 (a_t^2 + (l + a)^2 theta_t^2) + m g (l + a) cos theta - k/2 a^2.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The profile with the least energy between two places (Leok 2004, sec. 6): no motion, but a solution along
 /// x, which a scheme gives knot by knot. State columns: u at the knot, and of the element that ends there the
 /// derivative C of its energy by its end and its energy; the energy of the whole (static_problem.hpp).

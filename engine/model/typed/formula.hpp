@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A Lagrangian as a user types it, with every name in it understood.
 ///
 /// Names are the coordinates, their velocities (x_t or dot(x)), the parameters and t. Symbols are numbered

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Formulas as a graph in which equal parts are one node: what symbolic differentiation is flattened to.
 ///
 ///     sum     = number + sum_k factor_k operand_k

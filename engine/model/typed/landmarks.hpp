@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where a typed formula changes: the zeros of the sums inside its functions, such as x - 50 of
 /// exp(-(x - 50)^2). A symmetry that is looked for at random states is tried near these places as well, since
 /// elsewhere a formula may look as if a variable were not in it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A typed Lagrangian as lines of a program: its gradient and Hessian by symbolic differentiation, common
 /// parts once.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Symbolic differentiation of a typed Lagrangian, by GiNaC.
 ///
 /// From the formula come L, its gradient and Hessian in (q, v), and the Euler-Lagrange equations

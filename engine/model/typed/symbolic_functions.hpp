@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The functions of typed formulas that GiNaC lacks, with their derivatives.
 ///
 /// abs' = sign; floor, comparisons and the like have the derivative 0; max, min and `if` that of the branch

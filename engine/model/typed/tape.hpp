@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A formula as a straight line of instructions over a small array of registers.
 ///
 /// Registers: the inputs (q, v, t), then the constants, then intermediate values, reused when they are no

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// From a graph to instructions, before registers are given out: each value is made once and has its own
 /// number. Internal to engine/model/typed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The instructions of a tape, carried out on numbers or on eight numbers together (Lanes).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A typed function of one or more variables with its first and second derivatives.
 ///
 /// f(y_0, ..), an expression in the names of its variables and parameters, differentiated symbolically and

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The calls of Mechanics for a typed Lagrangian: tapes with the parameters folded in.
 ///
 /// Where L is quadratic in v the Legendre transform is one linear solve, M v = p - L_v(t, q, 0); elsewhere

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The keys of "model" of type "lagrangian" and what they mean.
 ///
 /// Errors: InvalidScene with pointers below /model ("/coordinates/1", "/parameters/pi", "/lagrangian"); what

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the stage shows of a system of which nothing is known but the names of its coordinates:
 ///
 ///     theta, phi_1, ...        a chain of rods from the downward vertical, of the lengths l, or l1, l2, ...,

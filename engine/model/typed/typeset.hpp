@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Formulas for people: Greek letters, subscripts, powers, primes for time derivatives.
 ///
 /// Two forms: rich text (a subset of HTML: sup, sub, i) for the window, plain Unicode for the command line.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Leok's Galerkin method for wave functions on an interval: the product with V by the exact convolution
 /// of coefficients.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions that vanish at both ends of an interval, by their coordinates c in the polynomials of
 /// wave/interval.hpp, which get the length of the domain here. Immutable.
 #pragma once

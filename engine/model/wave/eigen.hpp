@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Eigenstates of a Hamiltonian that does not depend on time: H v = E v, from the matrix in the coordinates v
 /// of Hamiltonian::toReal, which is real and symmetric, all at once. For N up to denseLimit.
 ///

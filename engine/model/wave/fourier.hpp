@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discrete Fourier transform between a wave function's values and its coefficients, unitary in both
 /// directions.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions on a periodic interval or rectangle, by their Fourier coefficients (wave/fourier.hpp).
 ///
 /// Where the potential acts by convolution (wave/convolution.hpp) the coefficient at k = -N/2 stands for a

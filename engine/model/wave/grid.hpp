@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where a wave function lives: nx equally spaced places of an interval, or nx by ny of a rectangle.
 ///
 /// Place (i, j) of a rectangle is entry i + j nx of every array. An interval has one place along y, at 0,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Schroedinger operator i hbar c' = H c, in one of three forms (WaveBasis):
 ///     fourier      a periodic interval or rectangle on a Fourier grid (wave/fourier_basis.hpp), in two parts
 ///                  (wave/split_operator.hpp). Hermitian at any N, the coefficient at k = -N/2 included (the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Polynomials on [-1, 1] that vanish at both ends, for wave functions with a Dirichlet boundary.
 ///
 /// Through N + 1 Chebyshev extrema, N = n + 1, psi = sum_j u_j phi_j over the n inner ones. The action's

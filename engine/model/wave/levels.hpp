@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The lowest energies of a wave function's operator, as the view `levels` draws them and the files of a run
 /// have them: those of the wells and a little more, at least eight, at most forty and half of the modes.
 #pragma once

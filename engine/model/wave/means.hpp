@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Mean values of a wave function that its bases find, each in its own way.
 #pragma once
 

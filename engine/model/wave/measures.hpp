@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a wave function measures of itself, for the observables of these ids:
 ///     norm            sqrt(h sum |psi_j|^2) and its change: kept by every unitary scheme;
 ///     momentum        <p>, which a potential changes; on a rectangle along x and y;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The wave function at the start, from the key "psi" of a scene:
 ///     {"re": EXPR, "im": EXPR}                        in x; the imaginary part is zero unless given
 ///     {"packet": "gaussian", centre, width, wave_number}            exp(-(x - centre)^2/(4 width^2) + i

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The potential V(x, t) of the Schroedinger equation, or V(x, y, t) on a rectangle, typed or by name.
 ///
 /// Typed: an expression in x, on a rectangle y, t, hbar, m, pi. By name, as text or as {"name": NAME,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 #include "engine/model/wave/potential_harmonics.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Fourier series of a potential on a periodic interval: V(x_j) = sum_a V_a exp(2 pi i a j/N).
 #pragma once
 

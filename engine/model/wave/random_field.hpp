@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Random potentials: a periodic Gaussian random field of variance 1 in mean and correlation exp(-|r|^2/(2
 /// l^2)) about, from a seed: the same on every machine.
 ///

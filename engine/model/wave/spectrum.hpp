@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Mean values of a wave function, and whether its spectrum is resolved.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// H in two parts, one diagonal in c and one diagonal at the nodes, each of which moves psi by phases alone:
 ///     H = diag(T) + F diag(V) F^{-1},   T = hbar^2 |k|^2/2m, F the transform of a FourierBasis.
 /// V are values at the nodes; none of these functions keeps them.

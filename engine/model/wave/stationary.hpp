@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The time-independent problem: stationary points of -c* H c + lambda (1 - c* c), that is
 ///     H c = E c,  E = -lambda,  c* c = 1:
 /// the multiplier of the norm is the energy (the printed equations have -lambda v and lack the mass).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Numbers and functions as users write them inside the keys of a model whose shape no descriptor can hold:
 /// potentials and wave packets.
 ///

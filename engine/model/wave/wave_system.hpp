@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What systems of wave functions share, whatever the shape of their domain: the System of an operator, how
 /// it is drawn, and the keys of a start.
 #pragma once

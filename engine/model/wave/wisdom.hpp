@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// FFTW's wisdom, where somebody wants it: which ways of making a transform were measured as the fastest on a
 /// machine.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy of the fast oscillation divided by its instantaneous frequency: the slow motion changes it only by
 /// a small periodic part.
 #include "engine/observe/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The bilinear form that three-level schemes for wave functions conserve, between the previous node and this
 /// one, and its change: what the integrator says of its last step. Empty at the first node, and for schemes
 /// that have none: one-step schemes conserve the norm.

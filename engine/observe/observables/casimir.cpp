@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The Casimir of a body's bracket.
 #include "engine/observe/measured.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The probability current through the middle of the domain.
 #include "engine/observe/measured.hpp"
 

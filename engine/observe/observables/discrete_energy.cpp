@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The discrete energy E_d = -dS/dh of the step that ended at each row, and how far it is from that of the
 /// first step: schemes with moving times keep it, those with a fixed step do not. The energy at the nodes is
 /// another thing.

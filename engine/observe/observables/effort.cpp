@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the step that ended at this node cost: iterations of its solver and evaluations of the Lagrangian or
 /// force.
 #include "engine/observe/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy H(t, q, p) and its signed change H(t) - H(0): conserved by the flow of a time-independent
 /// Lagrangian.
 #include "engine/observe/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Error against the reference at the node's own t, by the system's measure: |q - q_ref|, |p - p_ref|
 /// (Euclidean) and q_i - q_ref,i of each coordinate, signed; the angle between two attitudes for bodies;
 /// the nodal L2 norm of fields, and at rows the L2 norm of the interpolating function.

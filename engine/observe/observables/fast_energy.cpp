@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy of the fast oscillation around its slow mean.
 #include "engine/observe/catalog.hpp"
 

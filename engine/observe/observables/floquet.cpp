@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The trace of the product of all tangent maps since the start: of a motion that is back at its start after
 /// whole steps, the sum of its Floquet multipliers. A coordinate in which the motion does not move has a pair
 /// of its own, with a trace of its own.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The length of the smallest element of a field's mesh.
 #include "engine/observe/measured.hpp"
 

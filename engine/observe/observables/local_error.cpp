@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the error of a scheme is made, and which steps amplify it: local errors of its steps, carried along
 /// by their tangent maps.
 #include "engine/observe/quantity_observable.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The largest Lyapunov exponent of the discrete motion so far, and MEGNO, which tells regular from chaotic
 /// motions long before: a variation of the state is carried along by the tangent maps of the steps.
 #include "engine/observe/quantity_observable.hpp"

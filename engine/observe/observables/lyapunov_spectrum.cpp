@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// All Lyapunov exponents of the discrete motion so far, by an orthonormal frame of variations.
 #include <string>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How far the elements of a moving mesh are from equal shares of their monitor: the largest difference of
 /// the squared shares of two neighbours, over the mean.
 #include "engine/observe/quantity_observable.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The energy that a symplectic scheme nearly conserves, and its change from the first known value: by the
 /// form and the order that vary least over a trial of some hundred steps (observe/modified_energy.hpp). At
 /// nodes with too few neighbours, and for schemes that do not know the action of their steps, it is unknown.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The momenta that Noether's theorem conserves, those of the system or of the symmetries that are found, and
 /// the Euclidean norm of their change. A momentum that is a column of the state already is not written twice.
 /// Those whose symmetry moves time are not in the norm where there are others: steps of a fixed length do not

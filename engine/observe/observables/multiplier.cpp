@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The multiplier of continuity between the element that begins at the node and the one before it: lambda_k
 /// of the augmented action, from the full saddle-point system without condensation (solve/multipliers.hpp).
 ///

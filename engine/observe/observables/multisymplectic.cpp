@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The multisymplectic form formula of a scheme of fields: the sum over the boundary of a patch of space and
 /// time, relative to its terms. It is 0 to round-off for every scheme that follows from a discrete action.
 #include <cmath>

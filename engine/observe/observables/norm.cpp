@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The norm of a wave function, and its change.
 #include "engine/observe/measured.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The order measured by running again with half and a quarter of the step; fills order_measured in the
 /// summary.
 #include "engine/observe/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How far the attitude of a body is from a rotation.
 #include "engine/observe/measured.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The phase by which a state is ahead of the reference (System::phaseError).
 #include <vector>
 

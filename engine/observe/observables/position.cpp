@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The mean position of a wave function.
 #include "engine/observe/measured.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How far a run back from the end, with the opposite step, passes from the rows of the run: nothing but
 /// round-off where the scheme is symmetric. The run fills the column when it is done.
 #include <cmath>

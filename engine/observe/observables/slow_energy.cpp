@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The energy without that of the fast oscillation.
 #include "engine/observe/catalog.hpp"
 

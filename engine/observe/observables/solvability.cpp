@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The density of the local error of the action, h^(r+1) density on a step of a scheme of order r, and the
 /// monitor h |density|^(1/(r+1)) that stationarity in the times makes equal on all steps. Where the density
 /// changes its sign the energy equation has no root.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The share of a wave function in its highest modes.
 #include "engine/observe/measured.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The time step that ended at this node, and how it ended: converged, or the event that it had besides
 /// (core/outcome.hpp).
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How far each step is from keeping the symplectic form, max |M^T J M - J| with its tangent map M, and how
 /// far all steps together are, relative to the square of their tangent map.
 #include "engine/observe/quantity_observable.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// -integral of u_t u_x of a field, and its change: the momentum of translation, which the field equation of
 /// a periodic field keeps, and a scheme on a mesh nearly.
 #include "engine/observe/measured.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// By how much each step changes volumes of phase space, det M - 1 with its tangent map M.
 #include "engine/observe/quantity_observable.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// "auto": the family of the space decides (`auto` is no name for a function).
 #include "engine/quadrature/catalog.hpp"
 

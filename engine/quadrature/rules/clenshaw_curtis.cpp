@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Clenshaw-Curtis: the integral of the polynomial through the Chebyshev extrema.
 #include "engine/quadrature/rule_maker.hpp"
 

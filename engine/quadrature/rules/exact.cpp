@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The integral itself, where a family knows it.
 #include "engine/quadrature/catalog.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Filon's rule on Gauss' nodes (quadrature/filon.hpp).
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/rule_fields.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Gauss-Legendre: of all rules with n nodes the one that is exact to the highest degree.
 #include "engine/quadrature/rule_maker.hpp"
 

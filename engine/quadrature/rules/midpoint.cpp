@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The middle of each panel: Gauss with one node.
 #include "engine/quadrature/rule_maker.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Nodes and weights that a user types.
 #include "engine/quadrature/rule_maker.hpp"
 #include "engine/quadrature/typed_rule.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One rule for each direction (quadrature/tensor.hpp).
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"

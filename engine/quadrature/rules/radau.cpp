@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Gauss-Radau: one end is a node. On [-1, 1] from the left the nodes are -1 and the roots of
 /// (P_{n-1} + P_n) / (1 + x), with weights 2/n^2 and (1 - x) / (n P_{n-1}(x))^2.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One rule for each term of a Lagrangian (quadrature/tensor.hpp).
 #include "engine/quadrature/catalog.hpp"
 #include "engine/quadrature/tensor.hpp"

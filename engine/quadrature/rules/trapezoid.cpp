@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The ends of each panel: Lobatto with two nodes.
 #include "engine/quadrature/rule_maker.hpp"
 

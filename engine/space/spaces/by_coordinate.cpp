@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A space for each coordinate. Its table depends on the system: it is made by the family
 /// (family/galerkin/split.hpp).
 #include "engine/core/problem.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Polynomials of one degree, in any of five bases.
 #include "engine/space/catalog.hpp"
 #include "engine/space/polynomial.hpp"

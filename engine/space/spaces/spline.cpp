@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Splines: piecewise polynomials of one degree within each step.
 #include "engine/space/catalog.hpp"
 #include "engine/space/spline.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Functions that a user types.
 #include "engine/space/catalog.hpp"
 #include "engine/space/typed.hpp"

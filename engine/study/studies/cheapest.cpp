@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which scheme is cheapest for a wanted error: cheapest.csv.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How errors shrink with the step, and the order that follows: convergence.csv.
 #include "engine/study/convergence.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the domain of each scheme ends: extremes.csv, extremes-domains.csv.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What one step makes of the linear test equation: linear-stability.csv, linear-stability-limits.csv,
 /// linear-stability-intervals.csv, linear-stability-region.csv.
 #include "engine/core/known_value.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where schemes stop being stable, over one or two numbers of the scene: stability.csv,
 /// stability-limits.csv.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The fast energy over its frequency of the moment: what slow motion leaves nearly as it is.
 #include "engine/view/catalog.hpp"
 

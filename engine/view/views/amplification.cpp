@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// By how much each step amplifies the error that there was before it.
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"

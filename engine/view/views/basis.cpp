@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The functions of one step, with the nodes and weights of the rule.
 #include "engine/quadrature/tensor.hpp"
 #include "engine/space/typed.hpp"

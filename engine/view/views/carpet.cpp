@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A field over time and space as a heat map; wave functions with their phase as the colour, those over a
 /// rectangle as their density along x. Over that of a moving mesh the paths of its nodes.
 #include "engine/view/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How good the schemes are between their nodes: distance of the dense output of each from the reference.
 #include "engine/view/catalog.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// |E_d - E_d(0)| on a logarithmic axis: what schemes with moving times keep to round-off.
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The steps, updates or energies of the elements of asynchronous schemes over the mesh.
 #include "engine/family/family.hpp"
 #include "engine/view/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The energy of the fast oscillation around its slow mean.
 #include "engine/view/catalog.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The trace of the product of all tangent maps since the start, against time.
 #include "engine/view/catalog.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The smallest element of a field's mesh against time.
 #include "engine/view/catalog.hpp"
 

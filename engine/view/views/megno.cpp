@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The mean of MEGNO up to each time, against the logarithm of time.
 #include "engine/view/catalog.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The meshes of time of all schemes, one above the other: a tick at every node.
 #include "engine/view/catalog.hpp"
 

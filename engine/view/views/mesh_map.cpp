@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The map from the computational domain to space of each scheme at the end, and at the start: X over the
 /// share of the nodes before it.
 #include "engine/view/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How far the elements of a moving mesh are from equal shares of their monitor, on a logarithmic axis.
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// |H_h - H_h(0)| on a logarithmic axis: what symplectic schemes keep of the energy.
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"

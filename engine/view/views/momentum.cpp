@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Norm of the change of the conserved momenta, on a logarithmic axis.
 #include "engine/symmetry/conserved.hpp"
 #include "engine/view/axes.hpp"

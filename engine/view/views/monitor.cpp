@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The monitor that stationarity in the times makes equal on all steps.
 #include "engine/view/catalog.hpp"
 

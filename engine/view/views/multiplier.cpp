@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The largest multiplier of equidistribution of a moving mesh, on a logarithmic axis: an indicator of the
 /// error of the discrete action. Of discretizations in coordinates the size of the multiplier of continuity.
 #include "engine/view/axes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// How large an error is over a grid of a parameter of the model and the step, as colours: one picture per
 /// scheme.
 #include <algorithm>

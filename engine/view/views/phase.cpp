@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Phase portrait: one state column against another, by default the first momentum over the first coordinate.
 #include "engine/view/catalog.hpp"
 #include "engine/view/plane.hpp"

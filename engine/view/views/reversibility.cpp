@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Distance of the way back from the way there, on a logarithmic axis.
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"

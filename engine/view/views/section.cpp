@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A Poincaré section: the states where one column passes zero upwards, found on the dense output of each
 /// scheme.
 #include "engine/view/catalog.hpp"

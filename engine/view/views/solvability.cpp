@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The density of the local action error along the run: where it changes its sign the energy equation has no
 /// root.
 #include "engine/view/catalog.hpp"

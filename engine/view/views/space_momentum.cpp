@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The components of the angular momentum in space axes, a plot each.
 #include "engine/view/catalog.hpp"
 #include "engine/view/momentum_columns.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The matrix of the equations of a discretization, nothing condensed: a square for every entry that is not
 /// zero.
 #include "engine/view/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The animated picture: a view, but no plot.
 #include "engine/view/catalog.hpp"
 

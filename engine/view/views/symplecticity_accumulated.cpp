@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Distance of all steps together from a symplectic map, on a logarithmic axis.
 #include "engine/view/axes.hpp"
 #include "engine/view/catalog.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The orbit, where the system moves in a plane; else a coordinate against time.
 #include "engine/view/catalog.hpp"
 

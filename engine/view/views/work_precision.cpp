@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Measured cost against measured error, one point per scheme: lower and further left is better.
 #include "engine/view/catalog.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The element kernel against differences of itself in quadruple precision, and its dS/dh against energies
 /// that were computed independently.
 #include <QTest>

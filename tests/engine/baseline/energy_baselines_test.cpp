@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Baselines that keep the energy, or choose their steps, without a discrete energy: what they keep,
 /// measured.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Splittings on a system whose kicks and drifts are not explicit: Euler maps and adjoints with the same
 /// coefficients.
 #include <QTest>

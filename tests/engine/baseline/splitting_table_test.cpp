@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The coefficients of the splittings against the order conditions themselves: the logarithm of the product
 /// of exponentials in words of A and B, degree by degree; and their orders in quadruple precision.
 #include <QTest>

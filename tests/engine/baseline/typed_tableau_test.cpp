@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Tables and splittings that a user types: they are the methods that they say, promise what their
 /// coefficients allow, and are refused with the place and the remedy where they make no method.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Inner products and sums of complex vectors of any length, against the plain loop in extended precision.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// sin and cos of eight numbers: against quadruple precision, with the same bits in every instruction set.
 #include <QTest>
 

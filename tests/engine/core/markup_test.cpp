@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What has a meaning in HTML and XML is escaped, once.
 #include <QTest>
 

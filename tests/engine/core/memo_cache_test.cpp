@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The last few things made: made once, forgotten in the order they came, and not kept where making them
 /// failed.
 #include <QTest>

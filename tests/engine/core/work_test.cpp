@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Accounts of work: what is counted where, when they are exceeded, and that a remembered result costs the
 /// same whoever made it.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Plots of rigid bodies: momentum components by name, and Brun's problem, whose third integral no part of
 /// the program knows of.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The views of the equations themselves: the pattern of the KKT matrix, the defect of the discrete
 /// Lagrangian.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A comparison written by hand, so that figures can be tested without an integrator: a pendulum of four
 /// schemes, one that gains energy, one that fails.
 #pragma once

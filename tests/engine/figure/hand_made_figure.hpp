@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Figures of the comparison written by hand.
 #pragma once
 

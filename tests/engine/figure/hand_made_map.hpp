@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Maps written by hand: two schemes over six values of k and five steps.
 #pragma once
 

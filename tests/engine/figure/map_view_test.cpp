@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The view "parameter-map": one scale for all schemes, cells that can be asked, data that can be saved.
 #include <QTest>
 

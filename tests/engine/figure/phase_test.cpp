@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Phase portraits: what is about as wide as it is high has equal scales.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The views of the two scales of a fast oscillation: energies and the adiabatic invariant against time.
 #include <QTest>
 

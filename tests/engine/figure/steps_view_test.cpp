@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Errors against the number of steps: which step each row is, axes that fit, and what a scene may ask for.
 #include <QTest>
 

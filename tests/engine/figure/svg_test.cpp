@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Figures as SVG: well-formed, every layer in its place, and small however many values there are.
 #include <QByteArray>
 #include <QTest>

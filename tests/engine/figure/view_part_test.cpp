@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The part of a plot that a view asks for, and the curve it draws for comparison.
 #include <QTest>
 

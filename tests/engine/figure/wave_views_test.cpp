@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Profiles of wave functions: modulus, real and imaginary part, from a plane wave whose parts are known.
 #include <QTest>
 

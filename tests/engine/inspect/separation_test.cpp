@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Two copies of a motion: their distance grows at the rate that is known.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step, looked at: what is shown is the step that the scheme takes.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Coordinates that stay at round-off, and momenta far larger than the mass times the velocity, do not keep a
 /// step from its end; an iteration that fails is still seen.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The last force of one part of a composition is the first of the next: half the evaluations, the same bits.
 #include <QTest>
 

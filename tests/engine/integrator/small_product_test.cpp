@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sums over the nodes of a step: every shape of tiles gives the bits of plain loops in the order of the
 /// terms.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The fixed point on the velocities at the nodes, for Lagrangians that are not separable.
 #include <QTest>
 

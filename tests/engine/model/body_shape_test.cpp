@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Bodies on the stage: Poinsot's ellipsoid touches its plane where the herpolhode is drawn, in the ring that
 /// the energy allows; faces look outwards; the tracer alone is the same tracer.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The charged particle against its equation of motion, and in uniform fields against the exact one.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Exact solutions against an independent route: Fehlberg 7(8) under tight control.
 #include <QTest>
 

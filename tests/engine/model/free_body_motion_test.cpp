@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The exact motion of a free body against values known to 1e-16, and as a solution of its equations.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What systems say in the usual way of coordinates, and what they say themselves.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The built-in systems against independent routes: differences of the Lagrangian, normal modes, published
 /// figures.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Potentials of bodies as formulas: force and slope against differences of U along the group and against the
 /// known torque of a gravity gradient, the momenta they leave, and what is refused.
 #include <QTest>

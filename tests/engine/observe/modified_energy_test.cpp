@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The modified energy of symplectic schemes: constant far beyond the energy; of others not.
 #include <QTest>
 

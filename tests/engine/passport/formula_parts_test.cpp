@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Indices, exponents and variables in plain formulas.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Typed rules: the same step as the rule they retype, degree and symmetry found, predicted orders and limits
 /// of stability, and an error for each misuse.
 #include <QTest>

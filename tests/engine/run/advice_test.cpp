@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A step that is advised after a failure works.
 #include <QTest>
 

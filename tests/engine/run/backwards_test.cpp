@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runs backwards in time, and the way back of a run forwards.
 #include <QTest>
 

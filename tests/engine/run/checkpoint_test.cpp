@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runs that are stopped on their way go on from their checkpoints to the bytes of the whole run: a scene of
 /// every family, and of everything that is recorded along a run.
 #include <QTemporaryDir>

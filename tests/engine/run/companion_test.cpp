@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The difference from a companion as the bar of an error: against the true error, and where there is none.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Zeros of functions inside a step: how many there are, where, and what is not one.
 #include <QTest>
 

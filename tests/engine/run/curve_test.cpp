@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Between the nodes plots follow the scheme's own curve, not a chord.
 #include <QTest>
 

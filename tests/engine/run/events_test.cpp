@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Events: where expressions in the state pass zero along a run.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Exact solutions against quadruple precision, where a parameter of their formula goes to a limit: how far
 /// off they are, and that they say so.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The extreme that an observable declares is in the summary by its name, whatever the observable: every one
 /// of the catalogue on each kind of system.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runs of wave functions: their pictures, their files, and what they say when the grid is too coarse.
 #include <QDir>
 #include <QFile>

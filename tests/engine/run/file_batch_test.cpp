@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Temporary files are made anew, not through links, and what a process has left that was killed is taken
 /// away.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runs of schemes whose times are unknowns: where they end, what they write, what is marked, what `check`
 /// says beforehand.
 #include <QTemporaryDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Runs judge themselves: what has left the motion is lost, and nothing else is.
 #include <QTest>
 

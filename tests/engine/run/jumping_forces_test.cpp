@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Forces that jump, begin, pulse or are zero at a start from rest: steps that are right are not called lost.
 /// Roots that jump over a singularity still are (judge_test.cpp).
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A step that jumps to a finite state outside of where the Lagrangian is defined ends the run, as lost, at
 /// the node before: of every family and baseline, whether the energy was asked for or not.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Energy levels in the files of a run.
 #include <QTemporaryDir>
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Local errors carried along by tangent maps are the error; their plain sum is not.
 #include <QTest>
 

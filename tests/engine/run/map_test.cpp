@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Maps of a parameter against the step: cells are plain runs, and what they show of the stiff spring is what
 /// is known.
 #include <QTemporaryDir>

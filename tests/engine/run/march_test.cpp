@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The loop of every run, with integrators made by hand: where it ends, what it counts, what sinks are shown.
 #include <QTest>
 

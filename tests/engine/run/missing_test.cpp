@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What was asked for and could not be had is said, with the reason; and what does not depend on rows.
 #include <QFile>
 #include <QTemporaryDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Exact solutions are tested, not believed: what violates its boundary, its equation or its mesh says so,
 /// and is not off by more than it says.
 #include <QTest>

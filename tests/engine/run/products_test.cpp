@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A run makes the products that its views need, and no others.
 #include <QTest>
 

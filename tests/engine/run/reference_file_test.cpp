@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// References from CSV files: rows are found although times are rounded, and wrong rows are named.
 #include <QTest>
 

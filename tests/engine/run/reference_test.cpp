@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A reference keeps what it promises: its own estimate of its error is never below its error, found from
 /// exact solutions and, for chaotic and stiff motion, from runs in quadruple precision.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Results that hold after an edit are told from those that do not, and are not computed again.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rows at multiples of a distance in time, and at every m-th node.
 #include <QTest>
 

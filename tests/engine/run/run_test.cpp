@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Running a scene: which nodes are rows, what the summary sees, how runs stop and fail.
 #include <QTest>
 

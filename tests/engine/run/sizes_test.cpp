@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Numbers of any size are measured as they are: squares that leave the range of numbers make no error 0.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Starts in the plane of a view: their states, and the motions from them.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Steps that follow the density of the local action error end where it changes its sign: the scene is warned
 /// of it, the run gives it as its reason, and what is advised works.
 #include <QTest>

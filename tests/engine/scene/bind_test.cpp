@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Whole steps are counted although quotients of decimal fractions are rounded.
 #include <QTest>
 

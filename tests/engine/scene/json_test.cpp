@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is written as JSON reads back as the same value, to the sign of zero and every control character.
 #include <QTest>
 

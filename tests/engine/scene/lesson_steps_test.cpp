@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lessons: what is wrong in their steps is said, and those of the presets can be followed to the end.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// JSON pointers: RFC 6901, sections 3 and 4.
 #include <QTest>
 

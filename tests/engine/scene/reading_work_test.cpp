@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Reading a scene is bounded: by a count of operations, which is the same on every machine and whatever was
 /// read before, and by the numbers of its parts. Figures are what was measured.
 #include <QTest>

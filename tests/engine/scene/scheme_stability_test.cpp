@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Intervals of instability: their published values, and one answer for everyone who asks.
 #include "engine/scene/scheme_stability.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A way of solving that a scheme does not have is an error of the scene: every method of every family, on
 /// schemes of each.
 #include <QTest>

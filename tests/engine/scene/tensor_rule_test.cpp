@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rules made of rules: read, completed, checked at their places, written back, and refused where one rule is
 /// needed.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every error and warning has a place in the handbook: that of its topic, else that of its part of the
 /// scene.
 #include "engine/scene/topics.hpp"

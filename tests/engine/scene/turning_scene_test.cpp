@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Warnings of Lie group schemes whose steps turn the body too far, and whether what they say is so.
 #include <QTest>
 

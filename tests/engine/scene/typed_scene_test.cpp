@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Scenes with a typed Lagrangian: reading, overrides, writing, and errors at their place.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a scene has beyond its defaults is written, and reads back.
 #include <QTest>
 

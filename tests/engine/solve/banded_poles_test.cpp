@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sums over poles by elimination from both ends against dense solves, in every lane width and for several
 /// bands.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The verdicts of the fixed-point policy on sequences of corrections, most of them seen in steps of a stiff
 /// spring.
 #include <QTest>

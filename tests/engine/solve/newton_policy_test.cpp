@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The verdicts of the Newton policy on made-up sequences of corrections, and the ladder of starting values.
 #include <QTest>
 

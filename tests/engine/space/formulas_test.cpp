@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Functions of tau in quadruple precision: each function of expressions has its value and its derivative.
 #include <QTest>
 

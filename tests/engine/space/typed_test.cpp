@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Typed spaces: the same step as the built-in space they retype, exactness where they are fitted, predicted
 /// orders as they are measured, and an error with its place and remedy for each misuse.
 #include <QTest>

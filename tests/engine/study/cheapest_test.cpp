@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The cheapest scheme against an exhaustive search: over the steps, degrees and nodes of all schemes of a
 /// scene that could cost less than what was found.
 #include <QTest>

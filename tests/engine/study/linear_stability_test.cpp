@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Limits of linear stability are those of theory, and of what schemes claim.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Peaks are found where they stand out, and nowhere else.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is proposed for a wanted error, of points that are made up: errors and costs that are powers of the
 /// step, for which the interpolation is exact.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Schemes with the same processor time: where they are, and who arrives with the wanted error.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The search for the largest step with a wanted error: against made-up errors of which the answer is known,
 /// and against all steps of a real scheme.
 #include <QTest>

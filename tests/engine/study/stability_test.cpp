@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Stability over numbers of a scene: classes of known cases, limits that theory gives, and shards that make
 /// the whole.
 #include <QTest>

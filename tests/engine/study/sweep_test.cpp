@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Sweeps: ladders of steps, orders that are what the points say, fronts, and points that do not depend on
 /// who computed them.
 #include <QTemporaryDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The affine symmetries of Lagrangians whose symmetries are known, and their momenta along schemes.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step as a Runge-Kutta method, against coefficients that are computed here from their definitions with
 /// a hundred digits, and against the methods' own steps.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Pictures along a run stay within their memory, evenly spread, first and last included.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Which system has which view: every view of the catalogue on every model, and what is said where one does
 /// not apply.
 #include <QTest>

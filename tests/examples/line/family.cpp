@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A family with one degree of freedom in each step and coordinate: straight lines from q_0, with the action
 /// read off where the step begins,
 ///     S(v) = h L(t_0, q_0, v),   q(tau) = q_0 + tau h v.

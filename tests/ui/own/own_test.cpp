@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Spaces, rules and schemes of one's own: the cells of the discretizer, the editor while one types, a rule
 /// for each term, and the user's catalogue, whose faults are named and which loses nothing.
 #include <QComboBox>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the window offers for the elliptic problem: its own elements, and nothing that would be refused.
 #include <QComboBox>
 #include <QLabel>

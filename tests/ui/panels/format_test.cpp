@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is typed into fields of lists: separators within brackets belong to the entries.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What is edited in place: steps, names, colours and parameters, with the mouse.
 #include <QApplication>
 #include <QLabel>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The form of a model whose potential is typed, driven as a user does, in the whole window.
 #include <QComboBox>
 #include <QLabel>

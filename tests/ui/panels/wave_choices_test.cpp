@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the window offers for wave functions: on a circle everything, with a Dirichlet boundary nothing that
 /// would be refused.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The interactive plots, driven by the mouse and the keyboard.
 #include <qcustomplot.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Thinning and clipping must not change the picture; ticks say what they mean.
 #include <QPainter>
 #include <QTest>

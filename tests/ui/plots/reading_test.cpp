@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What one reads off a plot: labels on every axis at any size, titles that are not cut, the selected scheme
 /// in front of faded ones, dots that do not run together, and all values at the pointer.
 #include <qcustomplot.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What part of a plot is visible, and the way back.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Rows of plots that have to scroll anyway are higher than those that fit.
 #include "ui/shell/card_layout.hpp"
 

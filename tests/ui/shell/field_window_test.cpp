@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields in the window: strokes on the stage change the initial profile, a click into the space-time plot
 /// moves the time, and the clocks of asynchronous elements run while it plays.
 #include <QTest>

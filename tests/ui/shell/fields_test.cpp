@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields of the window answer to keys alike: Enter takes and leaves, Esc brings back, undo is that of the
 /// window once nothing typed is left in the field.
 #include <QApplication>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the focus is: after a scene opens at the stage, and never at a field that the user has not pointed at.
 #include <QAbstractSpinBox>
 #include <QApplication>

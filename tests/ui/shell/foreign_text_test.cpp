@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Texts of a scene load nothing: every place of the window in which one can stand is shown with texts that
 /// name a file, and the kernel is asked whether the file was opened.
 #include <sys/inotify.h>

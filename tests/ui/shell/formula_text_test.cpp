@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Formulas in notes are typeset, those of all presets completely.
 #include <QTest>
 #include <QTextBlock>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Warnings and errors lead to the page of the handbook that explains them: by a click, and by F1.
 #include <QDesktopServices>
 #include <QLabel>

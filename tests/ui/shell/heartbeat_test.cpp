@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The window's thread turns to its next event soon enough, whatever is done. Measured in processor time of
 /// that thread, beside that of a fixed piece of painting: programs that share its processor and its caches
 /// slow down both.

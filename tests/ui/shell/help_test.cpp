@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The handbook in the window: every page of it is listed, and its page of keys is what the actions say.
 #include <QDir>
 #include <QFile>

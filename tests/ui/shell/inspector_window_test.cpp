@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// One step of the selected scheme, which follows the cursor and the selection.
 #include <QLabel>
 #include <QSignalSpy>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Edits leave alone what they do not concern: results and their costs, colours, zooms, open editors.
 /// Counted, not timed.
 #include <qcustomplot.h>

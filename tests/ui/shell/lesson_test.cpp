@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A lesson drives the window, and its steps stay with the scene.
 #include <QFile>
 #include <QLabel>

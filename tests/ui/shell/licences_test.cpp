@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Licences: of every library in About and in the handbook, of every font in the package.
 #include <QDir>
 #include <QFile>

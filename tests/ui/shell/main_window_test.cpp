@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The window as a user drives it, on the offscreen platform.
 #include <qcustomplot.h>
 

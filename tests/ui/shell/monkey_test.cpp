@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Random actions in the window: clicks, letters, keys, drags, dropped files, menus. Whatever is done, the
 /// program goes on, the scene stays one that can be read, and afterwards the window works as ever.
 ///

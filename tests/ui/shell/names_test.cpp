@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every control has a name that a screen reader can say, in all windows and kinds of scenes.
 #include <QAbstractButton>
 #include <QAbstractItemView>

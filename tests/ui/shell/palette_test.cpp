@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The palette finds whatever can be done, and goes there.
 #include <QApplication>
 #include <QLineEdit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The passport of the selected scheme in the window, and what is saved from it.
 #include <QFile>
 #include <QTemporaryDir>

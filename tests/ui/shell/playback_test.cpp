@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The cursor stays where something has been computed.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The part of a plot and its curve, kept in the scene by the menu of its card.
 #include <QDialog>
 #include <QDialogButtonBox>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A refused edit leaves its words beside the field that was typed, wherever in the scene the problem is
 /// found, until it is changed or undone. What no field shows is said in a banner, and not kept.
 #include <QCheckBox>

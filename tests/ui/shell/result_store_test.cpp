@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What has come to its end is kept, and nothing else.
 #include <QTest>
 

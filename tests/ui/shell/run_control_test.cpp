@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a run is expected to take: steps, maps, and how many nodes a wave function has.
 #include <QTest>
 

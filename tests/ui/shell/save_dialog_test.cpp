@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Names of files end as their kind does, whatever was typed.
 #include <QDirIterator>
 #include <QFile>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scene that is saved, opened and saved again has the same bytes: every preset. What another program or
 /// window has written meanwhile is not written over.
 #include <QFile>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a session must not lose, and what it must say: unsaved scenes, files that cannot be opened, runs that
 /// are stopped.
 #include <QApplication>

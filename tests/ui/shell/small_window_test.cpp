@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Small windows and large letters: no word and no control is cut.
 #include <QAbstractButton>
 #include <QComboBox>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The start page: every preset in a section, with a picture; the search; recent files; a new scene.
 #include <QFile>
 #include <QLineEdit>

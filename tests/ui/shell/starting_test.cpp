@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Clicks in a section or a phase portrait start motions there; the ring of the scene's start can be dragged.
 #include <QApplication>
 #include <QSignalSpy>

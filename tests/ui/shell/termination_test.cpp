@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A signal that ends the program keeps the edits that were made since the last backup.
 #include <QCoreApplication>
 #include <QSignalSpy>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The start page hides a scene and leads back to it: one key, one button, and until then no key acts on it.
 #include <QApplication>
 #include <QLineEdit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Habits of the window: rows by keyboard, Esc in the windows beside it, numbers that explain themselves,
 /// folders that need not exist, runs that wait, one text at a time in the status line.
 #include <QDir>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Windows beside the main one: a race of the schemes, and two copies of a motion; and what leaves by files.
 #include <QDir>
 #include <QImage>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A fitted camera shows the whole box from every side, no smaller than it must, and pixels lead back to
 /// points.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Comparisons made by hand, without integrating anything: curves that are known, drawn as a pendulum on a
 /// spring.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Comparisons of the program's own models, made from formulas instead of runs, so that pictures of them
 /// depend on nothing but the drawing.
 #pragma once

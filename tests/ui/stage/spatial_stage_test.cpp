@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The stage of bodies in space: it is seen from a corner, fills its picture and can be turned.
 #include <QMouseEvent>
 #include <QTest>

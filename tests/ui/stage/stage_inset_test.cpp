@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The small picture in the corner of the stage: momenta on their sphere, the polhodes as trails, in the same
 /// place at any zoom, faint behind, and off the sphere where momentum is lost.
 #include <QTest>

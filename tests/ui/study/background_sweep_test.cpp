@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lines of "speed against accuracy": measured in the background, kept while nothing changes that they depend
 /// on, and a step that they propose goes into the scene by one click.
 #include "ui/study/background_sweep.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The page of studies: points arrive while it runs, it stops at once and keeps them, and a row, a point of
 /// the plot or a cell of a map goes into the scene as an edit.
 #include <qcustomplot.h>

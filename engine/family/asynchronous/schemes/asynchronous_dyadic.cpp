@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Elastic bars: every element has its own step, by dyadic levels that differ by one at most.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Finite elements of the elliptic problem: linear elements.
 #include "engine/family/scheme.hpp"
 

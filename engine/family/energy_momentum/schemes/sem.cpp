@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree s with Gauss(s) whose end times are unknowns: Gauss collocation with steps that keep the discrete
 /// energy.
 #include "engine/family/scheme.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields: polynomials of one degree on cells of space and time, with the rules that follow from it.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Piecewise linear profiles whose knots are unknowns: 16 elements.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree s with Gauss(s) equals s-stage Gauss collocation.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree s with Lobatto(s + 1) equals the partitioned pair Lobatto IIIA-IIIB.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The s-stage Gauss collocation method as a Galerkin integrator: degree s with Gauss(s).
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The partitioned pair Lobatto IIIA-IIIB with s stages, as a Galerkin integrator: degree s - 1 with
 /// Lobatto(s).
 #include "engine/family/scheme.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree 1 with the midpoint rule: L_d = h L((q_0 + q_1)/2, (q_1 - q_0)/h).
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree s with Clenshaw-Curtis(s + 1): order 2 and 4 for s = 1 and 2, then 4 for odd and 6 for even s.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree 1 with Lobatto(2): L_d = h (L(q_0, v) + L(q_1, v)) / 2, v = (q_1 - q_0) / h.
 #include "engine/family/scheme.hpp"
 

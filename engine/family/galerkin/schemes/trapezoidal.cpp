@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Degree 1 with the trapezoidal rule: for separable systems this is Störmer-Verlet.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Lie group variational integrator of degree s with Gauss(s).
 #include "engine/family/scheme.hpp"
 

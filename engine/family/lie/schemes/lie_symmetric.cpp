@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Half a step of the adjoint Lie group integrator of degree s with Gauss(s), then half a step of it.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields between two ends: 31 nodes that move with the solution.
 #include "engine/family/scheme.hpp"
 

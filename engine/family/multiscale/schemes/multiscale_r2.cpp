@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Multiscale scheme R2: an oscillatory space and an automatic rule.
 #include "engine/family/multiscale/multiscale.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The multiscale scheme as printed, to see it fail: amplitudes are multiples of the slow parts.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Wave functions: Fourier in space, degree s with Gauss(s) in time.
 #include "engine/family/scheme.hpp"
 

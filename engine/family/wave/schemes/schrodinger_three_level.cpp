@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Leok's scheme for wave functions: Fourier in space, linear in time, the action integrated exactly.
 #include "engine/family/scheme.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Asynchronous schemes on graded and notched bars: energies, counts of updates, momentum, order; and that
 /// real-valued steps resonate.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Asynchronous schemes on a triangulated membrane: what they keep, what they save, and their errors against
 /// exact modes.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What the window offers: spaces with moving times are further rows of the grid of Galerkin schemes.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Where along a motion the energy equation of moving times has no root, as it is told beforehand.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What errors of fields are measured against, and how: the error of the interpolating function, references
 /// computed on a finer mesh, orders of the mesh and the step together; and what is refused because it is not
 /// determined.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Errors against exact solutions, as computed once by another program (nodal L2 norm, within 3 %); orders;
 /// and what is exact.
 #include <QTest>

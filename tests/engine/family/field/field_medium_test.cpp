@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields in media a(x/epsilon): functions of the elements from a cell problem and from snapshots, and what
 /// they gain over linear elements of the same size.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Every way to take a step of a field is the one equation of its slab: explicit steps, mass matrices,
 /// Newton's method on the levels against the KKT system of all cells; and the nine-point equations of the hat
 /// functions.

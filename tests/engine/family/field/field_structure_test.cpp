@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What schemes of fields keep: the multisymplectic form, momenta, discrete energy; where they are exact; and
 /// where they are stable.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields, discretizations and runs for the tests of their family.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Profiles on knots that are unknowns: derivatives of the element, the tables of best errors and energies,
 /// what stationarity in the knots makes equal and what it does not.
 #include <QTest>

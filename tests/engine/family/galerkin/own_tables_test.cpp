@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The remaining tables of typed spaces, knots and rules for terms, measured: two rates over many fast
 /// periods, exponential fitting, a whole orbit as one step, the spring pendulum, and bands of Kronrod's
 /// rules.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A rule for each term and a space for each coordinate: the schemes they are by other names, orders as
 /// predicted, symplecticity, momenta, bands of instability, and errors at their places.
 #include <QTest>

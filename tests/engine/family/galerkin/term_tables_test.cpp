@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The tables of rules for terms, measured: the exchange of energy in the FPUT chain, widths of the bands of
 /// instability, and a fitted space near its problem.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What equidistribution does for a function that does not move: the best approximation by linear elements on
 /// meshes that equidistribute a monitor, against equal cells.
 #include <QTest>

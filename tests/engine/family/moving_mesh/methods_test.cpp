@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What moving meshes do where equidistribution cannot be kept, or is not the constraint: the other methods,
 /// steps that are unknowns, the fallback, and failures.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields on moving meshes, and their runs, for the tests of the family.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Scenes with moving meshes: what is refused, what a run makes of them, and their pictures.
 #include <QDir>
 #include <QFile>

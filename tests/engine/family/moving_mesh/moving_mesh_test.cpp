@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Fields on moving meshes: derivatives of the element, the tables of errors and energies of the multiplier
 /// method, its order, and the two-form.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Two steps on moving meshes that the program does not offer, for the record of what they are worth: beside
 /// the multiplier method they need no code of their own in the engine, and both are worse.
 ///

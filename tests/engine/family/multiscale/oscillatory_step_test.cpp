@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The step on oscillatory spaces, against values computed independently (raw basis, multipliers kept as
 /// unknowns) and against the motion itself.
 #include <QTest>

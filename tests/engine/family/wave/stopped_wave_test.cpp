@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A scheme of wave functions that was stopped while it prepared its step prepares it again when it goes on.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// A typed Lagrangian and the built-in system are the same system: derivatives, steps and long runs agree to
 /// round-off, although one is differentiated symbolically and the other by forward numbers.
 #include <QTest>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Formulas as a graph: what is equal is one node, however it was written.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// What a typed Lagrangian means: its derivatives, what is recognised in it, and what is refused.
 #include <QTest>
 

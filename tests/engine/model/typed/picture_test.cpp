@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The stage of a typed Lagrangian has every body that the names of the coordinates tell of.
 #include <QTest>
 

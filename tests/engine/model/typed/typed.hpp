@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Typed systems for the tests: the built-in ones once more, as a user would type them.
 #pragma once
 

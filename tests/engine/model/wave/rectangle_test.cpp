@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// Named potentials and starts on a rectangle: values, sizes, and what is refused.
 #include <QTest>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
 /// The time-independent problem: Mathieu's values by both methods, harmonic levels on an interval, Newton on
 /// the KKT system.
 #include <QTest>
