@@ -29,7 +29,10 @@ std::vector<RuledTerms> ruledTerms(const Mechanics<double>& mechanics, const Set
 
 std::string breakerOf(const std::vector<RuledTerms>& parts, const Symmetry& symmetry) {
     const auto d = static_cast<std::size_t>(symmetry.dimension);
-    std::vector<double> q(d), v(d);
+    SampledState state;
+    state.q.resize(d);
+    state.v.resize(d);
+    state.gradient.resize(2 * d);
     for (const RuledTerms& ruled : parts) {
         Mechanics<double> alone;
         alone.dimension = symmetry.dimension;
@@ -38,10 +41,12 @@ std::string breakerOf(const std::vector<RuledTerms>& parts, const Symmetry& symm
         alone.gradient = ruled.part.gradient;
         for (int trial = 1; trial <= 4; ++trial) {
             for (std::size_t k = 0; k < d; ++k) {
-                q[k] = 0.8 + std::sin(1.7 * trial + 0.9 * static_cast<double>(k)) / 2;
-                v[k] = std::cos(1.1 * trial + 0.6 * static_cast<double>(k));
+                state.q[k] = 0.8 + std::sin(1.7 * trial + 0.9 * static_cast<double>(k)) / 2;
+                state.v[k] = std::cos(1.1 * trial + 0.6 * static_cast<double>(k));
             }
-            if (symmetry.violation(alone, 0.3 * trial, q.data(), v.data()) > 1e-9) return ruled.part.name;
+            state.t = 0.3 * trial;
+            StateSampler(alone).evaluate(state);
+            if (symmetry.violation(state) > 1e-9) return ruled.part.name;
         }
     }
     return {};

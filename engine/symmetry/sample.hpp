@@ -32,12 +32,13 @@ public:
     int statesAtLandmarks() const;
     /// A state near landmarks; false where L or its derivatives are not finite.
     bool nextAtLandmarks(SampledState& state);
+    /// Sets L, L_t and the gradient from t, q and v; false where one of them is not finite.
+    bool evaluate(SampledState& state);
     /// L_t by central differences of order 8, at the step where those of two steps agree best.
     double timeDerivative(double t, const double* q, const double* v) const;
 
 private:
     void draw(SampledState& state);
-    bool evaluate(SampledState& state);
     double value(double t, const double* q, const double* v) const;
     double uniform() { return 2 * static_cast<double>(random_()) / 4294967295.0 - 1; }
 

@@ -94,11 +94,9 @@ std::vector<SampledState> freshStates(const Mechanical& mechanics) {
 }
 
 /// Whether a symmetry is violated by less than the limit at all states.
-bool holdsAt(const std::vector<SampledState>& states, const Mechanical& mechanics, const Symmetry& s,
-             double limit) {
+bool holdsAt(const std::vector<SampledState>& states, const Symmetry& s, double limit) {
     return !states.empty() && std::all_of(states.begin(), states.end(), [&](const SampledState& state) {
-        const double violation = s.violation(mechanics, state.t, state.q.data(), state.v.data());
-        return violation < limit;  // false if it is not a number
+        return s.violation(state) < limit;  // false if it is not a number
     });
 }
 
@@ -161,6 +159,18 @@ void markDependent(const Mechanical& mechanics, std::vector<Symmetry>& all) {
     }
 }
 
+/// Whether both move states alike, to round-off. Near singular functions the null space may have several
+/// directions that differ by less: they are one symmetry.
+bool movesAlike(const Symmetry& a, const Symmetry& b) {
+    constexpr double roundOff = 1e-9;  // of generators whose leading entry is 1
+    const auto isNear = [](double x, double y) { return std::abs(x - y) <= roundOff; };
+    const auto areNear = [&](const std::vector<double>& x, const std::vector<double>& y) {
+        return std::equal(x.begin(), x.end(), y.begin(), y.end(), isNear);
+    };
+    return areNear(a.A, b.A) && areNear(a.b, b.b) && areNear(a.c, b.c) && isNear(a.tau0, b.tau0) &&
+           isNear(a.tau1, b.tau1);
+}
+
 std::vector<Symmetry> search(const System& system) {
     constexpr double exact = 1e-10, almost = 1e-4;
     const Mechanical& mechanics = system.mechanics();
@@ -172,10 +182,13 @@ std::vector<Symmetry> search(const System& system) {
         if (!movesSomething(s) || (isPureTime(s) && mechanics.isTimeDependent)) continue;
         Symmetry rounded = s;
         changeAll(rounded, snapped);
+        if (std::any_of(found.begin(), found.end(),
+                        [&](const Symmetry& f) { return movesAlike(f, rounded); }))
+            continue;
         const double limit = s.isExact() ? exact : almost;
-        if (holdsAt(states, mechanics, rounded, limit))
+        if (holdsAt(states, rounded, limit))
             found.push_back(std::move(rounded));
-        else if (holdsAt(states, mechanics, s, limit))
+        else if (holdsAt(states, s, limit))
             found.push_back(std::move(s));
     }
     nameAll(system, found);
@@ -224,26 +237,26 @@ double Symmetry::gauge(double t, const double* q) const {
     return sum;
 }
 
-double Symmetry::violation(const Mechanical& mechanics, double t, const double* q, const double* v) const {
+double Symmetry::violation(const SampledState& state) const {
     const auto d = static_cast<std::size_t>(dimension);
-    std::vector<double> gradient(2 * d), hessian(4 * d * d), xi(d);
-    double L = 0, sum = 0, size = 0;
-    mechanics.jet(mechanics.model.get(), t, q, v, &L, gradient.data(), hessian.data());
+    const double t = state.t, *const q = state.q.data(), *const v = state.v.data();
+    std::vector<double> xi(d);
+    double sum = 0, size = 0;
     displacement(t, q, xi.data());
     const auto add = [&](double term) {
         sum += term;
         size += std::abs(term);
     };
     for (std::size_t i = 0; i < d; ++i) {
-        const double p = gradient[d + i];
-        add(gradient[i] * xi[i]);
+        const double p = state.gradient[d + i];
+        add(state.gradient[i] * xi[i]);
         add(p * c[i]);
         for (std::size_t j = 0; j < d; ++j) add(p * A[i * d + j] * v[j]);
         add(-p * tau1 * v[i]);
     }
     if (movesTime()) {
-        add(StateSampler(mechanics).timeDerivative(t, q, v) * (tau0 + tau1 * t));
-        add(L * tau1);
+        add(state.Lt * (tau0 + tau1 * t));
+        add(state.L * tau1);
     }
     for (const GaugeTerm& term : F) {
         if (term.power > 0) add(-term.rateInTime(t, q));

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "engine/model/system.hpp"
+#include "engine/symmetry/sample.hpp"
 
 namespace extremal {
 
@@ -65,7 +66,7 @@ struct Symmetry {
     double gauge(double t, const double* q) const;
     /// |sum| / sum |terms| of the condition at a state; 0 where all terms vanish, and not a number where one
     /// is not finite.
-    double violation(const Mechanical& mechanics, double t, const double* q, const double* v) const;
+    double violation(const SampledState& state) const;
     /// J = p.xi - tau H - F.
     double momentum(const Mechanical& mechanics, double t, const double* q, const double* p) const;
 };

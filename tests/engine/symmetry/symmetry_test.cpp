@@ -102,6 +102,11 @@ private slots:
         const std::string aboutOrigin = "rotation.x-y x: -y, y: x", energy = " | energy t: 1";
         const std::string planet = aboutOrigin + energy;
         row("Kepler", typed({"x", "y"}, kinetic + " + 1/sqrt(x^2 + y^2)"), planet.c_str());
+        // Derivatives of very different sizes at neighbouring places.
+        std::string wild = "x";
+        for (int level = 0; level < 5; ++level)
+            wild = level % 2 == 0 ? "exp(-(" + wild + ")^2/4+y)" : "sin(" + wild + "*y+cos(" + wild + "))";
+        row("a wild function", typed({"x", "y"}, kinetic + " - " + wild), "energy t: 1");
         row("Kepler in SI units",
             typed({"x", "y"}, "5.97e24*(" + kinetic + " + 1.32712440018e20/sqrt(x^2 + y^2))"),
             planet.c_str());
