@@ -2,7 +2,6 @@
 #include "engine/model/typed/symbolic.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <list>
 #include <map>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "engine/core/text.hpp"
+#include "engine/core/work.hpp"
 #include "engine/model/typed/symbolic_functions.hpp"
 
 namespace extremal::typed {
@@ -85,12 +85,8 @@ struct HashEx {
 class Engine {
 public:
     Engine(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop,
-           double maxSeconds)
-        : formula_(formula),
-          resolved_(resolved),
-          stop_(stop),
-          deadline_(std::chrono::steady_clock::now() +
-                    std::chrono::milliseconds(static_cast<long long>(1000 * maxSeconds))) {
+           double maxWork)
+        : formula_(formula), resolved_(resolved), stop_(stop), maxWork_(maxWork) {
         const int symbols = formula.firstParameter() + static_cast<int>(formula.parameters.size());
         for (int i = 0; i < symbols; ++i) symbols_.push_back(Leaf(*this, Leaf::Kind::symbol, i));
     }
@@ -111,11 +107,15 @@ public:
         return std::move(result_);
     }
 
-    /// Called at every leaf that a derivative meets: between two calls little can happen.
+    /// Called at every leaf that a derivative meets: between two calls little can happen. Counted and not
+    /// timed, so that a formula is refused on every machine or on none.
     void tick() {
-        if (++ticks_ % 64 != 0) return;
+        constexpr double units = 5e3;  // 3 to 20 microseconds were measured
+        constexpr long often = 64;
+        if (++ticks_ % often != 0) return;
         if (stop_.stop_requested()) throw Stopped();
-        if (std::chrono::steady_clock::now() > deadline_) throw TooLong();
+        work::spend(often * units);
+        if (static_cast<double>(ticks_) * units > maxWork_) throw TooLong();
     }
     const ex& derivativeOfPart(int part, const GiNaC::symbol& s) {
         const int with = ex_to<Leaf>(s).index();
@@ -355,7 +355,7 @@ private:
     const Formula& formula_;
     const ResolvedFormula& resolved_;
     std::stop_token stop_;
-    std::chrono::steady_clock::time_point deadline_;
+    double maxWork_;
     long ticks_ = 0;
     exvector symbols_, parts_;
     std::vector<std::shared_ptr<const Interpolant>> tables_;
@@ -374,12 +374,13 @@ ex Leaf::derivative(const GiNaC::symbol& s) const {
 struct Finding {
     std::shared_ptr<const SymbolicLagrangian> result;
     std::optional<ExpressionError> error;
+    double work = 0;  ///< what it has taken (core/work.hpp)
 };
 
 Finding find(const Formula& formula, const ResolvedFormula& resolved, const std::stop_token& stop,
-             double maxSeconds) {
+             double maxWork) {
     try {
-        return {std::make_shared<const SymbolicLagrangian>(Engine(formula, resolved, stop, maxSeconds).run()),
+        return {std::make_shared<const SymbolicLagrangian>(Engine(formula, resolved, stop, maxWork).run()),
                 {}};
     } catch (const ExpressionError& e) {
         return {nullptr, e};
@@ -387,8 +388,8 @@ Finding find(const Formula& formula, const ResolvedFormula& resolved, const std:
         return {};
     } catch (const TooLong&) {
         return {nullptr,
-                ExpressionError("takes more than " + formatNumber(maxSeconds) + " s to differentiate", 0,
-                                "a shorter formula, or fewer coordinates")};
+                ExpressionError("takes more than " + formatNumber(maxWork) + " operations to differentiate",
+                                0, "a shorter formula, or fewer coordinates")};
     } catch (const std::bad_alloc&) {
         return {nullptr, ExpressionError("needs too much memory to differentiate", 0, "a shorter formula")};
     } catch (const std::exception&
@@ -429,7 +430,7 @@ private:
 }  // namespace
 
 std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, const std::stop_token& stop,
-                                                        double maxSeconds) {
+                                                        double maxWork) {
     static Memory memory;
     static std::mutex working;
 
@@ -442,10 +443,13 @@ std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula, 
         const std::lock_guard lock(working);
         finding = memory.recall(key);  // another thread may have been at it
         if (!finding) {
-            finding = find(formula, resolved, stop, maxSeconds);
+            const work::Measured measured;
+            finding = find(formula, resolved, stop, maxWork);
+            finding->work = measured.spent();
             if (finding->result || finding->error) memory.keep(key, *finding);
         }
     }
+    work::spendOnce("derivatives of " + formula.text, finding->work);
     if (finding->error) throw *finding->error;
     return finding->result;
 }

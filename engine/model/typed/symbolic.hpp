@@ -7,8 +7,9 @@
 /// abs' = sign and sign' = 0, also at 0; floor, comparisons and the like have the derivative 0, and a choice
 /// between formulas that of the one that is chosen.
 ///
-/// Errors: ExpressionError; more than `maxSeconds` or too much memory is one. GiNaC knows no threads: calls
-/// take turns. What was found for the last formulas is remembered, errors included.
+/// Errors: ExpressionError; more work than `maxWork` (core/work.hpp), about five seconds, or too much memory
+/// is one. GiNaC knows no threads: calls take turns. What was found for the last formulas is remembered,
+/// errors included.
 #pragma once
 
 #include <memory>
@@ -32,6 +33,6 @@ struct SymbolicLagrangian {
 /// Coordinates and parameters must have valid, different names. Null if a stop was requested on the way.
 std::shared_ptr<const SymbolicLagrangian> differentiate(const Formula& formula,
                                                         const std::stop_token& stop = {},
-                                                        double maxSeconds = 5);
+                                                        double maxWork = 5e9);
 
 }  // namespace extremal::typed

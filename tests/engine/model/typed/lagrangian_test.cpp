@@ -431,16 +431,16 @@ private slots:
         for (int i = 1; i < 190; ++i)
             nest = "tan(" + nest + "+q" + std::to_string(i % 64) + "*q" + std::to_string(7 * i % 64) + ")";
         formula.text += nest;
-        const auto message = [&](double seconds) {
+        const auto message = [&](double work) {
             try {
-                (void)typed::differentiate(formula, {}, seconds);
+                (void)typed::differentiate(formula, {}, work);
                 return std::string();
             } catch (const ExpressionError& e) {
                 return std::string(e.what());
             }
         };
-        QVERIFY2(message(0).starts_with("takes more than 0 s to differentiate"), message(0).c_str());
-        QCOMPARE(message(5), message(0));  // remembered: nothing is tried again
+        QVERIFY2(message(0).starts_with("takes more than 0 operations to differentiate"), message(0).c_str());
+        QCOMPARE(message(5e9), message(0));  // remembered: nothing is tried again
     }
     void whatWasDifferentiatedIsRemembered() {
         const typed::Formula formula{{"x"}, {{"k", 2}}, "x_t^2/2 - k*x^4 - 0.125*x"};
