@@ -13,7 +13,7 @@
 
 namespace extremal::api {
 
-/// "0.1.0": of the library that runs, not of the headers.
+/// "0.2.0": of the library that runs, not of the headers.
 EXTREMAL_API const char* version();
 
 }  // namespace extremal::api
