@@ -148,7 +148,7 @@ void addSystemCalls(const SystemInfo& info,
         mechanics.energy = &energy;
         mechanics.flow = &flow;
         mechanics.isTimeDependent = info.isTimeDependent;
-        system.kind = std::move(mechanics);
+        system.parts.set(std::move(mechanics));
         const std::string& first = info.coordinates.front().name;
         system.phaseX = "q." + first;
         system.phaseY = "p." + first;

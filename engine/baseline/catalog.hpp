@@ -28,7 +28,8 @@ struct BaselineEntry {
     bool isAdaptive = false;  ///< takes "tolerance" instead of "step"
     /// Of those that are not adaptive. free: "step" is the first step.
     TimeGrid grid = TimeGrid::fixed;
-    std::function<bool(const System&)> applies;     ///< empty: every system with coordinates
+    Takes takes = Takes::only<Mechanical>();        ///< the binding parts that its steps understand
+    std::function<bool(const System&)> suits;       ///< of systems of these parts; empty: all do
     std::function<Claims(const Settings&)> claims;  ///< where they depend on its keys; else item.claims
     std::function<Claims(const System&)> claimsOn;  ///< where they depend on the kind of system
     int orderInSpace = 0;  ///< of fields on meshes, which compositions in time do not raise; 0: there is none

@@ -11,7 +11,7 @@ namespace extremal {
 
 /// By the Lobatto rule of the nodes of each element: the mass is diagonal.
 inline std::shared_ptr<const SpatialForm> lumpedForm(const System& system) {
-    const auto& problem = std::get<ScalarField>(system.kind).problem;
+    const auto& problem = system.part<ScalarField>().problem;
     return std::make_shared<const SpatialForm>(problem, lobatto<double>(problem->nodes.degree + 1));
 }
 

@@ -34,9 +34,9 @@ BaselineEntry splittingBaseline(std::string id, std::string title, std::string d
               {},
               Claims{splitting.order, true, true, {"momentum", "norm"}},
               splitting.isNystrom ? "a separable Lagrangian" : ""};
-    e.applies = [isNystrom = splitting.isNystrom](const System& system) {
-        if (isWave(system)) return true;
-        return isMechanical(system) && (!isNystrom || system.mechanics().isSeparable);
+    e.takes = Takes::only<Mechanical, Wave>();
+    e.suits = [isNystrom = splitting.isNystrom](const System& system) {
+        return isWave(system) || !isNystrom || system.mechanics().isSeparable;
     };
     // Fractions are printed to 15 digits.
     e.stabilityLimit = firstEdge(OscillatorStep(tableauOf(splitting.stages, 1e-15)).intervals());

@@ -115,7 +115,7 @@ BaselineEntry waveSplittingBaseline(std::string id, std::string title, std::stri
               {},
               Claims{splitting.order, true, true, {"norm"}},
               "a wave function"};
-    e.applies = [](const System& system) { return isWave(system); };
+    e.takes = Takes::only<Wave>();
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [splitting](const System& system, const BaselineOptions& options) {
         return makeWaveSplitting(system, options.step, splitting);

@@ -118,7 +118,7 @@ const Family* familyOf(const Settings& space) {
 
 const Family* familyFor(const System& system) {
     for (const Family& family : families())
-        if (family.choices && !family.isVariant && family.applies(system)) return &family;
+        if (family.choices && !family.isVariant && appliesTo(family, system)) return &family;
     return nullptr;
 }
 
@@ -127,7 +127,7 @@ std::vector<ChoiceGrid> choiceGrids(const System& system) {
     if (!main) return {};
     std::vector<ChoiceGrid> grids{main->choices(system)};
     for (const Family& family : families()) {
-        if (&family == main || !family.choices || !family.applies(system)) continue;
+        if (&family == main || !family.choices || !appliesTo(family, system)) continue;
         ChoiceGrid further = family.choices(system);
         const bool fit = !further.cells.empty() && std::all_of(further.cells.begin(), further.cells.end(),
                                                                [&](const ChoiceGrid::Cell& cell) {
@@ -187,7 +187,7 @@ Properties describe(const Discretization& discretization) {
 
 Properties describe(const Discretization& discretization, const System& system) {
     const Family* const family = familyOf(discretization.space);
-    if (family && family->describeOn && family->applies(system))
+    if (family && family->describeOn && appliesTo(*family, system))
         if (auto known = family->describeOn(discretization, system)) return *std::move(known);
     return describe(discretization);
 }
@@ -202,7 +202,9 @@ Settings completeQuadrature(const Settings& space, const Settings& quadrature) {
 std::string mismatch(const Discretization& discretization, const System& system) {
     const Family* const family = familyOf(discretization.space);
     if (!family) return "there is no space \"" + discretization.space.type + "\"";
-    if (!family->applies(system))
+    if (const std::string needed = neededInstead(family->takes, system.parts); !needed.empty())
+        return discretization.space.type + " needs " + needed + ", which " + system.id + " is not";
+    if (!appliesTo(*family, system))
         return discretization.space.type + " needs " + family->item.needs + ", and " + system.id +
                " has none";
     return family->mismatch ? family->mismatch(discretization, system) : std::string();
@@ -210,17 +212,17 @@ std::string mismatch(const Discretization& discretization, const System& system)
 
 Discretization withEstimates(const Discretization& discretization, const System& system, const State& start) {
     const Family* const family = familyOf(discretization.space);
-    const bool estimates = family && family->estimate && family->applies(system);
+    const bool estimates = family && family->estimate && appliesTo(*family, system);
     return estimates ? family->estimate(discretization, system, start) : discretization;
 }
 
 std::unique_ptr<Integrator> makeIntegrator(const System& system, const Discretization& discretization,
                                            const Clock& clock) {
     const Family& family = knownFamily(discretization.space);
-    if (!family.applies(system)) {
+    if (!appliesTo(family, system)) {
         std::vector<std::string> fitting;
         for (const Family& other : families())
-            if (other.applies(system))
+            if (appliesTo(other, system))
                 for (const SpaceEntry& entry : other.spaces) fitting.push_back(entry.item.id);
         throw InvalidScene("/space/type", mismatch(discretization, system),
                            fitting.empty() ? "a baseline" : "it has " + joinNames(fitting));
@@ -246,7 +248,7 @@ std::vector<ReferencePlan> referencePlans(const System& system, const State& sta
     std::vector<ReferencePlan> all;
     const Family* const own = familyFor(system);
     const auto add = [&](const Family& family) {
-        if (!family.reference || !family.applies(system)) return;
+        if (!family.reference || !appliesTo(family, system)) return;
         if (ReferencePlan plan = family.reference(system, start, duration); plan.make)
             all.push_back(std::move(plan));
     };

@@ -97,7 +97,11 @@ struct Family {
     /// window starts from.
     bool isVariant = false;
 
-    bool (*applies)(const System&) = nullptr;
+    /// The binding parts that its steps understand, of some discretization; `mismatch` is for those that one
+    /// of them lacks.
+    Takes takes = Takes::only<Mechanical>();
+    /// Whether a system of these parts can be used at all. Null: it can.
+    bool (*suits)(const System&) = nullptr;
     /// The keys of the model at the resolution of a space; none where it has none of its own, so that the
     /// scheme is on the mesh of the scene. Null: spaces have none.
     std::optional<Settings> (*model)(const Settings& space, const Settings& model) = nullptr;

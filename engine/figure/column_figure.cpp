@@ -26,8 +26,7 @@ Figure columnFigure(const FigureContext& context, const std::string& x, const st
         addAgainstTime(figure, context, y, Take::value);
     else
         addCurves(figure, context, x, y);
-    if (context.system && kindOf<BoundaryProblem>(*context.system) && y == "u_exact" &&
-        !figure.series().empty()) {
+    if (context.system && !context.system->isMotion() && y == "u_exact" && !figure.series().empty()) {
         figure.y.title = "u";
         Series exact = figure.series().front();  // the same for all schemes
         exact.label = "exact solution";

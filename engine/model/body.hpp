@@ -13,10 +13,14 @@
 #include <array>
 #include <memory>
 
+#include "engine/model/parts.hpp"
+
 namespace extremal {
 
 template <class T>
 struct BodyMechanics {
+    static constexpr PartInfo part{"body", "a rigid body"};
+
     int dimension = 0;                  ///< of the group; 0: there is no body
     std::array<T, 6> inertia{};         ///< diagonal of M: moments of inertia, then three times the mass
     std::shared_ptr<const void> model;  ///< first argument of the call below

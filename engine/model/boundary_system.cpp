@@ -6,13 +6,11 @@
 
 namespace extremal {
 
-System boundarySystem(std::string id, std::vector<Quantity> columns, BoundaryProblem problem,
-                      std::string error, double scale) {
+System boundarySystem(std::string id, std::vector<Quantity> columns, std::string error, double scale) {
     System s;
     s.id = std::move(id);
     s.independent = "x";
     s.columns = std::move(columns);
-    s.kind = std::move(problem);
     s.error.columns = {{"error", "", std::move(error), ""}};
     s.error.evaluate = [scale](const double* x, const double* reference, double* values) {
         values[0] = std::abs(x[0] - reference[0]) / scale;

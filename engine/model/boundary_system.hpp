@@ -10,8 +10,7 @@
 
 namespace extremal {
 
-/// `error`: its title. The state columns are 0 at the start.
-System boundarySystem(std::string id, std::vector<Quantity> columns, BoundaryProblem problem,
-                      std::string error, double scale);
+/// Without its part. `error`: its title. The state columns are 0 at the start.
+System boundarySystem(std::string id, std::vector<Quantity> columns, std::string error, double scale);
 
 }  // namespace extremal

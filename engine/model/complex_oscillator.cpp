@@ -28,7 +28,7 @@ System complexOscillator(std::complex<double> W) {
     System s;
     s.id = "complex-oscillator";
     s.coordinates = {{"x", "real part", "x", "", ""}, {"y", "imaginary part", "y", "", ""}};
-    s.kind = bindMechanics<double>(ComplexOscillator{W.real(), W.imag()});
+    s.parts.set(bindMechanics<double>(ComplexOscillator{W.real(), W.imag()}));
     return s;
 }
 

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/model/parts.hpp"
+
 namespace extremal {
 
 /// One of the terms that a Lagrangian is the sum of: with a name, so that a scheme may have a rule for it.
@@ -26,6 +28,8 @@ struct LagrangianTerm {
 
 template <class T>
 struct Mechanics {
+    static constexpr PartInfo part{"lagrangian", "a Lagrangian in coordinates"};
+
     int dimension = 0;
     std::shared_ptr<const void> model;  ///< owns the parameters; first argument of every call below
 

@@ -163,7 +163,7 @@ void addCasimir(System& system, EnergyFunction casimir) {
 }
 
 void describeBody(System& system, const Body& body) {
-    system.kind = body;
+    system.parts.set(body);
     system.measures.push_back(
         {"orthogonality", {{"orthogonality", "", "|RᵀR - 1|", ""}}, -1, [](const State&) {
              return [](double, const double* q, double* values) {

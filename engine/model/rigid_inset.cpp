@@ -12,7 +12,7 @@ namespace extremal {
 void addPolhode(System& system) {
     Inset inset;
     inset.title = "polhode";
-    const auto& I = std::get<Body>(system.kind).inertia;
+    const auto& I = system.part<Body>().inertia;
     for (EnergyCurve& curve : energyCurves({I[0], I[1], I[2]}, 96)) {
         Curve shape;
         for (const auto& n : curve.points) shape.points.push_back(onStage(n[0], n[1], n[2]));

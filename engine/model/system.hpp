@@ -14,10 +14,10 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "engine/core/catalog.hpp"
@@ -29,6 +29,7 @@
 #include "engine/model/drawing.hpp"
 #include "engine/model/exact_solution.hpp"
 #include "engine/model/mechanics.hpp"
+#include "engine/model/parts.hpp"
 
 namespace extremal {
 
@@ -98,30 +99,40 @@ struct MembraneProblem;
 struct EllipticProblem;
 struct StaticProblem;
 
-/// What kind of problem a system is: what schemes are made for. Families and baselines ask for it; whoever
-/// shows, measures or writes a system asks for the capabilities of System below.
+// The parts that bind a motion (model/parts.hpp): what schemes are made for. Families and baselines ask for
+// them; whoever shows, measures or writes a system asks for the capabilities of System below.
+
 using Mechanical = Mechanics<double>;  ///< a Lagrangian in coordinates: x = (q, p)
 using Body = BodyMechanics<double>;    ///< a Lagrangian on a group
 /// A wave function: the operator that moves it (model/wave/hamiltonian.hpp).
 struct Wave {
+    static constexpr PartInfo part{"wave", "a wave function"};
     std::shared_ptr<const Hamiltonian> hamiltonian;
 };
 /// A field over an interval: its Lagrangian and its mesh (model/field/problem.hpp).
 struct ScalarField {
+    static constexpr PartInfo part{"field", "a field"};
     std::shared_ptr<const FieldProblem> problem;
 };
 /// A membrane over a disc, on triangles (model/membrane/problem.hpp).
 struct Membrane {
+    static constexpr PartInfo part{"membrane", "a membrane"};
     std::shared_ptr<const MembraneProblem> problem;
 };
-/// No motion, but a boundary-value problem along x: an elliptic one (model/elliptic.hpp), or the profile with
-/// the least energy (model/static_problem.hpp). The other is null.
-struct BoundaryProblem {
-    std::shared_ptr<const EllipticProblem> problem = {};
-    std::shared_ptr<const StaticProblem> profile = {};
+/// No motion, but an elliptic boundary-value problem along x (model/elliptic.hpp).
+struct EllipticPart {
+    static constexpr PartInfo part{"elliptic", "the elliptic problem"};
+    std::shared_ptr<const EllipticProblem> problem;
 };
-using SystemKind =
-    std::variant<std::monostate, Mechanical, Body, Wave, ScalarField, Membrane, BoundaryProblem>;
+/// No motion, but the profile with the least energy, along x (model/static_problem.hpp).
+struct StaticPart {
+    static constexpr PartInfo part{"static", "a static profile"};
+    std::shared_ptr<const StaticProblem> problem;
+};
+/// Problems of one of these parts alone, which need nothing besides.
+inline Takes plainProblems() {
+    return Takes::only<Mechanical, Body, Wave, ScalarField, Membrane, EllipticPart, StaticPart>();
+}
 
 /// What a system measures of its own states, for the observable of that id.
 struct Measure {
@@ -180,7 +191,7 @@ struct System {
     std::string timeUnit;           ///< "s", or empty if dimensionless
     std::string energyUnit;
 
-    SystemKind kind;
+    Parts parts;
     std::vector<Coordinate> coordinates;  ///< of systems with coordinates: x = (q, p)
 
     // Systems with another state.
@@ -226,17 +237,28 @@ struct System {
     std::vector<std::string> timePlots;
 
     int dimension() const { return static_cast<int>(coordinates.size()); }
-    // What a system of the kind is moved by; others have none (std::bad_variant_access).
-    const Mechanical& mechanics() const { return std::get<Mechanical>(kind); }
-    const Body& body() const { return std::get<Body>(kind); }
-    const std::shared_ptr<const Hamiltonian>& hamiltonian() const { return std::get<Wave>(kind).hamiltonian; }
-    const FieldProblem& fieldProblem() const { return *std::get<ScalarField>(kind).problem; }
+    /// Else it is solved at once along a place, from its boundary values.
+    bool isMotion() const { return !parts.find<EllipticPart>() && !parts.find<StaticPart>(); }
+    /// A part that the system has. Throws std::logic_error where it does not.
+    template <class P>
+    const P& part() const {
+        if (const P* const found = parts.find<P>()) return *found;
+        throw std::logic_error(id + " has not " + std::string(P::part.title));
+    }
+    const Mechanical& mechanics() const { return part<Mechanical>(); }
+    const Body& body() const { return part<Body>(); }
+    const std::shared_ptr<const Hamiltonian>& hamiltonian() const { return part<Wave>().hamiltonian; }
+    const FieldProblem& fieldProblem() const { return *part<ScalarField>().problem; }
 };
 
-/// The system as one of a kind, or null: kindOf<Body>(system).
+/// The part of the system, or null: kindOf<Body>(system).
 template <class Kind>
 const Kind* kindOf(const System& system) {
-    return std::get_if<Kind>(&system.kind);
+    return system.parts.find<Kind>();
+}
+/// Whether a Lagrangian in coordinates is all that moves the system.
+inline bool hasLagrangianAlone(const System& system) {
+    return untaken(Takes::only<Mechanical>(), system.parts).empty();
 }
 inline bool isMechanical(const System& system) { return kindOf<Mechanical>(system) != nullptr; }
 inline bool isBody(const System& system) { return kindOf<Body>(system) != nullptr; }
@@ -299,11 +321,11 @@ const std::vector<ModelEntry>& modelCatalog();
 /// The entry with this id, or null.
 const ModelEntry* findModel(std::string_view id);
 
-/// Whether a baseline, space or observable can be used on a system: its own rule, else every system with
-/// coordinates.
+/// Whether a family, a baseline or an observable can be used on a system: it takes every part that the system
+/// needs, and has nothing against it besides.
 template <class Entry>
 bool appliesTo(const Entry& entry, const System& system) {
-    return entry.applies ? entry.applies(system) : isMechanical(system);
+    return untaken(entry.takes, system.parts).empty() && (!entry.suits || entry.suits(system));
 }
 
 }  // namespace extremal

@@ -71,8 +71,10 @@ struct ObservableEntry {
     bool needsReference = false;
     bool needsWayBack = false;      ///< the run goes back from its end, which needs a fixed step
     VariationPlan variations = {};  ///< which variations of the state the run must carry along for it
-    /// Whether the system has it; the default is every system.
-    std::function<bool(const System&)> applies;
+    /// The binding parts beside which it means something: by default those of problems that are one part
+    /// alone.
+    Takes takes = plainProblems();
+    std::function<bool(const System&)> suits;  ///< whether a system of these parts has it; empty: all have
     /// Empty for what only fills the summary ("order").
     std::function<Observer(const ObserveContext&)> bind;
 };
@@ -82,10 +84,5 @@ const ObservableEntry* findObservable(std::string_view id);
 
 /// The same as catalogue items.
 const std::vector<CatalogItem>& observableCatalog();
-
-/// Whether the system has an observable.
-inline bool isObservableOf(const ObservableEntry& entry, const System& system) {
-    return !entry.applies || entry.applies(system);
-}
 
 }  // namespace extremal

@@ -19,7 +19,7 @@ Observer bindMeasure(const Measure& measure, const State& initial) {
 
 ObservableEntry measuredObservable(CatalogItem item) {
     ObservableEntry e;
-    e.applies = [id = item.id](const System& system) { return measureOf(system, id) != nullptr; };
+    e.suits = [id = item.id](const System& system) { return measureOf(system, id) != nullptr; };
     e.bind = [id = item.id](const ObserveContext& context) {
         return bindMeasure(*measureOf(context.system, id), context.initial);
     };

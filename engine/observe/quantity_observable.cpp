@@ -33,7 +33,7 @@ ObservableEntry variationObservable(CatalogItem item, std::vector<Column> column
     ObservableEntry e;
     e.item = std::move(item);
     e.variations = plan;
-    e.applies = [](const System& system) { return isMechanical(system) || isBody(system); };
+    e.takes = Takes::only<Mechanical, Body>();
     e.bind = [columns = std::move(columns), isDefect](const ObserveContext& context) {
         Observer o = observeQuantities(context, columns);
         if (isDefect) o.extreme = 0;
@@ -45,7 +45,7 @@ ObservableEntry variationObservable(CatalogItem item, std::vector<Column> column
 ObservableEntry quantityObservable(CatalogItem item, Column column) {
     ObservableEntry e;
     e.item = std::move(item);
-    e.applies = isField;
+    e.takes = Takes::only<ScalarField>();
     e.bind = [column = std::move(column)](const ObserveContext& context) {
         return observeQuantity(context, column);
     };

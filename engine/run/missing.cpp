@@ -90,7 +90,7 @@ std::vector<Missing> missingFrom(const Comparison& comparison, const SchemeResul
     if (!comparison.system || !isComputed || s.cause == Outcome::refused) return all;
     for (const std::string& id : comparison.scene.observe) {
         const ObservableEntry* entry = findObservable(id);
-        if (!entry || !isObservableOf(*entry, *comparison.system)) continue;
+        if (!entry || !appliesTo(*entry, *comparison.system)) continue;
         if (entry->bind) {
             if (isMissing(*entry, scheme)) all.push_back({id, reasonFor(*entry, comparison, scheme)});
         } else if (s.status == RunStatus::done && !std::isfinite(s.orderMeasured)) {

@@ -128,7 +128,7 @@ struct Recording {
         for (const std::string& id : observe) {
             const ObservableEntry* entry = findObservable(id);
             if (!entry || !entry->bind || (entry->needsReference && !reference.make)) continue;
-            if (!isObservableOf(*entry, system)) continue;  // a warning has said that it is left out
+            if (!appliesTo(*entry, system)) continue;  // a warning has said that it is left out
             if (entry->needsReference) references.push_back(reference.make());
             Bound b{entry->bind({system, initial, entry->needsReference ? references.back() : ExactSolution{},
                                  scheme.plain(), step, integrator->quantities(), integrator.get(),

@@ -230,7 +230,7 @@ Reference refined(const ReferencePlan& plan, const Scene& scene, const System& s
 /// The family that references of the system are computed with on meshes of their own; null: there is none.
 const Family* familyOnMeshes(const System& system) {
     for (const Family& family : families())
-        if (family.referenceMesh && family.applies(system)) return &family;
+        if (family.referenceMesh && appliesTo(family, system)) return &family;
     return nullptr;
 }
 

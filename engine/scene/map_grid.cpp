@@ -74,7 +74,7 @@ std::vector<ObservedColumn> observableColumns(const Scene& scene, const System& 
     std::vector<ObservedColumn> all;
     const State initial = initialState(scene, system);
     for (const ObservableEntry& entry : observableEntries()) {
-        if (!entry.bind || !isObservableOf(entry, system)) continue;
+        if (!entry.bind || !appliesTo(entry, system)) continue;
         for (const Column& column : entry.bind({system, initial, {}}).columns)
             all.push_back({column.name, column.symbol, column.unit, entry.item.id});
     }

@@ -20,7 +20,14 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 bool isLacking(const System& system, const std::string& observable) {
     const ObservableEntry* entry = findObservable(observable);
-    return entry && !isObservableOf(*entry, system);
+    return entry && !appliesTo(*entry, system);
+}
+
+/// ": it needs a problem without a force", where that is the reason.
+std::string reasonOf(const System& system, const std::string& observable) {
+    const ObservableEntry* entry = findObservable(observable);
+    const std::string needed = entry ? neededInstead(entry->takes, system.parts) : std::string();
+    return needed.empty() ? "" : ": it needs " + needed;
 }
 
 /// Of a system that has it for some of its parameters, and loses it as they change.
@@ -152,7 +159,8 @@ void readObserve(Reader& reader, const Value& document, const System* system, Sc
                            "do not observe it");
             scene.observe.push_back(*name);
         } else if (system && isLacking(*system, *name))
-            reader.error(pointer, *name + " is not defined for " + scene.model.type,
+            reader.error(pointer,
+                         *name + " is not defined for " + scene.model.type + reasonOf(*system, *name),
                          scene.model.type + " has " + joinNames(known()));
         else if (!findObservable(*name))
             reader.unknownName(pointer, "observable", *name, known());

@@ -13,14 +13,24 @@
 namespace extremal {
 namespace {
 
-/// Throws InvalidScene, naming those that can.
-void refuseBaseline(const BaselineEntry& entry, const System& system) {
+/// What takes the system, for a hint: the baselines, else the spaces.
+std::string schemesFor(const System& system) {
     std::vector<std::string> fitting;
     for (const BaselineEntry& e : baselineCatalog())
         if (appliesTo(e, system)) fitting.push_back(e.item.id);
-    const std::string reason = entry.item.needs.empty() ? "" : ": it needs " + entry.item.needs;
+    if (!fitting.empty()) return "it has " + joinNames(fitting);
+    for (const Family& family : families())
+        if (appliesTo(family, system)) return "take a space and a quadrature";
+    return "no scheme takes it";
+}
+
+/// Throws InvalidScene, naming those that can.
+void refuseBaseline(const BaselineEntry& entry, const System& system) {
+    const std::string instead = neededInstead(entry.takes, system.parts);
+    const std::string& needed = instead.empty() ? entry.item.needs : instead;
+    const std::string reason = needed.empty() ? "" : ": it needs " + needed;
     throw InvalidScene("/baseline", entry.item.id + " cannot integrate " + system.id + reason,
-                       fitting.empty() ? "take a space and a quadrature" : "it has " + joinNames(fitting));
+                       schemesFor(system));
 }
 
 }  // namespace
@@ -102,7 +112,7 @@ ResolvedScheme refined(const ResolvedScheme& scheme, const ResolvedScene& resolv
     ResolvedScheme finer = scheme;
     const Settings& model = resolved.scene.model;
     for (const Family& family : families()) {
-        if (!family.refined || !family.applies(*resolved.system)) continue;
+        if (!family.refined || !appliesTo(family, *resolved.system)) continue;
         std::optional<Settings> own;
         if (scheme.family && scheme.family->model)
             own = scheme.family->model(scheme.discretization.space, model);

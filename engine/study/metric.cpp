@@ -12,7 +12,7 @@ std::string nameOf(const ObservableEntry& entry) {
 }
 
 bool isMeasurable(const ObservableEntry& entry, const System& system, const State& start) {
-    return entry.bind && isObservableOf(entry, system) && entry.bind({system, start, {}}).extreme >= 0;
+    return entry.bind && appliesTo(entry, system) && entry.bind({system, start, {}}).extreme >= 0;
 }
 
 }  // namespace

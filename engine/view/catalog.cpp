@@ -26,8 +26,9 @@ const std::vector<CatalogItem>& viewCatalog() {
 std::string missingFor(const View& view, const System& system) {
     const ViewEntry* entry = findView(view.id);
     if (!entry) return {};
+    if (const std::string needed = neededInstead(entry->takes, system.parts); !needed.empty()) return needed;
     if (const ObservableEntry* observable = findObservable(entry->observable);
-        observable && !isObservableOf(*observable, system))
+        observable && !appliesTo(*observable, system))
         return observable->item.needs.empty() ? "the observable " + entry->observable
                                               : observable->item.needs;
     return entry->missing ? entry->missing(view, system) : std::string();

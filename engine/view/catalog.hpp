@@ -65,6 +65,9 @@ struct ViewEntry {
     Scales scales = {};
     std::string observable = {};  ///< the scene must observe it; empty: the rows are enough
     std::vector<Product> products = {};
+    /// The binding parts beside which it means something: by default those of problems that are one part
+    /// alone.
+    Takes takes = plainProblems();
     /// What the system lacks for it, as "a wave function"; empty text: nothing. Null: every system has the
     /// view. An observable that the system lacks need not be asked about.
     std::string (*missing)(const View&, const System&) = nullptr;

@@ -127,7 +127,7 @@ private slots:
     void familyHasTheOrderAndTheStructureItClaims() {
         const Family family = family::line();
         const System system = quartic();
-        QVERIFY(family.applies(system));
+        QVERIFY(appliesTo(family, system));
         const Discretization made = family.choices(system).cells.front().discretization;
         const Properties known = family.describe(made);
         const auto end = [&](int n, std::vector<double> x) {

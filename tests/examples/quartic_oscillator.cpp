@@ -42,7 +42,7 @@ System make(const Settings& settings) {
     s.coordinates = {{"x", "position", "x", "m", "kg m/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.kind = bindMechanics<double>(withParameters(settings, fields()));
+    s.parts.set(bindMechanics<double>(withParameters(settings, fields())));
     s.draw = [](const double* x, Drawing& drawing) {
         drawing.tracer = {x[0], 0, 0};
         drawing.shapes.push_back(Disc{drawing.tracer, 10});

@@ -65,7 +65,7 @@ public:
         addBaselines();
         addCompositions();
         for (const Family& family : families())
-            if (family.applies(system_)) addSpaces(family);
+            if (appliesTo(family, system_)) addSpaces(family);
         return std::move(all_);
     }
 
@@ -194,18 +194,18 @@ const Ground grounds[] = {
 
 std::vector<Scene> everyGround() {
     std::vector<Scene> scenes;
-    std::vector<std::size_t> kinds;
+    std::vector<std::vector<const PartInfo*>> kinds;
     for (const Ground& ground : grounds) {
         const ReadScene read =
             readScene(std::string(ground.scene) + ",\"schemes\":[{\"scheme\":\"" + ground.scheme +
                       "\",\"step\":" + std::to_string(ground.step) + "}]}");
         if (!read.errors.empty()) qFatal("%s", read.errors.front().message.c_str());
         scenes.push_back(read.scene);
-        kinds.push_back(makeSystem(read.scene).kind.index());
+        kinds.push_back(makeSystem(read.scene).parts.needs());
     }
     for (const Preset* preset : onePerModel()) {
         const Scene scene = readScene(preset->json).scene;
-        const std::size_t kind = makeSystem(scene).kind.index();
+        const auto kind = makeSystem(scene).parts.needs();
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end()) continue;
         kinds.push_back(kind);
         scenes.push_back(scene);

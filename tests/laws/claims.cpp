@@ -134,7 +134,7 @@ public:
         }
         std::replace(what.begin(), what.end(), ' ', '-');
         const ObservableEntry* const entry = findObservable(what);
-        if (!entry || !entry->bind || entry->needsReference || !isObservableOf(*entry, on.system)) return;
+        if (!entry || !entry->bind || entry->needsReference || !appliesTo(*entry, on.system)) return;
         observer_ = entry->bind({on.system, on.start, {}, trial.pair, step, integrator.quantities()});
         if (observer_->extreme < 0) observer_.reset();
     }

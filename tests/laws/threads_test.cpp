@@ -23,7 +23,7 @@ Scene everythingIn(Scene scene) {
     scene.schemes.clear();
     for (const CatalogueScheme& c : everythingOn(system, start, step)) scene.schemes.push_back(c.scheme.spec);
     // A boundary-value problem is solved as a whole.
-    if (!kindOf<BoundaryProblem>(system)) scene.end = {scene.start.value + 8 * step, {}};
+    if (system.isMotion()) scene.end = {scene.start.value + 8 * step, {}};
     scene.reference.kind = ReferenceSpec::Kind::none;
     scene.observe.clear();
     scene.views.clear();

@@ -287,8 +287,7 @@ void ScenePanel::rebuild() {
     lagrangian_->setVisible(isTyped(*entry));
     lagrangian_->refresh();
     for (QWidget* part : std::initializer_list<QWidget*>{initialTitle_, initial_, timeTitle_, time_})
-        part->setVisible(
-            !kindOf<BoundaryProblem>(system));  // solved at once, from nothing but its boundary values
+        part->setVisible(system.isMotion());  // solved at once, from nothing but its boundary values
     initial_->setFields(initialFields(workspace_, system));
     time_->setFields(
         {{numberField("end", "end", system.timeUnit, 10, "The run ends here."), "/time/end", {}, {}}});

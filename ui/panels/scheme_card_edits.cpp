@@ -51,7 +51,7 @@ void SchemeCard::editStep(const QString& typed) {
 
 bool SchemeCard::hasElements() const {
     const auto& resolved = workspace_.resolved();
-    return resolved && kindOf<BoundaryProblem>(*resolved->system);
+    return resolved && !resolved->system->isMotion();
 }
 
 /// What the field of the step begins with.

@@ -26,7 +26,7 @@ std::vector<std::string> termsOf(const Scene& scene, const SchemeSpec& spec) {
     const Family* const family = familyOf(spec.space);
     if (!family || !family->describeOn) return {};
     const System system = makeSystem(scene);
-    if (!isMechanical(system) || !family->applies(system)) return {};
+    if (!isMechanical(system) || !appliesTo(*family, system)) return {};
     std::vector<std::string> names;
     for (const auto& term : termsOf(system.mechanics())) names.push_back(term.name);
     if (names.size() < 2) return {};

@@ -28,7 +28,7 @@ std::vector<CatalogItem> fittingSpaces(const Scene& scene) {
     const System system = makeSystem(scene);
     std::vector<CatalogItem> items;
     for (const Family& family : families())
-        if (family.applies(system))
+        if (appliesTo(family, system))
             for (const SpaceEntry& e : family.spaces) items.push_back(e.item);
     return items;
 }

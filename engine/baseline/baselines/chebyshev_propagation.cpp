@@ -60,7 +60,7 @@ BaselineEntry chebyshev_propagation() {
               {},
               Claims{0, true, true, {"norm", "energy"}},
               "a wave function"};
-    e.applies = [](const System& system) { return isWave(system); };
+    e.takes = Takes::only<Wave>();
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.check = warnOfDuration;
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {

@@ -16,7 +16,7 @@ BaselineEntry crank_nicolson() {
               {},
               Claims{2, true, true, {"norm", "energy"}},
               "a wave function"};
-    e.applies = [](const System& system) { return isWave(system); };
+    e.takes = Takes::only<Wave>();
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeGaussWave(system, 1, 0, options.step);

@@ -110,7 +110,7 @@ BaselineEntry dopri5_quaternion() {
               Claims{5, false, false, {}},
               "a rigid body"};
     e.isAdaptive = true;
-    e.applies = [](const System& system) { return isBody(system); };
+    e.takes = Takes::only<Body>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Dopri5Quaternion>(system, options);
     };

@@ -22,7 +22,7 @@ BaselineEntry leapfrog() {
         {},
         Claims{2, true, true, {"bilinear form"}, false},
         "a wave function or a field"};
-    e.applies = [](const System& system) { return isWave(system) || isField(system); };
+    e.takes = Takes::only<Wave, ScalarField>();
     e.claimsOn = [](const System& system) {
         if (isField(system)) return Claims{2, true, true, {"multisymplectic form", "momentum"}, true};
         return Claims{2, true, true, {"bilinear form"}, false};

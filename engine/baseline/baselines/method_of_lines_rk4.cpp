@@ -97,7 +97,7 @@ BaselineEntry method_of_lines_rk4() {
         {},
         Claims{2, false, false, {"momentum"}},
         "a field"};
-    e.applies = isField;
+    e.takes = Takes::only<ScalarField>();
     e.stabilityLimit = limit;
     e.check = [](const SchemeCase& scheme, Findings& findings) {
         checkFieldStep(*lumpedForm(scheme.system), limit, scheme, "method-of-lines-rk4", findings);

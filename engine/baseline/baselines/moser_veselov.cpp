@@ -155,9 +155,8 @@ BaselineEntry moser_veselov() {
         return Claims{claimed, true, claimed == 2, {"momentum", "energy"}};
     };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.applies = [](const System& system) {
-        return isBody(system) && system.body().dimension == 3 && system.body().isFree();
-    };
+    e.takes = Takes::only<Body>();
+    e.suits = [](const System& system) { return system.body().dimension == 3 && system.body().isFree(); };
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<MoserVeselov>(system, options);
     };

@@ -139,9 +139,7 @@ BaselineEntry projected() {
               {},
               Claims{4, false, false, {"energy"}, false},
               "a Lagrangian without explicit time"};
-    e.applies = [](const System& system) {
-        return isMechanical(system) && !system.mechanics().isTimeDependent;
-    };
+    e.suits = [](const System& system) { return !system.mechanics().isTimeDependent; };
     e.stabilityLimit = 2.8284271247461903;
     e.make = [](const System& system, const BaselineOptions& options) {
         return makeFlowMethod<Projected>(system.mechanics(), options.step);

@@ -131,7 +131,7 @@ BaselineEntry pseudospectral_splitting() {
         {},
         Claims{2, true, true, {"momentum"}},
         "a periodic field"};
-    e.applies = isField;
+    e.takes = Takes::only<ScalarField>();
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         const FieldProblem& problem = system.fieldProblem();

@@ -94,7 +94,7 @@ BaselineEntry rigid_splitting() {
         return Claims{settings.integer("order"), true, true, {"momentum"}};
     };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.applies = [](const System& system) { return isBody(system); };
+    e.takes = Takes::only<Body>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<RigidSplitting>(system, options);
     };

@@ -59,7 +59,7 @@ BaselineEntry rk4_quaternion() {
               Claims{4, false, false, {}},
               "a rigid body"};
     e.stabilityLimit = std::numeric_limits<double>::infinity();
-    e.applies = [](const System& system) { return isBody(system); };
+    e.takes = Takes::only<Body>();
     e.make = [](const System& system, const BaselineOptions& options) -> std::unique_ptr<Integrator> {
         return std::make_unique<Rk4Quaternion>(system, options);
     };

@@ -40,7 +40,7 @@ BaselineEntry spectral_collocation() {
               {degree, nodes},
               Claims{8, false, false, {}},
               "a wave function"};
-    e.applies = [](const System& system) { return isWave(system); };
+    e.takes = Takes::only<Wave>();
     e.claims = [](const Settings& settings) {
         const int s = settings.integer("degree");
         // Collocation has the order of its interpolatory rule.

@@ -29,7 +29,7 @@ BaselineEntry splitting() {
                            "Which begins where there are as many of both; else those that are one more.")},
               Claims{},
               ""};
-    e.applies = [](const System& system) { return isMechanical(system) || isWave(system); };
+    e.takes = Takes::only<Mechanical, Wave>();
     e.claims = [](const Settings& settings) {
         Claims claims = typedSplitting(settings)->claims;
         claims.conserves.emplace_back("norm");

@@ -262,9 +262,7 @@ BaselineEntry time_transformed() {
         Claims{4, true, true, {"momentum"}, false},
         "a Lagrangian without explicit time"};
     e.grid = TimeGrid::free;
-    e.applies = [](const System& system) {
-        return isMechanical(system) && !system.mechanics().isTimeDependent;
-    };
+    e.suits = [](const System& system) { return !system.mechanics().isTimeDependent; };
     e.stabilityLimit = std::numeric_limits<double>::infinity();
     e.check = &checkDensity;
     e.make = [](const System& system, const BaselineOptions& options) {

@@ -41,10 +41,10 @@ bool isReal(const Settings& space) { return space.text("levels") == "real"; }
 bool isSynchronous(const Settings& space) { return space.text("levels") == "synchronous"; }
 
 const std::shared_ptr<const FieldProblem>& barOf(const System& system) {
-    return std::get<ScalarField>(system.kind).problem;
+    return system.part<ScalarField>().problem;
 }
 const std::shared_ptr<const MembraneProblem>& membraneOf(const System& system) {
-    return std::get<Membrane>(system.kind).problem;
+    return system.part<Membrane>().problem;
 }
 bool isMembrane(const System& system) { return kindOf<Membrane>(system) != nullptr; }
 
@@ -240,9 +240,8 @@ Family asynchronous() {
         const Levels levels = levelsOf(scheme.system, scheme.discretization.space);
         return std::max(5e-3, perUpdate * updatesIn(levels, scheme.step));
     };
-    f.applies = [](const System& system) {
-        return isMembrane(system) || (isField(system) && system.fieldProblem().isBody);
-    };
+    f.takes = Takes::only<ScalarField, Membrane>();
+    f.suits = [](const System& system) { return isMembrane(system) || system.fieldProblem().isBody; };
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // one node in time for each element
     };

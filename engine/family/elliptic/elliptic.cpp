@@ -61,7 +61,7 @@ std::unique_ptr<Integrator> makeEllipticIntegrator(const System& system, const D
                            "must be a whole part of 1, from a half to 1e-5, got " + formatNumber(step),
                            "leave it out: it is 1/elements");
     const bool isLinear = discretization.space.text("functions") == "linear";
-    return std::make_unique<Elliptic>(*std::get<BoundaryProblem>(system.kind).problem, static_cast<int>(n),
+    return std::make_unique<Elliptic>(*system.part<EllipticPart>().problem, static_cast<int>(n),
                                       isLinear ? EllipticElements::linear : EllipticElements::multiscale);
 }
 

@@ -80,7 +80,7 @@ ChoiceGrid choices(const System&) {
 ShapeFunction shapeFunction(const System& system, const Discretization& d, double step, int node) {
     const int elements = static_cast<int>(std::lround(1 / step));
     if (node == 0) node = elements / 2;
-    EllipticHat hat = ellipticHat(*std::get<BoundaryProblem>(system.kind).problem,
+    EllipticHat hat = ellipticHat(*system.part<EllipticPart>().problem,
                                   isLinear(d.space) ? EllipticElements::linear : EllipticElements::multiscale,
                                   elements, node);
     return {std::move(hat.x), std::move(hat.phi), node, elements};
@@ -102,10 +102,7 @@ Family elliptic() {
               {},         "the elliptic problem"};
     f.source = "Leok 2004, sec. 7.1";
     f.spaces = {ellipticElements()};
-    f.applies = [](const System& system) {
-        const auto* const kind = kindOf<BoundaryProblem>(system);
-        return kind && kind->problem;
-    };
+    f.takes = Takes::only<EllipticPart>();
     f.completeRule = [](const Settings&, const Settings&) {
         return Settings{"auto", {}, {}};  // integrals over elements are exact to round-off
     };

@@ -263,7 +263,6 @@ Family energy_momentum() {
     f.solverMethods = {"newton"};
     f.grid = [](const Settings&) { return TimeGrid::free; };
     f.isVariant = true;
-    f.applies = isMechanical;
     f.mismatch = mismatchOf;
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return completePlainRule(quadrature, space.integer("degree"), 1);

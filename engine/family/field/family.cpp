@@ -215,7 +215,7 @@ Settings refined(const Settings& model, int factor) {
 }
 
 std::shared_ptr<const FieldProblem> problemFor(const System& system, const Discretization& d) {
-    const auto& problem = std::get<ScalarField>(system.kind).problem;
+    const auto& problem = system.part<ScalarField>().problem;
     if (hasOwnFunctions(d.space) && !problem->functions)
         throw InvalidScene("/space/functions", "functions of their own are for elements of a scalar field",
                            "\"lagrange\"");
@@ -446,7 +446,7 @@ Family field() {
     f.solverMethods = {"banded", "newton"};
     f.takesTensorRules = true;
     f.hasDenseOutput = false;
-    f.applies = isField;
+    f.takes = Takes::only<ScalarField>();
     f.model = modelOf;
     f.referenceMesh = referenceMesh;
     f.refined = refined;

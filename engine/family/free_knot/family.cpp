@@ -37,7 +37,7 @@ Knots knotsOf(const Settings& space) {
 }
 
 const std::shared_ptr<const StaticProblem>& problemOf(const System& system) {
-    return std::get<BoundaryProblem>(system.kind).profile;
+    return system.part<StaticPart>().problem;
 }
 
 /// Once for the start, the check and the run.
@@ -107,10 +107,7 @@ Family free_knot() {
     f.source = "Leok 2004, sec. 6";
     f.spaces = {knotSpace()};
     f.grid = [](const Settings&) { return TimeGrid::free; };
-    f.applies = [](const System& system) {
-        const auto* const kind = kindOf<BoundaryProblem>(system);
-        return kind && kind->profile;
-    };
+    f.takes = Takes::only<StaticPart>();
     f.model = [](const Settings&, const Settings& model) -> std::optional<Settings> { return model; };
     f.start = [](const System& system, Discretization& d, const Settings&, double) {
         return knotStart(*profileOf(system, d.space));

@@ -187,7 +187,6 @@ Family galerkin() {
     f.source = "Leok 2004, sec. 2";
     f.spaces = tableSpaces();
     f.solverMethods = {"newton", "fixed-point"};
-    f.applies = isMechanical;
     f.completeRule = galerkin::completedRule;
     f.describe = describeGalerkin;
     f.check = checkGalerkin;

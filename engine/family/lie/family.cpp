@@ -122,7 +122,7 @@ Family lie() {
     f.source = "Leok 2004, sec. 3 and 4";
     f.spaces = {liePolynomial()};
     f.solverMethods = {"newton"};
-    f.applies = isBody;
+    f.takes = Takes::only<Body>();
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return completePlainRule(quadrature, space.integer("degree"), 1);
     };

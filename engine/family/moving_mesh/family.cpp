@@ -100,7 +100,7 @@ std::optional<Settings> modelOf(const Settings& space, const Settings& model) {
 }
 
 const std::shared_ptr<const FieldProblem>& problemOf(const System& system) {
-    return std::get<ScalarField>(system.kind).problem;
+    return system.part<ScalarField>().problem;
 }
 
 /// Which start a run has. That of the explicit method where equidistribution of u alone is going to fail: a
@@ -323,7 +323,8 @@ Family moving_mesh() {
     f.spaces = {movingMeshSpace()};
     f.solverMethods = {"banded"};
     f.hasDenseOutput = false;
-    f.applies = isMovable;
+    f.takes = Takes::only<ScalarField>();
+    f.suits = isMovable;
     f.mismatch = mismatchOf;
     f.model = modelOf;
     f.start = startOf;

@@ -187,7 +187,6 @@ Family multiscale() {
     f.source = "Leok 2004, sec. 7";
     f.spaces = {oscillatory(), productForm()};
     f.solverMethods = {"newton"};  // fixed-point iteration diverges on fast oscillations
-    f.applies = isMechanical;
     f.mismatch = mismatchOf;
     f.completeRule = [](const Settings& space, const Settings& quadrature) {
         return isProduct(space) ? completeProductRule(space, quadrature)

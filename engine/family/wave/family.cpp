@@ -211,7 +211,7 @@ Family wave() {
     f.spaces = {fourier(), spaceTime()};
     f.solverMethods = {"banded", "dense", "krylov"};
     f.hasDenseOutput = false;
-    f.applies = isWave;
+    f.takes = Takes::only<Wave>();
     f.mismatch = mismatchOf;
     f.completeRule = completeRule;
     f.estimate = withShift;

@@ -39,8 +39,7 @@ Figure makeShapeFunction(const FigureContext& context) {
         figure.add(std::move(s));
     }
     if (right > left) figure.x.range = {left, right};
-    const auto* const kind = context.system ? kindOf<BoundaryProblem>(*context.system) : nullptr;
-    if (context.system && !(kind && kind->problem))
+    if (context.system && !context.system->parts.find<EllipticPart>())
         figure.message = "Only schemes of the elliptic problem have shape functions";
     finishFigure(figure, context, "Shape function " + figure.subtitle);
     figure.drop<FailureMark>();

@@ -222,7 +222,7 @@ double translationMomentum(const FieldProblem& problem, const double* x) {
 
 System makeFieldSystem(Shared problem, double amplitude) {
     System s;
-    s.kind = ScalarField{problem};
+    s.parts.set(ScalarField{problem});
     const auto form = std::make_shared<const SpatialForm>(problem, energyRule(*problem));
     s.energy = [form](double, const double* x) {
         return form->kineticEnergy(x + form->size()) + form->energy(x);

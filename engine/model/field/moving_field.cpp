@@ -133,7 +133,7 @@ MomentumMap movingMomentum(const SharedProblem& problem) {
 
 System makeMovingField(SharedProblem problem, double amplitude) {
     System s;
-    s.kind = ScalarField{problem};
+    s.parts.set(ScalarField{problem});
     s.energy = movingEnergy(problem);
     s.error.columns = fieldErrorColumns();
     s.error.evaluate = [](const double*, const double*, double* values) {

@@ -143,7 +143,7 @@ void drawMembrane(const MembraneProblem& problem, double unit, const double* val
 
 System makeMembraneSystem(SharedMembrane problem, double amplitude) {
     System s;
-    s.kind = Membrane{problem};
+    s.parts.set(Membrane{problem});
     const auto n = problem->mesh.nodes.size();
     s.energy = [problem, n](double, const double* x) { return problem->energy(x, x + n); };
     s.error.columns = {{"error", "", "‖u - u_ref‖", ""}};

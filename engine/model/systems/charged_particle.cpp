@@ -231,7 +231,7 @@ System makeChargedParticle(const Settings& settings) {
         s.coordinates.push_back({axis, std::string("position ") + axis, axis, "m", "kg m/s"});
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.kind = made.mechanics;
+    s.parts.set(made.mechanics);
     if (isAxisymmetric(s.mechanics()))
         s.momenta.push_back({"z", "L_z", "kg m²/s",
                              [](const double* q, const double* p) { return q[0] * p[1] - q[1] * p[0]; }});

@@ -56,7 +56,7 @@ System makeDoublePendulum(const Settings& settings) {
                      {"theta2", "lower angle", "θ₂", "rad", "kg m²/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.kind = bindMechanics<double>(model);
+    s.parts.set(bindMechanics<double>(model));
     if (model.g == 0)
         s.momenta = {
             {"total", "p_θ₁ + p_θ₂", "kg m²/s", [](const double*, const double* p) { return p[0] + p[1]; }}};

@@ -162,7 +162,7 @@ System makeFputChain(const Settings& settings) {
     Mechanics<double> mechanics = bindRuntime(model);
     if (model.dimension() <= static_cast<int>(typed::maxCoordinates))
         mechanics.terms = [model] { return chainTerms(model); };
-    s.kind = std::move(mechanics);
+    s.parts.set(std::move(mechanics));
     // Every displacement has a slow part as well.
     s.fast = {std::sqrt(2 * model.kStiff / model.m),
               {},

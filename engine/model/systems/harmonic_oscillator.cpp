@@ -59,7 +59,7 @@ System makeHarmonicOscillator(const Settings& settings) {
     s.coordinates = {{"x", "position", "x", "m", "kg m/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.kind = bindMechanics<double>(model);
+    s.parts.set(bindMechanics<double>(model));
     s.fast = {std::sqrt(model.k / model.m), {0}};
     s.exact = [model](const State& initial) { return exactSolution(model, initial); };
     s.draw = drawHarmonicOscillator;

@@ -43,7 +43,7 @@ System makeHenonHeiles(const Settings& settings) {
     System s;
     s.id = "henon-heiles";
     s.coordinates = {{"x", "position x", "x", "", ""}, {"y", "position y", "y", "", ""}};
-    s.kind = bindMechanics<double>(model);
+    s.parts.set(bindMechanics<double>(model));
     if (model.lambda == 0)
         s.momenta = {
             {"z", "L", "", [](const double* q, const double* p) { return q[0] * p[1] - q[1] * p[0]; }}};

@@ -183,7 +183,7 @@ System makeKepler(const Settings& settings) {
     System s;
     s.id = "kepler";
     s.coordinates = {{"x", "position x", "x", "", ""}, {"y", "position y", "y", "", ""}};
-    s.kind = bindMechanics<double>(model);
+    s.parts.set(bindMechanics<double>(model));
     s.momenta = {{"z", "L", "", [](const double* q, const double* p) { return q[0] * p[1] - q[1] * p[0]; }}};
     s.exact = [mu = model.mu](const State& initial) { return exactSolution(mu, initial); };
     s.draw = drawKepler;

@@ -21,7 +21,7 @@ System makeLagrangian(const Settings& settings) {
     s.id = "lagrangian";
     for (const std::string& name : formula.coordinates)
         s.coordinates.push_back({name, name, typed::symbolOf(name), "", ""});
-    s.kind = std::move(made.mechanics);
+    s.parts.set(std::move(made.mechanics));
     for (const int i : made.cyclic) {
         const auto k = static_cast<std::size_t>(i);
         s.momenta.push_back({formula.coordinates[k], "p_" + typed::symbolOf(formula.coordinates[k]), "",

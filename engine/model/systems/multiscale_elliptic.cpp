@@ -35,8 +35,8 @@ System makeMultiscaleElliptic(const Settings& settings) {
     for (int i = 1; i < 200; ++i) size = std::max(size, std::abs(exact->u(i / 200.0)));
     System s = boundarySystem("multiscale-elliptic",
                               {{"u", "solution", "u", ""}, {"u_exact", "exact solution", "u_exact", ""}},
-                              {std::make_shared<const EllipticProblem>(problem), {}},
                               "|u - u_exact| / max |u|", size > 0 ? size : 1);
+    s.parts.set(EllipticPart{std::make_shared<const EllipticProblem>(problem)});
     s.exact = [exact](const State&) -> ExactSolution {
         return [exact](double x, std::span<double> values) { values[0] = values[1] = exact->u(x); };
     };

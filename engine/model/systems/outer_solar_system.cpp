@@ -141,7 +141,7 @@ System makeOuterSolarSystem(const Settings& settings) {
                                      std::string(axis) + "_" + body.title, "au", "M☉ au/d"});
     s.timeUnit = "d";
     s.energyUnit = "M☉ au²/d²";
-    s.kind = bindMechanics<double>(withParameters(settings, outerSolarSystemFields()));
+    s.parts.set(bindMechanics<double>(withParameters(settings, outerSolarSystemFields())));
     s.momenta = momenta();
     s.draw = [](const double* x, Drawing& drawing) {
         for (std::size_t i = 0; i < bodies; ++i)

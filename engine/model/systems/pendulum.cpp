@@ -115,7 +115,7 @@ System makePendulum(const Settings& settings) {
     s.coordinates = {{"theta", "angle", "θ", "rad", "kg m²/s"}};
     s.timeUnit = "s";
     s.energyUnit = "J";
-    s.kind = bindMechanics<double>(model);
+    s.parts.set(bindMechanics<double>(model));
     s.exact = [model](const State& initial) -> ExactSolution { return PendulumFlow(model, initial); };
     s.draw = [l = model.l](const double* x, Drawing& drawing) {
         const Point bob{l * std::sin(x[0]), -l * std::cos(x[0]), 0};

@@ -149,7 +149,7 @@ System makeSpringPendulum(const Settings& settings) {
                    {"slow", "m*g*(l+a)*cos(theta)"}};
         return typed::makeTerms(f);
     };
-    s.kind = std::move(mechanics);
+    s.parts.set(std::move(mechanics));
     s.fast = {std::sqrt(model.k / model.m),
               {0},
               [model](double, const double* x) { return model.oscillation(x); },

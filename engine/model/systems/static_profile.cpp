@@ -104,7 +104,8 @@ System makeStaticProfile(const Settings& settings) {
                                {"element_energy", "horizontal momentum", "∂E/∂x", ""},
                                {"share", "energy of the element", "E_e", ""},
                                {"total", "energy of the profile", "E", ""}},
-                              {{}, std::make_shared<const StaticProblem>(problem)}, "|u - u_exact|", 1);
+                              "|u - u_exact|", 1);
+    s.parts.set(StaticPart{std::make_shared<const StaticProblem>(problem)});
     if (const Value* const exact = settings.find("exact"); exact && !exact->isNull()) {
         if (!exact->isString()) throw InvalidScene("/exact", "must be an expression in x");
         const auto u = std::make_shared<const typed::TypedFunction>(

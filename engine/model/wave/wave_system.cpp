@@ -68,7 +68,7 @@ System makeWaveSystem(const Settings& settings, const std::function<Shared(const
     s.id = settings.type;
     static MemoCache<Settings, Shared> recent(6);
     const Shared h = recent.get(settings, [&] { return make(settings); });
-    s.kind = Wave{h};
+    s.parts.set(Wave{h});
     s.measures = waveMeasures(h);
     s.phaseError = wavePhaseError(h->size());
     s.energy = [h](double t, const double* x) { return h->energy(t, coefficients(x)); };

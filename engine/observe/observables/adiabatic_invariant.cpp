@@ -13,7 +13,7 @@ ObservableEntry adiabatic_invariant() {
               {},
               {},
               "a fast oscillation of its own"};
-    e.applies = [](const System& system) { return static_cast<bool>(system.fast.invariant); };
+    e.suits = [](const System& system) { return static_cast<bool>(system.fast.invariant); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         const std::string &energy = context.system.energyUnit, &time = context.system.timeUnit;

@@ -14,7 +14,7 @@ ObservableEntry bilinear_form() {
               {},
               {},
               "a wave function"};
-    e.applies = [](const System& system) { return isWave(system); };
+    e.takes = Takes::only<Wave>();
     e.bind = [](const ObserveContext& context) {
         return observeQuantity(context, "bilinear_form", {"bilinear_form", "J", "", {}, {}},
                                {"bilinear_form_error", "J - J(0)", "", {}, {}});

@@ -15,7 +15,7 @@ ObservableEntry discrete_energy() {
               {},
               {},
               "coordinates, or a field"};
-    e.applies = [](const System& system) { return isMechanical(system) || isField(system); };
+    e.takes = Takes::only<Mechanical, ScalarField>();
     e.bind = [](const ObserveContext& context) {
         const std::string& unit = context.system.energyUnit;
         return observeQuantity(context, "discrete_energy", {"discrete_energy", "E_d", unit, {}, {}},

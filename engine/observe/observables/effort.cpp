@@ -10,6 +10,7 @@ ObservableEntry effort() {
     e.item = {
         "effort", "solver effort", "Iterations and evaluations of the step that ended at each row.", {}, {},
         ""};
+    e.takes = Takes::everything();
     e.bind = [](const ObserveContext&) {
         Observer o;
         o.columns = {{"newton_iterations", "iterations", "", {}, {}},

@@ -9,7 +9,7 @@ ObservableEntry energy() {
     ObservableEntry e;
     e.item = {"energy", "energy", "H and H(t) - H(0); conserved unless the Lagrangian depends on time.",
               {},       {},       ""};
-    e.applies = [](const System& system) { return isMechanical(system) || system.energy; };
+    e.suits = [](const System& system) { return isMechanical(system) || system.energy; };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"energy", "H", context.system.energyUnit, {}, {}},

@@ -17,6 +17,7 @@ ObservableEntry error() {
         {},
         "a reference"};
     e.needsReference = true;
+    e.takes = Takes::everything();
     e.bind = [](const ObserveContext& context) {
         const ErrorMeasure measure = errorMeasure(context.system, context.initial);
         Observer o;

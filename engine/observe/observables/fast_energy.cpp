@@ -12,7 +12,7 @@ ObservableEntry fast_energy() {
               {},
               {},
               "a fast oscillation of its own"};
-    e.applies = [](const System& system) { return static_cast<bool>(system.fast.energy); };
+    e.suits = [](const System& system) { return static_cast<bool>(system.fast.energy); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"fast_energy", "H_fast", context.system.energyUnit, {}, {}}};

@@ -18,7 +18,7 @@ ObservableEntry floquet() {
          {},
          "a scheme with a tangent map"},
         {}, {.map = true}, false);
-    e.applies = isMechanical;
+    e.takes = Takes::only<Mechanical>();
     e.bind = [](const ObserveContext& context) {
         std::vector<Column> columns{{"floquet_trace", "tr P", "", {}, {}}};
         for (const Coordinate& c : context.system.coordinates)

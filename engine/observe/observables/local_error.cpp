@@ -21,7 +21,7 @@ ObservableEntry local_error() {
          {"local_error_sum", "Σ|d|", "", {}, {}},
          {"amplification", "|Me| / |e|", "", {}, {}}},
         {.errors = true}, false);
-    e.applies = isMechanical;
+    e.takes = Takes::only<Mechanical>();
     return e;
 }
 

@@ -18,9 +18,8 @@ ObservableEntry lyapunov_spectrum() {
         {},
         "at most 32 coordinates"};
     e.variations = {.frame = true};
-    e.applies = [](const System& system) {
-        return isMechanical(system) && 2 * system.coordinates.size() <= mostExponents;
-    };
+    e.takes = Takes::only<Mechanical>();
+    e.suits = [](const System& system) { return 2 * system.coordinates.size() <= mostExponents; };
     e.bind = [](const ObserveContext& context) {
         std::vector<Column> columns;
         for (std::size_t i = 1; i <= 2 * context.system.coordinates.size(); ++i)

@@ -138,7 +138,7 @@ ObservableEntry modified_energy() {
         {},
         {},
         "coordinates"};
-    e.applies = isMechanical;
+    e.takes = Takes::only<Mechanical>();
     e.bind = [](const ObserveContext& context) {
         Observer o;
         const std::string& unit = context.system.energyUnit;

@@ -18,7 +18,7 @@ ObservableEntry momentum() {
               {},
               {},
               "a symmetry"};
-    e.applies = [](const System& system) { return measureOf(system, "momentum") || hasMomenta(system); };
+    e.suits = [](const System& system) { return measureOf(system, "momentum") || hasMomenta(system); };
     e.bind = [](const ObserveContext& context) {
         if (const Measure* mean = measureOf(context.system, "momentum"))
             return bindMeasure(*mean, context.initial);

@@ -68,7 +68,7 @@ ObservableEntry multiplier() {
               {},
               {},
               "coordinates, or a field"};
-    e.applies = [](const System& system) { return isMechanical(system) || isField(system); };
+    e.takes = Takes::only<Mechanical, ScalarField>();
     e.bind = [](const ObserveContext& context) {
         if (isField(context.system)) return observeQuantity(context, {"multiplier", "max |λ|", "", {}, {}});
         Observer o;

@@ -19,7 +19,7 @@ ObservableEntry multisymplectic() {
         {},
         {},
         "a field"};
-    e.applies = isField;
+    e.takes = Takes::only<ScalarField>();
     e.bind = [](const ObserveContext& context) {
         const Family* family = context.discretization ? familyOf(context.discretization->space) : nullptr;
         std::optional<Measure> measure;

@@ -11,6 +11,7 @@ ObservableEntry order() {
         "order", "measured order", "Runs at step/2 and step/4 too and fits the order of the final error.", {},
         {},      "a reference"};
     e.needsReference = true;
+    e.takes = Takes::everything();
     return e;
 }
 

@@ -15,7 +15,7 @@ ObservableEntry phase_error() {
               {},
               "a wave function and a reference"};
     e.needsReference = true;
-    e.applies = [](const System& system) { return static_cast<bool>(system.phaseError.evaluate); };
+    e.suits = [](const System& system) { return static_cast<bool>(system.phaseError.evaluate); };
     e.bind = [](const ObserveContext& context) {
         const ErrorMeasure& measure = context.system.phaseError;
         Observer o;

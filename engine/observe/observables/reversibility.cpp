@@ -17,7 +17,7 @@ ObservableEntry reversibility() {
               {},
               "a scheme with a fixed step"};
     e.needsWayBack = true;
-    e.applies = [](const System& system) { return isMechanical(system) || isBody(system); };
+    e.takes = Takes::only<Mechanical, Body>();
     e.bind = [](const ObserveContext&) {
         Observer o;
         o.columns = {{"reversibility", "|x back − x|", "", {}, {}}};

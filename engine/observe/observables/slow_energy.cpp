@@ -12,7 +12,7 @@ ObservableEntry slow_energy() {
               {},
               {},
               "a fast oscillation of its own"};
-    e.applies = [](const System& system) { return static_cast<bool>(system.fast.energy); };
+    e.suits = [](const System& system) { return static_cast<bool>(system.fast.energy); };
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"slow_energy", "H - H_fast", context.system.energyUnit, {}, {}}};

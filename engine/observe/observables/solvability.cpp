@@ -17,7 +17,7 @@ ObservableEntry solvability() {
               {},
               {},
               "coordinates, or a field"};
-    e.applies = [](const System& system) { return isMechanical(system) || isField(system); };
+    e.takes = Takes::only<Mechanical, ScalarField>();
     e.bind = [](const ObserveContext& context) {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         const std::optional<std::size_t> density = context.quantity("density"),

@@ -10,6 +10,7 @@ namespace extremal::observables {
 ObservableEntry step() {
     ObservableEntry e;
     e.item = {"step", "step", "Size and outcome of the step that ended at each row.", {}, {}, ""};
+    e.takes = Takes::everything();
     e.bind = [](const ObserveContext& context) {
         Observer o;
         o.columns = {{"step", "h", context.system.timeUnit, {}, {}}, {"outcome", "outcome", "", {}, {}}};

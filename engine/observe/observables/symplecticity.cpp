@@ -17,9 +17,7 @@ ObservableEntry symplecticity() {
         {{"symplecticity", "max |MᵀJM − J|", "", {}, {}},
          {"symplecticity_accumulated", "max |PᵀJP − J| / max |P|²", "", {}, {}}},
         {.map = true}, true);
-    e.applies = [](const System& system) {
-        return isMechanical(system) || isBody(system) || isWave(system) || isField(system);
-    };
+    e.takes = Takes::only<Mechanical, Body, Wave, ScalarField>();
     return e;
 }
 

@@ -13,6 +13,7 @@ ViewEntry carpet() {
         .recipe = OwnRecipe{"carpet"},
         .scales = againstTime,
         .products = {Product::frames},
+        .takes = Takes::everything(),
         .missing =
             [](const View&, const System& system) {
                 return std::string(system.field ? "" : "a field or a wave function");

@@ -8,7 +8,7 @@ namespace {
 
 /// On a mesh of equal elements.
 bool hasWaves(const System& system) {
-    return isField(system) && !system.fieldProblem().isBody && !system.fieldProblem().coefficient;
+    return !system.fieldProblem().isBody && !system.fieldProblem().coefficient;
 }
 
 }  // namespace
@@ -21,6 +21,7 @@ ViewEntry dispersion() {
                              {std::move(show)}),
             .recipe = OwnRecipe{"dispersion"},
             .scales = {true, false, false, Across::other},
+            .takes = Takes::only<ScalarField>(),
             .missing = [](const View&, const System& system) {
                 return std::string(hasWaves(system) ? "" : "a field");
             }};

@@ -8,7 +8,7 @@ namespace {
 
 bool hasElementClocks(const System& system) {
     for (const Family& family : families())
-        if (family.elements && family.applies(system)) return true;
+        if (family.elements && appliesTo(family, system)) return true;
     return false;
 }
 

@@ -12,7 +12,8 @@ ViewEntry error() {
                              {againstField()}),
             .recipe = OwnRecipe{"error"},
             .scales = logAgainstTime,
-            .observable = "error"};
+            .observable = "error",
+            .takes = Takes::everything()};
 }
 
 }  // namespace extremal::views

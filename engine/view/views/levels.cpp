@@ -8,8 +8,7 @@ namespace extremal::views {
 namespace {
 
 std::string missingForLevels(const View&, const System& system) {
-    if (!isWave(system) || system.hamiltonian()->dimension() == 2)
-        return "a wave function over one dimension";
+    if (system.hamiltonian()->dimension() == 2) return "a wave function over one dimension";
     if (system.hamiltonian()->isTimeDependent()) return "a potential that does not depend on time";
     if (system.hamiltonian()->size() > Eigenstates::denseLimit)
         return "at most " + std::to_string(Eigenstates::denseLimit) + " modes";
@@ -23,6 +22,7 @@ ViewEntry levels() {
                              "the potential and the lowest energies of a wave function"),
             .recipe = OwnRecipe{"levels"},
             .scales = againstPlace,
+            .takes = Takes::only<Wave>(),
             .missing = missingForLevels};
 }
 

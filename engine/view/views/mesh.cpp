@@ -11,8 +11,9 @@ ViewEntry mesh() {
             .recipe = OwnRecipe{"mesh"},
             .scales = {true, false, false, Across::time},
             .products = {Product::steps},
+            .takes = Takes::everything(),
             .missing = [](const View&, const System& system) {
-                return std::string(kindOf<BoundaryProblem>(system) ? "a motion" : "");
+                return std::string(system.isMotion() ? "" : "a motion");
             }};
 }
 

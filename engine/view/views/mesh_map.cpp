@@ -16,9 +16,7 @@ ViewEntry mesh_map() {
             .recipe = OwnRecipe{"mesh_map"},
             .scales = againstPlace,
             .products = {Product::frames},
-            .missing = [](const View&, const System& system) {
-                return std::string(isField(system) ? "" : "a field");
-            }};
+            .takes = Takes::only<ScalarField>()};
 }
 
 }  // namespace extremal::views

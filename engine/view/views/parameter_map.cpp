@@ -30,6 +30,7 @@ ViewEntry parameter_map() {
         .recipe = OwnRecipe{"parameter_map"},
         .scales = logScales,
         .products = {Product::parameterMap},
+        .takes = Takes::everything(),
         .missing =
             [](const View&, const System& system) {
                 return std::string(hasNumber(system) ? "" : "a model with a number to vary");

@@ -26,6 +26,7 @@ ViewEntry phase() {
         .recipe = ColumnAgainstColumn{xOfPhase, yOfPhase},
         .scales = againstColumn,
         .products = {Product::denseOutput, Product::starts},
+        .takes = Takes::everything(),
         .missing =
             [](const View& view, const System& system) {
                 const bool hasColumns = !xOfPhase(view, system).empty() && !yOfPhase(view, system).empty();

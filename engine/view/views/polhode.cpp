@@ -11,9 +11,7 @@ ViewEntry polhode() {
                          "the momentum in the body on its sphere, with curves of equal energy; rigid bodies"),
         .recipe = OwnRecipe{"polhode"},
         .scales = noScales,
-        .missing = [](const View&, const System& system) {
-            return std::string(isBody(system) ? "" : "a rigid body");
-        }};
+        .takes = Takes::only<Body>()};
 }
 
 }  // namespace extremal::views

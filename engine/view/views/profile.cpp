@@ -16,6 +16,7 @@ ViewEntry profile() {
             .recipe = OwnRecipe{"profile"},
             .scales = againstPlace,
             .products = {Product::frames},
+            .takes = Takes::everything(),
             .missing =
                 [](const View&, const System& system) {
                     return std::string(system.field ? "" : "a field or a wave function");

@@ -19,9 +19,10 @@ ViewEntry section() {
                  startsFields()[0], startsFields()[1]}),
             .recipe = OwnRecipe{"section"},
             .products = {Product::sections, Product::starts},
+            .takes = Takes::everything(),
             .missing =
                 [](const View&, const System& system) {
-                    const bool isMotion = !stateColumns(system).empty() && !kindOf<BoundaryProblem>(system);
+                    const bool isMotion = !stateColumns(system).empty() && system.isMotion();
                     return std::string(isMotion ? "" : "a motion of a few numbers");
                 },
             .keys = {.hasColumns = true, .hasZeros = true, .hasScheme = true, .hasStarts = true}};

@@ -12,11 +12,7 @@ ViewEntry shape_function() {
                                        "node inside, from left to right; by default the one in the middle")}),
         .recipe = OwnRecipe{"shape_function"},
         .scales = againstPlace,
-        .missing =
-            [](const View&, const System& system) {
-                const auto* const kind = kindOf<BoundaryProblem>(system);
-                return std::string(kind && kind->problem ? "" : "the elliptic problem");
-            },
+        .takes = Takes::only<EllipticPart>(),
         .keys = {.hasNode = true}};
 }
 

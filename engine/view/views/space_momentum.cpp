@@ -11,6 +11,7 @@ ViewEntry space_momentum() {
                 "components of the angular momentum in space axes against time, a plot each; rigid bodies"),
             .recipe = StateAgainstTime{},
             .scales = againstTime,
+            .takes = Takes::everything(),
             .missing =
                 [](const View&, const System& system) {
                     return std::string(momentumColumns(system, "space").empty() ? "a rigid body" : "");

@@ -13,9 +13,7 @@ ViewEntry spectrum() {
             .recipe = OwnRecipe{"spectrum"},
             .scales = {true, false, true},
             .products = {Product::frames},
-            .missing = [](const View&, const System& system) {
-                return std::string(isWave(system) ? "" : "a wave function");
-            }};
+            .takes = Takes::only<Wave>()};
 }
 
 }  // namespace extremal::views

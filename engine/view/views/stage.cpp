@@ -9,9 +9,9 @@ ViewEntry stage() {
             .recipe = NoPlot{},
             .scales = noScales,
             .products = {Product::denseOutput, Product::frames, Product::elementClocks},
+            .takes = Takes::everything(),
             .missing = [](const View&, const System& system) {
-                return std::string(
-                    system.draw && !kindOf<BoundaryProblem>(system) ? "" : "a motion with a picture");
+                return std::string(system.draw && system.isMotion() ? "" : "a motion with a picture");
             }};
 }
 

@@ -8,9 +8,9 @@ ViewEntry step() {
     return {.item = viewItem("step", "Step size", "the time step of every scheme against time, logarithmic"),
             .recipe = OwnRecipe{"step"},
             .scales = logAgainstTime,
+            .takes = Takes::everything(),
             .missing = [](const View&, const System& system) {
-                const auto* const kind = kindOf<BoundaryProblem>(system);
-                return std::string(kind && kind->problem ? "a motion, or knots" : "");
+                return std::string(system.parts.find<EllipticPart>() ? "a motion, or knots" : "");
             }};
 }
 

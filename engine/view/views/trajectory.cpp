@@ -29,6 +29,7 @@ ViewEntry trajectory() {
         .recipe = OwnRecipe{"trajectory"},
         .scales = againstColumn,
         .products = {Product::denseOutput},
+        .takes = Takes::everything(),
         .missing =
             [](const View& view, const System& system) {
                 const bool hasColumn = !view.y.empty() || !stateColumns(system).empty();

@@ -8,7 +8,8 @@ ViewEntry work_precision() {
     return {.item = viewItem("work-precision", "Speed against accuracy",
                              "largest error over CPU time, one point per scheme"),
             .recipe = OwnRecipe{"work_precision"},
-            .scales = logScales};
+            .scales = logScales,
+            .takes = Takes::everything()};
 }
 
 }  // namespace extremal::views

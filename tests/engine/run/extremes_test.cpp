@@ -22,13 +22,12 @@ Scene observedIn(const char* preset) {
     Scene scene = readScene(findPreset(preset)->json).scene;
     const System system = makeSystem(scene);
     scene.schemes.resize(1);
-    if (!kindOf<BoundaryProblem>(system))
-        scene.end = {scene.start.value + 20 * scene.schemes.front().step.value, {}};
+    if (system.isMotion()) scene.end = {scene.start.value + 20 * scene.schemes.front().step.value, {}};
     scene.every.reset();
     scene.views.clear();
     scene.observe.clear();
     for (const ObservableEntry& entry : observableEntries())
-        if (isObservableOf(entry, system) && entry.bind) scene.observe.push_back(entry.item.id);
+        if (appliesTo(entry, system) && entry.bind) scene.observe.push_back(entry.item.id);
     return scene;
 }
 

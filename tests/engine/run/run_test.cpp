@@ -107,7 +107,9 @@ private slots:
             ResolvedScene resolved = resolve(scene);
             System system = *resolved.system;
             realEnergy = system.mechanics().energy;
-            std::get<Mechanical>(system.kind).energy = &countedEnergy;
+            Mechanical counted = system.mechanics();
+            counted.energy = &countedEnergy;
+            system.parts.set(counted);
             energyCalls = 0;
             resolved.system = std::make_shared<const System>(system);
             const ProductPlan plan;

@@ -100,7 +100,6 @@ Family line() {
     f.item = {"line", "line", "One degree of freedom in each step.", {}, {}, "coordinates"};
     f.source = "Leok 2004, sec. 2";
     f.spaces = {lineSpace()};
-    f.applies = isMechanical;
     f.completeRule = [](const Settings&, const Settings&) { return Settings{"auto", {}, {}}; };
     f.describe = describeLine;
     f.choices = choices;

@@ -27,7 +27,7 @@ inline System swing() {
         f[0] = -4 * q[0];
         return true;
     };
-    s.kind = mechanics;
+    s.parts.set(mechanics);
     s.draw = [](const double* x, Drawing& drawing) {
         const Point bob{std::sin(x[0]), -std::cos(x[0]), 0};
         drawing.shapes.push_back(Support{{0, 0, 0}, 0.5});

@@ -35,7 +35,7 @@ Discretization asynchronous(double courant, const char* levels = "dyadic") {
             {}};
 }
 
-const MembraneProblem& problemOf(const System& system) { return *std::get<Membrane>(system.kind).problem; }
+const MembraneProblem& problemOf(const System& system) { return *system.part<Membrane>().problem; }
 
 Levels levelsOf(const System& system, double courant) {
     const MembraneProblem& problem = problemOf(system);

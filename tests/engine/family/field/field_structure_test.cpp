@@ -97,7 +97,7 @@ private slots:
         if (p.limit == 0 && p.degree == 1) QSKIP("grows from the first step");
         for (const char* boundary : {"periodic", "dirichlet"}) {
             const System system = makeField({"sine-gordon", 0, 3, 13, boundary, 1, p.degree});
-            const auto problem = std::get<ScalarField>(system.kind).problem;
+            const auto problem = system.part<ScalarField>().problem;
             const double h = 0.06;
             std::mt19937 random(9);
             std::uniform_real_distribution<double> uniform(-1, 1);
@@ -126,7 +126,7 @@ private slots:
     void theFormVanishesOnBoxesOfEverySizeAndASpoiledValueIsSeen() {
         // Boxes of 2 to 20 elements and as many slabs, of a smooth motion.
         const System system = makeField({"sine-gordon", 0, 3, 40, "periodic", 1, 1});
-        const auto problem = std::get<ScalarField>(system.kind).problem;
+        const auto problem = system.part<ScalarField>().problem;
         const double h = 0.05;
         const int n = problem->size();
         State state;
@@ -160,7 +160,7 @@ private slots:
     void theTangentsOfAPatchAreThoseOfTheScheme() {
         // What the form is evaluated on are derivatives of the steps themselves: here by differences.
         const System system = makeField({"sine-gordon", 0, 3, 12, "periodic", 1, 1});
-        const auto problem = std::get<ScalarField>(system.kind).problem;
+        const auto problem = system.part<ScalarField>().problem;
         const double h = 0.1, epsilon = 1e-5;
         const std::size_t n = 12;
         for (const auto& [inSpace, inTime] :

@@ -29,7 +29,7 @@ struct Other {
 /// A run with a step of other_steps.hpp.
 Other goOther(bool isPenalty, const Case& c, double kappa) {
     Run run(c);
-    const NodeSpace space(std::get<ScalarField>(run.system.kind).problem);
+    const NodeSpace space(run.system.part<ScalarField>().problem);
     const std::size_t n = space.n;
     std::vector<double> z(2 * n), v(2 * n), p;
     for (std::size_t i = 0; i < n; ++i) {
@@ -258,7 +258,7 @@ private slots:
                 c.monitor = monitors[m];
                 c.alpha = "auto";
                 const Run run(c);
-                const NodeSpace space(std::get<ScalarField>(run.system.kind).problem);
+                const NodeSpace space(run.system.part<ScalarField>().problem);
                 std::vector<double> z(2 * space.n);
                 for (std::size_t i = 0; i < space.n; ++i) {
                     z[2 * i] = run.state.x[i];

@@ -360,7 +360,7 @@ private slots:
                 z[2 * i + 1] = run.state.x[2 * n + i];
                 w[2 * i + 1] = run.state.x[3 * n + i];
             }
-            NodeSpace(std::get<ScalarField>(run.system.kind).problem).momentum(z.data(), w.data(), p);
+            NodeSpace(run.system.part<ScalarField>().problem).momentum(z.data(), w.data(), p);
             return std::pair{z, p};
         };
         const auto bracket = [&](int steps) {
